@@ -1,0 +1,317 @@
+"""A derivation as statements: what the formatters print, section by section.
+
+Every expression is a plain tree of `lagcli.expression`, already verified and already in
+the shape and order in which it is to be read.  A section that was not asked for is not
+in `Answers.sections`; an answer that does not exist or was not found is None.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from lagcli.expression import Expression
+
+#: The sections, in the order in which they are printed.
+SECTIONS = (
+    "lagrangian",
+    "equations",
+    "matrix_form",
+    "accelerations",
+    "multipliers",
+    "constraint_forces",
+    "momenta",
+    "energy",
+    "hamiltonian",
+    "canonical_equations",
+    "charges",
+    "discovered",
+    "algebra",
+    "find",
+    "equilibria",
+    "modes",
+    "model",
+)
+
+#: What `lagcli solve` prints unasked (`find` where the file asks).
+DEFAULT_SECTIONS = (
+    "lagrangian",
+    "equations",
+    "accelerations",
+    "multipliers",
+    "constraint_forces",
+    "momenta",
+    "energy",
+    "charges",
+    "find",
+)
+
+#: How an answer was checked before it was printed: "exact", or at 50 digits.
+Verification = Literal["exact", "50 digits"]
+
+ConstraintKind = Literal["holonomic", "integrable", "nonholonomic"]
+ChargeSource = Literal["candidate", "cyclic", "time", "discovered"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LagrangianSection:
+    """L = T - V, or L as given."""
+
+    lagrangian: Expression
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LagrangeEquation:
+    """d/dt(dL/dq') - dL/dq (left) = Q - dD/dq' + sum lambda df/dq (right)."""
+
+    coordinate: str
+    left: Expression
+    right: Expression
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EquationsSection:
+    """One equation for each coordinate, then the constraints, each `f = 0`."""
+
+    equations: tuple[LagrangeEquation, ...]
+    constraints: Mapping[str, tuple[Expression, Expression]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MatrixFormSection:
+    """M q'' = forcing + A^T lambda with A q'' + bias = 0; `shared` in order of use."""
+
+    mass_matrix: tuple[tuple[Expression, ...], ...]
+    constraint_jacobian: tuple[tuple[Expression, ...], ...]
+    forcing: tuple[Expression, ...]
+    constraint_bias: tuple[Expression, ...]
+    shared: Mapping[str, Expression] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AccelerationsSection:
+    """q'' by coordinate, solved; None where the Lagrangian is singular or time ran out."""
+
+    accelerations: Mapping[str, Expression] | None
+    verified: Verification | None = None
+    regular: bool = True
+    degenerate: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Multiplier:
+    """The multiplier of one constraint; `value` None: not determined, or not found."""
+
+    symbol: str
+    value: Expression | None
+    kind: ConstraintKind
+    verified: Verification | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MultipliersSection:
+    """By constraint; the redundant ones are named."""
+
+    multipliers: Mapping[str, Multiplier]
+    redundant: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ConstraintForcesSection:
+    """lambda df/dq by constraint and coordinate, their total, and the force on each point."""
+
+    forces: Mapping[str, Mapping[str, Expression | None] | None]
+    total: Mapping[str, Expression] | None
+    on_points: Mapping[str, Mapping[str, tuple[Expression, ...]]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MomentaSection:
+    """p_q = dL/dq'."""
+
+    momenta: Mapping[str, Expression]
+    cyclic: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EnergySection:
+    """The Jacobi function h = sum q' dL/dq' - L; `reason` is a sentence."""
+
+    function: Expression
+    conserved: bool | None
+    is_total_energy: bool | None
+    reason: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HamiltonianSection:
+    """H(q, p, t); None with a reason where the Legendre transform was not inverted."""
+
+    hamiltonian: Expression | None
+    reason: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CanonicalPair:
+    """q' = dH/dp (`q`) and p' = -dH/dq + ... (`p`)."""
+
+    q: Expression
+    p: Expression
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CanonicalSection:
+    """The canonical equations by coordinate."""
+
+    equations: Mapping[str, CanonicalPair] | None
+    reason: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Charge:
+    """A symmetry with its charge; `rate` is dQ/dt on the motion, None if undecided.
+
+    `transformation` holds Delta q by coordinate and Delta t under "t", zeros left out.
+    `broken_by` says in words which terms make the rate, empty when conserved.
+    """
+
+    name: str
+    source: ChargeSource
+    transformation: Mapping[str, Expression]
+    gauge: Expression | None
+    conserved: bool | None
+    charge: Expression | None
+    rate: Expression | None
+    verified: Verification | None = None
+    broken_by: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChargesSection:
+    """The candidates of the file, then the evident symmetries (or the discovered ones)."""
+
+    charges: tuple[Charge, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AlgebraSection:
+    """The Lie algebra of the discovered symmetries."""
+
+    ansatz: str
+    dimension: int
+    name: str | None
+    independent: int
+    in_involution: int
+    integrable: bool | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Solutions:
+    """The answer to `where ... for ...`: the roots the motion can reach; None: not found."""
+
+    unknown: str
+    solutions: tuple[Expression, ...] | None
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rewritten:
+    """The answer to `value ... in_terms_of ...`; None: not found."""
+
+    value: Expression | None
+    subject: Expression | None = None
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FindSection:
+    """The answers to the file's questions, by name."""
+
+    answers: Mapping[str, Solutions | Rewritten]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Equilibrium:
+    """A state of rest; `stable` None where undecided."""
+
+    at: Mapping[str, Expression]
+    stable: bool | None
+    condition: str = ""
+    free: tuple[str, ...] = ()
+    reason: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EquilibriaSection:
+    """All equilibria found; None where the equations could not be solved."""
+
+    equilibria: tuple[Equilibrium, ...] | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mode:
+    """A normal mode about an equilibrium; `frequency` is angular, None if not real."""
+
+    at: Mapping[str, Expression]
+    frequency: Expression | None
+    frequency_squared: Expression | None
+    shape: Mapping[str, Expression] | None
+    multiplicity: int = 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModesSection:
+    """The normal modes; None where there was no equilibrium to expand about."""
+
+    modes: tuple[Mode, ...] | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModelSection:
+    """What a run keeps and drops, and why (by coordinate or parameter)."""
+
+    kept: tuple[str, ...]
+    eliminated: Mapping[str, Expression]
+    ignorable: tuple[str, ...]
+    reason: Mapping[str, str]
+
+
+Section = (
+    LagrangianSection
+    | EquationsSection
+    | MatrixFormSection
+    | AccelerationsSection
+    | MultipliersSection
+    | ConstraintForcesSection
+    | MomentaSection
+    | EnergySection
+    | HamiltonianSection
+    | CanonicalSection
+    | ChargesSection
+    | AlgebraSection
+    | FindSection
+    | EquilibriaSection
+    | ModesSection
+    | ModelSection
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answers:
+    """Everything one `lagcli solve` has to say of one file.
+
+    `symbols` gives LaTeX for names whose file sets `symbol`; `multipliers` names those
+    names that are multipliers (name -> constraint).  `complete` is False when an answer
+    was asked for and not found: exit status 1.
+    """
+
+    title: str
+    coordinates: tuple[str, ...]
+    parameters: tuple[str, ...]
+    degrees_of_freedom: int
+    sections: Mapping[str, Section]
+    symbols: Mapping[str, str] = field(default_factory=dict)
+    multipliers: Mapping[str, str] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+    complete: bool = True

@@ -1,0 +1,171 @@
+"""Expressions as plain trees: what the reader reads and what the formatters print.
+
+The nodes say how a formula is written, nothing is computed with them.  The reader
+makes them from text, `lagcli.algebra` turns them into SymPy (or symengine) objects and
+back, the formatters print them.  So neither reading nor printing imports SymPy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from lagcli.diagnostics import NOWHERE, Span
+
+#: Functions of the grammar with a fixed meaning, and their number of arguments.
+FUNCTIONS: dict[str, int] = {
+    **dict.fromkeys(
+        "sqrt exp log abs sign sin cos tan cot sec csc asin acos atan "
+        "sinh cosh tanh asinh acosh atanh".split(),
+        1,
+    ),
+    "atan2": 2,
+}
+
+#: Names that cannot be declared: the functions, `diff`, the time and the number pi.
+RESERVED = frozenset(FUNCTIONS) | {"diff", "t", "pi"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Expression:
+    """A node; `span` is its place in the file and takes no part in equality."""
+
+    span: Span = field(default=NOWHERE, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Number(Expression):
+    """An exact non-negative rational: `0.1` is one tenth."""
+
+    value: Fraction
+
+
+@dataclass(frozen=True, slots=True)
+class Name(Expression):
+    """A name with its primes: `x`, `x'` the velocity, `x''` the acceleration."""
+
+    name: str
+    primes: int = 0
+
+    def __str__(self) -> str:
+        return self.name + "'" * self.primes
+
+
+@dataclass(frozen=True, slots=True)
+class Negative(Expression):
+    """`-operand`."""
+
+    operand: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Sum(Expression):
+    """Two or more terms; a subtracted term is a `Negative`."""
+
+    terms: tuple[Expression, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Product(Expression):
+    """Two or more factors; a quotient of the file is a `Quotient`."""
+
+    factors: tuple[Expression, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Quotient(Expression):
+    """`numerator / denominator`."""
+
+    numerator: Expression
+    denominator: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Power(Expression):
+    """`base ^ exponent`."""
+
+    base: Expression
+    exponent: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Call(Expression):
+    """A function at its arguments: `sin(x)`, `U(r)`; with primes `U'(d)`, `U''(d)`."""
+
+    function: str
+    arguments: tuple[Expression, ...]
+    primes: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class PartialCall(Expression):
+    """`diff(Phi, 1, 2)(a, b)`: Phi differentiated by those arguments (from 1), at (a, b)."""
+
+    function: str
+    indices: tuple[int, ...]
+    arguments: tuple[Expression, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Diff(Expression):
+    """`diff(operand, name)`: the partial derivative, which sees through definitions."""
+
+    operand: Expression
+    variable: Name
+
+
+@dataclass(frozen=True, slots=True)
+class Equation:
+    """`left = right`; an expression alone is `left = 0`."""
+
+    left: Expression
+    right: Expression
+    span: Span = field(default=NOWHERE, compare=False, repr=False)
+
+
+ZERO = Number(Fraction(0))
+ONE = Number(Fraction(1))
+
+
+def children(node: Expression) -> tuple[Expression, ...]:
+    """The direct parts of a node."""
+    match node:
+        case Negative(operand=operand):
+            return (operand,)
+        case Sum(terms=parts) | Product(factors=parts):
+            return parts
+        case Quotient(numerator=a, denominator=b) | Power(base=a, exponent=b):
+            return (a, b)
+        case Call(arguments=parts) | PartialCall(arguments=parts):
+            return parts
+        case Diff(operand=operand, variable=variable):
+            return (operand, variable)
+        case _:
+            return ()
+
+
+def walk(node: Expression) -> Iterator[Expression]:
+    """The node and everything below it, in the order in which it is written."""
+    stack = [node]
+    while stack:
+        top = stack.pop()
+        yield top
+        stack.extend(reversed(children(top)))
+
+
+def operation_count(node: Expression) -> int:
+    """How many operations a formula shows: signs, sums, products, powers, calls.
+
+    The measure by which readable shapes are compared.
+    """
+    count = 0
+    for part in walk(node):
+        match part:
+            case Sum(terms=parts) | Product(factors=parts):
+                count += len(parts) - 1
+            case Name() | Number():
+                pass
+            case _:
+                count += 1
+    return count

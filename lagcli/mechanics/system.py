@@ -1,0 +1,181 @@
+"""The mechanical system of a problem: coordinates, L, forces and constraints as formulas.
+
+This is where the file's words become the field's quantities.  Nothing is derived yet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra.build import TIME, Builder, symbol
+from lagcli.expression import Expression
+from lagcli.problem import Point, Problem
+
+
+@dataclass(frozen=True, slots=True)
+class Particle:
+    """A point of the file as formulas: position r(q, t), mass, applied force."""
+
+    name: str
+    position: tuple[Expr, ...]
+    mass: Expr | None
+    force: tuple[Expr, ...] | None
+
+
+class System:
+    """Coordinates q, velocities, L and everything that acts, as SymPy expressions.
+
+    Attributes
+    ----------
+    q, qdot, qddot : tuple of Symbol
+        Coordinates, velocities, accelerations, in the order of the file.
+    L : Expr
+        The Lagrangian L(q, q', t) = T - V, or as given.
+    T, V : Expr or None
+        Kinetic and potential energy; None when only L is given.
+    D : Expr
+        Rayleigh's dissipation function (0 without).
+    forces : tuple of Expr
+        Q_j, the generalized forces of `forces` and, by virtual work, of the points;
+        without the dissipation -dD/dq'.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.t = TIME
+        self.q = tuple(symbol(c.name, c.assume) for c in problem.coordinates)
+        self.qdot = tuple(symbol(c.name + "'") for c in problem.coordinates)
+        self.qddot = tuple(symbol(c.name + "''") for c in problem.coordinates)
+        self.names = tuple(c.name for c in problem.coordinates)
+        self.parameters = tuple(
+            symbol(p.name, p.assume, integer=p.integer) for p in problem.parameters
+        )
+        self.momenta = tuple(symbol("p_" + name) for name in self.names)
+        self.multipliers = tuple(symbol(c.multiplier) for c in problem.constraints)
+        self._flow = {
+            **dict(zip(self.q, self.qdot, strict=True)),
+            **dict(zip(self.qdot, self.qddot, strict=True)),
+        }
+        names: dict[str, Expr] = {
+            s.name: s for s in (*self.q, *self.parameters, *self.momenta, *self.multipliers)
+        }
+        arities = {name: len(args) for name, args in problem.functions.items()}
+        self.build = Builder(names, arities, self.total_derivative)
+        for name, formula in problem.definitions.items():
+            self.build.names[name] = self.build(formula)
+
+    def total_derivative(self, expression: Expr) -> Expr:
+        """d/dt along any motion: d/dt + q' d/dq + q'' d/dq'."""
+        present = expression.free_symbols
+        terms = [expression.diff(self.t)] if self.t in present else []
+        terms += [
+            rate * expression.diff(variable)
+            for variable, rate in self._flow.items()
+            if variable in present
+        ]
+        return sympy.Add(*terms)
+
+    def symbol_of(self, name: str) -> Symbol:
+        """The symbol printed as `name`: a coordinate, velocity, acceleration, parameter, …"""
+        return self._by_name[name]
+
+    @cached_property
+    def _by_name(self) -> dict[str, Symbol]:
+        groups = (self.q, self.qdot, self.qddot, self.parameters, self.momenta, self.multipliers)
+        return {s.name: s for group in groups for s in group} | {"t": self.t}
+
+    @cached_property
+    def order(self) -> tuple[str, ...]:
+        """The names in the order in which a product shows them: parameters, t, q, q', …"""
+        groups: Sequence[Sequence[Symbol]] = (
+            self.parameters,
+            (self.t,),
+            self.q,
+            self.momenta,
+            self.qdot,
+            self.qddot,
+            self.multipliers,
+        )
+        return tuple(s.name for group in groups for s in group)
+
+    # -- what the file gives --------------------------------------------------------
+
+    def _optional(self, node: Expression | None) -> Expr:
+        return sympy.S.Zero if node is None else self.build(node)
+
+    @cached_property
+    def particles(self) -> tuple[Particle, ...]:
+        """The points of the file."""
+        return tuple(self._particle(point) for point in self.problem.points)
+
+    def _particle(self, point: Point) -> Particle:
+        return Particle(
+            point.name,
+            tuple(map(self.build, point.position)),
+            None if point.mass is None else self.build(point.mass),
+            None if point.force is None else tuple(map(self.build, point.force)),
+        )
+
+    @cached_property
+    def T(self) -> Expr | None:
+        """The kinetic energy as given, or the sum of m v^2 / 2 over the points."""
+        if self.problem.lagrangian is not None:
+            return None
+        if self.problem.kinetic is not None:
+            return self.build(self.problem.kinetic)
+        return sympy.Add(
+            *(
+                particle.mass * self.total_derivative(x) ** 2 / 2
+                for particle in self.particles
+                for x in particle.position
+                if particle.mass is not None
+            )
+        )
+
+    @cached_property
+    def V(self) -> Expr | None:
+        """The potential energy, which may depend on velocities and t; 0 when absent."""
+        return None if self.problem.lagrangian is not None else self._optional(
+            self.problem.potential
+        )
+
+    @cached_property
+    def L(self) -> Expr:
+        """The Lagrangian."""
+        if self.problem.lagrangian is not None:
+            return self.build(self.problem.lagrangian)
+        assert self.T is not None and self.V is not None
+        return self.T - self.V
+
+    @cached_property
+    def D(self) -> Expr:
+        """Rayleigh's dissipation function."""
+        return self._optional(self.problem.dissipation)
+
+    @cached_property
+    def forces(self) -> tuple[Expr, ...]:
+        """Q_j = (given force) + sum over points of F . dr/dq_j (d'Alembert's virtual work)."""
+        return tuple(
+            self._optional(self.problem.forces.get(name))
+            + sympy.Add(
+                *(
+                    component * x.diff(q)
+                    for particle in self.particles
+                    if particle.force is not None
+                    for component, x in zip(particle.force, particle.position, strict=True)
+                )
+            )
+            for name, q in zip(self.names, self.q, strict=True)
+        )
+
+    @cached_property
+    def applied_forces(self) -> tuple[Expr, ...]:
+        """Everything that no potential gives: Q_j - dD/dq_j'."""
+        return tuple(
+            force - self.D.diff(v) for force, v in zip(self.forces, self.qdot, strict=True)
+        )

@@ -1,0 +1,166 @@
+"""A problem as the file states it: frozen, plain, checked, and free of algebra."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from lagcli.diagnostics import NOWHERE, Source, Span
+from lagcli.expression import Equation, Expression, Name
+
+Assumption = Literal["real", "positive", "nonnegative", "nonzero", "negative"]
+Comparison = Literal[">=", "<=", ">", "<"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Quantity:
+    """A named real quantity and what the file says of it."""
+
+    name: str
+    assume: Assumption = "real"
+    unit: str | None = None
+    symbol: str | None = None  # LaTeX, already checked to be harmless
+    description: str | None = None
+    span: Span = field(default=NOWHERE, compare=False)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Coordinate(Quantity):
+    """A generalized coordinate q; its velocity is written q', its acceleration q''."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Parameter(Quantity):
+    """A constant; `value` may use other parameters (earlier or later, no cycle)."""
+
+    integer: bool = False
+    value: Expression | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Point:
+    """A particle: 1 to 3 Cartesian components, its mass, the applied force on it."""
+
+    name: str
+    position: tuple[Expression, ...]
+    mass: Expression | None = None
+    force: tuple[Expression, ...] | None = None
+    span: Span = field(default=NOWHERE, compare=False)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Inequality:
+    """`left comparison right`, such as `N >= 0`."""
+
+    left: Expression
+    comparison: Comparison
+    right: Expression
+    span: Span = field(default=NOWHERE, compare=False)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Constraint:
+    """f = left - right = 0, holonomic f(q, t) or linear in the velocities."""
+
+    name: str
+    equation: Equation
+    multiplier: str  # the multiplier's name, `lambda_<name>` by default
+    holds_while: Inequality | None = None
+    span: Span = field(default=NOWHERE, compare=False)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Symmetry:
+    """A candidate: Delta q of the coordinates named (0 for the others) and Delta t."""
+
+    name: str
+    changes: Mapping[str, Expression]  # coordinate -> Delta q
+    time: Expression | None = None  # Delta t; None is 0
+    gauge: Expression | None = None  # None: to be found
+    span: Span = field(default=NOWHERE, compare=False)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Where:
+    """`{where: left = right, for: unknown}`."""
+
+    name: str
+    equation: Equation
+    unknown: Name  # a coordinate, a velocity (one prime) or a parameter
+    span: Span = field(default=NOWHERE, compare=False)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rewrite:
+    """`{value: expression, in_terms_of: [names]}`."""
+
+    name: str
+    value: Expression
+    in_terms_of: tuple[Name, ...]
+    span: Span = field(default=NOWHERE, compare=False)
+
+
+Question = Where | Rewrite
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Simulation:
+    """Defaults of the numerical run; numbers are expressions without names."""
+
+    until: Expression | None = None
+    accuracy: Expression | None = None
+    method: str | None = None
+
+
+NOT_CONSERVED = "not conserved"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Expect:
+    """The known answers, as the file gives them; None or empty: nothing expected."""
+
+    degrees_of_freedom: int | None = None
+    equations: tuple[Equation, ...] = ()
+    accelerations: Mapping[str, Expression] = field(default_factory=dict)
+    multipliers: Mapping[str, Expression] = field(default_factory=dict)  # by constraint name
+    constraint_forces: Mapping[str, Mapping[str, Expression]] = field(default_factory=dict)
+    momenta: Mapping[str, Expression] = field(default_factory=dict)
+    hamiltonian: Expression | None = None
+    energy: Expression | None = None
+    charges: Mapping[str, Expression | Literal["not conserved"]] = field(default_factory=dict)
+    modes: tuple[Expression, ...] | None = None  # angular frequencies
+    find: Mapping[str, tuple[Expression, ...]] = field(default_factory=dict)
+    trajectory: Mapping[str, Expression] = field(default_factory=dict)  # coordinate -> q(t)
+    spans: Mapping[tuple[str, ...], Span] = field(default_factory=dict, compare=False)
+    #: place of each expectation: ("accelerations", "x"), ("equations", "0"), …
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Problem:
+    """A checked problem: every name is known, every expression well formed.
+
+    Either `lagrangian` is given, or `kinetic` (None: the sum over `points`) and
+    `potential` (None: 0).  Maps keep the order of the file.
+    """
+
+    source: Source
+    title: str
+    coordinates: tuple[Coordinate, ...]
+    parameters: tuple[Parameter, ...] = ()
+    reference: str | None = None  # the key `source` of the file
+    description: str | None = None
+    functions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    definitions: Mapping[str, Expression] = field(default_factory=dict)
+    points: tuple[Point, ...] = ()
+    kinetic: Expression | None = None
+    potential: Expression | None = None
+    lagrangian: Expression | None = None
+    forces: Mapping[str, Expression] = field(default_factory=dict)
+    dissipation: Expression | None = None
+    constraints: tuple[Constraint, ...] = ()
+    symmetries: tuple[Symmetry, ...] = ()
+    initial: Mapping[Name, Expression] = field(default_factory=dict)  # Name("x", primes=0 or 1)
+    find: tuple[Question, ...] = ()
+    simulation: Simulation = field(default_factory=Simulation)
+    expect: Expect = field(default_factory=Expect)
