@@ -1,0 +1,68 @@
+# `make` lists what there is.  Needs only make and Python >= 3.11.
+
+.DEFAULT_GOAL := help
+SHELL := /bin/sh
+
+# The first Python on the path that is new enough.
+PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11 python; do \
+	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+FILE ?= problems/hoop.yaml
+
+.PHONY: help
+help: ## list the targets
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | awk -F '\t' '{printf "make %-8s %s\n", $$1, $$2}'
+
+.PHONY: setup
+setup: $(READY) ## make .venv with lagcli and the developers' tools in it
+
+$(READY): pyproject.toml
+	@test -n "$(PYTHON)" || { echo "lagcli needs Python >= 3.11: make setup PYTHON=/path/to/python3" >&2; exit 1; }
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV) || { \
+		rm -rf $(VENV); echo "no venv: on Debian, apt-get install python3-venv" >&2; exit 1; }
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@touch $@
+
+.PHONY: solve
+solve: $(READY) ## the main job: make solve FILE=problems/hoop.yaml
+	@$(BIN)/lagcli solve $(FILE)
+
+.PHONY: check
+check: lint types layers test library ## everything that must hold before a commit
+
+.PHONY: lint
+lint: $(READY) ## format and style (ruff)
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+
+.PHONY: types
+types: $(READY) ## types (mypy --strict)
+	$(BIN)/mypy
+
+.PHONY: layers
+layers: $(READY) ## imports point one way (import-linter)
+	$(BIN)/lint-imports
+
+.PHONY: test
+test: $(READY) ## the tests (pytest); make test ARGS="-k noether"
+	$(BIN)/pytest -q -n auto $(ARGS)
+
+.PHONY: library
+library: $(READY) ## every problem of the library against its known answers
+	$(BIN)/lagcli check problems/
+
+.PHONY: bench
+bench: $(READY) ## whole-process times as ratios, kept in .bench/
+	$(BIN)/python tests/bench/bench.py $(ARGS)
+
+.PHONY: format
+format: $(READY) ## rewrite the code as ruff would have it
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+.PHONY: clean
+clean: ## remove everything that was made here
+	rm -rf $(VENV) .bench .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache dist build
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

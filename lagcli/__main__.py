@@ -1,0 +1,5 @@
+"""`python -m lagcli` is `lagcli`."""
+
+from lagcli.cli import main
+
+main()
