@@ -1,0 +1,240 @@
+"""The motion solved: accelerations, multipliers, constraint forces, each verified.
+
+    [ M  -A^T ] [ q''    ]   [ forcing ]
+    [ A    0  ] [ lambda ] = [ -bias   ]
+
+Redundant rows of A are left out by rank; then q'' and the total constraint force
+A^T lambda are still unique, and a multiplier is determined when no combination of rows
+that vanishes has a part in it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import is_zero, left_nullspace, nullspace, simplify, solve_linear
+from lagcli.answers import Verification
+from lagcli.diagnostics import Diagnostic, ProblemError
+from lagcli.mechanics.constraints import Constraints
+from lagcli.mechanics.euler_lagrange import EulerLagrange
+from lagcli.mechanics.states import Contradiction, RandomStates
+from lagcli.mechanics.system import System
+from lagcli.mechanics.verify import Verifier
+
+#: Beyond this many unknowns a symbolic solution is no longer readable: matrix form only.
+READABLE_UNKNOWNS = 12
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """The solved system.
+
+    Attributes
+    ----------
+    accelerations : tuple of Expr
+        q'' by coordinate, free of accelerations and multipliers.
+    multipliers : tuple of Expr or None
+        By constraint; None where redundancy leaves it undetermined.
+    independent : tuple of Expr
+        One valid choice of all multipliers (0 for the redundant ones), so that
+        A^T lambda is the total constraint force.
+    verified : how the solution was checked by substitution.
+    """
+
+    accelerations: tuple[Expr, ...]
+    multipliers: tuple[Expr | None, ...]
+    independent: tuple[Expr, ...]
+    verified: Verification
+
+
+class Dynamics:
+    """The equations of a system with its constraints, and their solution."""
+
+    def __init__(self, system: System) -> None:
+        self.system = system
+        self.constraints = Constraints(system)
+        self.lagrange = EulerLagrange(system)
+        self.states = RandomStates(system, self.constraints)
+        self.verifier = Verifier(self.constraints, self.states)
+
+    # -- rank ---------------------------------------------------------------------------
+
+    @cached_property
+    def independent_constraints(self) -> tuple[int, ...]:
+        """Indices of the constraints that are not implied by earlier ones.
+
+        Raises
+        ------
+        ProblemError
+            When the constraints contradict each other.
+        """
+        if not self.constraints.equations:
+            return ()
+        try:
+            self.states.take(1)
+        except Contradiction as contradiction:
+            raise self._contradiction(contradiction.index) from None
+        assert self.states.elimination is not None
+        return self.states.elimination.independent
+
+    def _contradiction(self, index: int) -> ProblemError:
+        constraint = self.system.problem.constraints[max(index, 0)]
+        others = [c.name for c in self.system.problem.constraints if c is not constraint]
+        with_what = " with " + ", ".join(f"'{name}'" for name in others) if others else ""
+        return ProblemError(
+            self.system.problem.source,
+            (
+                Diagnostic(
+                    f"constraint '{constraint.name}' cannot be satisfied{with_what}",
+                    constraint.equation.span,
+                    "no state was found at which all constraints hold: they contradict each other",
+                ),
+            ),
+        )
+
+    @property
+    def redundant(self) -> tuple[str, ...]:
+        """The constraints that earlier ones imply."""
+        kept = set(self.independent_constraints)
+        return tuple(
+            e.name for i, e in enumerate(self.constraints.equations) if i not in kept
+        )
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Coordinates less the rank of all constraints on the velocities."""
+        return len(self.system.q) - len(self.independent_constraints)
+
+    @cached_property
+    def degenerate(self) -> tuple[int, ...]:
+        """Coordinates along which the Hessian of L is singular (a null vector has a part)."""
+        kernel = nullspace(self.lagrange.mass_matrix)
+        return tuple(
+            i
+            for i in range(len(self.system.q))
+            if any(is_zero(vector[i]) is not True for vector in kernel)
+        )
+
+    # -- solution -------------------------------------------------------------------------
+
+    @cached_property
+    def motion(self) -> Motion | None:
+        """The verified solution; None where the system is singular or too large."""
+        kept = self.independent_constraints
+        n, m = len(self.system.q), len(kept)
+        if n + m > READABLE_UNKNOWNS:
+            return None
+        rows = [self.constraints.equations[k] for k in kept]
+        zero = sympy.S.Zero
+        matrix = [
+            [*self.lagrange.mass_matrix[i], *(-e.row[i] for e in rows)] for i in range(n)
+        ] + [[*e.row, *([zero] * m)] for e in rows]
+        right = [*self.lagrange.forcing, *(-e.bias for e in rows)]
+        solution = solve_linear(matrix, right, self.constraints.relations)
+        if solution is None or solution.singular:
+            return None
+        accelerations = tuple(solution.values[:n])
+        chosen = [zero] * len(self.constraints)
+        for k, value in zip(kept, solution.values[n:], strict=True):
+            chosen[k] = value
+        verified = self._verified(accelerations, tuple(chosen))
+        if verified is None:
+            return None
+        undetermined = self._undetermined
+        multipliers = tuple(
+            None if k in undetermined else value for k, value in enumerate(chosen)
+        )
+        return Motion(accelerations, multipliers, tuple(chosen), verified)
+
+    @cached_property
+    def _undetermined(self) -> frozenset[int]:
+        """Constraints that take part in a combination of rows that vanishes."""
+        if not self.redundant:
+            return frozenset()
+        relations = self.constraints.relations
+        vectors = left_nullspace(self.constraints.jacobian, relations)
+        return frozenset(
+            k
+            for vector in vectors
+            for k, entry in enumerate(vector)
+            if is_zero(entry, relations) is not True
+        )
+
+    def _verified(
+        self, accelerations: tuple[Expr, ...], multipliers: tuple[Expr, ...]
+    ) -> Verification | None:
+        """Substitute back: M q'' - forcing - A^T lambda = 0 and A q'' + bias = 0."""
+        equations = self.constraints.equations
+        residuals = [
+            sympy.Add(
+                *(m * a for m, a in zip(row, accelerations, strict=True)),
+                -force,
+                *(-e.row[i] * x for e, x in zip(equations, multipliers, strict=True)),
+            )
+            for i, (row, force) in enumerate(
+                zip(self.lagrange.mass_matrix, self.lagrange.forcing, strict=True)
+            )
+        ] + [
+            sympy.Add(*(a * x for a, x in zip(e.row, accelerations, strict=True)), e.bias)
+            for e in equations
+        ]
+        verdict = self.verifier.all_zero(residuals)
+        return verdict.how if verdict.holds is True else None
+
+    @cached_property
+    def constraint_forces(self) -> tuple[tuple[Expr, ...] | None, ...]:
+        """lambda_k a_kj by constraint and coordinate; None where lambda_k is undetermined."""
+        if self.motion is None:
+            return (None,) * len(self.constraints)
+        return tuple(
+            None if value is None else tuple(value * a for a in equation.row)
+            for equation, value in zip(
+                self.constraints.equations, self.motion.multipliers, strict=True
+            )
+        )
+
+    @cached_property
+    def total_constraint_force(self) -> tuple[Expr, ...] | None:
+        """sum_k lambda_k a_kj, unique also where single multipliers are not."""
+        if self.motion is None:
+            return None
+        return tuple(
+            sympy.Add(
+                *(
+                    value * e.row[j]
+                    for e, value in zip(
+                        self.constraints.equations, self.motion.independent, strict=True
+                    )
+                )
+            )
+            for j in range(len(self.system.q))
+        )
+
+    # -- on the motion ----------------------------------------------------------------------
+
+    def on_motion(self, expression: Expr) -> Expr | None:
+        """The expression with accelerations and multipliers replaced by their solution."""
+        present = expression.free_symbols
+        if not present & {*self.system.qddot, *self.system.multipliers}:
+            return expression
+        if self.motion is None:
+            return None
+        values: dict[Expr, Expr] = dict(
+            zip(self.system.qddot, self.motion.accelerations, strict=True)
+        )
+        for equation, value in zip(
+            self.constraints.equations, self.motion.multipliers, strict=True
+        ):
+            if value is not None:
+                values[equation.multiplier] = value
+            elif equation.multiplier in present:
+                return None
+        return expression.xreplace(values)
+
+    def simplified(self, expression: Expr) -> Expr:
+        """The readable form on the constraint surface."""
+        return simplify(expression, self.constraints.relations)

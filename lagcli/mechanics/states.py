@@ -1,0 +1,244 @@
+"""Random states on the constraint surface, at 50 digits, for checks by substitution.
+
+Parameters, time, coordinates and velocities are drawn from a fixed sequence, then moved
+onto f(q, t) = 0 by Newton steps of least norm and onto A q' + b = 0 by one linear step.
+A pivoted elimination finds the rank of A there, which names redundant constraints.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import mpmath
+from mpmath import mpf
+from sympy import Expr, Symbol
+
+from lagcli.algebra.numeric import Evaluator
+from lagcli.mechanics.constraints import Constraints
+from lagcli.mechanics.system import System
+
+DIGITS = 50
+_GUARD = 15  # digits beyond those that are claimed
+_TOLERANCE = mpf(10) ** -(DIGITS + 5)
+_ATTEMPTS = 60
+_NEWTON_STEPS = 60
+
+State = dict[Symbol, mpf]
+
+
+@dataclass(frozen=True, slots=True)
+class Elimination:
+    """The outcome of a pivoted elimination of rows: which are independent."""
+
+    independent: tuple[int, ...]
+    dependent: tuple[int, ...]
+
+
+def independent_rows(rows: Sequence[Sequence[mpf]], tolerance: mpf) -> Elimination:
+    """Take each row, in order, that is not a combination of those before it.
+
+    Modified Gram-Schmidt: a row is dependent when what is left of it is below
+    `tolerance` times its length.
+    """
+    basis: list[list[mpf]] = []
+    independent, dependent = [], []
+    for index, row in enumerate(rows):
+        rest = list(row)
+        length = mpmath.sqrt(sum(x * x for x in rest))
+        for _ in range(2):  # twice is enough (Kahan, Parlett)
+            for unit in basis:
+                along = sum(x * y for x, y in zip(rest, unit, strict=True))
+                rest = [x - along * y for x, y in zip(rest, unit, strict=True)]
+        left = mpmath.sqrt(sum(x * x for x in rest))
+        if length == 0 or left <= tolerance * length:
+            dependent.append(index)
+        else:
+            basis.append([x / left for x in rest])
+            independent.append(index)
+    return Elimination(tuple(independent), tuple(dependent))
+
+
+def least_norm_solution(rows: Sequence[Sequence[mpf]], right: Sequence[mpf]) -> list[mpf]:
+    """The shortest x with rows . x = right, rows independent: x = A^T (A A^T)^-1 right."""
+    a = mpmath.matrix([list(row) for row in rows])
+    y = mpmath.lu_solve(a * a.T, mpmath.matrix(list(right)))
+    return list(a.T * y)
+
+
+class Contradiction(Exception):
+    """No state satisfies the constraints; carries the index of the one that cannot hold."""
+
+    def __init__(self, index: int) -> None:
+        super().__init__(index)
+        self.index = index
+
+
+class RandomStates:
+    """States (parameters, t, q, q') that satisfy every constraint, always the same ones."""
+
+    def __init__(self, system: System, constraints: Constraints) -> None:
+        self.system = system
+        self.constraints = constraints
+        self._positions = [e for e in constraints.equations if e.holonomic]
+        self._f = Evaluator([e.f for e in self._positions], DIGITS + _GUARD)
+        self._f_rows = Evaluator(
+            [a for e in self._positions for a in e.row], DIGITS + _GUARD
+        )
+        self._a_rows = Evaluator(
+            [x for e in constraints.equations for x in (*e.row, e.drift)], DIGITS + _GUARD
+        )
+        self._lagrangian = Evaluator([system.L, *system.applied_forces], DIGITS + _GUARD)
+        self._kept: list[State] = []
+        self._generator = self._generate()
+        self.elimination: Elimination | None = None
+
+    def take(self, count: int) -> list[State]:
+        """The first `count` states.
+
+        Raises
+        ------
+        Contradiction
+            When no state was found that satisfies all constraints.
+        """
+        while len(self._kept) < count:
+            self._kept.append(next(self._generator))
+        return self._kept[:count]
+
+    # -- drawing ------------------------------------------------------------------------
+
+    def _draw(self, source: random.Random, scale: float) -> State:
+        state: State = {}
+        system = self.system
+        for parameter in system.parameters:
+            state[parameter] = _random_value(source, parameter, 0.6, 1.7)
+        state[system.t] = mpf(source.randint(100, 900)) / 1009
+        for q in system.q:
+            state[q] = _random_value(source, q, 0.3, 1.3)
+        for v in system.qdot:
+            state[v] = _random_value(source, v, 0.1, 0.9) * scale
+        return state
+
+    def _generate(self) -> Iterator[State]:
+        with mpmath.workdps(DIGITS + _GUARD):
+            source = random.Random("lagcli")
+        failures: dict[int, int] = {}
+        attempts = 0
+        while True:
+            attempts += 1
+            scale = 1.0 if attempts % 3 else 0.1
+            with mpmath.workdps(DIGITS + _GUARD):
+                state = self._draw(source, scale)
+                failed = self._project(state)
+                good = failed is None and self._is_regular(state)
+            if good:
+                attempts = 0
+                yield state
+                continue
+            if failed is not None:
+                failures[failed] = failures.get(failed, 0) + 1
+            if attempts >= _ATTEMPTS:
+                worst = max(failures, key=lambda k: (failures[k], k)) if failures else -1
+                raise Contradiction(worst)
+
+    def _is_regular(self, state: State) -> bool:
+        """Whether L and the forces are finite and real there."""
+        try:
+            values = self._lagrangian(state)
+        except (ArithmeticError, ValueError):
+            return False
+        return all(_is_real(v) for v in values)
+
+    def _project(self, state: State) -> int | None:
+        """Move the state onto the constraints; the index of one that fails, or None."""
+        try:
+            failed = self._project_positions(state)
+            return failed if failed is not None else self._project_velocities(state)
+        except (ArithmeticError, ValueError):
+            return 0 if self.constraints.equations else -1
+
+    def _index(self, position: int) -> int:
+        return self.constraints.equations.index(self._positions[position])
+
+    def _project_positions(self, state: State) -> int | None:
+        n = len(self.system.q)
+        if not self._positions:
+            return None
+        for _ in range(_NEWTON_STEPS):
+            values = self._f(state)
+            if not all(_is_real(v) for v in values):
+                return self._index(0)
+            flat = self._f_rows(state)
+            rows = [flat[i * n : (i + 1) * n] for i in range(len(values))]
+            if not all(_is_real(x) for x in flat):
+                return self._index(0)
+            elimination = independent_rows(rows, mpf(10) ** -12)
+            kept = elimination.independent
+            if max(map(abs, values)) < _TOLERANCE:
+                return None if self._admissible(state) else self._index(0)
+            if not kept:
+                return self._index(0)
+            step = least_norm_solution([rows[i] for i in kept], [-values[i] for i in kept])
+            longest = max(map(abs, step))
+            shrink = min(mpf(1), mpf(2) / longest) if longest else mpf(1)
+            for q, delta in zip(self.system.q, step, strict=True):
+                state[q] += shrink * delta
+            if longest < _TOLERANCE and elimination.dependent:
+                wrong = [i for i in elimination.dependent if abs(values[i]) > mpf(10) ** -20]
+                if wrong:
+                    return self._index(wrong[0])
+        return self._index(max(range(len(values)), key=lambda i: abs(values[i])))
+
+    def _admissible(self, state: State) -> bool:
+        """Whether the coordinates kept the signs that the file assumes."""
+        return all(
+            not (q.is_positive and state[q] <= 0) and not (q.is_negative and state[q] >= 0)
+            for q in self.system.q
+        )
+
+    def _project_velocities(self, state: State) -> int | None:
+        equations = self.constraints.equations
+        if not equations:
+            self.elimination = Elimination((), ())
+            return None
+        n = len(self.system.q)
+        flat = self._a_rows(state)
+        if not all(_is_real(x) for x in flat):
+            return 0
+        rows = [flat[i * (n + 1) : i * (n + 1) + n] for i in range(len(equations))]
+        drift = [flat[i * (n + 1) + n] for i in range(len(equations))]
+        elimination = independent_rows(rows, mpf(10) ** -25)
+        kept = elimination.independent
+        residual = [
+            -sum(a * state[v] for a, v in zip(rows[i], self.system.qdot, strict=True)) - drift[i]
+            for i in kept
+        ]
+        for v, delta in zip(
+            self.system.qdot, least_norm_solution([rows[i] for i in kept], residual), strict=True
+        ):
+            state[v] += delta
+        for i in elimination.dependent:
+            rest = sum(a * state[v] for a, v in zip(rows[i], self.system.qdot, strict=True))
+            if abs(rest + drift[i]) > mpf(10) ** -25:
+                return i
+        self.elimination = elimination
+        return None
+
+
+def _random_value(source: random.Random, symbol: Symbol, low: float, high: float) -> mpf:
+    """A value within [low, high] of the sign that is assumed, either sign without one."""
+    if symbol.is_integer:
+        return mpf(source.randint(2, 5))
+    magnitude = mpf(source.randint(int(low * 10007), int(high * 10007))) / 10007
+    if symbol.is_negative:
+        return -magnitude
+    if symbol.is_nonnegative:
+        return magnitude
+    return magnitude if source.random() < 0.7 else -magnitude
+
+
+def _is_real(value: object) -> bool:
+    return isinstance(value, mpf) and bool(mpmath.isfinite(value))
+
+
