@@ -1,0 +1,51 @@
+"""A derivation: everything that can be asked of one problem, each part worked out once."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.energy import EnergyFunction
+from lagcli.mechanics.hamiltonian import Hamiltonian
+from lagcli.mechanics.noether import Noether
+from lagcli.mechanics.system import System
+from lagcli.problem import Problem
+
+
+class Derivation:
+    """The parts of the theory for one problem, computed when first asked for.
+
+    Raises
+    ------
+    ProblemError
+        From the part that finds it: a constraint that is not linear in the velocities,
+        constraints that contradict each other, an initial state off the constraints.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+
+    @cached_property
+    def system(self) -> System:
+        """Coordinates, L, forces as formulas."""
+        return System(self.problem)
+
+    @cached_property
+    def dynamics(self) -> Dynamics:
+        """Equations, constraints, solved motion."""
+        return Dynamics(self.system)
+
+    @cached_property
+    def energy(self) -> EnergyFunction:
+        """The energy function and its rate."""
+        return EnergyFunction(self.dynamics)
+
+    @cached_property
+    def hamiltonian(self) -> Hamiltonian:
+        """The Legendre transform and the canonical equations."""
+        return Hamiltonian(self.dynamics, self.energy)
+
+    @cached_property
+    def noether(self) -> Noether:
+        """Charges of the candidate and of the evident symmetries."""
+        return Noether(self.dynamics, self.energy)

@@ -1,0 +1,280 @@
+"""Noether's theorem: from a transformation to a conserved charge, or to what breaks it.
+
+A transformation q -> q + e Dq(q, q', t), t -> t + e Dt(q, q', t) changes the action by
+the integral of
+
+    K = sum_j [ dL/dq_j Dq_j + dL/dq_j' (d(Dq_j)/dt - q_j' d(Dt)/dt) ]
+        + dL/dt Dt + L d(Dt)/dt,
+
+Dq being the change at the transformed time.  Where K = dG/dt for a boundary term
+G(q, q', t), the charge and its rate on the motion are
+
+    Q     = sum_j dL/dq_j' (Dq_j - q_j' Dt) + L Dt - G,
+    dQ/dt = K - dG/dt + sum_j (Q_j - dD/dq_j' + sum_k lambda_k a_kj) (Dq_j - q_j' Dt),
+
+the last line because d/dt(dL/dq') - dL/dq is what acts on the system beside L.
+
+References
+----------
+Noether, Nachr. Ges. Wiss. Goettingen (1918) 235, sections 1 and 2.
+Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., section 13.7.
+Hill, Rev. Mod. Phys. 23 (1951) 253 (the boundary term).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import is_zero, simplify
+from lagcli.answers import ChargeSource, Verification
+from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.energy import EnergyFunction
+from lagcli.mechanics.total_derivative import boundary_term
+from lagcli.problem import Symmetry
+
+
+@dataclass(frozen=True, slots=True)
+class Transformation:
+    """Delta q by coordinate, in order, and Delta t."""
+
+    changes: tuple[Expr, ...]
+    time: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class NoetherCharge:
+    """A transformation with its boundary term, charge and rate.
+
+    `gauge` is None where K is no total derivative; the charge is then that of G = 0.
+    `conserved` and `rate` are None where the motion was not solved and the rate needs it.
+    """
+
+    name: str
+    source: ChargeSource
+    transformation: Transformation
+    gauge: Expr | None
+    charge: Expr
+    conserved: bool | None
+    rate: Expr | None
+    verified: Verification | None
+    broken_by: str
+
+
+class Noether:
+    """The charges of the candidates of the file and of the evident symmetries."""
+
+    def __init__(self, dynamics: Dynamics, energy: EnergyFunction) -> None:
+        self.dynamics = dynamics
+        self.system = dynamics.system
+        self.energy = energy
+
+    @cached_property
+    def charges(self) -> tuple[NoetherCharge, ...]:
+        """Candidates in the order of the file, then cyclic coordinates, then the energy."""
+        candidates = [self._candidate(symmetry) for symmetry in self.system.problem.symmetries]
+        evident = [
+            charge
+            for charge in (*self._cyclic_charges(), self._energy_charge())
+            if not any(self._same_charge(charge, candidate) for candidate in candidates)
+        ]
+        return (*candidates, *evident)
+
+    @cached_property
+    def cyclic(self) -> tuple[int, ...]:
+        """Coordinates that do not occur in L."""
+        return tuple(
+            j
+            for j, force in enumerate(self.dynamics.lagrange.lagrangian_forces)
+            if is_zero(force) is True
+        )
+
+    # -- candidates ---------------------------------------------------------------------
+
+    def _candidate(self, symmetry: Symmetry) -> NoetherCharge:
+        build, zero = self.system.build, sympy.S.Zero
+        transformation = Transformation(
+            tuple(
+                build(symmetry.changes[name]) if name in symmetry.changes else zero
+                for name in self.system.names
+            ),
+            zero if symmetry.time is None else build(symmetry.time),
+        )
+        given = None if symmetry.gauge is None else build(symmetry.gauge)
+        return self.charge(symmetry.name, "candidate", transformation, given)
+
+    def charge(
+        self,
+        name: str,
+        source: ChargeSource,
+        transformation: Transformation,
+        gauge: Expr | None = None,
+    ) -> NoetherCharge:
+        """The charge of a transformation; a boundary term that is not given is sought."""
+        change = simplify(self.change_of_action(transformation))
+        found = gauge if gauge is not None else self._gauge(change)
+        return self._judged(name, source, transformation, found, change)
+
+    def change_of_action(self, transformation: Transformation) -> Expr:
+        """K, the change of L dt per dt and unit of the small parameter."""
+        system, lagrange = self.system, self.dynamics.lagrange
+        stretch = system.total_derivative(transformation.time)
+        return sympy.Add(
+            *(
+                force * change + momentum * (system.total_derivative(change) - v * stretch)
+                for force, momentum, change, v in zip(
+                    lagrange.lagrangian_forces,
+                    lagrange.momenta,
+                    transformation.changes,
+                    system.qdot,
+                    strict=True,
+                )
+            ),
+            system.L.diff(system.t) * transformation.time,
+            system.L * stretch,
+        )
+
+    def _gauge(self, change: Expr) -> Expr | None:
+        """G with dG/dt = K, identically or else with the constraints used."""
+        if is_zero(change) is True:
+            return sympy.S.Zero
+        identically = boundary_term(change, self.system)
+        if identically is not None or not self.dynamics.constraints.equations:
+            return identically
+        on_motion = self.dynamics.on_motion(change)
+        if on_motion is None:
+            return None
+        return boundary_term(self.dynamics.simplified(on_motion), self.system)
+
+    def _judged(
+        self,
+        name: str,
+        source: ChargeSource,
+        transformation: Transformation,
+        gauge: Expr | None,
+        change: Expr,
+    ) -> NoetherCharge:
+        boundary = sympy.S.Zero if gauge is None else gauge
+        contributions = self._contributions(transformation, boundary, change)
+        system = self.system
+        charge = sympy.Add(
+            *(
+                momentum * eta
+                for momentum, eta in zip(
+                    self.dynamics.lagrange.momenta, self.characteristic(transformation), strict=True
+                )
+            ),
+            system.L * transformation.time,
+            -boundary,
+        )
+        rate, conserved, verified = self._rate(list(contributions.values()))
+        broken_by = "" if conserved is not False else self._broken_by(contributions)
+        return NoetherCharge(
+            name, source, transformation, gauge, charge, conserved, rate, verified, broken_by
+        )
+
+    def characteristic(self, transformation: Transformation) -> tuple[Expr, ...]:
+        """Dq_j - q_j' Dt, the change in form."""
+        return tuple(
+            change - v * transformation.time
+            for change, v in zip(transformation.changes, self.system.qdot, strict=True)
+        )
+
+    def _contributions(
+        self, transformation: Transformation, boundary: Expr, change: Expr
+    ) -> dict[str, Expr]:
+        """The terms of dQ/dt by cause, those that vanish identically left out."""
+        system, dynamics = self.system, self.dynamics
+        eta = self.characteristic(transformation)
+        parts = {
+            "the Lagrangian": change - system.total_derivative(boundary),
+            "the applied forces": _dot(system.forces, eta),
+            "the dissipation": -sympy.Add(
+                *(system.D.diff(v) * e for v, e in zip(system.qdot, eta, strict=True))
+            ),
+        }
+        for equation in dynamics.constraints.equations:
+            # a . (Dq - q' Dt) = a . Dq + b Dt on the motion
+            across = _dot(equation.row, transformation.changes)
+            across += equation.drift * transformation.time
+            if is_zero(across, dynamics.constraints.relations) is not True:
+                parts[f"the constraint '{equation.name}'"] = equation.multiplier * across
+        return {cause: part for cause, part in parts.items() if is_zero(part) is not True}
+
+    def _rate(
+        self, contributions: list[Expr]
+    ) -> tuple[Expr | None, bool | None, Verification | None]:
+        if not contributions:
+            return sympy.S.Zero, True, "exact"
+        on_motion = self.dynamics.on_motion(sympy.Add(*contributions))
+        if on_motion is None:
+            return None, None, None
+        rate = self.dynamics.simplified(on_motion)
+        verdict = self.dynamics.verifier.is_zero(rate)
+        if verdict.holds is True:
+            return sympy.S.Zero, True, verdict.how
+        return rate, verdict.holds, verdict.how
+
+    def _broken_by(self, contributions: Mapping[str, Expr]) -> str:
+        causes = []
+        for cause, part in contributions.items():
+            on_motion = self.dynamics.on_motion(part)
+            if on_motion is None or self.dynamics.verifier.is_zero(on_motion).holds is not True:
+                causes.append(cause)
+        return ", ".join(causes)
+
+    # -- evident symmetries ---------------------------------------------------------------
+
+    def _cyclic_charges(self) -> list[NoetherCharge]:
+        """p_q of each cyclic coordinate: the translation Dq = 1."""
+        zero, one = sympy.S.Zero, sympy.S.One
+        n = len(self.system.q)
+        return [
+            self._judged(
+                "p_" + self.system.names[j],
+                "cyclic",
+                Transformation(tuple(one if i == j else zero for i in range(n)), zero),
+                zero,
+                zero,
+            )
+            for j in self.cyclic
+        ]
+
+    def _energy_charge(self) -> NoetherCharge:
+        """The energy function h, of the translation Dt = 1 (Q = -h by the formula)."""
+        energy = self.energy
+        return NoetherCharge(
+            "energy",
+            "time",
+            Transformation((sympy.S.Zero,) * len(self.system.q), sympy.S.One),
+            sympy.S.Zero,
+            energy.function,
+            energy.conserved,
+            sympy.S.Zero if energy.conserved else energy.rate,
+            energy.verified,
+            "" if energy.conserved is not False else ", ".join(p.cause for p in energy.powers),
+        )
+
+    def _same_charge(self, evident: NoetherCharge, candidate: NoetherCharge) -> bool:
+        """Whether the candidate's charge is a constant multiple of the evident one's."""
+        if evident.conserved is not candidate.conserved:
+            return False
+        moved = [i for i, c in enumerate(evident.transformation.changes) if c != 0]
+        given = candidate.transformation
+        factor = given.changes[moved[0]] if moved else -given.time  # Q = -h for Dt = 1
+        if factor == 0 or factor.free_symbols - set(self.system.parameters):
+            return False
+        return is_zero(candidate.charge - factor * evident.charge) is True
+
+    def conserved_quantities(self) -> tuple[Expr, ...]:
+        """Functions of q, q', t that are constant along the motion."""
+        return tuple(charge.charge for charge in self.charges if charge.conserved)
+
+
+def _dot(a: tuple[Expr, ...], b: tuple[Expr, ...]) -> Expr:
+    return sympy.Add(*(x * y for x, y in zip(a, b, strict=True)))
+

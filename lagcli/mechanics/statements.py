@@ -1,0 +1,338 @@
+"""From a derivation to statements: each section in the shape in which it is read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import shape
+from lagcli.answers import (
+    DEFAULT_SECTIONS,
+    SECTIONS,
+    AccelerationsSection,
+    Answers,
+    CanonicalPair,
+    CanonicalSection,
+    Charge,
+    ChargesSection,
+    ConstraintForcesSection,
+    EnergySection,
+    EquationsSection,
+    HamiltonianSection,
+    LagrangeEquation,
+    LagrangianSection,
+    MatrixFormSection,
+    MomentaSection,
+    Multiplier,
+    MultipliersSection,
+    Section,
+)
+from lagcli.expression import ZERO, Expression
+from lagcli.mechanics.constraint_force import forces_on_points
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.noether import NoetherCharge
+from lagcli.problem import Problem
+
+NUMERIC_CHECK = "50 digits"
+
+
+def answers(problem: Problem, sections: Sequence[str] | None = None) -> Answers:
+    """Derive what the sections need and state it.
+
+    Parameters
+    ----------
+    problem
+        A checked problem.
+    sections
+        Names out of `SECTIONS`; the usual ones when None.
+
+    Raises
+    ------
+    ProblemError
+        When the constraints cannot be used.
+    """
+    return Statements(Derivation(problem)).answers(sections)
+
+
+class Statements:
+    """The sections of one derivation; warnings gather as they are made."""
+
+    def __init__(self, derivation: Derivation) -> None:
+        self.derivation = derivation
+        self.system = derivation.system
+        self.dynamics = derivation.dynamics
+        self.warnings: list[str] = []
+        self.complete = True
+        self._sections: Mapping[str, Callable[[], Section]] = {
+            "lagrangian": self._lagrangian,
+            "equations": self._equations,
+            "matrix_form": self._matrix_form,
+            "accelerations": self._accelerations,
+            "multipliers": self._multipliers,
+            "constraint_forces": self._constraint_forces,
+            "momenta": self._momenta,
+            "energy": self._energy,
+            "hamiltonian": self._hamiltonian,
+            "canonical_equations": self._canonical_equations,
+            "charges": self._charges,
+            "find": self._find,
+            "equilibria": self._equilibria,
+            "modes": self._modes,
+        }
+
+    def answers(self, sections: Sequence[str] | None) -> Answers:
+        """The asked sections, in their fixed order."""
+        problem = self.derivation.problem
+        asked = self._usual() if sections is None else sections
+        made: dict[str, Section] = {}
+        for name in SECTIONS:
+            if name in asked and name in self._sections:
+                made[name] = self._sections[name]()
+        quantities = (*problem.coordinates, *problem.parameters)
+        return Answers(
+            title=problem.title,
+            coordinates=self.system.names,
+            parameters=tuple(p.name for p in problem.parameters),
+            degrees_of_freedom=self.dynamics.degrees_of_freedom,
+            sections=made,
+            symbols={q.name: q.symbol for q in quantities if q.symbol is not None},
+            multipliers={c.multiplier: c.name for c in problem.constraints},
+            warnings=tuple(dict.fromkeys(self.warnings)),
+            complete=self.complete,
+        )
+
+    def _usual(self) -> list[str]:
+        """The default sections, without those that have nothing to say here."""
+        problem = self.derivation.problem
+        idle = set() if problem.constraints else {"multipliers", "constraint_forces"}
+        if not problem.find:
+            idle.add("find")
+        return [name for name in DEFAULT_SECTIONS if name not in idle]
+
+    # -- shapes ---------------------------------------------------------------------------
+
+    def _as_written(self, expression: Expr) -> Expression:
+        """Readable, without using the constraints."""
+        return shape(expression, self.system.order)
+
+    def _on_surface(self, expression: Expr) -> Expression:
+        """Readable, with the constraints used."""
+        return shape(expression, self.system.order, self.dynamics.constraints.relations)
+
+    def _by_coordinate(self, values: Sequence[Expr]) -> dict[str, Expression]:
+        return {
+            name: self._on_surface(value)
+            for name, value in zip(self.system.names, values, strict=True)
+        }
+
+    # -- sections ---------------------------------------------------------------------------
+
+    def _lagrangian(self) -> LagrangianSection:
+        return LagrangianSection(lagrangian=self._as_written(self.system.L))
+
+    def _equations(self) -> EquationsSection:
+        constraints = self.dynamics.constraints.equations
+        equations = tuple(
+            LagrangeEquation(
+                coordinate=name,
+                left=self._as_written(left),
+                right=self._as_written(
+                    sympy.Add(force, *(e.multiplier * e.row[j] for e in constraints))
+                ),
+            )
+            for j, (name, left, force) in enumerate(
+                zip(
+                    self.system.names,
+                    self.dynamics.lagrange.left_sides,
+                    self.system.applied_forces,
+                    strict=True,
+                )
+            )
+        )
+        return EquationsSection(
+            equations=equations,
+            constraints={e.name: (self._as_written(e.f), ZERO) for e in constraints},
+        )
+
+    def _matrix_form(self) -> MatrixFormSection:
+        constraints = self.dynamics.constraints
+        return MatrixFormSection(
+            mass_matrix=tuple(
+                tuple(map(self._as_written, row)) for row in self.dynamics.lagrange.mass_matrix
+            ),
+            constraint_jacobian=tuple(
+                tuple(map(self._as_written, row)) for row in constraints.jacobian
+            ),
+            forcing=tuple(map(self._as_written, self.dynamics.lagrange.forcing)),
+            constraint_bias=tuple(self._as_written(e.bias) for e in constraints.equations),
+        )
+
+    def _accelerations(self) -> AccelerationsSection:
+        motion = self.dynamics.motion
+        if motion is None:
+            self._unsolved()
+            degenerate = tuple(self.system.names[i] for i in self.dynamics.degenerate)
+            return AccelerationsSection(
+                accelerations=None, regular=not degenerate, degenerate=degenerate
+            )
+        self._note_check("the accelerations", motion.verified)
+        return AccelerationsSection(
+            accelerations=self._by_coordinate(motion.accelerations), verified=motion.verified
+        )
+
+    def _unsolved(self) -> None:
+        self.complete = False
+        degenerate = [self.system.names[i] for i in self.dynamics.degenerate]
+        if degenerate:
+            self.warnings.append(
+                "the Lagrangian is singular: the Hessian of L by the velocities has no inverse "
+                f"along {', '.join(degenerate)}, so the equations do not determine the "
+                "accelerations"
+            )
+        else:
+            self.warnings.append(
+                "the accelerations and multipliers were not solved in closed form; "
+                "--show matrix_form gives the system for a numerical solution"
+            )
+
+    def _note_check(self, what: str, verified: str | None) -> None:
+        if verified == NUMERIC_CHECK:
+            self.warnings.append(
+                f"{what} were verified at 50 digits at random states, not decided exactly"
+            )
+
+    def _multipliers(self) -> MultipliersSection:
+        dynamics = self.dynamics
+        motion = dynamics.motion
+        if motion is None:
+            self._unsolved()
+        equations = dynamics.constraints.equations
+        values = (None,) * len(equations) if motion is None else motion.multipliers
+        redundant = dynamics.redundant
+        if redundant:
+            self.warnings.append(
+                f"redundant: {', '.join(redundant)} (implied by the other constraints); "
+                "the accelerations and the total constraint force are unique all the same"
+            )
+        return MultipliersSection(
+            multipliers={
+                equation.name: Multiplier(
+                    symbol=equation.multiplier.name,
+                    value=None if value is None else self._on_surface(value),
+                    kind=dynamics.constraints.kinds[equation.name],
+                    verified=None if motion is None or value is None else motion.verified,
+                )
+                for equation, value in zip(equations, values, strict=True)
+            },
+            redundant=redundant,
+        )
+
+    def _constraint_forces(self) -> ConstraintForcesSection:
+        dynamics = self.dynamics
+        if dynamics.motion is None and dynamics.constraints.equations:
+            self._unsolved()
+        total = dynamics.total_constraint_force
+        return ConstraintForcesSection(
+            forces={
+                equation.name: None if force is None else self._by_coordinate(force)
+                for equation, force in zip(
+                    dynamics.constraints.equations, dynamics.constraint_forces, strict=True
+                )
+            },
+            total=None if total is None else self._by_coordinate(total),
+            on_points={
+                constraint: {
+                    point: tuple(map(self._on_surface, components))
+                    for point, components in points.items()
+                }
+                for constraint, points in forces_on_points(dynamics).items()
+            },
+        )
+
+    def _momenta(self) -> MomentaSection:
+        noether = self.derivation.noether
+        return MomentaSection(
+            momenta={
+                name: self._as_written(p)
+                for name, p in zip(self.system.names, self.dynamics.lagrange.momenta, strict=True)
+            },
+            cyclic=tuple(self.system.names[j] for j in noether.cyclic),
+        )
+
+    def _energy(self) -> EnergySection:
+        energy = self.derivation.energy
+        return EnergySection(
+            function=self._as_written(energy.function),
+            conserved=energy.conserved,
+            is_total_energy=energy.is_total_energy,
+            reason=energy.reason,
+        )
+
+    def _hamiltonian(self) -> HamiltonianSection:
+        hamiltonian = self.derivation.hamiltonian
+        function = hamiltonian.function
+        if function is None:
+            self._missing("the Hamiltonian", hamiltonian.reason)
+        return HamiltonianSection(
+            hamiltonian=None if function is None else self._as_written(function),
+            reason=hamiltonian.reason,
+        )
+
+    def _canonical_equations(self) -> CanonicalSection:
+        hamiltonian = self.derivation.hamiltonian
+        pairs = hamiltonian.canonical_equations
+        if pairs is None:
+            self._missing("the canonical equations", hamiltonian.reason)
+            return CanonicalSection(equations=None, reason=hamiltonian.reason)
+        return CanonicalSection(
+            equations={
+                name: CanonicalPair(q=self._as_written(q), p=self._as_written(p))
+                for name, (q, p) in zip(self.system.names, pairs, strict=True)
+            }
+        )
+
+    def _missing(self, what: str, why: str) -> None:
+        self.complete = False
+        self.warnings.append(f"{what} could not be found: {why}")
+
+    def _charges(self) -> ChargesSection:
+        return ChargesSection(charges=tuple(map(self._charge, self.derivation.noether.charges)))
+
+    def _charge(self, charge: NoetherCharge) -> Charge:
+        if charge.conserved is None:
+            self._missing(
+                f"whether '{charge.name}' is conserved", "its rate needs the solved motion"
+            )
+        self._note_check(f"the rate of '{charge.name}'", charge.verified)
+        named = dict(zip(self.system.names, charge.transformation.changes, strict=True))
+        named["t"] = charge.transformation.time
+        return Charge(
+            name=charge.name,
+            source=charge.source,
+            transformation={
+                name: self._as_written(change) for name, change in named.items() if change != 0
+            },
+            gauge=None if charge.gauge is None else self._as_written(charge.gauge),
+            conserved=charge.conserved,
+            charge=self._as_written(charge.charge),
+            rate=None if charge.rate is None else self._on_surface(charge.rate),
+            verified=charge.verified,
+            broken_by=charge.broken_by,
+        )
+
+    def _find(self) -> Section:
+        from lagcli.mechanics.find import answer_questions
+
+        return answer_questions(self.dynamics)
+
+    def _equilibria(self) -> Section:
+        from lagcli.mechanics.small_oscillations import equilibria
+
+        return equilibria(self.dynamics)
+
+    def _modes(self) -> Section:
+        from lagcli.mechanics.small_oscillations import modes
+
+        return modes(self.dynamics)
