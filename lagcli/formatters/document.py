@@ -1,0 +1,94 @@
+"""A page before it has a notation: headings, sentences and equations in order.
+
+`sections` words the answers as such a page; `text`, `latex`, `markdown` and `html` set it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from lagcli.expression import Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A symbol of the page itself, such as L, Q_x, M[x, theta] or Delta x.
+
+    Attributes
+    ----------
+    letter : str
+        The symbol, or the name of the coordinate that changes.
+    index : tuple of str
+        Names or numbers that it is labelled with.
+    matrix : bool
+        Set in bold, its index in brackets.
+    change : bool
+        The change of the coordinate `letter` under a symmetry.
+    """
+
+    letter: str
+    index: tuple[str, ...] = ()
+    matrix: bool = False
+    change: bool = False
+
+
+Formula = Expression | Label
+
+
+@dataclass(frozen=True, slots=True)
+class Heading:
+    """The start of a section (`level` 1) or of a part of it (2)."""
+
+    text: str
+    level: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Paragraph:
+    """Sentences, with formulas between the words."""
+
+    parts: tuple[str | Formula, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """`left = right`, with a word on what it is."""
+
+    left: Formula
+    right: Formula
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Equations:
+    """Equations that belong together and are aligned at their `=`."""
+
+    rows: tuple[Row, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Matrix:
+    """`label = (entries)`; its rows and columns are labelled where it is too wide to set."""
+
+    label: Label
+    entries: tuple[tuple[Expression, ...], ...]
+    row_names: tuple[str, ...]
+    column_names: tuple[str, ...]
+
+    def entry_label(self, row: int, column: int) -> Label:
+        """Label one entry, where the matrix is listed and not set."""
+        index = [self.row_names[row]]
+        if self.column_names:
+            index.append(self.column_names[column])
+        return Label(self.label.letter, tuple(index), matrix=True)
+
+
+Block = Heading | Paragraph | Equations | Matrix
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """One file's answers as a page."""
+
+    title: str
+    blocks: tuple[Block, ...]

@@ -1,0 +1,152 @@
+"""The wording of symmetries, answers to questions, equilibria and modes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from lagcli.answers import (
+    Charge,
+    ChargesSection,
+    EquilibriaSection,
+    Equilibrium,
+    FindSection,
+    Mode,
+    ModesSection,
+    Rewritten,
+    Solutions,
+)
+from lagcli.expression import ZERO, Name, Number, Power
+from lagcli.formatters.document import (
+    Block,
+    Equations,
+    Formula,
+    Heading,
+    Label,
+    Paragraph,
+    Row,
+)
+
+_SOURCES = {
+    "candidate": "candidate",
+    "cyclic": "cyclic coordinate",
+    "time": "translation in time",
+    "discovered": "discovered",
+}
+
+_CHECKED = {
+    "exact": ", checked exactly",
+    "50 digits": ", checked at random states to 50 digits",
+    None: "",
+}
+
+
+def charge_blocks(section: ChargesSection) -> Iterator[Block]:
+    """Say what each symmetry changes, its gauge, its charge, and whether that is conserved."""
+    if not section.charges:
+        yield Paragraph(("None.",))
+    for charge in section.charges:
+        yield Heading(f"{charge.name} ({_SOURCES[charge.source]})", 2)
+        rows = [
+            Row(Label(name, change=True), change) for name, change in charge.transformation.items()
+        ]
+        if charge.gauge is not None and charge.gauge != ZERO:
+            rows.append(Row(Label("G"), charge.gauge, "gauge"))
+        if charge.charge is not None:
+            rows.append(Row(Label("Q"), charge.charge))
+        if charge.rate is not None and not charge.conserved:
+            rows.append(Row(Name("Q", 1), charge.rate))
+        if rows:
+            yield Equations(tuple(rows))
+        yield Paragraph((_verdict(charge),))
+
+
+def _verdict(charge: Charge) -> str:
+    checked = _CHECKED[charge.verified]
+    if charge.conserved:
+        return f"Conserved: dQ/dt = 0 on the motion{checked}."
+    if charge.conserved is None:
+        words = "Whether it is conserved is undecided"
+    else:
+        words = f"Not conserved{checked}"
+    return f"{words}: {charge.broken_by}" if charge.broken_by else f"{words}."
+
+
+def find_blocks(section: FindSection) -> Iterator[Block]:
+    """Say each question of the file with its answer."""
+    for name, answer in section.answers.items():
+        yield Heading(name, 2)
+        match answer:
+            case Solutions(solutions=None) | Rewritten(value=None):
+                yield Paragraph(("Not found.",))
+            case Solutions(solutions=()):
+                yield Paragraph(("There is no solution that the motion can reach.",))
+            case Solutions(unknown=unknown, solutions=tuple(solutions)):
+                variable = unknown.rstrip("'")
+                left = Name(variable, len(unknown) - len(variable))
+                yield Equations(tuple(Row(left, root) for root in solutions))
+            case Rewritten(value=value, subject=subject) if value is not None:
+                yield Equations((Row(Label(name) if subject is None else subject, value),))
+        if answer.note:
+            yield Paragraph((answer.note,))
+
+
+def equilibrium_blocks(section: EquilibriaSection) -> Iterator[Block]:
+    """Say each state of rest with its stability."""
+    if section.equilibria is None:
+        yield Paragraph(("Not found: the equations could not be solved.",))
+    elif not section.equilibria:
+        yield Paragraph(("There is none.",))
+    for equilibrium in section.equilibria or ():
+        if equilibrium.at:
+            yield Equations(tuple(Row(Name(n), value) for n, value in equilibrium.at.items()))
+        yield Paragraph(_stability(equilibrium))
+
+
+def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:
+    words = {True: "Stable", False: "Unstable", None: "Stability undecided"}[equilibrium.stable]
+    if equilibrium.reason:
+        words += f": {equilibrium.reason}"
+    parts: list[str | Formula] = [words.rstrip(".") + "."]
+    if equilibrium.condition:
+        parts.append(f" It exists where {equilibrium.condition.rstrip('.')}.")
+    if equilibrium.free:
+        parts.append(" Free: ")
+        for position, name in enumerate(equilibrium.free):
+            parts += [", " if position else "", Name(name)]
+        parts.append(".")
+    return tuple(parts)
+
+
+def mode_blocks(section: ModesSection) -> Iterator[Block]:
+    """Say the modes about each equilibrium: angular frequency and shape."""
+    if section.modes is None:
+        yield Paragraph(("There is no equilibrium to expand about.",))
+    elif not section.modes:
+        yield Paragraph(("There is none.",))
+    about: object = None
+    for mode in section.modes or ():
+        if mode.at != about:
+            about = mode.at
+            yield Paragraph(("About the equilibrium",))
+            yield Equations(tuple(Row(Name(n), value) for n, value in mode.at.items()))
+        yield from _mode(mode)
+
+
+def _mode(mode: Mode) -> Iterator[Block]:
+    note = f"{mode.multiplicity} times" if mode.multiplicity > 1 else ""
+    rows = []
+    if mode.frequency is not None:
+        rows.append(Row(Name("omega"), mode.frequency, note))
+    elif mode.frequency_squared is not None:
+        rows.append(
+            Row(
+                Power(Name("omega"), Number(Fraction(2))),
+                mode.frequency_squared,
+                note or "not real",
+            )
+        )
+    rows += [Row(Label("a", (name,)), part) for name, part in (mode.shape or {}).items()]
+    yield Paragraph(("Angular frequency and shape:" if mode.shape else "Angular frequency:",))
+    if rows:
+        yield Equations(tuple(rows))

@@ -1,0 +1,133 @@
+"""Expressions in the grammar of the problem format, so that what is printed reads back."""
+
+# ruff: noqa: D102 - what a method shows is its name: `sum`, `product`, `power`
+
+from __future__ import annotations
+
+from decimal import Decimal
+
+from lagcli.expression import (
+    Call,
+    Diff,
+    Equation,
+    Expression,
+    Name,
+    Negative,
+    Number,
+    PartialCall,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+)
+from lagcli.formatters.display_width import display_width
+from lagcli.formatters.layout import COMMA, DIGITS, PRODUCT, SUM, Layout, Piece, joined
+from lagcli.formatters.precedence import Level, Printer
+
+#: A number with more digits than this may be broken between groups of so many.
+_DIGIT_GROUP = 20
+
+
+def to_grammar(expression: Expression) -> str:
+    """Print the expression so the reader reads it back as the same tree.
+
+    Examples
+    --------
+    >>> from lagcli.expression import Name, Negative, Sum
+    >>> to_grammar(Sum((Name("x", 2), Negative(Name("g")))))
+    "x'' - g"
+    """
+    return joined(GrammarPrinter().show(expression))
+
+
+def equation_to_grammar(equation: Equation) -> str:
+    """`left = right`."""
+    return f"{to_grammar(equation.left)} = {to_grammar(equation.right)}"
+
+
+class GrammarPrinter(Printer[Layout]):
+    """The notation of the problem format: `M*x'' - M*g*sin(alpha)`."""
+
+    minus = "-"
+
+    def spelled(self, name: str, primes: int) -> str:
+        """Spell a name as it is written here."""
+        return name + "'" * primes
+
+    def bracketed(self, shown: Layout) -> Layout:
+        return (Piece("(", 1, nesting=1), *shown, Piece(")", 1, nesting=-1))
+
+    def number(self, node: Number) -> Layout:
+        value = node.value
+        numerator = _digits(value.numerator)
+        if value.denominator == 1:
+            return numerator
+        return (*numerator, Piece("/", 1), *_digits(value.denominator))
+
+    def name(self, node: Name) -> Layout:
+        return text(self.spelled(node.name, node.primes))
+
+    def negative(self, node: Negative) -> Layout:
+        return (Piece(self.minus, 1), *self.at(node.operand, Level.QUOTIENT))
+
+    def sum(self, node: Sum) -> Layout:
+        (minus, first), *others = self.terms(node)
+        pieces = [Piece(self.minus, 1), *first] if minus else [*first]
+        for minus, term in others:
+            sign = self.minus if minus else "+"
+            pieces += [Piece(f" {sign} ", 3, rank=SUM, broken=f"{sign} ", broken_width=2), *term]
+        return tuple(pieces)
+
+    def product(self, node: Product) -> Layout:
+        first, *others = self.factors(node)
+        pieces = [*first]
+        for factor in others:
+            pieces += [Piece("*", 1, rank=PRODUCT, broken="* ", broken_width=2), *factor]
+        return tuple(pieces)
+
+    def quotient(self, node: Quotient) -> Layout:
+        over = Piece("/", 1, rank=PRODUCT, broken="/ ", broken_width=2)
+        numerator = self.at(node.numerator, Level.PRODUCT)
+        return (*numerator, over, *self.at(node.denominator, Level.POWER))
+
+    def power(self, node: Power) -> Layout:
+        base = self.at(node.base, Level.ATOM)
+        return (*base, Piece("^", 1), *self.at(node.exponent, Level.ATOM))
+
+    def call(self, node: Call) -> Layout:
+        head = self.spelled(node.function, node.primes)
+        return (*text(head), *self.arguments(node.arguments))
+
+    def partial_call(self, node: PartialCall) -> Layout:
+        indices = ", ".join(str(index) for index in node.indices)
+        head = f"diff({self.spelled(node.function, 0)}, {indices})"
+        return (*text(head), *self.arguments(node.arguments))
+
+    def diff(self, node: Diff) -> Layout:
+        return (*text("diff"), *self.arguments((node.operand, node.variable)))
+
+    def arguments(self, nodes: tuple[Expression, ...]) -> Layout:
+        """Arguments in their brackets; a line may break after a comma."""
+        pieces: list[Piece] = []
+        for node in nodes:
+            if pieces:
+                pieces += [Piece(",", 1), Piece(" ", 1, rank=COMMA)]
+            pieces += self.show(node)
+        return self.bracketed(tuple(pieces))
+
+
+def text(content: str) -> Layout:
+    """One piece as wide as its characters."""
+    return (Piece(content, display_width(content)),)
+
+
+def _digits(value: int) -> Layout:
+    """Print an integer; a very long one may be broken, with a backslash at the end of the line."""
+    digits = str(Decimal(value))  # str(int) refuses more than 4300 digits
+    groups = [digits[i : i + _DIGIT_GROUP] for i in range(0, len(digits), _DIGIT_GROUP)]
+    first, *others = groups
+    pieces = [Piece(first, len(first))]
+    for group in others:
+        size = len(group)
+        pieces.append(Piece(group, size, rank=DIGITS, broken=group, broken_width=size, tail="\\"))
+    return tuple(pieces)

@@ -1,0 +1,235 @@
+"""The machine's view: a stable contract, every expression in the problem format's grammar.
+
+One object for one file, an array for several.  The keys and their order are those of the
+manual's page on output; a section that was not asked for has no key.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeVar
+
+from lagcli.answers import (
+    SECTIONS,
+    AccelerationsSection,
+    AlgebraSection,
+    Answers,
+    CanonicalSection,
+    Charge,
+    ChargesSection,
+    ConstraintForcesSection,
+    EnergySection,
+    EquationsSection,
+    EquilibriaSection,
+    Equilibrium,
+    FindSection,
+    HamiltonianSection,
+    LagrangianSection,
+    MatrixFormSection,
+    Mode,
+    ModelSection,
+    ModesSection,
+    MomentaSection,
+    MultipliersSection,
+    Rewritten,
+    Section,
+    Solutions,
+)
+from lagcli.expression import Expression
+from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.options import Options
+
+#: The version of the contract.
+SCHEMA = 1
+
+Value = None | bool | int | str | Sequence["Value"] | Mapping[str, "Value"]
+Object = dict[str, Value]
+_Some = TypeVar("_Some")
+
+
+def render(answers: Sequence[Answers], options: Options) -> str:  # noqa: ARG001 - every formatter is called alike
+    """JSON for machines: a stable contract."""
+    objects = [to_object(each) for each in answers]
+    value: Value = objects[0] if len(objects) == 1 else objects
+    return json.dumps(value, indent=2, ensure_ascii=False) + "\n"
+
+
+def to_object(answers: Answers) -> Object:
+    """Put the answers to one file into a JSON object."""
+    result: Object = {
+        "schema": SCHEMA,
+        "title": answers.title,
+        "coordinates": answers.coordinates,
+        "parameters": answers.parameters,
+        "degrees_of_freedom": answers.degrees_of_freedom,
+    }
+    for name in SECTIONS:
+        if name in answers.sections:
+            result |= _section(name, answers.sections[name])
+    return result | {"warnings": answers.warnings}
+
+
+def _section(name: str, section: Section) -> Object:
+    """Give the keys of one section: its own, and those that stand beside it."""
+    match section:
+        case AccelerationsSection():
+            return _accelerations(section)
+        case MultipliersSection():
+            return _multipliers(section)
+        case ConstraintForcesSection():
+            return _constraint_forces(section)
+        case _:
+            return {name: _value(section)}
+
+
+def _value(section: Section) -> Value:
+    match section:
+        case LagrangianSection():
+            return to_grammar(section.lagrangian)
+        case EquationsSection():
+            return [
+                {
+                    "coordinate": each.coordinate,
+                    "equation": f"{to_grammar(each.left)} = {to_grammar(each.right)}",
+                }
+                for each in section.equations
+            ]
+        case MatrixFormSection():
+            return {
+                "mass_matrix": [_strings(row) for row in section.mass_matrix],
+                "constraint_jacobian": [_strings(row) for row in section.constraint_jacobian],
+                "forcing": _strings(section.forcing),
+                "constraint_bias": _strings(section.constraint_bias),
+                "shared": _by_name(section.shared),
+            }
+        case MomentaSection():
+            return _by_name(section.momenta)
+        case EnergySection():
+            return {
+                "function": to_grammar(section.function),
+                "conserved": section.conserved,
+                "is_total_energy": section.is_total_energy,
+                "reason": section.reason,
+            }
+        case HamiltonianSection():
+            return _string(section.hamiltonian)
+        case CanonicalSection():
+            return _unless_none(
+                section.equations,
+                lambda pairs: {
+                    coordinate: {"q": to_grammar(pair.q), "p": to_grammar(pair.p)}
+                    for coordinate, pair in pairs.items()
+                },
+            )
+        case ChargesSection():
+            return [_charge(each) for each in section.charges]
+        case AlgebraSection():
+            return {
+                "ansatz": section.ansatz,
+                "dimension": section.dimension,
+                "name": section.name,
+                "independent": section.independent,
+                "in_involution": section.in_involution,
+                "integrable": section.integrable,
+            }
+        case FindSection():
+            return {name: _answer(answer) for name, answer in section.answers.items()}
+        case EquilibriaSection():
+            return _unless_none(section.equilibria, lambda each: [_equilibrium(e) for e in each])
+        case ModesSection():
+            return _unless_none(section.modes, lambda each: [_mode(m) for m in each])
+        case ModelSection():
+            return {
+                "kept": section.kept,
+                "eliminated": _by_name(section.eliminated),
+                "ignorable": section.ignorable,
+                "reason": dict(section.reason),
+            }
+        case _:
+            raise TypeError(f"{type(section).__name__} has no place in the JSON")
+
+
+def _accelerations(section: AccelerationsSection) -> Object:
+    result: Object = {"accelerations": _unless_none(section.accelerations, _by_name)}
+    if not section.regular:
+        result |= {"regular": False, "degenerate": section.degenerate}
+    return result
+
+
+def _multipliers(section: MultipliersSection) -> Object:
+    multipliers: Object = {
+        constraint: {"symbol": each.symbol, "value": _string(each.value), "kind": each.kind}
+        for constraint, each in section.multipliers.items()
+    }
+    redundant: Object = {"redundant": section.redundant} if section.redundant else {}
+    return {"multipliers": multipliers, **redundant}
+
+
+def _constraint_forces(section: ConstraintForcesSection) -> Object:
+    forces: Object = {
+        constraint: _unless_none(by_coordinate, _by_name)
+        for constraint, by_coordinate in section.forces.items()
+    }
+    result: Object = {"constraint_forces": forces}
+    if section.forces:
+        result["total_constraint_force"] = _unless_none(section.total, _by_name)
+    if section.on_points:
+        result["point_forces"] = {
+            constraint: {point: _strings(force) for point, force in by_point.items()}
+            for constraint, by_point in section.on_points.items()
+        }
+    return result
+
+
+def _charge(charge: Charge) -> Object:
+    return {
+        "name": charge.name,
+        "source": charge.source,
+        "transformation": _by_name(charge.transformation),
+        "gauge": _string(charge.gauge),
+        "conserved": charge.conserved,
+        "charge": _string(charge.charge),
+        "rate": _string(charge.rate),
+    }
+
+
+def _answer(answer: Solutions | Rewritten) -> Object:
+    match answer:
+        case Solutions(solutions=solutions):
+            return {"solutions": _unless_none(solutions, _strings)}
+        case Rewritten(value=value):
+            return {"value": _string(value)}
+
+
+def _equilibrium(equilibrium: Equilibrium) -> Object:
+    result: Object = {"at": _by_name(equilibrium.at), "stable": equilibrium.stable}
+    if equilibrium.condition:
+        result["condition"] = equilibrium.condition
+    if equilibrium.free:
+        result["free"] = equilibrium.free
+    return result
+
+
+def _mode(mode: Mode) -> Object:
+    result: Object = {"at": _by_name(mode.at), "frequency": _string(mode.frequency)}
+    if mode.frequency is None:
+        result["frequency_squared"] = _string(mode.frequency_squared)
+    shape = _unless_none(mode.shape, _by_name)
+    return result | {"shape": shape, "multiplicity": mode.multiplicity}
+
+
+def _unless_none(value: _Some | None, shown: Callable[[_Some], Value]) -> Value:
+    return None if value is None else shown(value)
+
+
+def _string(expression: Expression | None) -> Value:
+    return _unless_none(expression, to_grammar)
+
+
+def _strings(expressions: Sequence[Expression]) -> list[str]:
+    return [to_grammar(each) for each in expressions]
+
+
+def _by_name(expressions: Mapping[str, Expression | None]) -> Object:
+    return {name: _string(expression) for name, expression in expressions.items()}

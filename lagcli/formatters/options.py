@@ -1,0 +1,36 @@
+"""What a formatter is, and the few things one may ask of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from lagcli.answers import Answers
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Options:
+    """How to print.
+
+    Attributes
+    ----------
+    width : int
+        Display columns of the terminal; `text` prints no wider line.
+    unicode : bool
+        False where the terminal has ASCII only.
+    standalone : bool
+        `latex` and `html` print a whole document instead of a fragment.
+    """
+
+    width: int = 80
+    unicode: bool = True
+    standalone: bool = False
+
+
+class Formatter(Protocol):
+    """A function from results to text, one `Answers` for each file."""
+
+    def __call__(self, answers: Sequence[Answers], options: Options) -> str:
+        """Print the answers, one file after another."""
+        ...

@@ -1,0 +1,151 @@
+"""Where a formula needs brackets: decided once, for every notation.
+
+A notation says how each kind of node looks; `Printer` walks the tree and puts brackets
+around a part that binds less tightly than its place demands.
+"""
+
+# ruff: noqa: D102 - what a method shows is its name: `sum`, `product`, `power`
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from enum import IntEnum
+from typing import Generic, TypeVar
+
+from lagcli.expression import (
+    Call,
+    Diff,
+    Expression,
+    Name,
+    Negative,
+    Number,
+    PartialCall,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    walk,
+)
+
+Shown = TypeVar("Shown")
+
+
+class Level(IntEnum):
+    """How tightly a formula binds, loosest first."""
+
+    SUM = 1  # a + b, -a
+    QUOTIENT = 2  # a/b
+    PRODUCT = 3  # a*b
+    POWER = 4  # a^b
+    ATOM = 5  # x, 2, f(x)
+
+
+class Printer(ABC, Generic[Shown]):
+    """A notation: one method for each kind of node.
+
+    The tree is shown from its leaves upwards, so that a method finds its parts ready
+    (`show` looks them up) and no formula is too deep for Python's stack.
+    """
+
+    #: What the first factor of a product needs: 1/2*x is (1/2)*x in the grammar.
+    leading_factor = Level.QUOTIENT
+
+    def __init__(self) -> None:
+        self._ready: dict[int, Shown] = {}
+
+    def show(self, node: Expression) -> Shown:
+        """Set the formula in this notation."""
+        if id(node) in self._ready:
+            return self._ready[id(node)]
+        outermost = not self._ready
+        try:
+            for part in reversed(list(walk(node))):  # parts come before what holds them
+                if id(part) not in self._ready:
+                    self._ready[id(part)] = self._show(part)
+            return self._ready[id(node)]
+        finally:
+            if outermost:
+                self._ready.clear()
+
+    def at(self, node: Expression, lowest: Level) -> Shown:
+        """Set the formula for a place where anything looser than `lowest` needs brackets."""
+        shown = self.show(node)
+        return shown if self.level(node) >= lowest else self.bracketed(shown)
+
+    def level(self, node: Expression) -> Level:
+        """How tightly this node binds as it is shown."""
+        match node:
+            case Sum() | Negative():
+                return Level.SUM
+            case Quotient():
+                return Level.QUOTIENT
+            case Number(value=value) if value.denominator != 1:
+                return Level.QUOTIENT
+            case Product():
+                return Level.PRODUCT
+            case Power():
+                return Level.POWER
+            case _:
+                return Level.ATOM
+
+    def terms(self, node: Sum) -> list[tuple[bool, Shown]]:
+        """Set the terms of a sum, each with whether it is subtracted."""
+        signed = []
+        for term in node.terms:
+            minus = isinstance(term, Negative)
+            size = term.operand if isinstance(term, Negative) else term
+            signed.append((minus, self.at(size, Level.QUOTIENT)))
+        return signed
+
+    def factors(self, node: Product) -> list[Shown]:
+        """Set the factors of a product: a product that is itself a factor keeps its brackets."""
+        first, *others = node.factors
+        return [self.at(first, self.leading_factor), *(self.at(f, Level.POWER) for f in others)]
+
+    def _show(self, node: Expression) -> Shown:
+        match node:
+            case Number():
+                return self.number(node)
+            case Name():
+                return self.name(node)
+            case Negative():
+                return self.negative(node)
+            case Sum():
+                return self.sum(node)
+            case Product():
+                return self.product(node)
+            case Quotient():
+                return self.quotient(node)
+            case Power():
+                return self.power(node)
+            case Call():
+                return self.call(node)
+            case PartialCall():
+                return self.partial_call(node)
+            case Diff():
+                return self.diff(node)
+            case _:
+                raise TypeError(f"{type(node).__name__} has no notation")
+
+    @abstractmethod
+    def bracketed(self, shown: Shown) -> Shown: ...
+    @abstractmethod
+    def number(self, node: Number) -> Shown: ...
+    @abstractmethod
+    def name(self, node: Name) -> Shown: ...
+    @abstractmethod
+    def negative(self, node: Negative) -> Shown: ...
+    @abstractmethod
+    def sum(self, node: Sum) -> Shown: ...
+    @abstractmethod
+    def product(self, node: Product) -> Shown: ...
+    @abstractmethod
+    def quotient(self, node: Quotient) -> Shown: ...
+    @abstractmethod
+    def power(self, node: Power) -> Shown: ...
+    @abstractmethod
+    def call(self, node: Call) -> Shown: ...
+    @abstractmethod
+    def partial_call(self, node: PartialCall) -> Shown: ...
+    @abstractmethod
+    def diff(self, node: Diff) -> Shown: ...

@@ -1,0 +1,105 @@
+"""Formatters by name: the built-in ones, and those that other packages bring.
+
+All of them are entry points of the group `lagcli.formatters`.  A built-in name is
+resolved without looking at what is installed: that is quick, and nobody else can take it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from difflib import get_close_matches
+from importlib import import_module
+from importlib.metadata import EntryPoint, entry_points
+from typing import cast
+
+from lagcli.formatters.options import Formatter
+
+GROUP = "lagcli.formatters"
+
+#: The built-in formatters, in the order in which they are listed.
+BUILT_IN: dict[str, str] = {
+    name: f"lagcli.formatters.{name}:render"
+    for name in ("text", "json", "latex", "markdown", "html")
+}
+
+
+@dataclass(frozen=True, slots=True)
+class UnknownFormatter:
+    """A name that no formatter has, or whose plug-in does not load."""
+
+    name: str
+    message: str
+    suggestion: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ListedFormatter:
+    """One line of the list; `problem` says why a plug-in cannot be used."""
+
+    name: str
+    distribution: str
+    description: str
+    problem: str | None = None
+
+
+def find_formatter(name: str) -> Formatter | UnknownFormatter:
+    """Find the formatter of that name; only its own module is imported."""
+    if name in BUILT_IN:
+        module, _, function = BUILT_IN[name].partition(":")
+        return cast(Formatter, getattr(import_module(module), function))
+    plug_ins = [point for point in _plug_ins() if point.name == name]
+    if plug_ins:
+        return _loaded(plug_ins[0])
+    return _unknown(name)
+
+
+def list_formatters() -> tuple[ListedFormatter, ...]:
+    """List every formatter with its origin and what it says of itself."""
+    built_in = [_listed(name, "lagcli", find_formatter(name)) for name in BUILT_IN]
+    others: list[ListedFormatter] = []
+    for point in _plug_ins():
+        origin = point.dist.name if point.dist else "unknown"
+        taken = point.name in BUILT_IN or any(point.name == other.name for other in others)
+        if taken:
+            problem = f"the name {point.name!r} is taken"
+            others.append(ListedFormatter(point.name, origin, "", problem))
+        else:
+            others.append(_listed(point.name, origin, _loaded(point)))
+    return (*built_in, *others)
+
+
+def _plug_ins() -> list[EntryPoint]:
+    """Scan for the formatters of other packages, by name and then by package."""
+    points = [point for point in entry_points(group=GROUP) if not _ours(point)]
+    return sorted(points, key=lambda point: (point.name, point.dist.name if point.dist else ""))
+
+
+def _ours(point: EntryPoint) -> bool:
+    return BUILT_IN.get(point.name) == point.value
+
+
+def _loaded(point: EntryPoint) -> Formatter | UnknownFormatter:
+    try:
+        loaded = point.load()
+    except Exception as error:  # noqa: BLE001 - whatever a plug-in does wrong is reported
+        problem = f"formatter {point.name!r} does not load: {type(error).__name__}: {error}"
+        return UnknownFormatter(point.name, problem)
+    if not callable(loaded):
+        return UnknownFormatter(point.name, f"formatter {point.name!r} is not a function")
+    return cast(Formatter, loaded)
+
+
+def _listed(name: str, origin: str, found: Formatter | UnknownFormatter) -> ListedFormatter:
+    if isinstance(found, UnknownFormatter):
+        return ListedFormatter(name, origin, "", found.message)
+    description = (found.__doc__ or "").strip().partition("\n")[0]
+    return ListedFormatter(name, origin, description)
+
+
+def _unknown(name: str) -> UnknownFormatter:
+    known = [*BUILT_IN, *(point.name for point in _plug_ins())]
+    close = get_close_matches(name.lower(), known, n=1)
+    message = f"unknown format {name!r}"
+    if close:
+        return UnknownFormatter(name, f"{message}: did you mean {close[0]!r}?", close[0])
+    return UnknownFormatter(name, f"{message}: there are {', '.join(known)}")

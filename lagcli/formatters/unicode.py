@@ -1,0 +1,167 @@
+"""Expressions as one reads them on paper, on one line of Unicode: `M ẍ − M g sin(α)`."""
+
+# ruff: noqa: D102 - what a method shows is its name: `sum`, `product`, `power`
+
+from __future__ import annotations
+
+import unicodedata
+
+from lagcli.expression import (
+    Call,
+    Diff,
+    Expression,
+    Number,
+    PartialCall,
+    Power,
+    Product,
+)
+from lagcli.formatters.document import Label
+from lagcli.formatters.grammar import GrammarPrinter, text
+from lagcli.formatters.greek import BY_NAME, romanized
+from lagcli.formatters.layout import PRODUCT, Layout, Piece, joined
+from lagcli.formatters.naming import name_parts
+from lagcli.formatters.precedence import Level
+
+_SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+_SUPERSCRIPTS = str.maketrans("0123456789−n", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿ")
+_RAISABLE = frozenset("0123456789−n")
+_DOTS = {1: "\N{COMBINING DOT ABOVE}", 2: "\N{COMBINING DIAERESIS}"}
+_FRACTIONS = {(1, 2): "½", (1, 4): "¼", (3, 4): "¾"}
+_ORDINARY_FUNCTIONS = {
+    "sqrt": "√",
+    "log": "ln",
+    "sign": "sgn",
+    "asin": "arcsin",
+    "acos": "arccos",
+    "atan": "arctan",
+    "asinh": "arsinh",
+    "acosh": "arcosh",
+    "atanh": "artanh",
+}
+#: sin²(x): functions whose powers are written behind their names.
+_RAISED_BY_NAME = frozenset(("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh"))
+
+
+class UnicodePrinter(GrammarPrinter):
+    """The notation for reading: factors side by side, dots for d/dt, Greek letters."""
+
+    minus = "−"
+    leading_factor = Level.PRODUCT
+
+    def spelled(self, name: str, primes: int) -> str:
+        return unicode_name(name, primes)
+
+    def product(self, node: Product) -> Layout:
+        first, *others = self.factors(node)
+        pieces = [*first]
+        for after, factor in zip(node.factors[1:], others, strict=True):
+            pieces += [_before(after), *factor]
+        return tuple(pieces)
+
+    def factors(self, node: Product) -> list[Layout]:
+        shown = super().factors(node)
+        first = node.factors[0]
+        if isinstance(first, Number):
+            glyph = _FRACTIONS.get((first.value.numerator, first.value.denominator))
+            if glyph:
+                shown[0] = text(glyph)
+        return shown
+
+    def power(self, node: Power) -> Layout:
+        exponent = joined(self.show(node.exponent))
+        if len(exponent) > 4 or not _RAISABLE.issuperset(exponent):
+            return super().power(node)
+        raised = text(exponent.translate(_SUPERSCRIPTS))
+        base = node.base
+        if (
+            isinstance(base, Call)
+            and base.function in _RAISED_BY_NAME
+            and not exponent.startswith("−")
+        ):
+            return (*text(base.function), *raised, *self.arguments(base.arguments))
+        return (*self.at(base, Level.ATOM), *raised)
+
+    def call(self, node: Call) -> Layout:
+        if node.function in _ORDINARY_FUNCTIONS:
+            return (*text(_ORDINARY_FUNCTIONS[node.function]), *self.arguments(node.arguments))
+        return (
+            *text(_with_primes(self.spelled(node.function, 0), node.primes)),
+            *self.arguments(node.arguments),
+        )
+
+    def partial_call(self, node: PartialCall) -> Layout:
+        slots = "".join(f"∂{str(index).translate(_SUBSCRIPTS)}" for index in node.indices)
+        return (*text(slots + self.spelled(node.function, 0)), *self.arguments(node.arguments))
+
+    def diff(self, node: Diff) -> Layout:
+        return (
+            *text("∂"),
+            *self.arguments((node.operand,)),
+            *text("/∂"),
+            *self.show(node.variable),
+        )
+
+    def level(self, node: Expression) -> Level:
+        return Level.QUOTIENT if isinstance(node, Diff) else super().level(node)
+
+    def label(self, label: Label) -> Layout:
+        """Show a symbol of the page."""
+        letter = self.spelled(label.letter, 0)
+        names = [self.spelled(name, 0) for name in label.index]
+        if label.change:
+            return text("Δ" + letter)
+        if label.matrix:
+            return text(letter + (f"[{', '.join(names)}]" if names else ""))
+        return text("_".join([letter, *names]))
+
+
+class AsciiPrinter(GrammarPrinter):
+    """The notation of the problem format with every letter in ASCII."""
+
+    def spelled(self, name: str, primes: int) -> str:
+        return romanized(name) + "'" * primes
+
+    def label(self, label: Label) -> Layout:
+        """Show a symbol of the page."""
+        names = [romanized(name) for name in label.index]
+        letter = romanized(label.letter)
+        if label.change:
+            return text(f"Delta {letter}")
+        if label.matrix:
+            return text(letter + (f"[{', '.join(names)}]" if names else ""))
+        return text("_".join([letter, *names]))
+
+
+def unicode_name(name: str, primes: int = 0) -> str:
+    """Spell a name for reading: `theta_1` with two primes is θ̈₁, `lambda_rolling` is λ_rolling."""
+    parts = name_parts(name)
+    base = BY_NAME.get(parts.base, parts.base)
+    if primes in _DOTS and len(base) == 1:
+        base = unicodedata.normalize("NFC", base + _DOTS[primes])
+        primes = 0
+    shown = base
+    for subscript in parts.subscripts:
+        if subscript.isascii() and subscript.isdigit():
+            again = shown[-1] in "₀₁₂₃₄₅₆₇₈₉"
+            shown += f"_{subscript}" if again else subscript.translate(_SUBSCRIPTS)
+        else:
+            inner = name_parts(subscript)
+            digits = "".join(inner.subscripts).translate(_SUBSCRIPTS)
+            shown += "_" + BY_NAME.get(inner.base, inner.base) + digits
+    return _with_primes(shown, primes)
+
+
+def _with_primes(name: str, primes: int) -> str:
+    return name + {0: "", 1: "′", 2: "″", 3: "‴"}.get(primes, "′" * primes)
+
+
+def _before(after: Expression) -> Piece:
+    """Put a space between factors, a dot where a space could be misread or overlooked."""
+    dotted = _begins_with_digit(after)
+    return Piece("·" if dotted else " ", 1, rank=PRODUCT, broken="· ", broken_width=2)
+
+
+def _begins_with_digit(node: Expression) -> bool:
+    while isinstance(node, Power):
+        node = node.base
+    return isinstance(node, Number) and node.value.denominator == 1

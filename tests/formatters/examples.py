@@ -1,0 +1,296 @@
+"""Answers to develop and test against: a hoop with every section, and a hostile file."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from lagcli.answers import (
+    AccelerationsSection,
+    AlgebraSection,
+    Answers,
+    CanonicalPair,
+    CanonicalSection,
+    Charge,
+    ChargesSection,
+    ConstraintForcesSection,
+    EnergySection,
+    EquationsSection,
+    EquilibriaSection,
+    Equilibrium,
+    FindSection,
+    HamiltonianSection,
+    LagrangeEquation,
+    LagrangianSection,
+    MatrixFormSection,
+    Mode,
+    ModelSection,
+    ModesSection,
+    MomentaSection,
+    Multiplier,
+    MultipliersSection,
+    Rewritten,
+    Solutions,
+)
+from lagcli.expression import (
+    Call,
+    Diff,
+    Expression,
+    Name,
+    Negative,
+    Number,
+    PartialCall,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+)
+
+ZERO, ONE, TWO = (Number(Fraction(n)) for n in (0, 1, 2))
+
+
+def number(numerator: int, denominator: int = 1) -> Number:
+    return Number(Fraction(numerator, denominator))
+
+
+def times(*factors: Expression) -> Product:
+    return Product(factors)
+
+
+def plus(*terms: Expression) -> Sum:
+    return Sum(terms)
+
+
+def sin(x: Expression) -> Call:
+    return Call("sin", (x,))
+
+
+def square(x: Expression) -> Power:
+    return Power(x, TWO)
+
+
+M, R, g, ell, t, x = (Name(name) for name in "MRgltx")
+theta, alpha = Name("theta"), Name("alpha")
+p_x, p_theta, lam = Name("p_x"), Name("p_theta"), Name("lambda_rolling")
+sine = sin(alpha)
+dx, dtheta = Name("x", 1), Name("theta", 1)
+kinetic_x = Quotient(times(M, square(dx)), TWO)
+kinetic_theta = Quotient(times(M, square(R), square(dtheta)), TWO)
+potential = times(M, g, plus(ell, Negative(x)), sine)
+energy = plus(kinetic_x, kinetic_theta, potential)
+hamiltonian = plus(
+    Quotient(square(p_x), times(TWO, M)),
+    Quotient(square(p_theta), times(TWO, M, square(R))),
+    potential,
+)
+minus_half = Negative(Quotient(times(M, g, sine), TWO))
+half_r = Quotient(times(M, R, g, sine), TWO)
+
+HOOP = Answers(
+    title="Hoop rolling without slipping down an incline",
+    coordinates=("x", "theta"),
+    parameters=("M", "R", "l", "alpha", "g"),
+    degrees_of_freedom=1,
+    multipliers={"lambda_rolling": "rolling"},
+    sections={
+        "lagrangian": LagrangianSection(
+            lagrangian=plus(kinetic_x, kinetic_theta, Negative(potential))
+        ),
+        "equations": EquationsSection(
+            equations=(
+                LagrangeEquation(
+                    coordinate="x",
+                    left=plus(times(M, Name("x", 2)), Negative(times(M, g, sine))),
+                    right=lam,
+                ),
+                LagrangeEquation(
+                    coordinate="theta",
+                    left=times(M, square(R), Name("theta", 2)),
+                    right=Negative(times(R, lam)),
+                ),
+            ),
+            constraints={"rolling": (plus(x, Negative(times(R, theta))), ZERO)},
+        ),
+        "matrix_form": MatrixFormSection(
+            mass_matrix=((M, ZERO), (ZERO, times(M, square(R)))),
+            constraint_jacobian=((ONE, Negative(R)),),
+            forcing=(times(Name("s1"), sine), ZERO),
+            constraint_bias=(ZERO,),
+            shared={"s1": times(M, g)},
+        ),
+        "accelerations": AccelerationsSection(
+            accelerations={
+                "x": Quotient(times(g, sine), TWO),
+                "theta": Quotient(times(g, sine), times(TWO, R)),
+            },
+            verified="exact",
+        ),
+        "multipliers": MultipliersSection(
+            multipliers={
+                "rolling": Multiplier(
+                    symbol="lambda_rolling", value=minus_half, kind="holonomic", verified="exact"
+                )
+            }
+        ),
+        "constraint_forces": ConstraintForcesSection(
+            forces={"rolling": {"x": minus_half, "theta": half_r}},
+            total={"x": minus_half, "theta": half_r},
+            on_points={"rolling": {"rim": (minus_half, ZERO)}},
+        ),
+        "momenta": MomentaSection(
+            momenta={"x": times(M, dx), "theta": times(M, square(R), dtheta)}, cyclic=("theta",)
+        ),
+        "energy": EnergySection(
+            function=energy,
+            conserved=True,
+            is_total_energy=True,
+            reason="Neither L nor the constraints depend on the time.",
+        ),
+        "hamiltonian": HamiltonianSection(hamiltonian=hamiltonian),
+        "canonical_equations": CanonicalSection(
+            equations={
+                "x": CanonicalPair(q=Quotient(p_x, M), p=plus(times(M, g, sine), lam)),
+                "theta": CanonicalPair(
+                    q=Quotient(p_theta, times(M, square(R))), p=Negative(times(R, lam))
+                ),
+            }
+        ),
+        "charges": ChargesSection(
+            charges=(
+                Charge(
+                    name="slide",
+                    source="candidate",
+                    transformation={"x": R, "theta": ONE},
+                    gauge=times(M, R, g, t, sine),
+                    conserved=True,
+                    charge=plus(
+                        times(M, R, dx),
+                        times(M, square(R), dtheta),
+                        Negative(times(M, R, g, t, sine)),
+                    ),
+                    rate=ZERO,
+                    verified="exact",
+                ),
+                Charge(
+                    name="spin",
+                    source="candidate",
+                    transformation={"theta": ONE},
+                    gauge=ZERO,
+                    conserved=False,
+                    charge=times(M, square(R), dtheta),
+                    rate=half_r,
+                    verified="50 digits",
+                    broken_by="the constraint force of 'rolling' along theta",
+                ),
+            )
+        ),
+        "discovered": ChargesSection(charges=()),
+        "algebra": AlgebraSection(
+            ansatz="coefficients of degree 1 in x, theta and t",
+            dimension=5,
+            name="h_1 + R",
+            independent=2,
+            in_involution=1,
+            integrable=True,
+        ),
+        "find": FindSection(
+            answers={
+                "lift_off": Solutions(unknown="theta", solutions=(Call("acos", (number(4, 7),)),)),
+                "never": Solutions(unknown="x'", solutions=()),
+                "tension": Rewritten(value=minus_half, subject=lam),
+                "lost": Rewritten(value=None, note="The time allowed ran out."),
+            }
+        ),
+        "equilibria": EquilibriaSection(
+            equilibria=(
+                Equilibrium(at={"theta": ZERO}, stable=True, condition="g > 0", free=("x",)),
+                Equilibrium(at={"theta": Name("pi")}, stable=None),
+            )
+        ),
+        "modes": ModesSection(
+            modes=(
+                Mode(
+                    at={"theta": ZERO},
+                    frequency=Call("sqrt", (Quotient(g, ell),)),
+                    frequency_squared=Quotient(g, ell),
+                    shape={"theta": ONE},
+                ),
+                Mode(
+                    at={"theta": Name("pi")},
+                    frequency=None,
+                    frequency_squared=Negative(Quotient(g, ell)),
+                    shape=None,
+                    multiplicity=2,
+                ),
+            )
+        ),
+        "model": ModelSection(
+            kept=("x",),
+            eliminated={"theta": Quotient(x, R)},
+            ignorable=("l",),
+            reason={"theta": "the constraint 'rolling' gives it"},
+        ),
+    },
+)
+
+ugly = Name("длина_волны")
+tower = square(plus(Negative(x), square(plus(ugly, Negative(Negative(theta))))))
+long_sum = plus(
+    *(
+        times(Name(f"mass_{i}"), sin(plus(Name(f"theta_{i}"), Negative(Name(f"φ_{i}")))), square(x))
+        for i in range(14)
+    )
+)
+HOSTILE = Answers(
+    title="\x1b[31mred\x1b[0m \\input{/etc/passwd} $x_1^2$ <b>&amp;</b> 100% #1 ~ {}`|* "
+    "\u202eевил 中文 θ é",
+    coordinates=("theta_1", "phase", "длина_волны"),
+    parameters=("omega_max", "m12", "varphi", "φ", "ϕ", "t_"),
+    degrees_of_freedom=12,
+    multipliers={"lambda_rod_1": "rod_1"},
+    warnings=("`m12` was not found: time ran out <script>", "second"),
+    complete=False,
+    sections={
+        "lagrangian": LagrangianSection(lagrangian=Quotient(long_sum, times(TWO, tower))),
+        "equations": EquationsSection(
+            equations=(
+                LagrangeEquation(coordinate="phase", left=long_sum, right=Negative(long_sum)),
+                LagrangeEquation(
+                    coordinate="theta_1",
+                    left=Quotient(x, plus(long_sum, ONE)),
+                    right=Power(plus(x, Negative(ONE)), Quotient(long_sum, Name("phase", 2))),
+                ),
+                LagrangeEquation(
+                    coordinate="x",
+                    left=PartialCall("Phi", (1, 2), (x, Power(theta, number(1, 2)))),
+                    right=Diff(plus(Call("U", (x,), 2), Negative(Negative(x))), theta),
+                ),
+            ),
+        ),
+        "matrix_form": MatrixFormSection(
+            mass_matrix=((long_sum, ZERO), (ZERO, times(tower, number(1, 2)))),
+            constraint_jacobian=(),
+            forcing=(long_sum, Call("abs", (Call("log", (x,)),))),
+            constraint_bias=(),
+        ),
+        "accelerations": AccelerationsSection(
+            accelerations=None, regular=False, degenerate=("phase",)
+        ),
+        "multipliers": MultipliersSection(
+            multipliers={
+                "rod_1": Multiplier(symbol="lambda_rod_1", value=None, kind="nonholonomic")
+            },
+            redundant=("rod_1",),
+        ),
+        "constraint_forces": ConstraintForcesSection(forces={"rod_1": None}, total=None),
+        "energy": EnergySection(
+            function=Call("sqrt", (long_sum,)),
+            conserved=None,
+            is_total_energy=None,
+            reason="x_1 & 100% undecided",
+        ),
+        "hamiltonian": HamiltonianSection(hamiltonian=None, reason="p_x' = {x} is cubic"),
+        "canonical_equations": CanonicalSection(equations=None, reason="no Hamiltonian"),
+        "equilibria": EquilibriaSection(equilibria=None),
+        "modes": ModesSection(modes=None),
+    },
+)

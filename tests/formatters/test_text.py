@@ -1,0 +1,116 @@
+"""The text formatter: readable, within the width, harmless to a terminal."""
+
+from __future__ import annotations
+
+import pytest
+
+from lagcli.expression import Name
+from lagcli.formatters.display_width import display_width
+from lagcli.formatters.layout import joined
+from lagcli.formatters.options import Options
+from lagcli.formatters.text import render
+from lagcli.formatters.unicode import UnicodePrinter, unicode_name
+
+from .examples import (
+    HOOP,
+    HOSTILE,
+    TWO,
+    M,
+    R,
+    g,
+    kinetic_x,
+    minus_half,
+    number,
+    plus,
+    sin,
+    square,
+    times,
+    x,
+)
+
+
+def shown(node):
+    return joined(UnicodePrinter().show(node))
+
+
+@pytest.mark.parametrize(
+    ("name", "primes", "text"),
+    [
+        ("x", 1, "ẋ"),
+        ("theta", 2, "θ̈"),
+        ("theta_1", 1, "θ̇₁"),
+        ("theta_1", 0, "θ₁"),
+        ("x1", 0, "x₁"),
+        ("lambda_rolling", 0, "λ_rolling"),
+        ("p_theta_1", 0, "p_θ₁"),
+        ("phase", 2, "phase″"),
+        ("x", 3, "x‴"),
+        ("_x", 0, "_x"),
+    ],
+)
+def test_names_are_read_as_on_paper(name, primes, text):
+    assert unicode_name(name, primes) == text
+
+
+@pytest.mark.parametrize(
+    ("node", "text"),
+    [
+        (kinetic_x, "M ẋ²/2"),
+        (minus_half, "−M g sin(α)/2"),
+        (times(number(1, 2), M, square(x)), "½ M x²"),
+        (times(number(1, 3), M), "(1/3) M"),
+        (times(TWO, number(3), x), "2·3 x"),
+        (square(sin(x)), "sin²(x)"),
+        (times(M, plus(g, R)), "M (g + R)"),
+        (square(square(x)), "(x²)²"),
+    ],
+)
+def test_formulas_are_read_without_doubt(node, text):
+    assert shown(node) == text
+
+
+@pytest.mark.parametrize("width", [30, 40, 60, 80, 200])
+@pytest.mark.parametrize("unicode", [True, False])
+def test_no_line_is_wider_than_asked(width, unicode):
+    for line in render([HOOP, HOSTILE], Options(width=width, unicode=unicode)).splitlines():
+        assert display_width(line) <= width, line
+
+
+@pytest.mark.parametrize("width", [1, 7, 15])
+def test_any_width_is_survived(width):
+    assert render([HOOP, HOSTILE], Options(width=width))
+
+
+def test_ascii_is_ascii():
+    assert render([HOOP, HOSTILE], Options(unicode=False)).isascii()
+
+
+def test_nothing_reaches_the_terminal_that_it_would_act_upon():
+    printed = render([HOSTILE], Options())
+    assert "\x1b" not in printed
+    assert "\u202e" not in printed
+
+
+def test_wide_characters_take_two_columns():
+    assert [display_width(text) for text in ("ẋ", "θ̈", "中文", "ab")] == [1, 1, 4, 2]
+
+
+def test_every_section_is_there():
+    printed = render([HOOP], Options())
+    for words in (
+        "L = M ẋ²/2 + M R² θ̇²/2 − M g (l − x) sin(α)",
+        "checked exactly",
+        "at random states to 50 digits",
+        "Q̇  = M R g sin(α)/2",
+        "the constraint force",
+        "(rolling: holonomic)",
+        "θ = arccos(4/7)",
+    ):
+        assert words in printed
+
+
+def test_a_name_is_never_broken():
+    long_name = "a" * 50
+    node = plus(*(Name(long_name + str(i)) for i in range(3)))
+    assert long_name in shown(node)
+    assert Name("x") in plus(x, g).terms
