@@ -1,0 +1,9 @@
+"""Text to a checked `Problem`: YAML nodes with positions, expressions, names.
+
+Reading runs nothing of what it reads.
+"""
+
+from lagcli.reader.expressions import parse_equation_text, parse_text
+from lagcli.reader.problem_file import Reading, read_problem
+
+__all__ = ["Reading", "parse_equation_text", "parse_text", "read_problem"]

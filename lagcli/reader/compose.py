@@ -1,0 +1,176 @@
+"""Text to nodes, from the events of the YAML parser.
+
+Events need no recursion and construct nothing: a tag is an error, an alias is a
+reference to the node it names, and what the aliases expand to is counted.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import yaml
+
+from lagcli.diagnostics import Diagnostic
+from lagcli.reader.flow import mend_commas
+from lagcli.reader.limits import EXPANDED_SIZE, YAML_LEVELS
+from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence
+from lagcli.reader.text import Mistake, Text
+from lagcli.reader.yaml_errors import explain
+
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+def compose(text: Text) -> tuple[Node, list[Diagnostic]]:
+    """The one document of a file.
+
+    Returns
+    -------
+    root : Node
+        The document.
+    diagnostics : list of Diagnostic
+        Mistakes after which the rest of the file can still be read: duplicate keys, tags,
+        commas that cut a formula in two.
+
+    Raises
+    ------
+    Mistake
+        When there is no document, more than one, or none that YAML can read.
+    """
+    composer = _Composer(text)
+    try:
+        for event in yaml.parse(text.source.text, Loader=_LOADER):
+            composer.take(event)
+    except yaml.YAMLError as error:
+        raise Mistake(explain(error, text)) from None
+    if composer.root is None:
+        where = text.span(0, 0)
+        raise Mistake(Diagnostic("the file is empty", where, "a problem has 'coordinates' at least"))
+    return composer.root, composer.diagnostics
+
+
+@dataclass(slots=True)
+class _Open:
+    """A list or map whose end has not come yet."""
+
+    start: int
+    anchor: str | None
+    is_map: bool
+    is_flow: bool
+    children: list[Node] = field(default_factory=list)
+
+
+class _Composer:
+    """Builds the tree as the events come."""
+
+    def __init__(self, text: Text) -> None:
+        self.text = text
+        self.root: Node | None = None
+        self.diagnostics: list[Diagnostic] = []
+        self._stack: list[_Open] = []
+        self._anchors: dict[str, Node | None] = {}  # None while its node is still open
+        self._documents = 0
+
+    def take(self, event: Any) -> None:
+        """Use the next event."""
+        start, end = event.start_mark.index, event.end_mark.index
+        match event:
+            case yaml.DocumentStartEvent():
+                self._documents += 1
+                if self._documents > 1:
+                    self._stop(start, end, "a second document begins here", "one problem, one file")
+            case yaml.ScalarEvent():
+                self._check_tag(event)
+                node = Scalar(
+                    self.text, start, end, event.value, event.style or "", self._in_flow,
+                    size=1 + len(event.value), anchored=event.anchor is not None,
+                )  # fmt: skip
+                self._add(node, event.anchor)
+            case yaml.AliasEvent():
+                self._add(self._alias(event.anchor, start, end), None)
+            case yaml.CollectionStartEvent():
+                self._check_tag(event)
+                self._open(event, start, end)
+            case yaml.CollectionEndEvent():
+                self._close(end)
+
+    @property
+    def _in_flow(self) -> bool:
+        return bool(self._stack) and self._stack[-1].is_flow
+
+    def _open(self, event: Any, start: int, end: int) -> None:
+        if len(self._stack) >= YAML_LEVELS:
+            self._stop(start, end, f"lists and maps more than {YAML_LEVELS} levels deep")
+        if event.anchor is not None:
+            self._anchors[event.anchor] = None
+        is_map = isinstance(event, yaml.MappingStartEvent)
+        self._stack.append(_Open(start, event.anchor, is_map, bool(event.flow_style)))
+
+    def _close(self, end: int) -> None:
+        done = self._stack.pop()
+        node: Node
+        size = 1 + sum(child.size for child in done.children)
+        if size > EXPANDED_SIZE:
+            message = f"the aliases expand to more than {EXPANDED_SIZE >> 20} MiB"
+            self._stop(done.start, done.start + 1, message)
+        anchored = done.anchor is not None
+        if done.is_map:
+            entries = self._entries(done.children)
+            node = Mapping(self.text, done.start, end, entries, size=size, anchored=anchored)
+        else:
+            items = done.children
+            node = Sequence(self.text, done.start, end, items, size=size, anchored=anchored)
+        if done.is_flow:
+            self.diagnostics += mend_commas(node)
+        self._add(node, done.anchor)
+
+    def _entries(self, children: list[Node]) -> list[tuple[Scalar, Node]]:
+        entries: dict[str, tuple[Scalar, Node]] = {}
+        for key, value in zip(children[::2], children[1::2], strict=True):
+            if not isinstance(key, Scalar):
+                self._report(key.start, key.end, "a key must be a text")
+            elif key.label == "<<":
+                self._report(key.start, key.end, "the merge key '<<' is not part of the format")
+            elif key.label in entries:
+                first = entries[key.label][0]
+                related = ((first.span, "first given here"),)
+                self._report(
+                    key.start, key.end, f"the key '{key.label}' is given twice", related=related
+                )
+            else:
+                entries[key.label] = (key, value)
+        return list(entries.values())
+
+    def _add(self, node: Node, anchor: str | None) -> None:
+        if anchor is not None:
+            self._anchors[anchor] = node
+        if self._stack:
+            self._stack[-1].children.append(node)
+        else:
+            self.root = node
+
+    def _alias(self, anchor: str, start: int, end: int) -> Node:
+        if anchor not in self._anchors:
+            self._stop(start, end, f"no anchor '&{anchor}' stands before this alias")
+        node = self._anchors[anchor]
+        if node is None:
+            self._stop(start, end, f"the alias '*{anchor}' stands inside of what it names")
+        assert node is not None
+        return node
+
+    def _check_tag(self, event: Any) -> None:
+        if event.tag is not None and event.tag not in {"!", "tag:yaml.org,2002:str"}:
+            end = event.end_mark.index
+            written = self.text.source.text[event.start_mark.index : end].split(maxsplit=1)
+            width = len(written[0]) if written else 1
+            start = event.start_mark.index
+            self._report(start, start + width, "tags are not part of the format", hint="leave it out")
+
+    def _report(
+        self, start: int, end: int, message: str, hint: str = "", related: Any = ()
+    ) -> None:
+        span = self.text.span(start, end)
+        self.diagnostics.append(Diagnostic(message, span, hint, related=related))
+
+    def _stop(self, start: int, end: int, message: str, hint: str = "") -> None:
+        raise Mistake(Diagnostic(message, self.text.span(start, end), hint))

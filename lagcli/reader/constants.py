@@ -1,0 +1,157 @@
+"""Constant powers that are too large to write down, and divisions by a constant 0.
+
+Nothing large is computed: a constant is followed exactly while it is small, and by the
+number of its digits when it is not.  log10 of numerator and denominator of a power is
+|exponent| times that of the base.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import inf, log10
+
+from lagcli.expression import (
+    Call,
+    Expression,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    children,
+)
+from lagcli.reader.builder import mistake
+from lagcli.reader.limits import NUMBER_DIGITS, POWER_DIGITS, thousands
+
+#: Functions without a value at 0.
+_UNDEFINED_AT_ZERO = frozenset({"log", "cot", "csc"})
+
+
+@dataclass(frozen=True, slots=True)
+class _Constant:
+    """What is known of the number that a formula contains as a factor."""
+
+    digits: float = 0.0  # log10 of the larger of numerator and denominator
+    value: Fraction | None = None  # exactly, when the formula is a rational number not too large
+
+    @classmethod
+    def of(cls, value: Fraction) -> _Constant:
+        """A number that is known exactly."""
+        return cls(log10(max(abs(value.numerator), value.denominator)), value)
+
+
+_NOTHING = _Constant()
+
+
+def check_constants(expression: Expression) -> None:
+    """`Mistake` at the first power too large, or division by 0, among constants."""
+    if not any(isinstance(node, Power | Quotient | Call) for node in _postorder(expression)):
+        return
+    values: list[_Constant] = []
+    for node in _postorder(expression):
+        count = len(children(node))
+        parts = values[len(values) - count :]
+        del values[len(values) - count :]
+        found = _evaluate(node, parts)
+        if found.digits > POWER_DIGITS:
+            bound = thousands(POWER_DIGITS)
+            what = "power" if isinstance(node, Power) else "number"
+            message = f"a constant {what} of more than {bound} digits"
+            raise mistake(message, node.span, f"the limit is {bound}")
+        if found.value is not None and found.digits > NUMBER_DIGITS:
+            found = _Constant(found.digits)
+        values.append(found)
+
+
+def _postorder(expression: Expression) -> Sequence[Expression]:
+    """The nodes, each after its parts, without recursion."""
+    order: list[Expression] = []
+    stack = [expression]
+    while stack:
+        node = stack.pop()
+        order.append(node)
+        stack.extend(children(node))
+    order.reverse()
+    return order
+
+
+def _evaluate(node: Expression, parts: list[_Constant]) -> _Constant:
+    match node:
+        case Number(value=value):
+            return _Constant.of(value)
+        case Negative():
+            value = parts[0].value
+            return _Constant(parts[0].digits, None if value is None else -value)
+        case Sum():
+            return _sum(parts)
+        case Product():
+            return _product(parts)
+        case Quotient():
+            if parts[1].value == 0:
+                raise mistake("division by zero", node.denominator.span)
+            return _product([parts[0], _reciprocal(parts[1])])
+        case Power():
+            return _power(node, *parts)
+        case Call(function=function) if function in _UNDEFINED_AT_ZERO and parts[0].value == 0:
+            raise mistake(f"{function}(0) is not a number", node.span)
+        case Call(function="sqrt", primes=0) if parts:
+            return _Constant(parts[0].digits / 2)
+        case _:
+            return _NOTHING
+
+
+def _sum(parts: list[_Constant]) -> _Constant:
+    total = Fraction(0)
+    for part in parts:
+        if part.value is None:
+            return _NOTHING
+        total += part.value
+        if max(total.numerator.bit_length(), total.denominator.bit_length()) > 4 * NUMBER_DIGITS:
+            return _NOTHING
+    return _Constant.of(total)
+
+
+def _product(parts: list[_Constant]) -> _Constant:
+    digits = sum(part.digits for part in parts)
+    if digits > NUMBER_DIGITS:
+        return _Constant(digits)
+    product = Fraction(1)
+    for part in parts:
+        if part.value is None:
+            return _Constant(digits)
+        product *= part.value
+    return _Constant.of(product)
+
+
+def _reciprocal(part: _Constant) -> _Constant:
+    return _Constant(part.digits, None if part.value is None else 1 / part.value)
+
+
+def _power(node: Power, base: _Constant, exponent: _Constant) -> _Constant:
+    if exponent.value is None:
+        return _Constant(inf if _is_large(exponent) and base.digits > 0 else 0.0)
+    if base.value == 0 and exponent.value < 0:
+        raise mistake("division by zero", node.span, "0 has no negative power")
+    if base.digits == 0 or base.value == 0:
+        exact = base.value is not None and exponent.value.denominator == 1
+        return _Constant.of(_sign_power(base.value, exponent.value)) if exact else _NOTHING
+    size = exponent.value.numerator / exponent.value.denominator if exponent.digits < 300 else inf
+    digits = base.digits * abs(size)
+    if base.value is None or exponent.value.denominator != 1 or digits > NUMBER_DIGITS:
+        return _Constant(digits)
+    return _Constant.of(base.value ** int(exponent.value))
+
+
+def _is_large(exponent: _Constant) -> bool:
+    """Whether the exponent has been too large to follow: even 2 to it has no end."""
+    return exponent.digits > NUMBER_DIGITS
+
+
+def _sign_power(base: Fraction | None, exponent: Fraction) -> Fraction:
+    """Powers of 0, 1 and -1, whatever the exponent."""
+    if base == 0:
+        return Fraction(1 if exponent == 0 else 0)
+    return Fraction(1) if base == 1 or exponent % 2 == 0 else Fraction(-1)

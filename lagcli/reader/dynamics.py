@@ -1,0 +1,144 @@
+"""The sections that say how the system moves: definitions, points, T, V, L, forces."""
+
+from __future__ import annotations
+
+from lagcli.diagnostics import Span
+from lagcli.expression import Expression
+from lagcli.problem import Point, Problem
+from lagcli.reader.names import derivative_order
+from lagcli.reader.nodes import Node, Scalar, Sequence
+from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Role
+from lagcli.reader.sections import Sections
+from lagcli.reader.suggest import did_you_mean
+
+_POINT_ATTRIBUTES = ("position", "mass", "force")
+
+
+def check_energies(sections: Sections, given: dict[str, Scalar]) -> None:
+    """The kinetic energy comes from one place: L, or T, or the masses of the points."""
+    for key in ("T", "V"):
+        if "L" in given and key in given:
+            related = ((given["L"].span, "L is given here"),)
+            message = f"both L and {key} are given"
+            sections.error(message, given[key].span, "give L, or T and V", related)
+    if not given.keys() & {"L", "T", "points"}:
+        span = given["coordinates"].span if "coordinates" in given else Span(1, 1, 1, 1)
+        sections.error("there is no kinetic energy", span, "give T, or points with masses, or L")
+
+
+def check_masses(sections: Sections, problem: Problem) -> None:
+    """Without T and L, every point needs a mass."""
+    if problem.kinetic is not None or problem.lagrangian is not None:
+        return
+    for point in problem.points:
+        if point.mass is None:
+            message = f"the point '{point.name}' has no mass, and there is no T"
+            sections.error(message, point.span, "give its mass, or T, or L")
+
+
+def check_momenta(sections: Sections) -> None:
+    """`p_x` is the momentum of the coordinate x and cannot be declared."""
+    for name, span in sections.scope.spans.items():
+        coordinate = sections.scope.coordinate_of_momentum(name)
+        if coordinate is not None:
+            related = ((sections.scope.spans[coordinate], "the coordinate"),)
+            message = f"'{name}' is the momentum of the coordinate '{coordinate}'"
+            sections.error(message, span, "choose another name", related)
+
+
+def declare_definitions(sections: Sections, node: Node) -> list[tuple[Scalar, Node]]:
+    """Enter the definitions into the scope in the order of the file."""
+    declared = []
+    for key, value in sections.entries(node, "definitions", "write d: expression"):
+        if sections.declare(key.label, "definition", key.span):
+            sections.scope.definitions[key.label] = Definition(place=len(declared))
+            declared.append((key, value))
+    return declared
+
+
+def read_definitions(
+    sections: Sections, declared: list[tuple[Scalar, Node]]
+) -> dict[str, Expression]:
+    """The definitions; the scope learns which derivatives each contains."""
+    definitions = {}
+    for place, (key, value) in enumerate(declared):
+        what = f"the definition of '{key.label}'"
+        expression = sections.expression(value, what, STATE, before=place)
+        definitions[key.label] = expression
+        order = derivative_order(expression, sections.scope)
+        sections.scope.definitions[key.label].order = min(order, STATE.order)
+    return definitions
+
+
+def read_points(sections: Sections, node: Node) -> tuple[Point, ...]:
+    """The particles."""
+    points = []
+    hint = "write name: {position: [x, y], mass: m}"
+    for key, value in sections.entries(node, "points", hint):
+        what = f"the point '{key.label}'"
+        attributes = {
+            name: attribute
+            for name, (_, attribute) in sections.attributes(value, what, _POINT_ATTRIBUTES).items()
+        }
+        if "position" not in attributes:
+            sections.error(f"{what} has no position", key.span)
+            continue
+        position = _position(sections, attributes["position"], key.label)
+        mass = force = None
+        if "mass" in attributes:
+            mass = sections.expression(attributes["mass"], f"the mass of '{key.label}'", MASS)
+        if "force" in attributes:
+            force = _force(sections, attributes["force"], key.label, len(position))
+        points.append(
+            Point(name=key.label, position=position, mass=mass, force=force, span=key.span)
+        )
+    return tuple(points)
+
+
+def _position(sections: Sections, node: Node, name: str) -> tuple[Expression, ...]:
+    what = f"the position of '{name}'"
+    if isinstance(node, Scalar) and not node.is_empty:
+        sections.error(f"{what} must be a list of components", node.span,
+                       f"write [{_shown(node.value)}]")  # fmt: skip
+        return ()
+    items = sections.items(node, what, "write [x, y]")
+    if isinstance(node, Sequence) and not 1 <= len(items) <= 3:
+        sections.error(f"{what} has {len(items)} components, it may have 1 to 3", node.span)
+    return tuple(sections.expression(item, what, POSITION) for item in items)
+
+
+def _force(sections: Sections, node: Node, name: str, length: int) -> tuple[Expression, ...]:
+    what = f"the force on '{name}'"
+    if isinstance(node, Scalar) and not node.is_empty:
+        sections.error(f"{what} must be a list of components", node.span,
+                       f"write [{_shown(node.value)}]")  # fmt: skip
+        return ()
+    items = sections.items(node, what, "one component for each of the position's")
+    if isinstance(node, Sequence) and length and len(items) != length:
+        message = f"{what} has {len(items)} components, its position has {length}"
+        sections.error(message, node.span)
+    return tuple(sections.expression(item, what, STATE) for item in items)
+
+
+def _shown(text: str) -> str:
+    return text if len(text) <= 40 else "…"
+
+
+def read_forces(sections: Sections, node: Node) -> dict[str, Expression]:
+    """The generalized forces by coordinate."""
+    return read_by_coordinate(sections, node, "forces", "the force along '{}'")
+
+
+def read_by_coordinate(
+    sections: Sections, node: Node, section: str, what: str, role: Role = STATE
+) -> dict[str, Expression]:
+    """A map coordinate → expression."""
+    found = {}
+    for key, value in sections.entries(node, section):
+        if sections.scope.kinds.get(key.label) != "coordinate":
+            coordinates = list(sections.scope.of_kind("coordinate"))
+            hint = did_you_mean(key.label, coordinates)
+            hint = hint or f"the coordinates are {', '.join(coordinates)}"
+            sections.error(f"'{key.label}' in {section} is no coordinate", key.span, hint)
+        found[key.label] = sections.expression(value, what.format(key.label), role)
+    return found

@@ -1,0 +1,150 @@
+"""The section `expect`: the known answers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lagcli.diagnostics import Span
+from lagcli.expression import Equation, Expression
+from lagcli.problem import NOT_CONSERVED, Constraint, Expect, Question, Symmetry
+from lagcli.reader.dynamics import read_by_coordinate
+from lagcli.reader.nodes import Node, Scalar, Sequence
+from lagcli.reader.scope import CONSTANTS, EQUATION, MOTION, PHASE_SPACE, STATE, Role
+from lagcli.reader.sections import Sections
+from lagcli.reader.suggest import did_you_mean
+
+_KEYS = (
+    "degrees_of_freedom", "equations", "accelerations", "multipliers", "constraint_forces",
+    "momenta", "hamiltonian", "energy", "charges", "modes", "find", "trajectory",
+)  # fmt: skip
+
+#: An answer holds what is left when accelerations and multipliers have been eliminated.
+_ANSWER = Role(order=1, why="an answer is free of accelerations")
+
+
+class ExpectReader:
+    """Reads the section key by key, and remembers where each expectation stands."""
+
+    def __init__(
+        self,
+        sections: Sections,
+        constraints: tuple[Constraint, ...],
+        symmetries: tuple[Symmetry, ...],
+        find: tuple[Question, ...],
+    ) -> None:
+        self.sections = sections
+        self.constraints = [constraint.name for constraint in constraints]
+        self.symmetries = [symmetry.name for symmetry in symmetries]
+        self.questions = [question.name for question in find]
+        self.spans: dict[tuple[str, ...], Span] = {}
+
+    def read(self, node: Node) -> Expect:
+        """The whole section."""
+        found = self.sections.attributes(node, "expect", _KEYS)
+        values: dict[str, Any] = {}
+        for name, (key, value) in found.items():
+            self.spans[(name,)] = key.span
+            values[name] = getattr(self, f"_{name}")(value)
+        return Expect(**values, spans=self.spans)
+
+    def _degrees_of_freedom(self, node: Node) -> int | None:
+        text = self.sections.scalar(node, "'degrees_of_freedom'")
+        if text is None:
+            return None
+        value = text.value.strip()
+        if not (value.isascii() and value.isdigit() and len(value) < 10):
+            self.sections.error("'degrees_of_freedom' is a whole number, 0 or more", text.span)
+            return None
+        return int(value)
+
+    def _equations(self, node: Node) -> tuple[Equation, ...]:
+        equations = []
+        for place, item in enumerate(self.sections.items(node, "'equations'")):
+            self.spans["equations", str(place)] = item.span
+            equations.append(self.sections.equation(item, "an expected equation", EQUATION))
+        return tuple(equations)
+
+    def _accelerations(self, node: Node) -> dict[str, Expression]:
+        return self._by_coordinate(node, "accelerations", "the expected acceleration of '{}'")
+
+    def _momenta(self, node: Node) -> dict[str, Expression]:
+        return self._by_coordinate(node, "momenta", "the expected momentum of '{}'")
+
+    def _trajectory(self, node: Node) -> dict[str, Expression]:
+        return self._by_coordinate(node, "trajectory", "the expected trajectory of '{}'", MOTION)
+
+    def _multipliers(self, node: Node) -> dict[str, Expression]:
+        found = {}
+        for key, value in self._known(node, "multipliers", self.constraints, "constraint"):
+            what = f"the expected multiplier of '{key.label}'"
+            found[key.label] = self.sections.expression(value, what, _ANSWER)
+        return found
+
+    def _constraint_forces(self, node: Node) -> dict[str, dict[str, Expression]]:
+        found = {}
+        for key, value in self._known(node, "constraint_forces", self.constraints, "constraint"):
+            what = f"the expected force of '{key.label}' along '{{}}'"  # no braces in a name
+            forces = read_by_coordinate(self.sections, value, f"'{key.label}'", what, _ANSWER)
+            found[key.label] = forces
+            self._note(value, "constraint_forces", key.label)
+        return found
+
+    def _hamiltonian(self, node: Node) -> Expression:
+        return self.sections.expression(node, "the expected Hamiltonian", PHASE_SPACE)
+
+    def _energy(self, node: Node) -> Expression:
+        return self.sections.expression(node, "the expected energy", STATE)
+
+    def _charges(self, node: Node) -> dict[str, Expression | str]:
+        momenta = [f"p_{name}" for name in self.sections.scope.of_kind("coordinate")]
+        known = [*self.symmetries, "energy", *momenta]
+        found: dict[str, Expression | str] = {}
+        for key, value in self._known(node, "charges", known, "charge"):
+            if isinstance(value, Scalar) and " ".join(value.value.split()) == NOT_CONSERVED:
+                found[key.label] = NOT_CONSERVED
+            else:
+                what = f"the expected charge '{key.label}'"
+                found[key.label] = self.sections.expression(value, what, _ANSWER)
+        return found
+
+    def _modes(self, node: Node) -> tuple[Expression, ...]:
+        modes = []
+        for place, item in enumerate(self.sections.items(node, "'modes'", "write [sqrt(g/l)]")):
+            self.spans["modes", str(place)] = item.span
+            modes.append(self.sections.expression(item, "an expected frequency", CONSTANTS))
+        return tuple(modes)
+
+    def _find(self, node: Node) -> dict[str, tuple[Expression, ...]]:
+        found = {}
+        for key, value in self._known(node, "find", self.questions, "question"):
+            items = value.items if isinstance(value, Sequence) else [value]
+            what = f"the expected answer to '{key.label}'"
+            found[key.label] = tuple(
+                self.sections.expression(item, what, _ANSWER) for item in items
+            )
+        return found
+
+    def _by_coordinate(
+        self, node: Node, section: str, what: str, role: Role = _ANSWER
+    ) -> dict[str, Expression]:
+        self._note(node, section)
+        return read_by_coordinate(self.sections, node, section, what, role)
+
+    def _note(self, node: Node, *path: str) -> None:
+        for key, _ in getattr(node, "entries", ()):
+            self.spans[(*path, key.label)] = key.span
+
+    def _known(
+        self, node: Node, section: str, known: list[str], what: str
+    ) -> list[tuple[Scalar, Node]]:
+        """The entries whose keys exist in the problem; a mistake at each other one."""
+        good = []
+        for key, value in self.sections.entries(node, f"'{section}'"):
+            self.spans[section, key.label] = key.span
+            if key.label in known:
+                good.append((key, value))
+                continue
+            names = ", ".join(known[:10])
+            hint = did_you_mean(key.label, known) or (f"known are {names}" if known else "")
+            self.sections.error(f"there is no {what} '{key.label}'", key.span, hint)
+        return good

@@ -1,0 +1,131 @@
+"""Text to an expression, an equation or a comparison, by the grammar beside this file.
+
+The text is read once.  Names are not looked up here: see `lagcli.reader.scope`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from importlib import resources
+from typing import cast
+
+from lark import Lark
+from lark.exceptions import UnexpectedInput
+from lark.lexer import Token
+
+from lagcli.diagnostics import ProblemError, Source
+from lagcli.expression import Equation, Expression
+from lagcli.problem import Inequality
+from lagcli.reader.builder import Builder, excerpt_being_read, mistake
+from lagcli.reader.constants import check_constants
+from lagcli.reader.limits import EXPRESSION_CHARACTERS, thousands
+from lagcli.reader.nesting import check_nesting
+from lagcli.reader.positions import Excerpt
+from lagcli.reader.syntax_errors import explain
+from lagcli.reader.text import Mistake
+
+
+def read_expression(excerpt: Excerpt) -> Expression:
+    """The expression that a text writes; `Mistake` if it writes none."""
+    expression = cast(Expression, _parse(excerpt, "expression"))
+    check_constants(expression)
+    return expression
+
+
+def read_equation(excerpt: Excerpt) -> Equation:
+    """`left = right`, or an expression, which is `expression = 0`."""
+    equation = cast(Equation, _parse(excerpt, "equation"))
+    check_constants(equation.left)
+    check_constants(equation.right)
+    return equation
+
+
+def read_comparison(excerpt: Excerpt) -> Inequality:
+    """One comparison, such as `N >= 0`."""
+    comparison = cast(Inequality, _parse(excerpt, "comparison"))
+    check_constants(comparison.left)
+    check_constants(comparison.right)
+    return comparison
+
+
+def parse_text(text: str, source_name: str = "<expression>") -> Expression:
+    """Read back one printed expression; any name is allowed.
+
+    Raises
+    ------
+    ProblemError
+        If the text is no expression.
+    """
+    source = Source(source_name, text)
+    try:
+        return read_expression(Excerpt.whole(source))
+    except Mistake as error:
+        raise ProblemError(source, (error.diagnostic,)) from None
+
+
+def parse_equation_text(text: str, source_name: str = "<equation>") -> Equation:
+    """Read back one printed equation; any name is allowed.
+
+    Raises
+    ------
+    ProblemError
+        If the text is no equation.
+    """
+    source = Source(source_name, text)
+    try:
+        return read_equation(Excerpt.whole(source))
+    except Mistake as error:
+        raise ProblemError(source, (error.diagnostic,)) from None
+
+
+def _parse(excerpt: Excerpt, start: str) -> Expression | Equation | Inequality:
+    length = len(excerpt.value)
+    if length > EXPRESSION_CHARACTERS:
+        bound = thousands(EXPRESSION_CHARACTERS)
+        message = f"an expression of {thousands(length)} characters, the limit is {bound}"
+        raise mistake(message, excerpt.span(0, 1))
+    reset = excerpt_being_read.set(excerpt)
+    try:
+        return cast("Expression | Equation | Inequality", _parser().parse(excerpt.value, start))
+    except UnexpectedInput as error:
+        raise Mistake(explain(error, _tokens(excerpt.value), excerpt, start)) from None
+    finally:
+        excerpt_being_read.reset(reset)
+
+
+class _Nesting:
+    """Looks at the tokens before the parser does."""
+
+    always_accept = ()
+
+    def process(self, stream: Iterator[Token]) -> Iterator[Token]:
+        """The same tokens, until they nest too deep."""
+        return check_nesting(stream)
+
+
+@cache
+def _parser() -> Lark:
+    grammar = resources.files("lagcli.reader").joinpath("grammar.lark").read_text("utf-8")
+    return Lark(
+        grammar,
+        parser="lalr",
+        lexer="basic",
+        start=["expression", "equation", "comparison"],
+        maybe_placeholders=False,
+        transformer=Builder(),
+        postlex=_Nesting(),  # type: ignore[arg-type]
+    )
+
+
+def _tokens(value: str) -> list[Token]:
+    """The tokens up to the first character that begins none."""
+    tokens = []
+    try:
+        for token in _parser().lex(value):
+            tokens.append(token)
+    except (UnexpectedInput, Mistake):
+        pass
+    return tokens
+
+

@@ -1,0 +1,75 @@
+"""Commas that cut a formula in two.
+
+In `{a: atan2(y, x)}` YAML ends the value at the comma and reads on with a key `x)`.  The
+open parenthesis gives that away: the pieces are joined again, and one mistake is reported
+instead of several that nobody would understand.
+"""
+
+from __future__ import annotations
+
+from lagcli.diagnostics import Diagnostic
+from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence
+
+
+def mend_commas(node: Node) -> list[Diagnostic]:
+    """Join the pieces of formulas in a list `[ ]` or a map `{ }`; report each."""
+    match node:
+        case Mapping():
+            values = [value for _, value in node.entries]
+            nothing = [len(values) > 0 and _is_nothing(value) for value in values]
+            keys: list[Node] = [key for key, _ in node.entries]
+            keep, mistakes = _mend(values, keys, nothing)
+            node.entries = [entry for entry, kept in zip(node.entries, keep, strict=True) if kept]
+        case Sequence():
+            keep, mistakes = _mend(node.items, node.items, [True] * len(node.items))
+            node.items = [item for item, kept in zip(node.items, keep, strict=True) if kept]
+        case _:
+            return []
+    return mistakes
+
+
+def _mend(
+    values: list[Node], rest: list[Node], may_follow: list[bool]
+) -> tuple[list[bool], list[Diagnostic]]:
+    """Which entries to keep, when those that finish an earlier formula are dropped.
+
+    `rest[i]` is the text that continues a formula when entry i is a piece of one.
+    """
+    keep = [True] * len(values)
+    mistakes = []
+    i = 0
+    while i < len(values):
+        open_ = _unclosed(values[i])
+        last = i
+        while open_ > 0 and last + 1 < len(values) and may_follow[last + 1]:
+            piece = rest[last + 1]
+            if not isinstance(piece, Scalar) or piece.style:
+                break
+            open_ += piece.value.count("(") - piece.value.count(")")
+            last += 1
+        if last > i and open_ == 0:
+            first = values[i]
+            assert isinstance(first, Scalar)
+            end = rest[last].end
+            whole = first.text.source.text[first.start : end]
+            mistakes.append(
+                Diagnostic(
+                    "inside { } and [ ] a comma ends the value",
+                    first.text.span(first.start, end),
+                    f'put it in quotes: "{" ".join(whole.split())}"',
+                )
+            )
+            first.broken = True
+            keep[i + 1 : last + 1] = [False] * (last - i)
+        i = last + 1
+    return keep, mistakes
+
+
+def _unclosed(node: Node) -> int:
+    if isinstance(node, Scalar) and not node.style and not node.anchored:
+        return node.value.count("(") - node.value.count(")")
+    return 0
+
+
+def _is_nothing(node: Node) -> bool:
+    return isinstance(node, Scalar) and node.is_empty

@@ -1,0 +1,33 @@
+"""How large a file and its formulas may be, and the sentences that say so.
+
+Every bound of the problem format stands here, so that no text, however it is made, costs
+more than a moment or can exhaust the memory or the stack.
+"""
+
+from __future__ import annotations
+
+#: Bytes of a problem file.
+FILE_BYTES = 1 << 20
+
+#: Levels of lists and maps inside each other; the format itself needs five.
+YAML_LEVELS = 40
+
+#: Characters and nodes after every alias has been replaced by what it stands for.
+EXPANDED_SIZE = 4 * FILE_BYTES
+
+#: Characters of one expression.
+EXPRESSION_CHARACTERS = 100_000
+
+#: Parentheses, signs, powers and divisions inside each other.
+NESTING_LEVELS = 200
+
+#: Digits of one number, with its exponent written out.
+NUMBER_DIGITS = 1_000
+
+#: Digits of the value of a constant power, numerator or denominator.
+POWER_DIGITS = 10_000
+
+
+def thousands(number: int) -> str:
+    """`100000` as `100,000`."""
+    return f"{number:,}"

@@ -1,0 +1,206 @@
+"""Looking up the names of an expression: is each known, and may it stand there?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagcli.diagnostics import Diagnostic
+from lagcli.expression import FUNCTIONS, Call, Diff, Expression, Name, PartialCall, walk
+from lagcli.reader.scope import CONSTANT, Role, Scope
+from lagcli.reader.suggest import closest, did_you_mean
+
+_ORDERS = ("a coordinate", "a velocity", "an acceleration", "a third derivative")
+
+
+def name_mistakes(
+    expression: Expression, scope: Scope, role: Role, what: str, before: int | None = None
+) -> Iterator[Diagnostic]:
+    """Every wrong name in an expression.
+
+    Parameters
+    ----------
+    expression : Expression
+        The expression.
+    scope : Scope
+        The declared names.
+    role : Role
+        What may stand here.
+    what : str
+        The place, as in "unknown name 'tetha' in V".
+    before : int, optional
+        In a definition, its rank: only earlier ones can be used.
+    """
+    for node in walk(expression):
+        match node:
+            case Name():
+                yield from _name(node, scope, role, what, before)
+            case Call():
+                yield from _call(node, scope, role, what)
+            case PartialCall():
+                yield from _partial_call(node, scope, role, what)
+            case Diff(variable=variable):
+                yield from _variable(variable, scope)
+
+
+def derivative_order(expression: Expression, scope: Scope) -> int:
+    """The highest time derivative of a coordinate in an expression; -1 without any."""
+    return max((_order(node, scope) for node in walk(expression)), default=CONSTANT)
+
+
+def _order(node: Expression, scope: Scope) -> int:
+    if not isinstance(node, Name):
+        return CONSTANT
+    kind = scope.kinds.get(node.name)
+    if kind == "coordinate":
+        return node.primes
+    if kind == "definition":
+        order = scope.definitions[node.name].order
+        return CONSTANT if order == CONSTANT else order + node.primes
+    return CONSTANT
+
+
+def _name(
+    node: Name, scope: Scope, role: Role, what: str, before: int | None
+) -> Iterator[Diagnostic]:
+    name = node.name
+    match scope.kinds.get(name):
+        case "coordinate":
+            yield from _derivative(node, node.primes, role, what)
+        case "definition":
+            definition = scope.definitions[name]
+            if before is not None and definition.place >= before:
+                yield _uses_later(node, definition.place == before)
+            else:
+                order = definition.order
+                order = CONSTANT if order == CONSTANT else order + node.primes
+                yield from _derivative(node, order, role, what)
+        case "parameter":
+            if not role.parameters:
+                yield Diagnostic(f"'{name}' cannot stand in {what}", node.span, role.why)
+            elif node.primes:
+                yield Diagnostic(f"'{node}' is 0: a parameter is constant", node.span)
+        case "multiplier":
+            if not role.multipliers:
+                yield Diagnostic(f"the multiplier '{name}' cannot stand in {what}", node.span)
+            elif node.primes:
+                yield Diagnostic("a multiplier has no primes", node.span)
+        case "function":
+            hint = f"write {node}(…)"
+            yield Diagnostic(f"'{name}' is a function and needs arguments", node.span, hint)
+        case None:
+            yield from _other_name(node, scope, role, what)
+
+
+def _derivative(node: Name, order: int, role: Role, what: str) -> Iterator[Diagnostic]:
+    """A coordinate or a definition, of which `order` time derivatives are needed."""
+    if order <= role.order:
+        return
+    if order > 2 >= role.order and order == node.primes:
+        yield Diagnostic(f"'{node}' is {_ordinal(order)} derivative", node.span, role.why)
+    elif order == node.primes:
+        message = f"{_ORDERS[order]}, '{node}', cannot stand in {what}"
+        yield Diagnostic(message, node.span, role.why)
+    else:
+        message = f"'{node}' contains {_ordinal(order)}, which cannot stand in {what}"
+        yield Diagnostic(message, node.span, role.why)
+
+
+def _ordinal(order: int) -> str:
+    return _ORDERS[order] if order < len(_ORDERS) else f"a derivative of order {order}"
+
+
+def _uses_later(node: Name, itself: bool) -> Diagnostic:
+    if itself:
+        return Diagnostic(f"the definition of '{node.name}' uses itself", node.span)
+    hint = "a definition may use earlier ones: change their order"
+    return Diagnostic(f"'{node.name}' is defined later", node.span, hint)
+
+
+def _other_name(node: Name, scope: Scope, role: Role, what: str) -> Iterator[Diagnostic]:
+    """The time, the number pi, a momentum, a function of the grammar, or nothing known."""
+    name, span = node.name, node.span
+    if name == "t":
+        if node.primes:
+            yield Diagnostic("the time has no primes", span)
+        elif not role.time:
+            yield Diagnostic(f"the time cannot stand in {what}", span, role.why)
+    elif name == "pi":
+        if node.primes:
+            yield Diagnostic(f"'{node}' is 0: pi is a number", span)
+    elif name in FUNCTIONS or name == "diff":
+        yield Diagnostic(f"'{name}' is a function and needs arguments", span, f"write {name}(…)")
+    elif scope.coordinate_of_momentum(name) is not None:
+        if not role.momenta:
+            yield Diagnostic(f"the momentum '{name}' cannot stand in {what}", span)
+        elif node.primes:
+            yield Diagnostic("a momentum has no primes", span)
+    else:
+        yield Diagnostic(f"unknown name '{name}' in {what}", span, _advice(name, scope, role))
+
+
+def _advice(name: str, scope: Scope, role: Role) -> str:
+    hint = did_you_mean(name, scope.usable(role))
+    if not hint and name in {"e", "E"}:
+        return "the exponential function is exp(…)"
+    if not hint and name in {"I", "i", "j"}:
+        return "every quantity is real; declare it under 'parameters'"
+    return hint or "declare it under 'parameters'"
+
+
+def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnostic]:
+    name, count = node.function, len(node.arguments)
+    if name in FUNCTIONS:
+        if node.primes:
+            hint = f"write diff({name}(x), x)"
+            yield Diagnostic(f"'{name}' with primes has no meaning", node.span, hint)
+        elif count != FUNCTIONS[name]:
+            yield _wrong_count(name, FUNCTIONS[name], count, node)
+    elif scope.kinds.get(name) == "function":
+        arity = scope.arity[name]
+        if node.primes and arity != 1:
+            hint = f"write diff({name}, 1)(…) for the derivative by the first"
+            message = f"a prime needs a function of one argument, '{name}' has {arity}"
+            yield Diagnostic(message, node.span, hint)
+        elif count != arity:
+            yield _wrong_count(name, arity, count, node)
+    elif name in scope.kinds or name in {"t", "pi"} or scope.coordinate_of_momentum(name):
+        written = name + "'" * node.primes
+        message = f"'{written}' is {_a(scope.kinds.get(name))}, not a function"
+        yield Diagnostic(message, node.span, f"did you mean {written}*(…)?")
+    else:
+        functions = [*FUNCTIONS, *scope.of_kind("function")]
+        best = closest(name, functions)
+        hint = f"did you mean {best}(…)?" if best else "declare it under 'functions'"
+        yield Diagnostic(f"unknown function '{name}' in {what}", node.span, hint)
+
+
+def _a(kind: str | None) -> str:
+    return f"a {kind}" if kind else "a quantity"
+
+
+def _wrong_count(name: str, arity: int, count: int, node: Expression) -> Diagnostic:
+    plural = "argument" if arity == 1 else "arguments"
+    return Diagnostic(f"'{name}' takes {arity} {plural}, not {count}", node.span)
+
+
+def _partial_call(node: PartialCall, scope: Scope, role: Role, what: str) -> Iterator[Diagnostic]:
+    name = node.function
+    if scope.kinds.get(name) != "function":
+        functions = list(scope.of_kind("function"))
+        hint = did_you_mean(name, functions) or "declare it under 'functions'"
+        yield Diagnostic(f"'{name}' is no function of this problem", node.span, hint)
+        return
+    arity = scope.arity[name]
+    if len(node.arguments) != arity:
+        yield _wrong_count(name, arity, len(node.arguments), node)
+    for index in node.indices:
+        if not 1 <= index <= arity:
+            message = f"'{name}' has no argument number {index}"
+            yield Diagnostic(message, node.span, f"they count from 1 to {arity}")
+
+
+def _variable(variable: Name, scope: Scope) -> Iterator[Diagnostic]:
+    """What stands behind the comma of `diff(expression, name)`."""
+    if scope.kinds.get(variable.name) == "definition" or variable.name == "pi":
+        message = f"diff differentiates by a coordinate, velocity, parameter or t, not '{variable}'"
+        yield Diagnostic(message, variable.span)

@@ -1,0 +1,88 @@
+"""A YAML document as nodes: text, lists and maps, each with its place in the file."""
+
+from __future__ import annotations
+
+import unicodedata
+from dataclasses import dataclass, field
+
+from lagcli.diagnostics import Span
+from lagcli.reader.positions import Excerpt, offsets_of
+from lagcli.reader.text import Text
+
+
+@dataclass(slots=True)
+class Node:
+    """A piece of the document from the offset `start` up to `end`."""
+
+    text: Text = field(repr=False)
+    start: int
+    end: int
+    size: int = field(default=1, kw_only=True)  # with every alias expanded
+    anchored: bool = field(default=False, kw_only=True)
+
+    @property
+    def span(self) -> Span:
+        """The place of the node in the file."""
+        return self.text.span(self.start, max(self.end, self.start))
+
+
+@dataclass(slots=True)
+class Scalar(Node):
+    """Text: a name, a formula, a title.  Never anything but text."""
+
+    value: str
+    style: str
+    in_flow: bool
+    broken: bool = field(default=False, kw_only=True)  # already reported, not to be read
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing is written: `V:` and no value."""
+        return self.style == "" and self.value == ""
+
+    @property
+    def label(self) -> str:
+        """The text as a key or a name: composed and decomposed letters are one."""
+        return unicodedata.normalize("NFC", self.value)
+
+    def excerpt(self) -> Excerpt:
+        """The value with the place of each character."""
+        raw = self.text.source.text[self.start : self.end]
+        offsets = offsets_of(self.value, raw, self.style, self.start)
+        return Excerpt(self.value, self.text, offsets, self.in_flow and not self.style)
+
+
+@dataclass(slots=True)
+class Sequence(Node):
+    """A list."""
+
+    items: list[Node]
+
+
+@dataclass(slots=True)
+class Mapping(Node):
+    """A map in the order of the file, no key twice."""
+
+    entries: list[tuple[Scalar, Node]]
+
+    def get(self, key: str) -> Node | None:
+        """The value at `key`."""
+        return next((value for name, value in self.entries if name.label == key), None)
+
+
+def kind(node: Node) -> str:
+    """What a node is, in the words of a message."""
+    match node:
+        case Sequence():
+            return "a list"
+        case Mapping():
+            return "a map"
+        case Scalar() if node.is_empty:
+            return "nothing"
+        case _:
+            return "a text"
+
+
+def size(node: Sequence | Mapping) -> int:
+    """How many items or entries a node has."""
+    return len(node.items if isinstance(node, Sequence) else node.entries)

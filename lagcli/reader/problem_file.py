@@ -1,0 +1,152 @@
+"""A problem file to a checked `Problem`, with every mistake of the file at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import PurePath
+
+from lagcli.diagnostics import Diagnostic, ProblemError, Source, Span
+from lagcli.expression import Expression
+from lagcli.problem import Expect, Problem, Simulation
+from lagcli.reader.compose import compose
+from lagcli.reader.dynamics import (
+    check_energies,
+    check_masses,
+    check_momenta,
+    declare_definitions,
+    read_definitions,
+    read_forces,
+    read_points,
+)
+from lagcli.reader.expectations import ExpectReader
+from lagcli.reader.nodes import Mapping, Node, kind
+from lagcli.reader.quantities import (
+    declare_parameters,
+    read_coordinates,
+    read_functions,
+    read_parameters,
+)
+from lagcli.reader.questions import read_find, read_initial, read_simulation
+from lagcli.reader.restrictions import declare_constraints, read_constraints, read_symmetries
+from lagcli.reader.scope import STATE
+from lagcli.reader.sections import Sections
+from lagcli.reader.text import Mistake, Text, decode
+
+KEYS = (
+    "title", "source", "description", "coordinates", "parameters", "functions", "definitions",
+    "points", "T", "V", "L", "forces", "dissipation", "constraints", "symmetries", "initial",
+    "find", "simulation", "expect",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What came of a file: the problem, unless a diagnostic is an error."""
+
+    source: Source
+    problem: Problem | None
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+    def checked(self) -> Problem:
+        """The problem.
+
+        Raises
+        ------
+        ProblemError
+            With all diagnostics, when there is none.
+        """
+        if self.problem is None:
+            raise ProblemError(self.source, self.diagnostics)
+        return self.problem
+
+
+def read_problem(source_name: str, data: bytes) -> Reading:
+    """Read a problem file.
+
+    Parameters
+    ----------
+    source_name : str
+        The file's name as the user knows it; `-` is standard input.
+    data : bytes
+        What is in the file.
+
+    Returns
+    -------
+    Reading
+        The problem and the diagnostics, sorted by their place in the file.
+    """
+    source, diagnostics = decode(source_name, data)
+    if diagnostics:
+        return Reading(source, None, tuple(diagnostics))
+    try:
+        root, diagnostics = compose(Text.of(source))
+    except Mistake as error:
+        return Reading(source, None, (error.diagnostic,))
+    sections = Sections(diagnostics=diagnostics)
+    problem = _read(sections, source, root)
+    found = tuple(sorted(sections.diagnostics, key=lambda diagnostic: diagnostic.span))
+    has_errors = any(diagnostic.is_error for diagnostic in found)
+    return Reading(source, None if has_errors else problem, found)
+
+
+def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
+    """Declare every name, then read every formula."""
+    if not isinstance(root, Mapping):
+        span = Span(1, 1, 1, 1)
+        sections.error(f"a problem must be a map of keys, not {kind(root)}", span, "key: value")
+        return None
+    given = sections.attributes(root, "the problem", KEYS)
+
+    def section(key: str) -> Node:
+        """The node at a key, or a map without entries."""
+        return given[key][1] if key in given else Mapping(root.text, 0, 0, [])
+
+    def formula(key: str) -> Expression | None:
+        return sections.expression(given[key][1], key, STATE) if key in given else None
+
+    def text(key: str) -> str | None:
+        scalar = sections.scalar(given[key][1], f"'{key}'") if key in given else None
+        return scalar.value.strip() if scalar else None
+
+    coordinates = read_coordinates(sections, section("coordinates"))
+    parameters = declare_parameters(sections, section("parameters"))
+    functions = read_functions(sections, section("functions"))
+    definitions = declare_definitions(sections, section("definitions"))
+    constraints = declare_constraints(sections, section("constraints"))
+    check_momenta(sections)
+    check_energies(sections, {key: name for key, (name, _) in given.items()})
+
+    parameters_read = read_parameters(sections, parameters)
+    definitions_read = read_definitions(sections, definitions)
+    constraints_read = read_constraints(sections, constraints)
+    symmetries = read_symmetries(sections, section("symmetries"))
+    questions = read_find(sections, section("find"))
+    expect = ExpectReader(sections, constraints_read, symmetries, questions)
+    problem = Problem(
+        source=source,
+        title=text("title") or _stem(source.name),
+        reference=text("source"),
+        description=text("description"),
+        coordinates=coordinates,
+        parameters=parameters_read,
+        functions=functions,
+        definitions=definitions_read,
+        points=read_points(sections, section("points")),
+        kinetic=formula("T"),
+        potential=formula("V"),
+        lagrangian=formula("L"),
+        forces=read_forces(sections, section("forces")),
+        dissipation=formula("dissipation"),
+        constraints=constraints_read,
+        symmetries=symmetries,
+        initial=read_initial(sections, section("initial")),
+        find=questions,
+        simulation=read_simulation(sections, section("simulation")),
+        expect=expect.read(section("expect")),
+    )
+    check_masses(sections, problem)
+    return problem
+
+
+def _stem(name: str) -> str:
+    return "problem" if name == "-" else PurePath(name).stem

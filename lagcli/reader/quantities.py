@@ -1,0 +1,177 @@
+"""The sections `coordinates`, `parameters` and `functions`: what has a name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import cast, get_args
+
+from lagcli.expression import Expression, Name, walk
+from lagcli.problem import Assumption, Coordinate, Parameter
+from lagcli.reader.latex_symbol import symbol_mistake
+from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence, kind, size
+from lagcli.reader.scope import CONSTANTS, Kind, name_mistake
+from lagcli.reader.sections import UNREADABLE, Sections
+from lagcli.reader.suggest import did_you_mean
+
+_COORDINATE_ATTRIBUTES = ("unit", "symbol", "description", "assume")
+_PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
+_ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
+
+
+def read_coordinates(sections: Sections, node: Node) -> tuple[Coordinate, ...]:
+    """The generalized coordinates, in order; each is declared in the scope."""
+    coordinates = []
+    for key, value in _declared(sections, node, "coordinates", "coordinate"):
+        attributes = _attributes(sections, value, key, "coordinate", _COORDINATE_ATTRIBUTES)
+        coordinates.append(Coordinate(name=key.label, span=key.span, **_said(sections, attributes)))
+    if isinstance(node, Mapping | Sequence) and not size(node):
+        sections.error("a problem has one coordinate at least", node.span, "coordinates: [x]")
+    return tuple(coordinates)
+
+
+def declare_parameters(sections: Sections, node: Node) -> list[tuple[Scalar, Node | None]]:
+    """Enter the parameters into the scope, before any of their values is read."""
+    return list(_declared(sections, node, "parameters", "parameter"))
+
+
+def read_parameters(
+    sections: Sections, declared: list[tuple[Scalar, Node | None]]
+) -> tuple[Parameter, ...]:
+    """The parameters with their values, which may use each other without a cycle."""
+    parameters = []
+    for key, node in declared:
+        attributes: dict[str, Node] = {}
+        if isinstance(node, Scalar) and not node.is_empty:
+            attributes = {"value": node}
+        else:
+            attributes = _attributes(sections, node, key, "parameter", _PARAMETER_ATTRIBUTES)
+        value = None
+        if "value" in attributes:
+            what = f"the value of '{key.label}'"
+            value = sections.expression(attributes["value"], what, CONSTANTS)
+        integer = "integer" in attributes and _truth(sections, attributes["integer"])
+        said = _said(sections, attributes)
+        parameters.append(
+            Parameter(name=key.label, span=key.span, value=value, integer=integer, **said)
+        )
+    _check_cycles(sections, parameters)
+    return tuple(parameters)
+
+
+def read_functions(sections: Sections, node: Node) -> dict[str, tuple[str, ...]]:
+    """The functions left unspecified; the names of their arguments only document."""
+    functions = {}
+    for key, value in sections.entries(node, "functions", "write U: [r]"):
+        if not sections.declare(key.label, "function", key.span):
+            continue
+        what = f"the arguments of '{key.label}'"
+        if isinstance(value, Scalar) and not value.is_empty:
+            sections.error(f"{what} must be a list", value.span, f"write [{value.value}]")
+            continue
+        arguments = [sections.scalar(item, f"an argument of '{key.label}'")
+                     for item in sections.items(value, what)]  # fmt: skip
+        for argument in arguments:
+            wrong = argument and name_mistake(argument.label)
+            if argument and wrong and argument.label != "t":
+                sections.error(wrong[0], argument.span, wrong[1])
+        if not arguments and isinstance(value, Sequence):
+            sections.error(f"'{key.label}' has no argument", value.span, "declare a parameter")
+        functions[key.label] = tuple(argument.label for argument in arguments if argument)
+        sections.scope.arity[key.label] = len(arguments)
+    return functions
+
+
+def _declared(
+    sections: Sections, node: Node, section: str, kind_: Kind
+) -> Iterator[tuple[Scalar, Node | None]]:
+    """The names of a list or of a map's keys, as far as they could be declared."""
+    entries: list[tuple[Scalar, Node | None]]
+    if isinstance(node, Mapping):
+        entries = list(node.entries)
+    elif isinstance(node, Sequence):
+        names = [sections.scalar(item, "a name") for item in node.items]
+        entries = [(name, None) for name in names if name is not None]
+    elif isinstance(node, Scalar) and not node.is_empty:
+        hint = f"write [{', '.join(node.value.replace(',', ' ').split())}]"
+        sections.error(f"{section} must be a list or a map", node.span, hint)
+        return
+    else:
+        sections.error(f"{section} must be a list or a map, not {kind(node)}", node.span)
+        return
+    for key, value in entries:
+        if sections.declare(key.label, kind_, key.span):
+            yield key, value
+
+
+def _attributes(
+    sections: Sections, node: Node | None, key: Scalar, what: str, known: tuple[str, ...]
+) -> dict[str, Node]:
+    if node is None or (isinstance(node, Scalar) and node.is_empty):
+        return {}
+    found = sections.attributes(node, f"the {what} '{key.label}'", known)
+    return {name: value for name, (_, value) in found.items()}
+
+
+def _said(sections: Sections, attributes: dict[str, Node]) -> dict[str, object]:
+    """The attributes that coordinates and parameters share."""
+    said: dict[str, object] = {}
+    for name in ("unit", "symbol", "description"):
+        if name in attributes:
+            text = sections.scalar(attributes[name], f"'{name}'")
+            if text is not None:
+                said[name] = text.value
+                if name == "symbol" and (wrong := symbol_mistake(text.value)):
+                    sections.error(f"a symbol must be simple LaTeX: {wrong}", text.span)
+    if "assume" in attributes:
+        text = sections.scalar(attributes["assume"], "'assume'")
+        if text is not None and text.value in _ASSUMPTIONS:
+            said["assume"] = cast(Assumption, text.value)
+        elif text is not None:
+            hint = did_you_mean(text.value, _ASSUMPTIONS) or f"known are {', '.join(_ASSUMPTIONS)}"
+            sections.error(f"unknown assumption '{text.value}'", text.span, hint)
+    return said
+
+
+def _truth(sections: Sections, node: Node) -> bool:
+    text = sections.scalar(node, "'integer'")
+    if text is not None and text.value not in {"true", "false"}:
+        sections.error("'integer' is true or false", text.span)
+    return text is not None and text.value == "true"
+
+
+def _check_cycles(sections: Sections, parameters: list[Parameter]) -> None:
+    """A value must not need itself, directly or through others."""
+    values = {parameter.name: parameter.value or UNREADABLE for parameter in parameters}
+    uses = {name: _names(value) & values.keys() for name, value in values.items()}
+    while ready := [name for name, used in uses.items() if not used & uses.keys()]:
+        for name in ready:
+            del uses[name]
+    for parameter in parameters:
+        if parameter.name in uses and (cycle := _cycle(parameter.name, uses)):
+            chain = " → ".join(cycle)
+            assert parameter.value is not None
+            sections.error(f"the value of '{parameter.name}' needs itself: {chain}",
+                           parameter.value.span)  # fmt: skip
+            return
+
+
+def _names(value: Expression) -> set[str]:
+    return {node.name for node in walk(value) if isinstance(node, Name)}
+
+
+def _cycle(start: str, uses: dict[str, set[str]]) -> list[str]:
+    """A way from `start` back to itself, or nothing when it only leads to a cycle."""
+    came_from: dict[str, str] = {}
+    front = [start]
+    while front:
+        name = front.pop()
+        for used in sorted(uses[name] & uses.keys()):
+            if used == start:
+                way = [start, name]
+                while way[-1] != start:
+                    way.append(came_from[way[-1]])
+                return way[::-1]
+            if used not in came_from:
+                came_from[used] = name
+                front.append(used)
+    return []

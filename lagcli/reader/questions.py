@@ -1,0 +1,105 @@
+"""The sections `initial`, `find` and `simulation`."""
+
+from __future__ import annotations
+
+from lagcli.expression import Expression, Name
+from lagcli.problem import Question, Rewrite, Simulation, Where
+from lagcli.reader.nodes import Node, Scalar
+from lagcli.reader.scope import CONSTANTS, NUMBERS, QUESTION, Role
+from lagcli.reader.sections import Sections
+from lagcli.reader.suggest import did_you_mean
+
+_QUESTION_ATTRIBUTES = ("where", "for", "value", "in_terms_of")
+_SIMULATION_ATTRIBUTES = ("until", "accuracy", "method")
+
+#: What a question can be answered for.
+_UNKNOWN = Role(order=1, time=False, why="it asks for a coordinate, a velocity or a parameter")
+_VARIABLE = Role(order=1, momenta=True, why="velocities are removed, accelerations never needed")
+
+
+def read_initial(sections: Sections, node: Node) -> dict[Name, Expression]:
+    """The state at t = 0, by coordinate and by velocity."""
+    initial: dict[Name, Expression] = {}
+    coordinates = list(sections.scope.of_kind("coordinate"))
+    for key, value in sections.entries(node, "initial", "write x: 1"):
+        what = f"the initial '{key.label}'"
+        expression = sections.expression(value, what, CONSTANTS)
+        name = _state_name(sections, key, coordinates)
+        if name is None:
+            continue
+        if name in initial:
+            sections.error(f"the initial '{name}' is given twice", key.span)
+        initial[name] = expression
+    return initial
+
+
+def _state_name(sections: Sections, key: Scalar, coordinates: list[str]) -> Name | None:
+    letters = key.label.rstrip("'’′″")
+    if letters not in coordinates:
+        hint = did_you_mean(letters, coordinates) or "give coordinates x and velocities x'"
+        sections.error(f"'{key.label}' in initial is no coordinate", key.span, hint)
+        return None
+    primes = sum(2 if prime == "″" else 1 for prime in key.label[len(letters) :])
+    if primes > 1:
+        message = f"'{key.label}' in initial is an acceleration"
+        sections.error(message, key.span, "a state has coordinates x and velocities x'")
+        return None
+    return Name(letters, primes)
+
+
+def read_find(sections: Sections, node: Node) -> tuple[Question, ...]:
+    """The questions."""
+    questions: list[Question] = []
+    hint = "write name: {where: equation, for: x} or name: {value: expression, in_terms_of: [x]}"
+    for key, value in sections.entries(node, "find", hint):
+        what = f"the question '{key.label}'"
+        found = sections.attributes(value, what, _QUESTION_ATTRIBUTES)
+        parts = {name: part for name, (_, part) in found.items()}
+        if parts.keys() == {"where", "for"}:
+            questions += _where(sections, key, parts["where"], parts["for"])
+        elif parts.keys() == {"value", "in_terms_of"}:
+            questions.append(_rewrite(sections, key, parts["value"], parts["in_terms_of"]))
+        elif "where" in parts and "value" in parts:
+            sections.error(f"{what} has both 'where' and 'value'", key.span, hint)
+        elif missing := {"where": "for", "for": "where", "value": "in_terms_of",
+                         "in_terms_of": "value"}.get(next(iter(parts), "")):  # fmt: skip
+            sections.error(f"{what} has no '{missing}'", key.span, hint)
+        elif not parts and found is not None and hasattr(value, "entries"):
+            sections.error(f"{what} asks nothing", key.span, hint)
+    return tuple(questions)
+
+
+def _where(sections: Sections, key: Scalar, where: Node, unknown: Node) -> list[Question]:
+    equation = sections.equation(where, f"the question '{key.label}'", QUESTION)
+    name = sections.name(unknown, "'for'", _UNKNOWN)
+    if name is None:
+        return []
+    if sections.scope.kinds.get(name.name) not in {"coordinate", "parameter"}:
+        sections.error(f"'{name}' is no coordinate, velocity or parameter", name.span)
+    return [Where(name=key.label, equation=equation, unknown=name, span=key.span)]
+
+
+def _rewrite(sections: Sections, key: Scalar, value: Node, terms: Node) -> Question:
+    expression = sections.expression(value, f"the question '{key.label}'", QUESTION)
+    names = [sections.name(item, "an item of 'in_terms_of'", _VARIABLE)
+             for item in sections.items(terms, "'in_terms_of'", "write [x]")]  # fmt: skip
+    known = tuple(name for name in names if name is not None)
+    return Rewrite(name=key.label, value=expression, in_terms_of=known, span=key.span)
+
+
+def read_simulation(sections: Sections, node: Node) -> Simulation:
+    """The defaults of the numerical run."""
+    found = sections.attributes(node, "simulation", _SIMULATION_ATTRIBUTES)
+    until = accuracy = method = None
+    if "until" in found:
+        until = _number(sections, found["until"][1], "'until'")
+    if "accuracy" in found:
+        accuracy = _number(sections, found["accuracy"][1], "'accuracy'")
+    if "method" in found:
+        text = sections.scalar(found["method"][1], "'method'")
+        method = text.value.strip() if text else None
+    return Simulation(until=until, accuracy=accuracy, method=method)
+
+
+def _number(sections: Sections, node: Node, what: str) -> Expression:
+    return sections.expression(node, what, NUMBERS)

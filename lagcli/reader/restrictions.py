@@ -1,0 +1,109 @@
+"""The sections `constraints` and `symmetries`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from lagcli.problem import Constraint, Symmetry
+from lagcli.reader.names import derivative_order
+from lagcli.reader.nodes import Mapping, Node, Scalar
+from lagcli.reader.scope import QUESTION, STATE, name_mistake
+from lagcli.reader.sections import Sections
+from lagcli.reader.suggest import did_you_mean
+
+_CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while")
+
+
+@dataclass(frozen=True, slots=True)
+class Declared:
+    """A constraint whose multiplier has its name and whose equation is not read yet."""
+
+    key: Scalar
+    multiplier: str
+    equation: Node | None
+    holds_while: Node | None
+
+
+def declare_constraints(sections: Sections, node: Node) -> list[Declared]:
+    """Enter the multipliers into the scope."""
+    declared = []
+    for key, value in sections.entries(node, "constraints", "write name: equation"):
+        equation: Node | None = value
+        holds_while = None
+        wrong = name_mistake(f"a{key.label}")  # `lambda_<name>` must be a name
+        if wrong is not None or not key.label:
+            hint = "a name has letters, digits and underscores"
+            sections.error(f"'{key.label}' is no name for a constraint", key.span, hint)
+            continue
+        multiplier, place = f"lambda_{key.label}", key.span
+        if isinstance(value, Mapping):
+            what = f"the constraint '{key.label}'"
+            found = sections.attributes(value, what, _CONSTRAINT_ATTRIBUTES)
+            attributes = {name: attribute for name, (_, attribute) in found.items()}
+            equation = attributes.get("equation")
+            holds_while = attributes.get("holds_while")
+            if equation is None:
+                sections.error(f"{what} has no equation", key.span)
+            if "multiplier" in attributes:
+                text = sections.scalar(attributes["multiplier"], "'multiplier'")
+                if text is not None:
+                    multiplier, place = text.label, text.span
+        sections.declare(multiplier, "multiplier", place)
+        declared.append(Declared(key, multiplier, equation, holds_while))
+    return declared
+
+
+def read_constraints(sections: Sections, declared: list[Declared]) -> tuple[Constraint, ...]:
+    """The constraints f = left - right = 0."""
+    constraints = []
+    for one in declared:
+        if one.equation is None:
+            continue
+        name = one.key.label
+        mistakes = len(sections.diagnostics)
+        equation = sections.equation(one.equation, f"the constraint '{name}'", STATE)
+        if len(sections.diagnostics) == mistakes:
+            sides = (equation.left, equation.right)
+            if max(derivative_order(side, sections.scope) for side in sides) < 0:
+                message = f"the constraint '{name}' contains no coordinate"
+                sections.error(message, one.equation.span)
+        holds_while = None
+        if one.holds_while is not None:
+            holds_while = sections.comparison(one.holds_while, "'holds_while'", QUESTION)
+        constraints.append(
+            Constraint(
+                name=name,
+                equation=equation,
+                multiplier=one.multiplier,
+                holds_while=holds_while,
+                span=one.key.span,
+            )
+        )
+    return tuple(constraints)
+
+
+def read_symmetries(sections: Sections, node: Node) -> tuple[Symmetry, ...]:
+    """The candidate symmetries."""
+    coordinates = list(sections.scope.of_kind("coordinate"))
+    symmetries = []
+    for key, value in sections.entries(node, "symmetries", "write shift: {x: 1}"):
+        what = f"the symmetry '{key.label}'"
+        changes = {}
+        if isinstance(value, Mapping) and not value.entries:
+            sections.error(f"{what} changes nothing", value.span, "write shift: {x: 1}")
+        for name, change in sections.entries(value, what, "write shift: {x: 1}"):
+            expression = sections.expression(change, what, STATE)
+            if name.label in coordinates or name.label in {"t", "gauge"}:
+                changes[name.label] = expression
+            else:
+                hint = did_you_mean(name.label, [*coordinates, "t", "gauge"])
+                hint = hint or "a key is a coordinate, t or gauge"
+                message = f"'{name.label}' in {what} is no coordinate"
+                sections.error(message, name.span, hint)
+        time, gauge = changes.pop("t", None), changes.pop("gauge", None)
+        if gauge is not None and time is None and not changes:
+            sections.error(f"{what} changes neither a coordinate nor t", key.span)
+        symmetries.append(
+            Symmetry(name=key.label, changes=changes, time=time, gauge=gauge, span=key.span)
+        )
+    return tuple(symmetries)

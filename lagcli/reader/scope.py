@@ -1,0 +1,107 @@
+"""The names of a problem and where each of them may be used."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Literal
+
+from lagcli.diagnostics import Span
+from lagcli.expression import FUNCTIONS, RESERVED
+
+Kind = Literal["coordinate", "parameter", "function", "definition", "multiplier"]
+
+#: The derivative order of what depends on no coordinate.
+CONSTANT = -1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Role:
+    """What an expression may contain, by the place at which it stands.
+
+    `order` is the highest time derivative of a coordinate: 0 the coordinate itself, 1 the
+    velocity, 2 the acceleration, -1 none at all.
+    """
+
+    order: int = 1
+    why: str = ""  # the reason, for whoever wrote a higher derivative
+    time: bool = True
+    parameters: bool = True
+    multipliers: bool = False
+    momenta: bool = False
+
+
+#: Terms of the Lagrangian, forces, definitions, constraints, transformations.
+STATE = Role(why="it may depend on coordinates, velocities and t")
+POSITION = Role(order=0, why="a position depends on coordinates and t only")
+MASS = Role(order=0, why="a mass does not depend on velocities")
+CONSTANTS = Role(order=CONSTANT, time=False, why="only numbers and parameters can stand here")
+NUMBERS = Role(order=CONSTANT, time=False, parameters=False, why="only a number can stand here")
+QUESTION = Role(order=2, why="no law needs a third derivative", multipliers=True, momenta=True)
+EQUATION = Role(order=2, why="the equations of motion are of second order", multipliers=True)
+PHASE_SPACE = Role(order=0, why="a Hamiltonian has momenta p_x, no velocities", momenta=True)
+MOTION = Role(order=CONSTANT, why="a trajectory depends on t and parameters")
+
+
+@dataclass(slots=True)
+class Definition:
+    """What the scope knows of a definition."""
+
+    place: int  # its rank in the file: earlier definitions may be used, later ones may not
+    order: int = CONSTANT  # the highest time derivative of a coordinate in it
+
+
+@dataclass(slots=True)
+class Scope:
+    """The declared names."""
+
+    kinds: dict[str, Kind] = field(default_factory=dict)
+    spans: dict[str, Span] = field(default_factory=dict)
+    arity: dict[str, int] = field(default_factory=dict)  # of the declared functions
+    definitions: dict[str, Definition] = field(default_factory=dict)
+
+    def of_kind(self, kind: Kind) -> Iterator[str]:
+        """The names of one kind, in the order of their declaration."""
+        return (name for name, other in self.kinds.items() if other == kind)
+
+    def coordinate_of_momentum(self, name: str) -> str | None:
+        """`x` for `p_x`, when x is a coordinate."""
+        coordinate = name.removeprefix("p_")
+        known = name != coordinate and self.kinds.get(coordinate) == "coordinate"
+        return coordinate if known else None
+
+    def usable(self, role: Role) -> list[str]:
+        """The names that may stand in an expression, for suggestions."""
+        allowed: dict[Kind, bool] = {
+            "coordinate": role.order >= 0,
+            "parameter": role.parameters,
+            "function": True,
+            "definition": True,
+            "multiplier": role.multipliers,
+        }
+        names = [name for name, kind in self.kinds.items() if allowed[kind]]
+        if role.momenta:
+            names += [f"p_{name}" for name in self.of_kind("coordinate")]
+        return [*names, *FUNCTIONS, "pi", "diff", *(["t"] if role.time else [])]
+
+
+def name_mistake(name: str) -> tuple[str, str] | None:
+    """Why `name` cannot be declared, and what to do; None when it can."""
+    if name in RESERVED:
+        meaning = {"t": "the time", "pi": "the number", "diff": "the partial derivative"}
+        return f"'{name}' is {meaning.get(name, 'a function')} and cannot be declared", ""
+    if any(prime in name for prime in "'’′″‴"):
+        return f"'{name}' is no name", "declare it without primes; x' is the velocity of x"
+    if not name:
+        return "a name is missing", ""
+    if name[0].isdigit():
+        return f"'{name}' is no name", "a name does not begin with a digit"
+    if not all(_is_name_character(character) for character in name):
+        return f"'{name}' is no name", "a name has letters, digits and underscores"
+    return None
+
+
+def _is_name_character(character: str) -> bool:
+    return character == "_" or character.isalpha() or character.isdecimal()
+
+

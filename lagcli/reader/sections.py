@@ -1,0 +1,150 @@
+"""What every section of the file needs: the text, the names, and a place for mistakes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+from lagcli.diagnostics import Diagnostic, Span
+from lagcli.expression import ZERO, Equation, Expression, Name
+from lagcli.problem import Inequality
+from lagcli.reader.expressions import read_comparison, read_equation, read_expression
+from lagcli.reader.names import name_mistakes
+from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence, kind
+from lagcli.reader.positions import Excerpt
+from lagcli.reader.scope import Kind, Role, Scope, name_mistake
+from lagcli.reader.suggest import did_you_mean
+from lagcli.reader.text import Mistake
+
+_T = TypeVar("_T")
+
+#: What stands for an expression that could not be read; the file is refused anyway.
+UNREADABLE = ZERO
+_NO_EQUATION = Equation(ZERO, ZERO)
+
+
+@dataclass(slots=True)
+class Sections:
+    """The mistakes found so far and the names declared so far."""
+
+    scope: Scope = field(default_factory=Scope)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def error(
+        self, message: str, span: Span, hint: str = "", related: tuple[tuple[Span, str], ...] = ()
+    ) -> None:
+        """Note a mistake and go on."""
+        self.diagnostics.append(Diagnostic(message, span, hint, related=related))
+
+    # Shapes.
+
+    def entries(self, node: Node, what: str, hint: str = "") -> Iterator[tuple[Scalar, Node]]:
+        """The entries of a map; a mistake when it is none."""
+        if isinstance(node, Mapping):
+            yield from node.entries
+        else:
+            self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
+
+    def items(self, node: Node, what: str, hint: str = "") -> list[Node]:
+        """The items of a list; a mistake when it is none."""
+        if isinstance(node, Sequence):
+            return node.items
+        self.error(f"{what} must be a list, not {kind(node)}", node.span, hint)
+        return []
+
+    def scalar(self, node: Node, what: str) -> Scalar | None:
+        """A text that is not empty."""
+        if not isinstance(node, Scalar):
+            self.error(f"{what} must be a text, not {kind(node)}", node.span)
+            return None
+        if node.broken:
+            return None
+        if not node.value.strip():
+            self.error(f"{what} is empty", node.span)
+            return None
+        return node
+
+    def attributes(
+        self, node: Node, what: str, known: Iterable[str]
+    ) -> dict[str, tuple[Scalar, Node]]:
+        """The entries of a map with known keys; a mistake at each other one."""
+        found = {}
+        names = tuple(known)
+        for key, value in self.entries(node, what, f"it has the keys {', '.join(names)}"):
+            if key.label in names:
+                found[key.label] = (key, value)
+            else:
+                hint = did_you_mean(key.label, names) or f"known are {', '.join(names)}"
+                self.error(f"unknown key '{key.label}' in {what}", key.span, hint)
+        return found
+
+    # Formulas.
+
+    def expression(
+        self, node: Node, what: str, role: Role, before: int | None = None
+    ) -> Expression:
+        """A formula whose names are all known and allowed in its role."""
+        expression = self._read(node, what, read_expression)
+        if expression is None:
+            return UNREADABLE
+        self.diagnostics += name_mistakes(expression, self.scope, role, what, before)
+        return expression
+
+    def equation(self, node: Node, what: str, role: Role) -> Equation:
+        """`left = right`, or an expression that is 0."""
+        equation = self._read(node, what, read_equation)
+        if equation is None:
+            return _NO_EQUATION
+        for side in (equation.left, equation.right):
+            self.diagnostics += name_mistakes(side, self.scope, role, what)
+        return equation
+
+    def comparison(self, node: Node, what: str, role: Role) -> Inequality | None:
+        """One inequality, or None."""
+        inequality = self._read(node, what, read_comparison)
+        if inequality is not None:
+            for side in (inequality.left, inequality.right):
+                self.diagnostics += name_mistakes(side, self.scope, role, what)
+        return inequality
+
+    def name(self, node: Node, what: str, role: Role) -> Name | None:
+        """A single name with its primes, such as `x'`."""
+        expression = self._read(node, what, read_expression)
+        if expression is None:
+            return None
+        if not isinstance(expression, Name):
+            self.error(f"{what} must be a name", node.span)
+            return None
+        mistakes = list(name_mistakes(expression, self.scope, role, what))
+        self.diagnostics += mistakes
+        return None if mistakes else expression
+
+    def _read(self, node: Node, what: str, read: Callable[[Excerpt], _T]) -> _T | None:
+        if not isinstance(node, Scalar):
+            self.error(f"{what} must be an expression, not {kind(node)}", node.span)
+            return None
+        if self.scalar(node, what) is None:
+            return None
+        try:
+            return read(node.excerpt())
+        except Mistake as error:
+            self.diagnostics.append(error.diagnostic)
+            return None
+
+    # Names.
+
+    def declare(self, name: str, kind: Kind, span: Span) -> bool:
+        """Enter a name into the scope; a mistake when it is none, or taken."""
+        wrong = name_mistake(name)
+        if wrong is not None:
+            self.error(wrong[0], span, wrong[1])
+            return False
+        if name in self.scope.kinds:
+            taken = self.scope.kinds[name]
+            related = ((self.scope.spans[name], f"first declared here, as a {taken}"),)
+            self.error(f"'{name}' is declared twice", span, related=related)
+            return False
+        self.scope.kinds[name] = kind
+        self.scope.spans[name] = span
+        return True

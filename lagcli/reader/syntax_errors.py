@@ -1,0 +1,168 @@
+"""What is wrong with an expression that does not parse, and what was probably meant."""
+
+from __future__ import annotations
+
+from typing import cast
+
+from lark.exceptions import UnexpectedCharacters
+from lark.lexer import Token
+
+from lagcli.diagnostics import Diagnostic, Span
+from lagcli.expression import FUNCTIONS
+from lagcli.reader.positions import Excerpt
+
+_BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
+_END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
+
+#: Characters that mean something elsewhere, and what to write here.
+_INSTEAD = {
+    **dict.fromkeys("·×∙⋅∗•", "write '*'"),
+    **dict.fromkeys("÷∕⁄", "write '/'"),
+    **dict.fromkeys("–—‐‑", "write '-'"),
+    **dict.fromkeys('"“”„', "a second derivative is written with two primes: x''"),
+    **dict.fromkeys("`´‘ʹ", "write the prime '"),
+    **dict.fromkeys("[]{}", "group with parentheses ( )"),
+    "√": "write sqrt(x)",
+    "∂": "write diff(expression, name)",
+    "|": "write abs(x)",
+    "!": "there is no factorial",
+    "%": "there is no remainder",
+    "\\": "write names without a backslash; LaTeX goes into 'symbol'",
+    ".": "a number has a digit beside its point",
+    ":": "division is written with '/'",
+    "&": "write one condition",
+    "≠": "write an equation with '='",
+    "≈": "write an equation with '='",
+    "∞": "there is no infinity",
+    "\u0307": "a velocity is written with a prime: x'",
+    **dict.fromkeys("²³⁰ⁱ⁴⁵⁶⁷⁸⁹⁺⁻", "write a power with '^'"),
+}
+
+
+def explain(
+    error: Exception, tokens: list[Token], excerpt: Excerpt, start: str
+) -> Diagnostic:
+    """The sentence for a syntax error.
+
+    Parameters
+    ----------
+    error : lark.exceptions.UnexpectedInput
+        What the parser says.
+    tokens : list of Token
+        The tokens up to the first character that begins none.
+    excerpt : Excerpt
+        The text.
+    start : str
+        What it should be: `expression`, `equation` or `comparison`.
+    """
+    if not excerpt.value.strip():
+        return Diagnostic(f"an empty {start}", excerpt.everything)
+    if isinstance(error, UnexpectedCharacters):
+        at = cast(int, error.pos_in_stream)
+        return _unexpected_character(at, tokens, excerpt)
+    token: Token = error.token  # type: ignore[attr-defined]
+    if token.type == "$END":
+        return _unexpected_end(tokens, excerpt, start)
+    place = next(i for i, other in enumerate(tokens) if other.start_pos == token.start_pos)
+    previous = tokens[place - 1] if place else None
+    if previous is not None and previous.type in _END_VALUE and token.type in _BEGIN_VALUE:
+        following = tokens[place + 1] if place + 1 < len(tokens) else None
+        return _missing_product(previous, token, following, excerpt)
+    message, hint = _unexpected(token, previous, tokens[:place], start, excerpt)
+    return Diagnostic(message, _span(token, excerpt), hint)
+
+
+def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Diagnostic:
+    character = excerpt.value[at]
+    span = excerpt.span(at, at + 1)
+    shown = f"'{character}'" if character.isprintable() else f"U+{ord(character):04X}"
+    if character == "'":
+        before = tokens[-1] if tokens else None
+        hint = "a prime stands right behind a name, without a blank"
+        if before is not None and before.type == "RPAR":
+            hint = "a prime stands behind a name; give the expression a name under 'definitions'"
+        return Diagnostic("a prime without a name", span, hint)
+    return Diagnostic(f"{shown} has no meaning in an expression", span, _INSTEAD.get(character, ""))
+
+
+def _unexpected_end(tokens: list[Token], excerpt: Excerpt, start: str) -> Diagnostic:
+    """The text ends too early: an open parenthesis, or an operator without its right side."""
+    last = tokens[-1]
+    if last.type not in _END_VALUE:
+        return Diagnostic(f"nothing follows '{last}'", _span(last, excerpt))
+    open_ = _open_parenthesis(tokens)
+    if open_ is not None:
+        hint = ""
+        if excerpt.in_flow:
+            hint = "inside { } and [ ] a comma ends the value: put it in quotes"
+        return Diagnostic("this parenthesis is never closed", _span(open_, excerpt), hint)
+    hint = "such as N >= 0"
+    return Diagnostic("a comparison is missing", excerpt.everything, hint)
+
+
+def _missing_product(
+    left: Token, right: Token, following: Token | None, excerpt: Excerpt
+) -> Diagnostic:
+    span = excerpt.span(cast(int, left.start_pos), cast(int, right.end_pos))
+    apart = cast(int, left.end_pos) < cast(int, right.start_pos)
+    if left.type == "NAME" and str(left) in FUNCTIONS:
+        message = f"the argument of {left} stands in parentheses"
+        return Diagnostic(message, span, f"did you mean {left}({right})?")
+    if left.type == "NUMBER" and right.type == "NUMBER":
+        hint = "" if apart else "a number has one decimal point"
+        return Diagnostic("two numbers side by side", span, hint)
+    if left.type == "NUMBER" and right.startswith("_") and not apart:
+        return Diagnostic("digits are not grouped by '_'", span)
+    before = str(left) if left.type != "RPAR" else "(…)"
+    after = str(right) if right.type != "LPAR" else "(…)"
+    if right.type == "NAME" and following is not None and following.type == "LPAR":
+        after += "(…)"
+    message = f"a '*' is missing between '{left}' and '{right}'"
+    return Diagnostic(message, span, f"did you mean {before}*{after}?")
+
+
+def _unexpected(
+    token: Token, previous: Token | None, before: list[Token], start: str, excerpt: Excerpt
+) -> tuple[str, str]:
+    """Sentence and advice for a token that cannot stand where it stands."""
+    inside = _open_parenthesis(before)
+    if token.type == "RPAR":
+        if inside is None:
+            return "this parenthesis was never opened", ""
+        if previous is not None and previous.type == "LPAR":
+            return "nothing stands between the parentheses", ""
+        return f"nothing stands between '{previous}' and ')'", ""
+    if token.type == "EQUAL":
+        if previous is not None and previous.type == "EQUAL":
+            return "'==' has no meaning", "an equation is written with one '='"
+        if start == "equation" and inside is None and previous is not None:
+            return "an equation has one '='", ""
+        if start == "equation" and inside is not None:
+            return "'=' stands inside parentheses", "is a ')' missing before it?"
+        return "'=' stands only in constraints and equations", ""
+    if token.type == "COMPARISON":
+        return f"'{token}' stands only in 'holds_while', and once", ""
+    if token.type == "COMMA" and previous is not None and previous.type in _END_VALUE:
+        return "a comma stands only between the arguments of a function", _comma_advice(previous)
+    if previous is None:
+        return f"nothing stands before '{token}'", ""
+    return f"'{token}' cannot follow '{previous}'", ""
+
+
+def _comma_advice(previous: Token) -> str:
+    return "a decimal point is written '.'" if previous.type == "NUMBER" else ""
+
+
+def _open_parenthesis(tokens: list[Token]) -> Token | None:
+    """The innermost parenthesis that is not closed."""
+    opened: list[Token] = []
+    for token in tokens:
+        if token.type == "LPAR":
+            opened.append(token)
+        elif token.type == "RPAR" and opened:
+            opened.pop()
+    return opened[-1] if opened else None
+
+
+def _span(token: Token, excerpt: Excerpt) -> Span:
+    return excerpt.span(cast(int, token.start_pos), cast(int, token.end_pos))

@@ -1,0 +1,75 @@
+"""Bytes to text, and offsets in the text to lines and columns."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass
+
+from lagcli.diagnostics import Diagnostic, Source, Span
+from lagcli.reader.limits import FILE_BYTES
+
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+
+
+class Mistake(Exception):
+    """One mistake that ends the reading of an expression or of the whole file."""
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        super().__init__(diagnostic.message)
+        self.diagnostic = diagnostic
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """The text of a file with the offsets at which its lines begin."""
+
+    source: Source
+    line_starts: tuple[int, ...]
+
+    @classmethod
+    def of(cls, source: Source) -> Text:
+        """Count the lines of `source`, which ends lines by `\\n` alone."""
+        starts = [0]
+        at = source.text.find("\n")
+        while at >= 0:
+            starts.append(at + 1)
+            at = source.text.find("\n", at + 1)
+        return cls(source, tuple(starts))
+
+    def position(self, offset: int) -> tuple[int, int]:
+        """Line and column, from 1, of the character at `offset`."""
+        line = bisect_right(self.line_starts, offset)
+        return line, offset - self.line_starts[line - 1] + 1
+
+    def span(self, start: int, end: int) -> Span:
+        """The stretch from offset `start` up to, not including, `end`."""
+        return Span(*self.position(start), *self.position(end))
+
+
+def decode(name: str, data: bytes) -> tuple[Source, list[Diagnostic]]:
+    """The text of a file: UTF-8, without byte-order mark, lines ended by `\\n`.
+
+    Returns
+    -------
+    source : Source
+        The text, cut or patched where it is not acceptable, so that a diagnostic can
+        show the line.
+    diagnostics : list of Diagnostic
+        Empty when the text can be used.
+    """
+    if len(data) > FILE_BYTES:
+        message = f"the file has {len(data):,} bytes, the limit is 1 MiB ({FILE_BYTES:,} bytes)"
+        return Source(name, ""), [Diagnostic(message, Span(1, 1, 1, 1))]
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        message = "the file is UTF-16; only UTF-8 can be read"
+        return Source(name, ""), [Diagnostic(message, Span(1, 1, 1, 1), "save it as UTF-8")]
+    data = data.removeprefix(BYTE_ORDER_MARK)
+    data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    try:
+        return Source(name, data.decode("utf-8")), []
+    except UnicodeDecodeError as problem:
+        source = Source(name, data.decode("utf-8", "replace"))
+        offset = len(data[: problem.start].decode("utf-8"))
+        message = f"the byte 0x{data[problem.start]:02x} is not UTF-8"
+        span = Text.of(source).span(offset, offset + 1)
+        return source, [Diagnostic(message, span, "save the file as UTF-8")]

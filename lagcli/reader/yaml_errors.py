@@ -1,0 +1,88 @@
+"""What YAML complains about, in a sentence for someone who does not know YAML."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lagcli.diagnostics import Diagnostic
+from lagcli.reader.text import Text
+
+#: A piece of the parser's own message; our sentence; our advice.
+_SENTENCES = (
+    ("mapping values are not allowed",
+     "a second ':' in one value", "put the whole value in quotes"),
+    ("'\\t' that cannot start", "a tab cannot indent", "indent with spaces"),
+    ("tab character", "a tab cannot indent", "indent with spaces"),
+    ("that cannot start any token",
+     "a value cannot begin with this character", "put the value in quotes"),
+    ("while scanning a quoted scalar", "this quote is never closed", ""),
+    ("unknown escape character",
+     "an unknown escape after '\\'", "in single quotes a backslash is only a backslash"),
+    ("did not find expected ',' or ']'", "a list '[' is never closed, or lacks a comma", ""),
+    ("expected ',' or ']'", "a list '[' is never closed, or lacks a comma", ""),
+    ("did not find expected ',' or '}'", "a map '{' is never closed, or lacks a comma", ""),
+    ("expected ',' or '}'", "a map '{' is never closed, or lacks a comma", ""),
+    ("could not find expected ':'", "a key without ': ' after it", "write 'key: value'"),
+    ("did not find expected key",
+     "this is no key of the map around it", "is it indented like its neighbours?"),
+    ("expected <block end>",
+     "this does not belong to the map or list around it", "is it indented like its neighbours?"),
+    ("did not find expected '-' indicator",
+     "this is no item of the list around it", "is it indented like its neighbours?"),
+    ("block sequence entries are not allowed",
+     "a '-' with a blank after it begins a list, which cannot stand here",
+     "put the value in quotes"),
+    ("sequence entries are not allowed",
+     "a '-' with a blank after it begins a list, which cannot stand here",
+     "put the value in quotes"),
+    ("alphabetic or numeric", "an anchor '&' or alias '*' without a name",
+     "put a value that begins with '&' or '*' in quotes"),
+    ("anchor", "this anchor or alias is not well formed", ""),
+    ("alias", "this anchor or alias is not well formed", ""),
+    ("tag", "tags are not part of the format", "put a value that begins with '!' in quotes"),
+    ("did not find expected <document start>",
+     "the document has ended, nothing can follow here", "one problem, one file"),
+    ("expected the node content", "something is missing before this", ""),
+    ("did not find expected node content", "something is missing before this", ""),
+    ("block scalar", "the text after '|' or '>' is not well formed", ""),
+    ("directive", "'%' begins a directive, which is not part of the format",
+     "put the value in quotes"),
+)  # fmt: skip
+
+
+def explain(error: Exception, text: Text) -> Diagnostic:
+    """A syntax error of YAML as a diagnostic with its place.
+
+    Parameters
+    ----------
+    error : yaml.YAMLError
+        A marked error, or one of the reader's about a character.
+    text : Text
+        The file.
+    """
+    mark: Any = getattr(error, "problem_mark", None)
+    problem = str(getattr(error, "problem", None) or getattr(error, "reason", None) or error)
+    context = str(getattr(error, "context", None) or "")
+    if mark is None:
+        return _explain_character(error, text)
+    offset = min(mark.index, len(text.source.text))
+    start: Any = getattr(error, "context_mark", None)
+    if start is not None and offset >= len(text.source.text):  # something was never closed
+        offset = start.index
+    span = text.span(offset, min(offset + 1, len(text.source.text)))
+    said = f"{context} {problem}"
+    for piece, sentence, hint in _SENTENCES:
+        if piece in said:
+            return Diagnostic(sentence, span, hint)
+    return Diagnostic(f"this is not YAML: {problem}", span)
+
+
+def _explain_character(error: Exception, text: Text) -> Diagnostic:
+    """A character that YAML forbids, such as a control character."""
+    for offset, character in enumerate(text.source.text):
+        code = ord(character)
+        allowed = character in "\t\n\x85" or 0x20 <= code <= 0x7E or code >= 0xA0
+        if not allowed or 0xD800 <= code <= 0xDFFF or code in {0xFFFE, 0xFFFF}:
+            message = f"the character U+{code:04X} cannot stand in a file"
+            return Diagnostic(message, text.span(offset, offset + 1))
+    return Diagnostic(f"this is not YAML: {error}", text.span(0, 0))
