@@ -1,0 +1,21 @@
+"""Normal forms and simplification made for mechanics, with no physics in it."""
+
+from lagcli.algebra.entry import Field
+from lagcli.algebra.leaves import to_expression
+from lagcli.algebra.linear import LinearSolution, left_nullspace, nullspace, rank, solve_linear
+from lagcli.algebra.relations import Relations
+from lagcli.algebra.simplification import is_zero, shape, simplify
+
+__all__ = [
+    "Field",
+    "LinearSolution",
+    "Relations",
+    "is_zero",
+    "left_nullspace",
+    "nullspace",
+    "rank",
+    "shape",
+    "simplify",
+    "solve_linear",
+    "to_expression",
+]

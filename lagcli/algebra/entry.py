@@ -1,0 +1,206 @@
+"""SymPy expressions into the field and back: which generator stands for what."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+
+import sympy
+from sympy import Add, Expr, Mul, Pow, Rational, Symbol
+
+from lagcli.algebra.field import Element, FractionField, Generator
+from lagcli.algebra.multiples import Multiples
+from lagcli.algebra.ring import Poly
+from lagcli.algebra.roots import absolute, make_radical, rational_power
+
+_CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
+_HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
+_MAX_EXPONENT = 200
+
+
+class Field(FractionField):
+    """The field over Q that holds the expressions put into it.
+
+    Its generators are made on demand: symbols; sin and cos (sinh and cosh) of base
+    arguments with their quadratic relation; exponentials and symbolic powers; roots;
+    absolute values; anything else is opaque, told apart by its normalized arguments.
+
+    Examples
+    --------
+    >>> field = Field()
+    >>> x = sympy.Symbol("x", real=True)
+    >>> field(sympy.sin(x) ** 2 + sympy.cos(x) ** 2 - 1).is_zero()
+    True
+    """
+
+    def __init__(self, expressions: Iterable[Expr] = ()) -> None:
+        expressions = list(expressions)
+        symbols = {s for e in expressions for s in e.free_symbols}
+        super().__init__(capacity=len(symbols) + 4)
+        self._numbers: dict[Expr, int] = {}  # expression of a generator -> its number
+        self._memo: dict[Expr, Element] = {}
+        self._powers: dict[Expr, Multiples] = {}
+        self.circular = Multiples(self, "circular")
+        self.hyperbolic = Multiples(self, "hyperbolic")
+        self.exponential = Multiples(self, "exp")
+        for each in sorted(symbols, key=lambda s: s.name):
+            self._atom(each)
+        self.prepare(expressions)
+
+    def prepare(self, expressions: Iterable[Expr]) -> None:
+        """Look at all arguments first, so that theta/2 and theta share one generator."""
+        seen: set[Expr] = set()
+        found: list[Expr] = []
+        stack = list(expressions)
+        while stack:
+            node = stack.pop()
+            if node.args and node not in seen:
+                seen.add(node)
+                if node.is_Function or (node.is_Pow and not node.exp.is_Rational):
+                    found.append(node)
+                stack.extend(node.args)
+        for node in reversed(found):
+            if isinstance(node, _CIRCULAR):
+                self.circular.prepare(node.args[0])
+            elif isinstance(node, _HYPERBOLIC):
+                self.hyperbolic.prepare(node.args[0])
+            elif isinstance(node, sympy.exp):
+                self.exponential.prepare(node.args[0])
+            elif node.is_Pow and not node.exp.is_number:
+                self._power_family(node.base).prepare(node.exp)
+
+    def __call__(self, expression: Expr) -> Element:
+        """The element of an expression; ZeroDivisionError where it has none."""
+        known = self._memo.get(expression)
+        if known is None:
+            known = self._memo[expression] = self._enter(expression)
+        elif known.numerator.context() is not self.ring.context:
+            known = self._memo[expression] = self.lifted(known)
+        return known
+
+    def _enter(self, node: Expr) -> Element:
+        if node.is_Symbol:
+            return self._atom(node)
+        if node.is_Rational:
+            return self.rational(Fraction(int(node.p), int(node.q)))
+        if node.is_Add:
+            return self.sum([self(a) for a in node.args])
+        if node.is_Mul:
+            return self._product(node)
+        if node.is_Pow:
+            return self._power(node.base, node.exp)
+        if node.is_Function:
+            return self._function(node)
+        if node in (sympy.zoo, sympy.nan, sympy.oo, -sympy.oo):
+            raise ZeroDivisionError
+        return self._atom(node)
+
+    def _product(self, node: Expr) -> Element:
+        above, below = self.ring.one, self.ring.one
+        lift = self.ring.lift
+        for factor in node.args:
+            element = self(factor)
+            above = lift(above) * lift(element.numerator)
+            below = lift(below) * lift(element.denominator)
+        return self.element(above, below)
+
+    def _power(self, base: Expr, exponent: Expr) -> Element:
+        if exponent.is_Integer and abs(int(exponent)) <= _MAX_EXPONENT:
+            return self(base) ** int(exponent)
+        if exponent.is_Rational and abs(int(exponent.p)) <= _MAX_EXPONENT:
+            return rational_power(self, self(base), Fraction(int(exponent.p), int(exponent.q)))
+        if exponent.is_number:
+            return self.opaque(Pow(self.to_sympy(self(base)), exponent))
+        constant, rest = exponent.as_coeff_Add()
+        if not constant.is_Rational:
+            constant, rest = sympy.S.Zero, exponent
+        result = self._power_family(base).power(rest)
+        return result if constant == 0 else result * self._power(base, constant)
+
+    def _power_family(self, base: Expr) -> Multiples:
+        base = self.to_sympy(self(base))
+        if base not in self._powers:
+            self._powers[base] = Multiples(self, "power", base)
+        return self._powers[base]
+
+    def _function(self, node: Expr) -> Element:
+        argument = node.args[0]
+        if isinstance(node, _CIRCULAR):
+            cosine, sine = self.circular.pair(argument)
+            if isinstance(node, sympy.sin):
+                return sine
+            if isinstance(node, sympy.cos):
+                return cosine
+            if isinstance(node, sympy.tan):
+                return sine / cosine
+            if isinstance(node, sympy.cot):
+                return cosine / sine
+            return (cosine if isinstance(node, sympy.sec) else sine).inverse()
+        if isinstance(node, _HYPERBOLIC):
+            cosine, sine = self.hyperbolic.pair(argument)
+            if isinstance(node, sympy.sinh):
+                return sine
+            if isinstance(node, sympy.cosh):
+                return cosine
+            return sine / cosine if isinstance(node, sympy.tanh) else cosine / sine
+        if isinstance(node, sympy.exp):
+            return self.exponential.power(argument)
+        if isinstance(node, sympy.Abs):
+            return absolute(self, self(argument))
+        value = node.func(*[self.to_sympy(self(a)) for a in node.args])
+        # SymPy may have evaluated the function of the normalized arguments
+        return self.opaque(value) if value.func is node.func else self(value)
+
+    def _atom(self, expression: Expr) -> Element:
+        number = self._numbers.get(expression)
+        if number is None:
+            kind = "symbol" if expression.is_Symbol else "opaque"
+            nonnegative = bool(expression.is_nonnegative)
+            number = self.add_generator(Generator(kind, expression, nonnegative=nonnegative))
+            self._numbers[expression] = number
+            if expression is sympy.I:
+                self.ring.rule(number, 2, -self.ring.one)
+        return self.generator(number)
+
+    def opaque(self, expression: Expr) -> Element:
+        """The generator of an expression that the field does not look into."""
+        if expression not in self._numbers:
+            undefined = isinstance(expression, sympy.core.function.AppliedUndef)
+            if not undefined and any(
+                g.kind == "opaque" and g.expression.args for g in self.generators
+            ):
+                self.doubtful = True
+        return self._atom(expression)
+
+    def modulus(self, factor: Poly) -> Element:
+        """The generator |factor|, with |factor|² = factor²."""
+        expression = sympy.Abs(self.to_sympy(self.polynomial(factor)))
+        if expression not in self._numbers:
+            number = self.add_generator(Generator("abs", expression, nonnegative=True))
+            self._numbers[expression] = number
+            self.ring.rule(number, 2, self.ring.lift(factor) ** 2)
+            self.doubtful = True
+        return self.generator(self._numbers[expression])
+
+    def radical(self, radicand: Poly, index: int) -> Element:
+        """The generator radicand^(1/index)."""
+        return make_radical(self, radicand, index)
+
+    def to_sympy(self, element: Element) -> Expr:
+        """The SymPy expression numerator / denominator, both expanded."""
+        above = self.polynomial_to_sympy(element.numerator)
+        if element.denominator == 1:
+            return above
+        return Mul(above, Pow(self.polynomial_to_sympy(element.denominator), -1))
+
+    def polynomial_to_sympy(self, poly: Poly) -> Expr:
+        """The SymPy expression of a polynomial, expanded."""
+        terms = []
+        for monomial, coefficient in self.ring.terms(poly):
+            factors = [Pow(self.generators[g].expression, e) for g, e in monomial]
+            terms.append(Mul(Rational(coefficient), *factors))
+        return Add(*terms)
+
+    def number_of(self, symbol: Symbol) -> int | None:
+        """The generator of a symbol, None when it does not occur."""
+        return self._numbers.get(symbol)

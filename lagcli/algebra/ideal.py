@@ -1,0 +1,138 @@
+"""Remainders modulo an ideal, by a Gröbner basis in an order of one's choice.
+
+The rules of the ring (sin² + cos² = 1, roots) belong to the ideal.  The basis is
+completed by Buchberger's algorithm within bounds; where these end it early, a remainder
+of 0 still proves membership.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from math import lcm
+
+from flint import Ordering, fmpq_mpoly_ctx
+
+from lagcli.algebra.entry import Field
+from lagcli.algebra.field import Element
+from lagcli.algebra.ring import Poly
+
+_MAX_BASIS = 24
+_MAX_TERMS = 60
+_MAX_PAIRS = 120
+
+
+class Ideal:
+    """The ideal of some polynomials and of the ring's rules.
+
+    Parameters
+    ----------
+    generators
+        Generators of the ring by falling rank; the others rank below, as constants do.
+    """
+
+    def __init__(self, field: Field, polys: Sequence[Poly], generators: Sequence[int]) -> None:
+        self.field = field
+        self._ranked = list(generators)
+        self._open()
+        rules = [rule for _, rule in field.ring.rules.values()]
+        self.basis = _completed([self._inside(p) for p in [*polys, *rules]])
+
+    def remainder(self, poly: Poly) -> Element:
+        """The remainder of a polynomial."""
+        if self.field.ring.capacity != self._capacity:
+            basis = [self._outside(b).numerator for b in self.basis]
+            self._open()
+            self.basis = [self._inside(b) for b in basis]
+        return self._outside(_remainder(self._inside(poly), self.basis))
+
+    def _open(self) -> None:
+        ring = self.field.ring
+        self._capacity = ring.capacity
+        rest = [n for n in reversed(range(ring.capacity)) if n not in self._ranked]
+        self._order = [*self._ranked, *rest]
+        self.context = fmpq_mpoly_ctx.get([f"g{n}" for n in self._order], Ordering.lex)
+
+    def _inside(self, poly: Poly) -> Poly:
+        """The polynomial in the order of the ideal."""
+        ring = self.field.ring
+        last = ring.capacity - 1
+        data = {
+            tuple(exponents[last - n] for n in self._order): coefficient
+            for exponents, coefficient in ring.lift(poly).to_dict().items()
+        }
+        return self.context.from_dict(data)
+
+    def _outside(self, poly: Poly) -> Element:
+        terms = poly.to_dict()
+        common = lcm(*(int(c.q) for c in terms.values())) if terms else 1
+        ring = self.field.ring
+        above = ring.build(
+            (tuple((n, int(e)) for n, e in zip(self._order, exponents, strict=True) if e),
+             int(c.p) * (common // int(c.q)))
+            for exponents, c in terms.items()
+        )  # fmt: skip
+        return self.field.element(above, ring.constant(common))
+
+
+def _remainder(poly: Poly, basis: Sequence[Poly]) -> Poly:
+    """The remainder by all of the basis."""
+    before = None
+    while poly != before and poly != 0:
+        before = poly
+        for divisor in basis:
+            poly = poly % divisor
+    return poly
+
+
+def _completed(polys: Sequence[Poly]) -> list[Poly]:
+    """A Gröbner basis, or as much of one as the bounds allow."""
+    basis: list[Poly] = []
+    pairs: deque[tuple[Poly, Poly]] = deque()
+
+    def add(poly: Poly) -> None:
+        poly = poly / poly.leading_coefficient()
+        pairs.extend((other, poly) for other in basis)
+        basis.append(poly)
+
+    for poly in polys:
+        rest = _remainder(poly, basis)
+        if rest != 0:
+            add(rest)
+    for _ in range(_MAX_PAIRS):
+        if not pairs or len(basis) > _MAX_BASIS:
+            break
+        left, right = pairs.popleft()
+        if _coprime(left, right):
+            continue
+        rest = _remainder(_difference(left, right), basis)
+        if rest != 0 and len(rest) <= _MAX_TERMS:
+            add(rest)
+    return _interreduced(basis)
+
+
+def _difference(left: Poly, right: Poly) -> Poly:
+    """The S-polynomial, in which the leading terms cancel."""
+    a, b = left.monomial(0), right.monomial(0)
+    top = tuple(map(max, a, b))
+    context = left.context()
+    first = context.from_dict({tuple(t - e for t, e in zip(top, a, strict=True)): 1})
+    second = context.from_dict({tuple(t - e for t, e in zip(top, b, strict=True)): 1})
+    return first * left - second * right
+
+
+def _coprime(left: Poly, right: Poly) -> bool:
+    """Buchberger's first criterion: the S-polynomial then reduces to 0."""
+    pairs = zip(left.monomial(0), right.monomial(0), strict=True)
+    return not any(a and b for a, b in pairs)
+
+
+def _interreduced(basis: list[Poly]) -> list[Poly]:
+    """The basis without members whose leading monomial another one divides."""
+    kept: list[Poly] = []
+    for position, poly in enumerate(basis):
+        top = poly.monomial(0)
+        others = [*kept, *basis[position + 1 :]]
+        if not any(all(map(int.__le__, map(int, o.monomial(0)), map(int, top))) for o in others):
+            kept.append(poly)
+    return [_remainder(p, [o for o in kept if o is not p]) for p in kept]

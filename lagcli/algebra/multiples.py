@@ -1,0 +1,169 @@
+"""Sines, exponentials and symbolic powers of sums: one generator for each base argument.
+
+An argument is split into rational multiples of base arguments, theta/2 + 2*Omega*t into
+(1/2, theta) and (2, Omega*t).  The functions of k_1 a_1 + k_2 a_2 + … follow from those
+of the a_i by the addition theorems, so equal functions always get equal normal forms.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+from math import lcm
+from typing import TYPE_CHECKING
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra.field import Element, Generator
+
+if TYPE_CHECKING:
+    from lagcli.algebra.entry import Field
+
+#: Beyond these, an argument is a base argument of its own.
+MAX_MULTIPLE = 24
+MAX_PARTS = 12
+
+_INVERSE = (
+    sympy.log, sympy.asin, sympy.acos, sympy.atan, sympy.atan2,
+    sympy.asinh, sympy.acosh, sympy.atanh,
+)  # fmt: skip
+
+
+def split(field: Field, argument: Expr) -> list[tuple[Fraction, Expr]]:
+    """The argument as a sum of rational multiples of base arguments (1 for a number)."""
+    if argument.is_Symbol:
+        return [(Fraction(1), argument)]
+    element = field(argument)
+    ring = field.ring
+    content = int(element.denominator.content())
+    below = element.denominator / content
+    terms = list(ring.terms(element.numerator))
+    if len(terms) > MAX_PARTS:
+        sign = 1 if terms[0][1] > 0 else -1
+        return [(Fraction(sign), field.to_sympy(element) * sign)]
+    parts = []
+    for monomial, coefficient in terms:
+        base = field.element(ring.build([(monomial, 1)]), below)
+        parts.append((Fraction(coefficient, content), field.to_sympy(base)))
+    return parts
+
+
+class Multiples:
+    """The base arguments of one kind of function and the fraction each comes in.
+
+    Parameters
+    ----------
+    kind
+        circular, hyperbolic, exp or power.
+    """
+
+    def __init__(self, field: Field, kind: str, base: Expr | None = None) -> None:
+        self.field = field
+        self.kind = kind
+        self.base = base  # of a power
+        self._unit: dict[Expr, int] = {}  # base argument -> N: the generator is of argument/N
+        self._generators: dict[tuple[Expr, int], int] = {}
+
+    def prepare(self, argument: Expr) -> None:
+        """Note the fractions of an argument, before generators are made."""
+        for multiple, base in split(self.field, argument):
+            unit = self._unit.get(base, 1)
+            self._unit[base] = lcm(unit, multiple.denominator)
+
+    def parts(self, parts: Iterable[tuple[Fraction, Expr]]) -> Iterator[tuple[int, int]]:
+        """(k, g) for each part: it is k times the argument of generator g."""
+        for multiple, base in parts:
+            unit = self._unit.setdefault(base, multiple.denominator)
+            scaled = multiple * unit
+            if scaled.denominator != 1:
+                unit = lcm(unit, multiple.denominator)
+                scaled = multiple * unit
+                self.field.doubtful = True
+                self._unit[base] = unit
+            multiplier = scaled.numerator
+            part = base / unit
+            if abs(multiplier) > MAX_MULTIPLE:
+                self.field.doubtful = True
+                part, multiplier = abs(multiplier) * part, 1 if multiplier > 0 else -1
+                yield multiplier, self._generator(part, 1)
+            else:
+                yield multiplier, self._generator(base, unit)
+
+    def _generator(self, base: Expr, unit: int) -> int:
+        key = (base, unit)
+        if key not in self._generators:
+            argument = base / unit
+            if not argument.free_symbols or argument.has(*_INVERSE):
+                self.field.doubtful = True
+            self._generators[key] = self._create(argument)
+        return self._generators[key]
+
+    def _create(self, argument: Expr) -> int:
+        field = self.field
+        if self.kind == "exp":
+            return field.add_generator(
+                Generator("exp", sympy.exp(argument), argument, nonnegative=True)
+            )
+        if self.kind == "power":
+            assert self.base is not None
+            value = sympy.Pow(self.base, argument)
+            positive = bool(self.base.is_positive)
+            return field.add_generator(Generator("power", value, argument, nonnegative=positive))
+        circular = self.kind == "circular"
+        names = ("cos", "sin") if circular else ("cosh", "sinh")
+        functions = (sympy.cos, sympy.sin) if circular else (sympy.cosh, sympy.sinh)
+        index = len(field.generators)
+        field.add_generator(
+            Generator(names[0], functions[0](argument), argument, index + 1,
+                      nonnegative=not circular)
+        )  # fmt: skip
+        field.add_generator(Generator(names[1], functions[1](argument), argument, index))
+        ring = field.ring
+        square = ring.generator(index) ** 2
+        # sin² = 1 − cos², sinh² = cosh² − 1
+        ring.rule(index + 1, 2, ring.one - square if circular else square - ring.one)
+        return index
+
+    def pair(self, argument: Expr) -> tuple[Element, Element]:
+        """(cos, sin) or (cosh, sinh) of the argument."""
+        field, sign = self.field, -1 if self.kind == "circular" else 1
+        cosine, sine = field.rational(1), field.rational(0)
+        parts = split(field, argument)
+        for position, (multiple, base) in enumerate(parts):
+            if base is sympy.pi and self.kind == "circular":
+                value = multiple.numerator * base / multiple.denominator
+                exact = sympy.cos(value), sympy.sin(value)
+                if not exact[0].has(sympy.cos, sympy.sin):
+                    cosine, sine = field(exact[0]), field(exact[1])
+                    del parts[position]
+                    break
+        for multiplier, index in self.parts(parts):
+            c, s = self._multiple(index, abs(multiplier))
+            if multiplier < 0:
+                s = -s
+            # cos(a + b) = cos a cos b ∓ sin a sin b, sin(a + b) = sin a cos b + cos a sin b
+            second = sine * s
+            cosine, sine = (
+                cosine * c + (-second if sign < 0 else second),
+                sine * c + cosine * s,
+            )
+        return cosine, sine
+
+    def _multiple(self, index: int, count: int) -> tuple[Element, Element]:
+        """Both functions of `count` times the argument of the generator."""
+        field, sign = self.field, -1 if self.kind == "circular" else 1
+        c, s = field.generator(index), field.generator(index + 1)
+        cosine, sine = c, s
+        for _ in range(count - 1):
+            product = sine * s
+            cosine, sine = cosine * c + (-product if sign < 0 else product), sine * c + cosine * s
+        return cosine, sine
+
+    def power(self, argument: Expr) -> Element:
+        """The exponential of the argument, or the base raised to it."""
+        field = self.field
+        result = field.rational(1)
+        for multiplier, index in self.parts(split(field, argument)):
+            result = result * field.generator(index) ** multiplier
+        return result

@@ -1,0 +1,197 @@
+"""Numbers for SymPy expressions with mpmath, at as many digits as asked for.
+
+A list of expressions is compiled once to a plan in which equal parts are computed once;
+the plan is a flat list of operations, run at as many points as wanted.  Unspecified
+functions stand for concrete smooth ones whose derivatives agree with each other.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache, reduce
+from math import prod
+from operator import add, mul
+from typing import Any
+
+import mpmath
+import sympy
+from mpmath import mpf
+from sympy import Expr, Symbol
+from sympy.core.function import AppliedUndef
+
+_FUNCTIONS: dict[str, Callable[..., Any]] = {
+    "sin": mpmath.sin,
+    "cos": mpmath.cos,
+    "tan": mpmath.tan,
+    "cot": mpmath.cot,
+    "sec": mpmath.sec,
+    "csc": mpmath.csc,
+    "asin": mpmath.asin,
+    "acos": mpmath.acos,
+    "atan": mpmath.atan,
+    "atan2": mpmath.atan2,
+    "sinh": mpmath.sinh,
+    "cosh": mpmath.cosh,
+    "tanh": mpmath.tanh,
+    "coth": mpmath.coth,
+    "asinh": mpmath.asinh,
+    "acosh": mpmath.acosh,
+    "atanh": mpmath.atanh,
+    "exp": mpmath.exp,
+    "log": mpmath.log,
+    "Abs": mpmath.fabs,
+    "sign": mpmath.sign,
+}
+
+
+class ConcreteFunction:
+    """f(x_1, …, x_n) = 2 + sum_k a_k prod_j exp(b_kj x_j), and its partial derivatives.
+
+    The coefficients follow from the name, so that U, U' and U'' belong to one function;
+    it is positive and increasing in every argument.
+    """
+
+    def __init__(self, name: str, arity: int) -> None:
+        source = random.Random(f"lagcli {name}/{arity}")
+        self._terms = [
+            (source.randint(200, 900), [source.randint(150, 800) for _ in range(arity)])
+            for _ in range(3)
+        ]
+
+    def __call__(self, arguments: Sequence[Any], indices: Sequence[int] = ()) -> Any:
+        """The partial derivative by the arguments `indices` (from 1) at a point."""
+        total = mpf(0) if indices else mpf(2)
+        for weight, rates in self._terms:
+            exponent = sum(mpf(r) * x for r, x in zip(rates, arguments, strict=True)) / 1000
+            factor = prod(rates[i - 1] for i in indices) / mpf(1000) ** len(indices)
+            total += mpf(weight) / 1000 * factor * mpmath.exp(exponent)
+        return total
+
+
+@cache
+def concrete_function(name: str, arity: int) -> ConcreteFunction:
+    """The concrete function that stands for an unspecified one."""
+    return ConcreteFunction(name, arity)
+
+
+class Evaluator:
+    """A plan for the values of several expressions.
+
+    Parameters
+    ----------
+    expressions
+        What to evaluate; common parts are computed once.
+    digits
+        Decimal digits of the arithmetic.
+    functions
+        Concrete functions for unspecified ones, name -> f(arguments, indices), where
+        `indices` are the arguments (from 1) it is differentiated by.
+
+    Examples
+    --------
+    >>> x = Symbol("x")
+    >>> Evaluator([x**2, sympy.sin(x)])({x: mpf(0)})
+    [mpf('0.0'), mpf('0.0')]
+    """
+
+    def __init__(
+        self,
+        expressions: Sequence[Expr],
+        digits: int = 50,
+        functions: Mapping[str, Callable[..., Any]] | None = None,
+    ) -> None:
+        self.digits = digits
+        self._functions = functions or {}
+        self._slots: dict[Expr, int] = {}
+        self._symbols: list[tuple[Symbol, int]] = []
+        self._constants: list[tuple[Expr, int]] = []
+        self._plan: list[tuple[int, Callable[[list[Any]], Any], list[int]]] = []
+        self._results = [self._slot(e) for e in expressions]
+
+    def __call__(self, values: Mapping[Symbol, Any]) -> list[Any]:
+        """The values at a point; KeyError for a symbol without a value.
+
+        Raises
+        ------
+        ArithmeticError, ValueError
+            Where an expression is not defined, as 1/0 or log(0).
+        """
+        with mpmath.workdps(self.digits):
+            slots: list[Any] = [None] * len(self._slots)
+            for symbol, slot in self._symbols:
+                slots[slot] = mpmath.mpmathify(values[symbol])
+            for constant, slot in self._constants:
+                slots[slot] = _constant(constant)
+            for slot, operation, sources in self._plan:
+                slots[slot] = operation([slots[i] for i in sources])
+            return [slots[i] for i in self._results]
+
+    def _slot(self, root: Expr) -> int:
+        """The slot of an expression, with all that it needs planned before it."""
+        stack = [(root, False)]
+        while stack:
+            node, ready = stack.pop()
+            if node in self._slots:
+                continue
+            if not node.args:
+                self._slots[node] = len(self._slots)
+                pairs: list[Any] = self._symbols if node.is_Symbol else self._constants
+                pairs.append((node, self._slots[node]))
+            elif ready:
+                operation, parts = self._operation(node)
+                sources = [self._slots[part] for part in parts]
+                self._slots[node] = len(self._slots)
+                self._plan.append((self._slots[node], operation, sources))
+            else:
+                stack.append((node, True))
+                _, parts = self._operation(node)
+                stack.extend((part, False) for part in reversed(parts))
+        return self._slots[root]
+
+    def _operation(self, node: Expr) -> tuple[Callable[[list[Any]], Any], tuple[Expr, ...]]:
+        if node.is_Add:
+            return (lambda v: reduce(add, v)), node.args
+        if node.is_Mul:
+            return (lambda v: reduce(mul, v)), node.args
+        if node.is_Pow:
+            if node.exp.is_Integer:
+                exponent = int(node.exp)
+                return (lambda v: v[0] ** exponent), (node.base,)
+            if node.exp == sympy.S.Half:
+                return (lambda v: mpmath.sqrt(v[0])), (node.base,)
+            return (lambda v: mpmath.power(v[0], v[1])), (node.base, node.exp)
+        if isinstance(node, AppliedUndef):
+            function = type(node)
+            base = getattr(function, "base_name", function.__name__)
+            indices = getattr(function, "indices", ())
+            concrete = self._functions.get(base) or concrete_function(base, len(node.args))
+            return (lambda v: concrete(v, indices)), node.args
+        function = _FUNCTIONS.get(type(node).__name__)
+        if function is None:
+            raise TypeError(f"no numeric value for {node!r}")
+        return (lambda v: function(*v)), node.args
+
+
+def _constant(node: Expr) -> Any:
+    if node.is_Rational:
+        return mpf(int(node.p)) / int(node.q)
+    if node is sympy.pi:
+        return +mpmath.pi
+    if node is sympy.E:
+        return +mpmath.e
+    if node is sympy.I:
+        return mpmath.mpc(0, 1)
+    if node.is_Float:
+        return mpf(str(node))
+    raise ZeroDivisionError(f"no finite value for {node!r}")
+
+
+def evaluate(
+    expression: Expr,
+    values: Mapping[Symbol, Any],
+    digits: int = 50,
+    functions: Mapping[str, Callable[..., Any]] | None = None,
+) -> Any:
+    """The value of one expression at one point; see `Evaluator`."""
+    return Evaluator([expression], digits, functions)(values)[0]

@@ -1,0 +1,125 @@
+"""The order in which a textbook writes factors and terms."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from lagcli.expression import (
+    Call,
+    Expression,
+    Name,
+    Negative,
+    Number,
+    PartialCall,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    children,
+)
+
+type_rank = {Number: 0, Name: 1, Power: 1, Quotient: 2, Sum: 3, Product: 3, Negative: 3}
+
+Key = tuple[object, ...]
+
+
+class Ordering:
+    """Sort keys for factors and terms.
+
+    Parameters
+    ----------
+    names
+        Names without primes in the order in which they are to appear in a product:
+        parameters, ``t``, coordinates, multipliers.  Others come after these.
+    """
+
+    def __init__(self, names: Sequence[str] = ()) -> None:
+        self._index = {name: position for position, name in enumerate(names)}
+        self._memo: dict[Expression, Key] = {}
+
+    def factor(self, node: Expression) -> Key:
+        """Numbers, parameters, t, coordinates, velocities, accelerations, sums, functions."""
+        key = self._memo.get(node)
+        if key is None:
+            key = self._memo[node] = self._factor(node)
+        return key
+
+    def _factor(self, node: Expression) -> Key:
+        match node:
+            case Number(value=value):
+                return (0, value)
+            case Name(name=name, primes=primes):
+                return (1, primes, self._index.get(name, len(self._index)), name)
+            case Power(base=base, exponent=exponent):
+                return (*self._factor(base), *self._factor(exponent))
+            case Call(function="sqrt"):
+                return (2, *self._parts(node))
+            case Sum():
+                return (3, *self._parts(node))
+            case Call(function=function, primes=primes):
+                return (4, function, primes, *self._parts(node))
+            case PartialCall(function=function, indices=indices):
+                return (4, function, len(indices), *indices, *self._parts(node))
+            case _:
+                return (3, *self._parts(node))
+
+    def _parts(self, node: Expression) -> Key:
+        flat: list[object] = []
+        for part in children(node):
+            flat.extend(self.factor(part))
+        return tuple(map(str, flat))
+
+    def term(self, node: Expression) -> Key:
+        """Terms with accelerations first, then by falling degree in the velocities."""
+        accelerations, velocities = _degrees(node)
+        return (-accelerations, -velocities, _flat(self._term(node)))
+
+    def _term(self, node: Expression) -> Key:
+        match node:
+            case Negative(operand=operand):
+                return self._term(operand)
+            case Product(factors=factors):
+                flat: list[object] = []
+                for each in factors:
+                    flat.extend(self.factor(each))
+                return tuple(flat)
+            case Quotient(numerator=numerator, denominator=denominator):
+                return (*self._term(numerator), *self._term(denominator))
+            case Number():
+                return (9,)  # a constant term comes last
+            case _:
+                return self.factor(node)
+
+
+def _flat(key: Key) -> tuple[tuple[int, Fraction, str], ...]:
+    """A key whose entries of different types can be compared."""
+    flat = []
+    for entry in key:
+        if isinstance(entry, (int, Fraction)):
+            flat.append((0, Fraction(entry), ""))
+        else:
+            flat.append((1, Fraction(0), str(entry)))
+    return tuple(flat)
+
+
+def _degrees(node: Expression) -> tuple[int, int]:
+    """The degrees of a term in accelerations and in velocities."""
+    match node:
+        case Name(primes=primes):
+            return int(primes > 1), int(primes == 1)
+        case Negative(operand=operand):
+            return _degrees(operand)
+        case Product(factors=factors):
+            pairs = [_degrees(factor) for factor in factors]
+            return sum(a for a, _ in pairs), sum(v for _, v in pairs)
+        case Quotient(numerator=numerator):
+            return _degrees(numerator)
+        case Power(base=base, exponent=Number(value=value)):
+            a, v = _degrees(base)
+            return int(a * value), int(v * value)
+        case Sum(terms=terms):
+            pairs = [_degrees(term) for term in terms]
+            return max(a for a, _ in pairs), max(v for _, v in pairs)
+        case _:
+            return 0, 0

@@ -1,0 +1,180 @@
+"""Rational powers: a generator s with s^q = radicand, known factors taken out.
+
+sqrt(a*b) = sqrt(a)*sqrt(b) holds when a or b is not negative, so every factor of a
+radicand that is known to be nonnegative gets a root of its own; the others stay
+together.  sqrt(N/D) = sqrt(N*D)/|D|.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import sympy
+
+from lagcli.algebra.field import Element, Generator
+from lagcli.algebra.ring import Poly
+
+if TYPE_CHECKING:
+    from lagcli.algebra.entry import Field
+
+_MAX_FACTORED = 10**24  # larger integers under a root are not factored
+
+
+def is_nonnegative(field: Field, poly: Poly) -> bool:
+    """Whether the assumptions show at once that the polynomial is >= 0."""
+    for monomial, coefficient in field.ring.terms(poly):
+        if coefficient < 0:
+            return False
+        if any(e % 2 and not field.generators[g].nonnegative for g, e in monomial):
+            return False
+    return True
+
+
+def absolute(field: Field, element: Element) -> Element:
+    """|element|, factor by factor."""
+    return _absolute(field, element.numerator) / _absolute(field, element.denominator)
+
+
+def _absolute(field: Field, poly: Poly) -> Element:
+    content, factors = poly.factor()
+    result = field.rational(abs(int(content)))
+    for factor, exponent in factors:
+        base = field.polynomial(factor)
+        if exponent % 2 and not is_nonnegative(field, factor):
+            base = base if is_nonnegative(field, -factor) else field.modulus(factor)
+            if base.numerator == factor:
+                base = -base
+        result = result * base**exponent
+    return result
+
+
+def rational_power(field: Field, base: Element, exponent: Fraction) -> Element:
+    """base^exponent."""
+    if exponent.denominator == 1:
+        return base**exponent.numerator
+    if base.is_zero():
+        return base
+    root = _root(field, base, exponent.denominator)
+    return root**exponent.numerator
+
+
+def _root(field: Field, base: Element, index: int) -> Element:
+    above, below = base.numerator, base.denominator
+    if below == 1 or is_nonnegative(field, below):
+        # (N/D)^(1/q) = (N D^(q-1))^(1/q) / D for D >= 0
+        return _polynomial_root(field, above * below ** (index - 1), index) / field.polynomial(below)
+    if index == 2:
+        return _polynomial_root(field, above * below, 2) / _absolute(field, below)
+    return field.opaque(sympy.Pow(field.to_sympy(base), sympy.Rational(1, index)))
+
+
+def _polynomial_root(field: Field, radicand: Poly, index: int) -> Element:
+    ring = field.ring
+    square = _hidden_square(field, radicand) if index == 2 else None
+    if square is not None:
+        return absolute(field, square)
+    radicand = ring.reduce(radicand)
+    content, factors = radicand.factor()
+    number = int(content)
+    together = ring.constant(-1 if number < 0 else 1)
+    result = _integer_root(field, abs(number), index)
+    factors.sort(key=lambda pair: str(pair[0]))
+    for factor, exponent in factors:
+        whole, rest = divmod(exponent, index)
+        if is_nonnegative(field, factor):
+            result = result * field.polynomial(factor) ** whole
+            if rest:
+                result = result * field.radical(factor, index) ** rest
+        elif index == 2:
+            base = field.polynomial(factor)
+            result = result * (base if whole % 2 == 0 else absolute(field, base)) ** whole
+            together = together * factor**rest
+        else:
+            together = together * factor**exponent
+    if together != 1:
+        result = result * field.radical(together, index)
+    return result
+
+
+def _integer_root(field: Field, number: int, index: int) -> Element:
+    result = field.rational(1)
+    if number == 1:
+        return result
+    factors = sympy.factorint(number) if number < _MAX_FACTORED else {number: 1}
+    for prime, exponent in sorted(factors.items()):
+        whole, rest = divmod(exponent, index)
+        result = result * field.rational(int(prime) ** whole)
+        if rest:
+            result = result * field.radical(field.ring.constant(int(prime)), index) ** rest
+    return result
+
+
+def _hidden_square(field: Field, radicand: Poly) -> Element | None:
+    """The square root modulo sin² + cos² = 1: 1 − cos² is a square though it factors."""
+    ring = field.ring
+    radicand = ring.lift(radicand)
+    for index in ring.used(radicand):
+        generator = field.generators[index]
+        if generator.kind not in ("cos", "cosh"):
+            continue
+        other = ring.generator(generator.partner) ** 2
+        value = ring.one - other if generator.kind == "cos" else other + ring.one
+        swapped = substitute_square(field, radicand, index, value)
+        if len(swapped) >= len(radicand) or swapped.leading_coefficient() < 0:
+            continue
+        _, factors = swapped.factor_squarefree()
+        if all(exponent % 2 == 0 for _, exponent in factors):
+            number = abs(int(swapped.content()))
+            result = _integer_root(field, number, 2)
+            for factor, exponent in factors:
+                result = result * field.polynomial(factor) ** (exponent // 2)
+            return result
+    return None
+
+
+def substitute_square(field: Field, poly: Poly, index: int, value: Poly) -> Poly:
+    """The polynomial with g_index² replaced by value."""
+    ring = field.ring
+    poly = ring.lift(poly)
+    by_power: dict[int, list[tuple[tuple[tuple[int, int], ...], int]]] = {}
+    for monomial, coefficient in ring.terms(poly):
+        exponent = dict(monomial).get(index, 0)
+        rest = tuple(
+            (g, e % 2 if g == index else e) for g, e in monomial if g != index or e % 2
+        )
+        by_power.setdefault(exponent // 2, []).append((rest, coefficient))
+    result = ring.zero
+    for power, terms in by_power.items():
+        result += ring.build(terms) * value**power
+    return result
+
+
+def make_radical(field: Field, radicand: Poly, index: int) -> Element:
+    """The generator s with s^index = radicand, made when it is new."""
+    ring = field.ring
+    radicand = ring.lift(radicand)
+    trigonometric = any(
+        field.generators[g].kind not in ("symbol", "opaque", "power", "exp")
+        for g in ring.used(radicand)
+    )
+    others = 0
+    for number, generator in enumerate(field.generators):
+        if generator.kind != "root":
+            continue
+        value = ring.lift(generator.radicand)
+        if generator.index == index and value == radicand:
+            return field.generator(number)
+        others += not value.is_constant()
+        if not value.is_constant() and not value.gcd(radicand).is_constant():
+            field.doubtful = True
+        if generator.index != index:
+            field.doubtful = True
+    if trigonometric and others:
+        field.doubtful = True
+    expression = sympy.Pow(field.to_sympy(field.polynomial(radicand)), sympy.Rational(1, index))
+    number = field.add_generator(
+        Generator("root", expression, index=index, radicand=radicand, nonnegative=True)
+    )
+    field.ring.rule(number, index, radicand)
+    return field.generator(number)

@@ -1,0 +1,97 @@
+"""The shortest readable shape of an expression's unique form."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sympy import Expr
+
+from lagcli.algebra.entry import Field
+from lagcli.algebra.field import Element
+from lagcli.algebra.leaves import Translator
+from lagcli.algebra.relations import Relations
+from lagcli.algebra.shapes import Shaper
+from lagcli.algebra.writing import Writer
+from lagcli.expression import Expression, operation_count
+
+
+def shape(
+    expression: Expr, order: Sequence[str] = (), relations: Relations | None = None
+) -> Expression:
+    """The shortest readable tree of an expression.
+
+    Parameters
+    ----------
+    expression
+        What to write; anything that is no rational function of the field's generators
+        is kept as it is.
+    order
+        Parameters, ``t``, coordinates, multipliers, as they are to follow in a product.
+    relations
+        What may be used to shorten it.
+    """
+    if relations:
+        expression = relations.substitute(expression)
+    writer = Writer(order)
+    field = Field([expression])
+    try:
+        element = field(expression)
+    except ZeroDivisionError:
+        return Translator(writer).tree(expression)
+    shaper = Shaper(field, writer)
+    tree, _ = _shortest(shaper, element, relations)
+    given = Translator(writer).tree(expression)
+    return given if operation_count(given) < operation_count(tree) else tree
+
+
+def simplify(expression: Expr, relations: Relations | None = None) -> Expr:
+    """The shortest readable shape as a SymPy expression; see `shape`."""
+    if relations:
+        expression = relations.substitute(expression)
+    field = Field([expression])
+    try:
+        element = field(expression)
+    except ZeroDivisionError:
+        return expression
+    return readable(field, element, relations)
+
+
+def readable(field: Field, element: Element, relations: Relations | None = None) -> Expr:
+    """The shortest readable shape of an element of the field."""
+    shaper = Shaper(field, Writer())
+    tree, _ = _shortest(shaper, element, relations)
+    return shaper.to_sympy(tree)
+
+
+def is_zero(expression: Expr, relations: Relations | None = None) -> bool | None:
+    """Whether an expression vanishes, wherever the relations hold.
+
+    Returns
+    -------
+    True when its normal form is 0 (modulo the relations), False when it certainly does
+    not vanish identically, None when the normal form does not decide.
+    """
+    if relations:
+        expression = relations.substitute(expression)
+    field = Field([expression])
+    try:
+        element = field(expression)
+    except ZeroDivisionError:
+        return None
+    if element.is_zero():
+        return True
+    if relations and relations.remaining:
+        return True if relations.contain(field, element.numerator) else None
+    return None if field.doubtful else False
+
+
+def _shortest(
+    shaper: Shaper, element: Element, relations: Relations | None
+) -> tuple[Expression, int]:
+    candidates = [element]
+    if relations:
+        candidates.extend(relations.reductions(shaper.field, element))
+    shapes = [shaper.shape(each) for each in candidates]
+    counted = [(operation_count(s), i, s) for i, s in enumerate(shapes)]
+    best = min(counted, key=lambda c: c[:2])
+    return best[2], best[0]

@@ -1,0 +1,202 @@
+"""Sums, products and powers as trees, written the way a textbook writes them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+
+from lagcli.algebra.ordering import Ordering
+from lagcli.expression import (
+    ONE,
+    ZERO,
+    Call,
+    Expression,
+    Name,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+)
+
+Factor = tuple[Expression, Fraction]  # base and exponent
+
+
+class Writer:
+    """Builds trees in a fixed order of names.
+
+    Parameters
+    ----------
+    order
+        Parameters, ``t``, coordinates, multipliers, as they are to follow in a product.
+    """
+
+    def __init__(self, order: Sequence[str] = ()) -> None:
+        self.ordering = Ordering(order)
+
+    def number(self, value: Fraction) -> Expression:
+        """A rational: 3, -3, 3/2."""
+        return self.product(value, ())
+
+    def product(self, coefficient: Fraction, factors: Iterable[Factor]) -> Expression:
+        """coefficient * prod base^exponent, with what divides in one denominator."""
+        if coefficient == 0:
+            return ZERO
+        exponents: dict[Expression, Fraction] = {}
+        for base, exponent in factors:
+            exponents[base] = exponents.get(base, Fraction(0)) + exponent
+        pairs = [(base, exponent) for base, exponent in exponents.items() if exponent]
+        coefficient, pairs = _positive_sums(coefficient, pairs)
+        coefficient, pairs = _tangents(coefficient, pairs)
+        coefficient, pairs = self._joined_roots(coefficient, pairs)
+        above = self._factors(pairs, 1)
+        below = self._factors(pairs, -1)
+        size = abs(coefficient)
+        if size.numerator != 1 or not above:
+            above.insert(0, Number(Fraction(size.numerator)))
+        if size.denominator != 1:
+            below.insert(0, Number(Fraction(size.denominator)))
+        result = _product(above)
+        if below:
+            result = Quotient(result, _product(below))
+        return Negative(result) if coefficient < 0 else result
+
+    def _factors(self, pairs: list[Factor], sign: int) -> list[Expression]:
+        chosen = [(base, exponent * sign) for base, exponent in pairs if exponent * sign > 0]
+        chosen.sort(key=lambda pair: self.ordering.term(pair[0])[2])
+        return [self.power(base, exponent) for base, exponent in chosen]
+
+    def _joined_roots(
+        self, coefficient: Fraction, pairs: list[Factor]
+    ) -> tuple[Fraction, list[Factor]]:
+        """sqrt(a)*sqrt(b)/sqrt(c) as sqrt(a*b/c)."""
+        half = Fraction(1, 2)
+        roots = [(b, e) for b, e in pairs if abs(e) == half]
+        if len(roots) < 2:
+            return coefficient, pairs
+        rest = [(b, e) for b, e in pairs if abs(e) != half]
+        number = Fraction(1)
+        inside: list[Factor] = []
+        for base, exponent in roots:
+            if isinstance(base, Number):
+                # 1/2 * sqrt(2) = 1/sqrt(2)
+                value, sign = base.value, (1 if exponent > 0 else -1)
+                if sign > 0 and coefficient.denominator % value == 0:
+                    coefficient, sign = coefficient * value, -1
+                elif sign < 0 and coefficient.numerator % value == 0:
+                    coefficient, sign = coefficient / value, 1
+                number *= value**sign
+            else:
+                inside.append((base, exponent * 2))
+        radicand = self.product(number, inside)
+        if isinstance(radicand, Quotient) and radicand.numerator == ONE:
+            return coefficient, [*rest, (radicand.denominator, -half)]
+        return coefficient, [*rest, (radicand, half)]
+
+    def power(self, base: Expression, exponent: Fraction) -> Expression:
+        """base^exponent for a positive rational exponent."""
+        if exponent == 1:
+            return base
+        if exponent == Fraction(1, 2):
+            return Call("sqrt", (base,))
+        if exponent.denominator == 1:
+            return Power(base, Number(exponent))
+        fraction = Quotient(
+            Number(Fraction(exponent.numerator)), Number(Fraction(exponent.denominator))
+        )
+        return Power(base, fraction)
+
+    def sum(self, terms: Iterable[Expression]) -> Expression:
+        """The terms in a textbook's order, a positive one first where there is one."""
+        parts: list[Expression] = []
+        for term in terms:
+            parts.extend(term.terms if isinstance(term, Sum) else (term,))
+        parts = [part for part in parts if part != ZERO]
+        if not parts:
+            return ZERO
+        if len(parts) == 1:
+            return parts[0]
+        parts.sort(key=self.ordering.term)
+        if isinstance(parts[0], Negative) and self.ordering.term(parts[0])[0] == 0:
+            for position, part in enumerate(parts):
+                if not isinstance(part, Negative):
+                    parts.insert(0, parts.pop(position))
+                    break
+        return Sum(tuple(parts))
+
+    def negative(self, node: Expression) -> Expression:
+        """-node; the sign goes into a sum whose terms are all negative."""
+        match node:
+            case Negative(operand=operand):
+                return operand
+            case Number(value=value) if value == 0:
+                return node
+            case Sum(terms=terms):
+                return self.sum(
+                    [t.operand if isinstance(t, Negative) else Negative(t) for t in terms]
+                )
+            case _:
+                return Negative(node)
+
+
+def _product(factors: list[Expression]) -> Expression:
+    flat: list[Expression] = []
+    for factor in factors:
+        flat.extend(factor.factors if isinstance(factor, Product) else (factor,))
+    return flat[0] if len(flat) == 1 else Product(tuple(flat))
+
+
+def _positive_sums(
+    coefficient: Fraction, pairs: list[Factor]
+) -> tuple[Fraction, list[Factor]]:
+    """Signs out of the factors, numbers and products out of their brackets."""
+    result: list[Factor] = []
+    for node, exponent in pairs:
+        base = node
+        if isinstance(base, Negative) and exponent.denominator == 1:
+            coefficient *= (-1) ** int(exponent)
+            base = base.operand
+        if isinstance(base, Number) and exponent.denominator == 1:
+            coefficient *= base.value ** int(exponent)
+        elif isinstance(base, Sum) and exponent.denominator == 1 and _mostly_negative(base):
+            coefficient *= (-1) ** int(exponent)
+            terms = [t.operand if isinstance(t, Negative) else Negative(t) for t in base.terms]
+            result.append((Sum(tuple(terms)), exponent))
+        elif isinstance(base, Call) and base.function == "sqrt":
+            result.append((base.arguments[0], exponent / 2))
+        else:
+            result.append((base, exponent))
+    return coefficient, result
+
+
+def _mostly_negative(node: Sum) -> bool:
+    return all(isinstance(term, Negative) for term in node.terms)
+
+
+_RATIOS = {"sin": ("cos", "tan"), "sinh": ("cosh", "tanh")}
+
+
+def _tangents(coefficient: Fraction, pairs: list[Factor]) -> tuple[Fraction, list[Factor]]:
+    """sin(x)/cos(x) as tan(x), cos(x)/sin(x) as 1/tan(x)."""
+    exponents = dict(pairs)
+    for base, exponent in pairs:
+        if not isinstance(base, Call) or base.function not in _RATIOS or base.primes:
+            continue
+        cosine, tangent = _RATIOS[base.function]
+        other = Call(cosine, base.arguments)
+        second = exponents.get(other, Fraction(0))
+        if exponent * second >= 0:
+            continue
+        # sin^a cos^-b = tan^a cos^(a - b)
+        if abs(exponent) == abs(second):
+            del exponents[base], exponents[other]
+            ratio = Call(tangent, base.arguments)
+            exponents[ratio] = exponents.get(ratio, Fraction(0)) + exponent
+    return coefficient, list(exponents.items())
+
+
+def name(text: str) -> Name:
+    """The name of a symbol: the primes at its end are velocity and acceleration."""
+    bare = text.rstrip("'")
+    return Name(bare, len(text) - len(bare))
