@@ -6,8 +6,12 @@ them and shows them together.  Nothing here knows what the mistakes are about.
 
 from __future__ import annotations
 
+import unicodedata
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
 
 Severity = Literal["error", "warning"]
 
@@ -64,3 +68,104 @@ class ProblemError(Exception):
         super().__init__(f"{source.name}: {len(diagnostics)} mistake(s)")
         self.source = source
         self.diagnostics = diagnostics
+
+
+# Showing them.
+
+#: A line of the source longer than this is cut around the place.
+SHOWN_WIDTH = 100
+_TAB = 4
+
+
+def render(source: Source, diagnostics: Iterable[Diagnostic], limit: int = 50) -> str:
+    """Diagnostics as text, each with its line and carets under the place.
+
+    Parameters
+    ----------
+    source : Source
+        The text that the spans count in.
+    diagnostics : iterable of Diagnostic
+        What to show, in this order.
+    limit : int
+        How many at most; the rest is counted.
+
+    Returns
+    -------
+    str
+        Lines, each ended by a line break; empty without diagnostics.  Control characters
+        of the source are made visible, so that a file cannot talk to the terminal.
+    """
+    everything = list(diagnostics)
+    lines = source.text.split("\n")
+    shown: list[str] = []
+    for diagnostic in everything[:limit]:
+        label = f"{diagnostic.severity}: {diagnostic.message}"
+        shown += _place(source.name, lines, diagnostic.span, label, diagnostic.hint)
+        for span, message in diagnostic.related:
+            shown += _place(source.name, lines, span, f"note: {message}", "")
+    if len(everything) > limit:
+        shown.append(f"and {len(everything) - limit} more")
+    return "".join(f"{line}\n" for line in shown)
+
+
+def _place(name: str, lines: list[str], span: Span, label: str, hint: str) -> Iterator[str]:
+    """`file:line:column: label`, the line, and the carets with the hint behind them."""
+    if span.line < 1:  # no place in the file
+        yield f"{_printable(name)}: {_printable(label)}"
+        if hint:
+            yield f"      = {_printable(hint)}"
+        return
+    yield f"{_printable(name)}:{span.line}:{span.column}: {_printable(label)}"
+    line = lines[span.line - 1] if span.line <= len(lines) else ""
+    start = min(span.column - 1, len(line))
+    end = min(span.end_column - 1, len(line)) if span.end_line == span.line else len(line)
+    before, marked, after = line[:start], line[start:end], line[end:]
+    before, marked, after = _cut(_printable(before), _printable(marked), _printable(after))
+    carets = "^" * max(1, _width(marked))
+    yield f"{span.line:5} | {before}{marked}{after}".rstrip()
+    yield f"      | {' ' * _width(before)}{carets} {_printable(hint)}".rstrip()
+
+
+def _cut(before: str, marked: str, after: str) -> tuple[str, str, str]:
+    """The parts of a long line that are nearest to the place."""
+    if len(before) + len(marked) + len(after) <= SHOWN_WIDTH:
+        return before, marked, after
+    if len(marked) > SHOWN_WIDTH // 2:
+        marked, after = marked[: SHOWN_WIDTH // 2] + "…", ""
+    room = SHOWN_WIDTH - len(marked)
+    left = max(room // 2, room - len(after))
+    if len(before) > left:
+        before = "…" + before[len(before) - left + 1 :]
+    right = max(0, room - len(before))
+    if len(after) > right:
+        after = after[: max(0, right - 1)] + "…"
+    return before, marked, after
+
+
+def _printable(text: str) -> str:
+    """The text without tabs, and with what a terminal would obey made visible."""
+    return "".join(_shown(character) for character in text)
+
+
+def _shown(character: str) -> str:
+    code = ord(character)
+    if character == "\t":
+        return " " * _TAB
+    if code < 0x20:
+        return chr(0x2400 + code)  # ␛ for an escape
+    if code == 0x7F:
+        return "␡"
+    # Other controls, line separators, and those that turn the writing direction.
+    if unicodedata.category(character) in {"Cc", "Cf", "Cs", "Zl", "Zp"}:
+        return "�"
+    return character
+
+
+def _width(text: str) -> int:
+    """How many columns of a terminal a text takes: 2 for wide letters, 0 for accents."""
+    width = 0
+    for character in text:
+        if unicodedata.category(character) in {"Mn", "Me"}:
+            continue
+        width += 2 if unicodedata.east_asian_width(character) in {"W", "F"} else 1
+    return width

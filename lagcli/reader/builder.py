@@ -10,9 +10,7 @@ import unicodedata
 from contextvars import ContextVar
 from dataclasses import replace
 from fractions import Fraction
-from typing import cast
-
-from lark.lexer import Token
+from typing import TYPE_CHECKING, cast
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import (
@@ -32,8 +30,12 @@ from lagcli.expression import (
 )
 from lagcli.problem import Comparison, Inequality
 from lagcli.reader.limits import NUMBER_DIGITS, thousands
-from lagcli.reader.positions import Excerpt
 from lagcli.reader.text import Mistake
+
+if TYPE_CHECKING:
+    from lark.lexer import Token
+
+    from lagcli.reader.positions import Excerpt
 
 #: The text that is being read: where the spans of its nodes are looked up.
 excerpt_being_read: ContextVar[Excerpt] = ContextVar("excerpt_being_read")
@@ -44,7 +46,7 @@ _PRIME_COUNT = {"'": 1, "’": 1, "′": 1, "″": 2, "‴": 3}
 
 def span_of(token: Token) -> Span:
     """The place of a token in the file."""
-    return excerpt_being_read.get().span(cast(int, token.start_pos), cast(int, token.end_pos))
+    return excerpt_being_read.get().span(cast("int", token.start_pos), cast("int", token.end_pos))
 
 
 def mistake(message: str, span: Span, hint: str = "") -> Mistake:
@@ -67,7 +69,7 @@ class Builder:
     def comparison(self, children: list[Expression | Token]) -> Inequality:
         left, sign, right = children
         assert isinstance(left, Expression) and isinstance(right, Expression)
-        comparison = cast(Comparison, _COMPARISONS.get(str(sign), str(sign)))
+        comparison = cast("Comparison", _COMPARISONS.get(str(sign), str(sign)))
         span = left.span.to(right.span)
         return Inequality(left=left, comparison=comparison, right=right, span=span)
 
@@ -77,23 +79,23 @@ class Builder:
         return list(_terms(children[0]))
 
     def plus(self, children: list[Expression]) -> list[Expression]:
-        terms = cast(list[Expression], children[0])
+        terms = cast("list[Expression]", children[0])
         terms += _terms(children[1])
         return terms
 
     def minus(self, children: list[Expression]) -> list[Expression]:
-        terms = cast(list[Expression], children[0])
+        terms = cast("list[Expression]", children[0])
         terms.append(self.negative(children[1:]))
         return terms
 
     def total(self, children: list[Expression]) -> Expression:
-        terms = cast(list[Expression], children[0])
+        terms = cast("list[Expression]", children[0])
         if len(terms) == 1:
             return terms[0]
         return Sum(tuple(terms), span=terms[0].span.to(terms[-1].span))
 
     def negative(self, children: list[Expression]) -> Expression:
-        sign, operand = cast(Token, children[0]), children[1]
+        sign, operand = cast("Token", children[0]), children[1]
         return Negative(operand, span=span_of(sign).to(operand.span))
 
     # Products.
@@ -102,7 +104,7 @@ class Builder:
         return list(_factors(children[0]))
 
     def times(self, children: list[Expression]) -> list[Expression]:
-        factors = cast(list[Expression], children[0])
+        factors = cast("list[Expression]", children[0])
         factors += _factors(children[1])
         return factors
 
@@ -112,7 +114,7 @@ class Builder:
         return [Quotient(numerator, denominator, span=span)]
 
     def multiplied(self, children: list[Expression]) -> Expression:
-        factors = cast(list[Expression], children[0])
+        factors = cast("list[Expression]", children[0])
         if len(factors) == 1:
             return factors[0]
         return Product(tuple(factors), span=factors[0].span.to(factors[-1].span))
@@ -138,7 +140,7 @@ class Builder:
 
     def group(self, children: list[Expression]) -> Expression:
         left, inner, right = children
-        span = span_of(cast(Token, left)).to(span_of(cast(Token, right)))
+        span = span_of(cast("Token", left)).to(span_of(cast("Token", right)))
         return replace(inner, span=span)
 
     # Calls.
@@ -147,8 +149,8 @@ class Builder:
         return tuple(children)
 
     def call(self, children: list[Expression]) -> Call:
-        token, closing = cast(Token, children[0]), cast(Token, children[2])
-        arguments = cast(tuple[Expression, ...], children[1])
+        token, closing = cast("Token", children[0]), cast("Token", children[2])
+        arguments = cast("tuple[Expression, ...]", children[1])
         function, primes = _split_name(token)
         return Call(function, arguments, primes, span=span_of(token).to(span_of(closing)))
 
@@ -157,14 +159,14 @@ class Builder:
         return _diff(call) if call.function == "diff" else call
 
     def partial_derivative_called(self, children: list[Expression]) -> Expression:
-        call, closing = cast(Call, children[0]), cast(Token, children[2])
-        arguments = cast(tuple[Expression, ...], children[1])
+        call, closing = cast("Call", children[0]), cast("Token", children[2])
+        arguments = cast("tuple[Expression, ...]", children[1])
         span = call.span.to(span_of(closing))
         indices = _indices(call)
         if indices is None:
             hint = f"write {call.function}(…)*(…)"
             raise mistake("a '*' is missing between ')' and '('", span, hint)
-        function = cast(Name, call.arguments[0]).name
+        function = cast("Name", call.arguments[0]).name
         return PartialCall(function, indices, arguments, span=span)
 
 
@@ -185,15 +187,17 @@ def _indices(call: Call) -> tuple[int, ...] | None:
         return None
     if not all(isinstance(index, Number) and index.value.denominator == 1 for index in rest):
         return None
-    return tuple(int(cast(Number, index).value) for index in rest)
+    return tuple(int(cast("Number", index).value) for index in rest)
 
 
 def _diff(call: Call) -> Diff:
     """`diff(operand, name)`."""
     if _indices(call) is not None:
-        function = cast(Name, call.arguments[0]).name
+        function = cast("Name", call.arguments[0]).name
         hint = f"write diff({function}, …)(…) with the arguments of {function}"
-        raise mistake("a derivative by the number of an argument needs its arguments", call.span, hint)
+        raise mistake(
+            "a derivative by the number of an argument needs its arguments", call.span, hint
+        )
     if call.primes:
         raise mistake("diff has no primes", call.span, "write diff(expression, name)")
     if len(call.arguments) != 2:
@@ -222,8 +226,10 @@ def _split_name(token: Token) -> tuple[str, int]:
     primes = sum(_PRIME_COUNT[prime] for prime in written[len(letters) :])
     name = unicodedata.normalize("NFC", letters)
     for place, character in enumerate(name):
-        if character != "_" and unicodedata.category(character)[0] != "L" and not (
-            unicodedata.category(character) == "Nd"
+        if (
+            character != "_"
+            and unicodedata.category(character)[0] != "L"
+            and not (unicodedata.category(character) == "Nd")
         ):
             raise mistake(
                 f"a name has letters, digits and underscores, not '{character}'",

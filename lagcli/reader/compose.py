@@ -45,7 +45,9 @@ def compose(text: Text) -> tuple[Node, list[Diagnostic]]:
         raise Mistake(explain(error, text)) from None
     if composer.root is None:
         where = text.span(0, 0)
-        raise Mistake(Diagnostic("the file is empty", where, "a problem has 'coordinates' at least"))
+        raise Mistake(
+            Diagnostic("the file is empty", where, "a problem has 'coordinates' at least")
+        )
     return composer.root, composer.diagnostics
 
 
@@ -164,7 +166,9 @@ class _Composer:
             written = self.text.source.text[event.start_mark.index : end].split(maxsplit=1)
             width = len(written[0]) if written else 1
             start = event.start_mark.index
-            self._report(start, start + width, "tags are not part of the format", hint="leave it out")
+            self._report(
+                start, start + width, "tags are not part of the format", hint="leave it out"
+            )
 
     def _report(
         self, start: int, end: int, message: str, hint: str = "", related: Any = ()

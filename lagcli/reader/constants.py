@@ -7,10 +7,10 @@ number of its digits when it is not.  log10 of numerator and denominator of a po
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, log10
+from typing import TYPE_CHECKING
 
 from lagcli.expression import (
     Call,
@@ -25,6 +25,9 @@ from lagcli.expression import (
 )
 from lagcli.reader.builder import mistake
 from lagcli.reader.limits import NUMBER_DIGITS, POWER_DIGITS, thousands
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 #: Functions without a value at 0.
 _UNDEFINED_AT_ZERO = frozenset({"log", "cot", "csc"})

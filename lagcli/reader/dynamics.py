@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from lagcli.diagnostics import Span
-from lagcli.expression import Expression
 from lagcli.problem import Point, Problem
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Node, Scalar, Sequence
 from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Role
-from lagcli.reader.sections import Sections
 from lagcli.reader.suggest import did_you_mean
+
+if TYPE_CHECKING:
+    from lagcli.expression import Expression
+    from lagcli.reader.sections import Sections
 
 _POINT_ATTRIBUTES = ("position", "mass", "force")
 

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from lagcli.diagnostics import Span
-from lagcli.expression import Equation, Expression
 from lagcli.problem import NOT_CONSERVED, Constraint, Expect, Question, Symmetry
 from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.nodes import Node, Scalar, Sequence
 from lagcli.reader.scope import CONSTANTS, EQUATION, MOTION, PHASE_SPACE, STATE, Role
-from lagcli.reader.sections import Sections
 from lagcli.reader.suggest import did_you_mean
+
+if TYPE_CHECKING:
+    from lagcli.diagnostics import Span
+    from lagcli.expression import Equation, Expression
+    from lagcli.reader.sections import Sections
 
 _KEYS = (
     "degrees_of_freedom", "equations", "accelerations", "multipliers", "constraint_forces",

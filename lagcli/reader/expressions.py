@@ -5,37 +5,37 @@ The text is read once.  Names are not looked up here: see `lagcli.reader.scope`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import cache
-from importlib import resources
-from typing import cast
+from contextlib import suppress
+from typing import TYPE_CHECKING, cast
 
-from lark import Lark
 from lark.exceptions import UnexpectedInput
-from lark.lexer import Token
 
 from lagcli.diagnostics import ProblemError, Source
-from lagcli.expression import Equation, Expression
-from lagcli.problem import Inequality
-from lagcli.reader.builder import Builder, excerpt_being_read, mistake
+from lagcli.reader.builder import excerpt_being_read, mistake
 from lagcli.reader.constants import check_constants
 from lagcli.reader.limits import EXPRESSION_CHARACTERS, thousands
-from lagcli.reader.nesting import check_nesting
+from lagcli.reader.parser import parser
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.syntax_errors import explain
 from lagcli.reader.text import Mistake
 
+if TYPE_CHECKING:
+    from lark.lexer import Token
+
+    from lagcli.expression import Equation, Expression
+    from lagcli.problem import Inequality
+
 
 def read_expression(excerpt: Excerpt) -> Expression:
     """The expression that a text writes; `Mistake` if it writes none."""
-    expression = cast(Expression, _parse(excerpt, "expression"))
+    expression = cast("Expression", _parse(excerpt, "expression"))
     check_constants(expression)
     return expression
 
 
 def read_equation(excerpt: Excerpt) -> Equation:
     """`left = right`, or an expression, which is `expression = 0`."""
-    equation = cast(Equation, _parse(excerpt, "equation"))
+    equation = cast("Equation", _parse(excerpt, "equation"))
     check_constants(equation.left)
     check_constants(equation.right)
     return equation
@@ -43,7 +43,7 @@ def read_equation(excerpt: Excerpt) -> Equation:
 
 def read_comparison(excerpt: Excerpt) -> Inequality:
     """One comparison, such as `N >= 0`."""
-    comparison = cast(Inequality, _parse(excerpt, "comparison"))
+    comparison = cast("Inequality", _parse(excerpt, "comparison"))
     check_constants(comparison.left)
     check_constants(comparison.right)
     return comparison
@@ -87,45 +87,16 @@ def _parse(excerpt: Excerpt, start: str) -> Expression | Equation | Inequality:
         raise mistake(message, excerpt.span(0, 1))
     reset = excerpt_being_read.set(excerpt)
     try:
-        return cast("Expression | Equation | Inequality", _parser().parse(excerpt.value, start))
+        return cast("Expression | Equation | Inequality", parser().parse(excerpt.value, start))
     except UnexpectedInput as error:
         raise Mistake(explain(error, _tokens(excerpt.value), excerpt, start)) from None
     finally:
         excerpt_being_read.reset(reset)
 
 
-class _Nesting:
-    """Looks at the tokens before the parser does."""
-
-    always_accept = ()
-
-    def process(self, stream: Iterator[Token]) -> Iterator[Token]:
-        """The same tokens, until they nest too deep."""
-        return check_nesting(stream)
-
-
-@cache
-def _parser() -> Lark:
-    grammar = resources.files("lagcli.reader").joinpath("grammar.lark").read_text("utf-8")
-    return Lark(
-        grammar,
-        parser="lalr",
-        lexer="basic",
-        start=["expression", "equation", "comparison"],
-        maybe_placeholders=False,
-        transformer=Builder(),
-        postlex=_Nesting(),  # type: ignore[arg-type]
-    )
-
-
 def _tokens(value: str) -> list[Token]:
     """The tokens up to the first character that begins none."""
-    tokens = []
-    try:
-        for token in _parser().lex(value):
-            tokens.append(token)
-    except (UnexpectedInput, Mistake):
-        pass
+    tokens: list[Token] = []
+    with suppress(UnexpectedInput, Mistake):
+        tokens.extend(parser().lex(value))
     return tokens
-
-

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import FUNCTIONS, Call, Diff, Expression, Name, PartialCall, walk
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import closest, did_you_mean
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 _ORDERS = ("a coordinate", "a velocity", "an acceleration", "a third derivative")
 

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-
-from lark.lexer import Token
+from typing import TYPE_CHECKING
 
 from lagcli.reader.builder import mistake, span_of
 from lagcli.reader.limits import NESTING_LEVELS
 
-_OPERATORS = frozenset({"_PLUS", "MINUS", "STAR", "SLASH", "_POWER", "EQUAL", "COMPARISON", "COMMA"})
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from lark.lexer import Token
+
+_OPERATORS = frozenset(
+    {"_PLUS", "MINUS", "STAR", "SLASH", "_POWER", "EQUAL", "COMPARISON", "COMMA"}
+)
 
 
 @dataclass(slots=True)

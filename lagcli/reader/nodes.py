@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import unicodedata
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
-from lagcli.diagnostics import Span
 from lagcli.reader.positions import Excerpt, offsets_of
-from lagcli.reader.text import Text
+
+if TYPE_CHECKING:
+    from lagcli.diagnostics import Span
+    from lagcli.reader.text import Text
 
 
 @dataclass(slots=True)

@@ -8,12 +8,15 @@ found again by reading the writing from left to right.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
-from lagcli.diagnostics import Source, Span
 from lagcli.reader.text import Text
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from lagcli.diagnostics import Source, Span
 
 Style = Literal["", "'", '"', "|", ">"]
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import PurePath
+from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, ProblemError, Source, Span
-from lagcli.expression import Expression
-from lagcli.problem import Expect, Problem, Simulation
+from lagcli.problem import Problem
 from lagcli.reader.compose import compose
 from lagcli.reader.dynamics import (
     check_energies,
@@ -31,6 +31,9 @@ from lagcli.reader.restrictions import declare_constraints, read_constraints, re
 from lagcli.reader.scope import STATE
 from lagcli.reader.sections import Sections
 from lagcli.reader.text import Mistake, Text, decode
+
+if TYPE_CHECKING:
+    from lagcli.expression import Expression
 
 KEYS = (
     "title", "source", "description", "coordinates", "parameters", "functions", "definitions",

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import cast, get_args
+from typing import TYPE_CHECKING, cast, get_args
 
 from lagcli.expression import Expression, Name, walk
 from lagcli.problem import Assumption, Coordinate, Parameter
@@ -12,6 +11,9 @@ from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence, kind, size
 from lagcli.reader.scope import CONSTANTS, Kind, name_mistake
 from lagcli.reader.sections import UNREADABLE, Sections
 from lagcli.reader.suggest import did_you_mean
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 _COORDINATE_ATTRIBUTES = ("unit", "symbol", "description", "assume")
 _PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
@@ -125,7 +127,7 @@ def _said(sections: Sections, attributes: dict[str, Node]) -> dict[str, object]:
     if "assume" in attributes:
         text = sections.scalar(attributes["assume"], "'assume'")
         if text is not None and text.value in _ASSUMPTIONS:
-            said["assume"] = cast(Assumption, text.value)
+            said["assume"] = cast("Assumption", text.value)
         elif text is not None:
             hint = did_you_mean(text.value, _ASSUMPTIONS) or f"known are {', '.join(_ASSUMPTIONS)}"
             sections.error(f"unknown assumption '{text.value}'", text.span, hint)

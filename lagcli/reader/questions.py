@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from lagcli.expression import Expression, Name
 from lagcli.problem import Question, Rewrite, Simulation, Where
-from lagcli.reader.nodes import Node, Scalar
 from lagcli.reader.scope import CONSTANTS, NUMBERS, QUESTION, Role
-from lagcli.reader.sections import Sections
 from lagcli.reader.suggest import did_you_mean
+
+if TYPE_CHECKING:
+    from lagcli.reader.nodes import Node, Scalar
+    from lagcli.reader.sections import Sections
 
 _QUESTION_ATTRIBUTES = ("where", "for", "value", "in_terms_of")
 _SIMULATION_ATTRIBUTES = ("until", "accuracy", "method")

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from lagcli.problem import Constraint, Symmetry
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Node, Scalar
 from lagcli.reader.scope import QUESTION, STATE, name_mistake
-from lagcli.reader.sections import Sections
 from lagcli.reader.suggest import did_you_mean
+
+if TYPE_CHECKING:
+    from lagcli.reader.sections import Sections
 
 _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while")
 

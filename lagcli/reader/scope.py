@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
-from lagcli.diagnostics import Span
 from lagcli.expression import FUNCTIONS, RESERVED
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from lagcli.diagnostics import Span
 
 Kind = Literal["coordinate", "parameter", "function", "definition", "multiplier"]
 
@@ -103,5 +106,3 @@ def name_mistake(name: str) -> tuple[str, str] | None:
 
 def _is_name_character(character: str) -> bool:
     return character == "_" or character.isalpha() or character.isdecimal()
-
-

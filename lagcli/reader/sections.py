@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import ZERO, Equation, Expression, Name
-from lagcli.problem import Inequality
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence, kind
-from lagcli.reader.positions import Excerpt
 from lagcli.reader.scope import Kind, Role, Scope, name_mistake
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.text import Mistake
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from lagcli.problem import Inequality
+    from lagcli.reader.positions import Excerpt
 
 _T = TypeVar("_T")
 

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Iterable
 from difflib import get_close_matches
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 #: What other programs call the functions of the format.
 _ELSEWHERE = {
@@ -16,9 +19,9 @@ _ELSEWHERE = {
     "Pi": "pi",
     "PI": "pi",
     "π": "pi",
-    **{f"arc{name}": f"a{name}" for name in "sin cos tan".split()},
-    **{f"ar{name}": f"a{name}" for name in "sinh cosh tanh".split()},
-    **{f"arc{name}": f"a{name}" for name in "sinh cosh tanh".split()},
+    **{f"arc{name}": f"a{name}" for name in ["sin", "cos", "tan"]},
+    **{f"ar{name}": f"a{name}" for name in ["sinh", "cosh", "tanh"]},
+    **{f"arc{name}": f"a{name}" for name in ["sinh", "cosh", "tanh"]},
 }
 
 #: Dots for velocities, as others write them.

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 from lark.exceptions import UnexpectedCharacters
-from lark.lexer import Token
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import FUNCTIONS
-from lagcli.reader.positions import Excerpt
+
+if TYPE_CHECKING:
+    from lark.lexer import Token
+
+    from lagcli.reader.positions import Excerpt
 
 _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
 _END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
@@ -39,9 +42,7 @@ _INSTEAD = {
 }
 
 
-def explain(
-    error: Exception, tokens: list[Token], excerpt: Excerpt, start: str
-) -> Diagnostic:
+def explain(error: Exception, tokens: list[Token], excerpt: Excerpt, start: str) -> Diagnostic:
     """The sentence for a syntax error.
 
     Parameters
@@ -58,7 +59,7 @@ def explain(
     if not excerpt.value.strip():
         return Diagnostic(f"an empty {start}", excerpt.everything)
     if isinstance(error, UnexpectedCharacters):
-        at = cast(int, error.pos_in_stream)
+        at = cast("int", error.pos_in_stream)
         return _unexpected_character(at, tokens, excerpt)
     token: Token = error.token  # type: ignore[attr-defined]
     if token.type == "$END":
@@ -103,8 +104,8 @@ def _unexpected_end(tokens: list[Token], excerpt: Excerpt, start: str) -> Diagno
 def _missing_product(
     left: Token, right: Token, following: Token | None, excerpt: Excerpt
 ) -> Diagnostic:
-    span = excerpt.span(cast(int, left.start_pos), cast(int, right.end_pos))
-    apart = cast(int, left.end_pos) < cast(int, right.start_pos)
+    span = excerpt.span(cast("int", left.start_pos), cast("int", right.end_pos))
+    apart = cast("int", left.end_pos) < cast("int", right.start_pos)
     if left.type == "NAME" and str(left) in FUNCTIONS:
         message = f"the argument of {left} stands in parentheses"
         return Diagnostic(message, span, f"did you mean {left}({right})?")
@@ -165,4 +166,4 @@ def _open_parenthesis(tokens: list[Token]) -> Token | None:
 
 
 def _span(token: Token, excerpt: Excerpt) -> Span:
-    return excerpt.span(cast(int, token.start_pos), cast(int, token.end_pos))
+    return excerpt.span(cast("int", token.start_pos), cast("int", token.end_pos))

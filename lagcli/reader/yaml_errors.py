@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.reader.text import Text
+
+if TYPE_CHECKING:
+    from lagcli.reader.text import Text
 
 #: A piece of the parser's own message; our sentence; our advice.
 _SENTENCES = (
