@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from lagcli.pipeline import Derivation, load, solve
+    from lagcli.mechanics.derivation import Derivation
+    from lagcli.pipeline import load, solve
     from lagcli.problem import Problem
 
 __version__ = "0.1.0"
@@ -13,7 +14,7 @@ __all__ = ["Derivation", "Problem", "__version__", "load", "solve"]
 
 #: Where each public name lives: loaded when first used, so `import lagcli` costs nothing.
 _HOMES = {
-    "Derivation": "lagcli.pipeline",
+    "Derivation": "lagcli.mechanics.derivation",
     "Problem": "lagcli.problem",
     "load": "lagcli.pipeline",
     "solve": "lagcli.pipeline",

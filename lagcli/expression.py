@@ -36,9 +36,14 @@ class Expression:
 
 @dataclass(frozen=True, slots=True)
 class Number(Expression):
-    """An exact non-negative rational: `0.1` is one tenth."""
+    """An exact non-negative rational: `0.1` is one tenth.
+
+    `decimal` says that it is to be written with a decimal point: only those that
+    `--numeric` makes are, and their denominators divide a power of ten.
+    """
 
     value: Fraction
+    decimal: bool = field(default=False, compare=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,69 @@
+"""The application and its commands, each loaded when it is called."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+import click
+import typer
+from typer.core import TyperGroup
+
+#: Command -> what `lagcli --help` says of it.  The module `lagcli.cli.<command>` has the
+#: function `<command>`; it is imported only when that command is called.
+COMMANDS = {
+    "solve": "Derive and print the equations of motion, multipliers and charges.",
+    "check": "Check problems against their known answers and against the mathematics.",
+    "formats": "List the formats that `solve --format` knows.",
+    "version": "Print the version.",
+}
+
+
+class DeferredCommand(click.Command):
+    """A command known by name and summary, which becomes the real one when called."""
+
+    def make_context(
+        self,
+        info_name: str | None,
+        args: list[str],
+        parent: click.Context | None = None,
+        **extra: Any,
+    ) -> click.Context:
+        """The context of the real command, which is loaded here."""
+        return load_command(str(self.name)).make_context(info_name, args, parent, **extra)
+
+
+class DeferredGroup(TyperGroup):
+    """A group whose commands are deferred."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
+        self.suggest_commands = False  # click does it
+        for name, summary in COMMANDS.items():
+            self.commands[name] = DeferredCommand(name, help=summary, short_help=summary)
+
+
+def load_command(name: str) -> click.Command:
+    """Import a command's module and make the command of its function."""
+    function = getattr(import_module(f"lagcli.cli.{name}"), name)
+    single = typer.Typer(rich_markup_mode=None, add_completion=False)
+    single.command(name)(function)
+    return typer.main.get_command(single)
+
+
+def application() -> click.Command:
+    """Make the command `lagcli`."""
+    app = typer.Typer(
+        cls=DeferredGroup,
+        rich_markup_mode=None,  # rich would cost more than everything else that --help does
+        pretty_exceptions_enable=False,
+        no_args_is_help=True,
+        context_settings={"help_option_names": ["-h", "--help"]},
+        epilog="Example: lagcli solve problems/hoop.yaml",
+    )
+    app.callback()(lagcli)
+    return typer.main.get_command(app)
+
+
+def lagcli() -> None:
+    """Lagrangian mechanics: from a problem in YAML to equations, multipliers and charges."""

@@ -1,0 +1,54 @@
+"""From the process's arguments to its exit status, whatever happens on the way."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+from lagcli.cli.status import Status
+
+
+def main() -> NoReturn:
+    """Run the command of `sys.argv` and exit."""
+    status = run(sys.argv[1:])
+    if status == Status.INTERRUPTED:
+        os._exit(status)  # what still computes in a thread need not be waited for
+    sys.exit(status)
+
+
+def run(arguments: Sequence[str]) -> int:
+    """The exit status of a command line; whatever goes wrong is told on standard error."""
+    try:
+        from click import Abort, ClickException
+
+        from lagcli.cli.app import application
+
+        try:
+            outcome = application().main(
+                args=list(arguments), prog_name="lagcli", standalone_mode=False
+            )
+            sys.stdout.flush()
+        except ClickException as mistake:
+            mistake.show()
+            return Status.USAGE
+        except Abort:
+            return Status.INTERRUPTED
+    except KeyboardInterrupt:
+        return Status.INTERRUPTED
+    except BrokenPipeError:
+        hush()
+        return Status.WELL
+    except Exception as error:  # noqa: BLE001 - the last resort: no traceback reaches a user
+        from lagcli.cli.failures import report_bug
+
+        report_bug(error)
+        return Status.NOT_FOUND
+    return outcome if isinstance(outcome, int) else Status.WELL
+
+
+def hush() -> None:
+    """Send what is still to be written to standard output nowhere: its reader has left."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())

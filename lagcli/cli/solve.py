@@ -1,0 +1,83 @@
+"""`lagcli solve`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lagcli.cli.choices import complete_format, complete_section
+
+Files = Annotated[list[str], typer.Argument(metavar="FILE...", help="Problems; - is stdin.")]
+Format = Annotated[
+    str,
+    typer.Option(
+        "--format", "-f", metavar="NAME", help="See: lagcli formats.", autocompletion=complete_format
+    ),
+]
+Output = Annotated[
+    Path | None, typer.Option("--output", "-o", metavar="PATH", help="Write to a file instead.")
+]
+Show = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--show",
+        metavar="A,B,C",
+        help="Only these sections.  There are: lagrangian, equations, matrix_form, accelerations, "
+        "multipliers, constraint_forces, momenta, energy, hamiltonian, canonical_equations, "
+        "charges, discovered, algebra, find, equilibria, modes, model.",
+        autocompletion=complete_section,
+    ),
+]
+Set = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set", metavar="NAME=VALUE", help="Put a value (also an expression) in for a parameter."
+    ),
+]
+Numeric = Annotated[
+    bool, typer.Option("--numeric", help="Put in the file's values and give decimal numbers.")
+]
+Standalone = Annotated[
+    bool, typer.Option("--standalone", help="A whole LaTeX or HTML document, not a fragment.")
+]
+Width = Annotated[
+    int | None,
+    typer.Option("--width", metavar="N", min=20, help="Columns.  [default: the terminal's, or 80]"),
+]
+
+
+def solve(
+    files: Files,
+    format_name: Format = "text",
+    output: Output = None,
+    show: Show = None,
+    settings: Set = None,
+    numeric: Numeric = False,  # noqa: FBT002 - typer makes a flag of it
+    standalone: Standalone = False,  # noqa: FBT002
+    width: Width = None,
+) -> int:
+    """Derive and print the equations of motion, multipliers and charges.
+
+    The exit status is 0 when all was answered, 1 when an answer was not found, and 2 when
+    the command line or a file is wrong; the other files are answered all the same.
+
+    \b
+    Examples:
+      lagcli solve problems/hoop.yaml
+      lagcli solve problems/hoop.yaml --show accelerations,multipliers -f latex
+      lagcli solve problems/hoop.yaml --set R=1/2 --set "alpha=pi/6" -f json -o hoop.json
+    """
+    from lagcli.cli.asking import asked
+    from lagcli.cli.solving import Printing, solve_files
+    from lagcli.stack import with_deep_stack
+
+    printing = Printing(
+        format_name=format_name,
+        output=None if output is None or str(output) == "-" else output,
+        standalone=standalone,
+        width=width,
+    )
+    request = asked(format_name, show or [], settings or [], numeric=numeric)
+    return with_deep_stack(lambda: solve_files(files, request, printing))

@@ -1,0 +1,38 @@
+"""Diagnostics on standard error, in colour where that is a terminal."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from lagcli.diagnostics import Diagnostic, Source, render
+
+
+def tell(source: Source, diagnostics: Sequence[Diagnostic]) -> None:
+    """Show the mistakes (and warnings) of one file."""
+    if not diagnostics:
+        return
+    text = render(source, diagnostics)
+    if sys.stderr.isatty():
+        _tell_in_colour(text)
+    else:
+        sys.stderr.write(text if text.endswith("\n") else text + "\n")
+    sys.stderr.flush()
+
+
+def tell_line(line: str) -> None:
+    """Show one sentence that has no place in a file."""
+    sys.stderr.write(line.rstrip("\n") + "\n")
+    sys.stderr.flush()
+
+
+def _tell_in_colour(text: str) -> None:
+    """The same characters; rich knows what this terminal can do, and NO_COLOR."""
+    from rich.console import Console
+    from rich.text import Text
+
+    shown = Text(text.rstrip("\n"))
+    shown.highlight_regex(r"(?<=: )error(?=: )", "bold red")
+    shown.highlight_regex(r"(?<=: )warning(?=: )", "bold yellow")
+    shown.highlight_regex(r"(?m)^ +\| +\^+.*$", "cyan")
+    Console(stderr=True, soft_wrap=True, highlight=False, markup=False).print(shown)

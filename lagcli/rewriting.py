@@ -1,0 +1,49 @@
+"""Rewriting every expression inside a value: a problem, answers, a tree."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import fields, is_dataclass, replace
+from typing import Any, TypeVar, cast
+
+from lagcli.expression import Expression
+
+Value = TypeVar("Value")
+
+
+def rewritten(value: Value, rewrite: Callable[[Expression], Expression]) -> Value:
+    """The same value with `rewrite` applied to the outermost expressions in it.
+
+    Looks into tuples, the values of maps, and the fields of dataclasses.
+    """
+    return cast(Value, _rewritten(value, rewrite))
+
+
+def rebuilt(node: Expression, rewrite: Callable[[Expression], Expression]) -> Expression:
+    """The node with `rewrite` applied to its direct parts."""
+    return cast(Expression, _with_fields(node, rewrite))
+
+
+def _rewritten(value: Any, rewrite: Callable[[Expression], Expression]) -> Any:
+    match value:
+        case Expression():
+            return rewrite(value)
+        case tuple():
+            parts = tuple(_rewritten(part, rewrite) for part in value)
+            return parts if any(a is not b for a, b in zip(parts, value, strict=True)) else value
+        case Mapping():
+            return {key: _rewritten(part, rewrite) for key, part in value.items()}
+        case _ if is_dataclass(value):
+            return _with_fields(value, rewrite)
+        case _:
+            return value
+
+
+def _with_fields(value: Any, rewrite: Callable[[Expression], Expression]) -> Any:
+    changes = {}
+    for part in fields(value):
+        old = getattr(value, part.name)
+        new = _rewritten(old, rewrite)
+        if new is not old:
+            changes[part.name] = new
+    return replace(value, **changes) if changes else value
