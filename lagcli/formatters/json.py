@@ -51,7 +51,7 @@ _Some = TypeVar("_Some")
 def render(answers: Sequence[Answers], options: Options) -> str:  # noqa: ARG001 - every formatter is called alike
     """JSON for machines: a stable contract."""
     objects = [to_object(each) for each in answers]
-    value: Value = objects[0] if len(objects) == 1 else objects
+    value: Value = objects[0] if len(objects) == 1 and not options.several else objects
     return json.dumps(value, indent=2, ensure_ascii=False) + "\n"
 
 

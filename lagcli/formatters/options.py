@@ -21,11 +21,14 @@ class Options:
         False where the terminal has ASCII only.
     standalone : bool
         `latex` and `html` print a whole document instead of a fragment.
+    several : bool
+        Several files were asked for: `json` prints an array, also of one answer.
     """
 
     width: int = 80
     unicode: bool = True
     standalone: bool = False
+    several: bool = False
 
 
 class Formatter(Protocol):
