@@ -1,3 +1,4 @@
+# ruff: noqa: D102 - each method is named after its rule in grammar.lark
 """The grammar's rules as nodes of the plain tree: what the parser calls as it reduces.
 
 Nothing here recurses, and sums and products grow in place, so that a sum of fifty
@@ -67,8 +68,8 @@ class Builder:
         return Equation(left, right, span=left.span.to(right.span))
 
     def comparison(self, children: list[Expression | Token]) -> Inequality:
-        left, sign, right = children
-        assert isinstance(left, Expression) and isinstance(right, Expression)
+        left, right = (cast("Expression", side) for side in (children[0], children[2]))
+        sign = children[1]
         comparison = cast("Comparison", _COMPARISONS.get(str(sign), str(sign)))
         span = left.span.to(right.span)
         return Inequality(left=left, comparison=comparison, right=right, span=span)

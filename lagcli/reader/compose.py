@@ -7,11 +7,11 @@ reference to the node it names, and what the aliases expand to is counted.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NoReturn
 
 import yaml
 
-from lagcli.diagnostics import Diagnostic
+from lagcli.diagnostics import Diagnostic, Span
 from lagcli.reader.flow import mend_commas
 from lagcli.reader.limits import EXPANDED_SIZE, YAML_LEVELS
 from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence
@@ -73,7 +73,7 @@ class _Composer:
         self._anchors: dict[str, Node | None] = {}  # None while its node is still open
         self._documents = 0
 
-    def take(self, event: Any) -> None:
+    def take(self, event: Any) -> None:  # noqa: ANN401 - yaml events are untyped
         """Use the next event."""
         start, end = event.start_mark.index, event.end_mark.index
         match event:
@@ -100,7 +100,7 @@ class _Composer:
     def _in_flow(self) -> bool:
         return bool(self._stack) and self._stack[-1].is_flow
 
-    def _open(self, event: Any, start: int, end: int) -> None:
+    def _open(self, event: Any, start: int, end: int) -> None:  # noqa: ANN401
         if len(self._stack) >= YAML_LEVELS:
             self._stop(start, end, f"lists and maps more than {YAML_LEVELS} levels deep")
         if event.anchor is not None:
@@ -151,16 +151,15 @@ class _Composer:
         else:
             self.root = node
 
-    def _alias(self, anchor: str, start: int, end: int) -> Node:
-        if anchor not in self._anchors:
+    def _alias(self, anchor: str | None, start: int, end: int) -> Node:
+        if anchor is None or anchor not in self._anchors:
             self._stop(start, end, f"no anchor '&{anchor}' stands before this alias")
         node = self._anchors[anchor]
         if node is None:
             self._stop(start, end, f"the alias '*{anchor}' stands inside of what it names")
-        assert node is not None
         return node
 
-    def _check_tag(self, event: Any) -> None:
+    def _check_tag(self, event: Any) -> None:  # noqa: ANN401
         if event.tag is not None and event.tag not in {"!", "tag:yaml.org,2002:str"}:
             end = event.end_mark.index
             written = self.text.source.text[event.start_mark.index : end].split(maxsplit=1)
@@ -171,10 +170,15 @@ class _Composer:
             )
 
     def _report(
-        self, start: int, end: int, message: str, hint: str = "", related: Any = ()
+        self,
+        start: int,
+        end: int,
+        message: str,
+        hint: str = "",
+        related: tuple[tuple[Span, str], ...] = (),
     ) -> None:
         span = self.text.span(start, end)
         self.diagnostics.append(Diagnostic(message, span, hint, related=related))
 
-    def _stop(self, start: int, end: int, message: str, hint: str = "") -> None:
+    def _stop(self, start: int, end: int, message: str, hint: str = "") -> NoReturn:
         raise Mistake(Diagnostic(message, self.text.span(start, end), hint))

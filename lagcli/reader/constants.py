@@ -86,8 +86,8 @@ def _evaluate(node: Expression, parts: list[_Constant]) -> _Constant:
         case Number(value=value):
             return _Constant.of(value)
         case Negative():
-            value = parts[0].value
-            return _Constant(parts[0].digits, None if value is None else -value)
+            operand = parts[0].value
+            return _Constant(parts[0].digits, None if operand is None else -operand)
         case Sum():
             return _sum(parts)
         case Product():
@@ -136,7 +136,7 @@ def _reciprocal(part: _Constant) -> _Constant:
 def _power(node: Power, base: _Constant, exponent: _Constant) -> _Constant:
     if exponent.value is None:
         return _Constant(inf if _is_large(exponent) and base.digits > 0 else 0.0)
-    if base.value == 0 and exponent.value < 0:
+    if exponent.value < 0 and base.value == 0:
         raise mistake("division by zero", node.span, "0 has no negative power")
     if base.digits == 0 or base.value == 0:
         exact = base.value is not None and exponent.value.denominator == 1

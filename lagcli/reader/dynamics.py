@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lagcli.diagnostics import Span
 from lagcli.problem import Point, Problem
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Node, Scalar, Sequence
@@ -12,6 +11,7 @@ from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Role
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
+    from lagcli.diagnostics import Span
     from lagcli.expression import Expression
     from lagcli.reader.sections import Sections
 
@@ -25,15 +25,14 @@ def check_energies(sections: Sections, given: dict[str, Scalar]) -> None:
             related = ((given["L"].span, "L is given here"),)
             message = f"both L and {key} are given"
             sections.error(message, given[key].span, "give L, or T and V", related)
-    if not given.keys() & {"L", "T", "points"}:
-        span = given["coordinates"].span if "coordinates" in given else Span(1, 1, 1, 1)
-        sections.error("there is no kinetic energy", span, "give T, or points with masses, or L")
 
 
-def check_masses(sections: Sections, problem: Problem) -> None:
-    """Without T and L, every point needs a mass."""
+def check_masses(sections: Sections, problem: Problem, span: Span) -> None:
+    """Without T and L, the points give the kinetic energy, and every one needs a mass."""
     if problem.kinetic is not None or problem.lagrangian is not None:
         return
+    if not problem.points:
+        sections.error("there is no kinetic energy", span, "give T, or points with masses, or L")
     for point in problem.points:
         if point.mass is None:
             message = f"the point '{point.name}' has no mass, and there is no T"
@@ -52,7 +51,7 @@ def check_momenta(sections: Sections) -> None:
 
 def declare_definitions(sections: Sections, node: Node) -> list[tuple[Scalar, Node]]:
     """Enter the definitions into the scope in the order of the file."""
-    declared = []
+    declared: list[tuple[Scalar, Node]] = []
     for key, value in sections.entries(node, "definitions", "write d: expression"):
         if sections.declare(key.label, "definition", key.span):
             sections.scope.definitions[key.label] = Definition(place=len(declared))

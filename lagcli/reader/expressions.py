@@ -16,7 +16,6 @@ from lagcli.reader.constants import check_constants
 from lagcli.reader.limits import EXPRESSION_CHARACTERS, thousands
 from lagcli.reader.parser import parser
 from lagcli.reader.positions import Excerpt
-from lagcli.reader.syntax_errors import explain
 from lagcli.reader.text import Mistake
 
 if TYPE_CHECKING:
@@ -89,6 +88,8 @@ def _parse(excerpt: Excerpt, start: str) -> Expression | Equation | Inequality:
     try:
         return cast("Expression | Equation | Inequality", parser().parse(excerpt.value, start))
     except UnexpectedInput as error:
+        from lagcli.reader.syntax_errors import explain
+
         raise Mistake(explain(error, _tokens(excerpt.value), excerpt, start)) from None
     finally:
         excerpt_being_read.reset(reset)

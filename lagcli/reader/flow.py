@@ -49,7 +49,6 @@ def _mend(
             last += 1
         if last > i and open_ == 0:
             first = values[i]
-            assert isinstance(first, Scalar)
             end = rest[last].end
             whole = first.text.source.text[first.start : end]
             mistakes.append(
@@ -59,7 +58,8 @@ def _mend(
                     f'put it in quotes: "{" ".join(whole.split())}"',
                 )
             )
-            first.broken = True
+            if isinstance(first, Scalar):
+                first.broken = True
             keep[i + 1 : last + 1] = [False] * (last - i)
         i = last + 1
     return keep, mistakes

@@ -28,6 +28,10 @@ NUMBER_DIGITS = 1_000
 POWER_DIGITS = 10_000
 
 
+#: Mistakes of one file; nobody reads further ones, and they are not looked for.
+MISTAKES = 200
+
+
 def thousands(number: int) -> str:
     """`100000` as `100,000`."""
     return f"{number:,}"

@@ -1,4 +1,4 @@
-"""Looking up the names of an expression: is each known, and may it stand there?"""
+"""Whether each name of an expression is known and may stand where it stands."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from lagcli.reader.suggest import closest, did_you_mean
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-_ORDERS = ("a coordinate", "a velocity", "an acceleration", "a third derivative")
+_ORDERS = ("coordinate", "velocity", "acceleration", "third derivative")
 
 
 def name_mistakes(
@@ -38,9 +38,9 @@ def name_mistakes(
             case Name():
                 yield from _name(node, scope, role, what, before)
             case Call():
-                yield from _call(node, scope, role, what)
+                yield from _call(node, scope, what)
             case PartialCall():
-                yield from _partial_call(node, scope, role, what)
+                yield from _partial_call(node, scope)
             case Diff(variable=variable):
                 yield from _variable(variable, scope)
 
@@ -68,20 +68,20 @@ def _name(
     name = node.name
     match scope.kinds.get(name):
         case "coordinate":
-            yield from _derivative(node, node.primes, role, what)
+            yield from _derivative(node, node.primes, role, what, of_definition=False)
         case "definition":
             definition = scope.definitions[name]
             if before is not None and definition.place >= before:
-                yield _uses_later(node, definition.place == before)
+                yield _uses_later(node, itself=definition.place == before)
             else:
                 order = definition.order
                 order = CONSTANT if order == CONSTANT else order + node.primes
-                yield from _derivative(node, order, role, what)
+                yield from _derivative(node, order, role, what, of_definition=True)
         case "parameter":
             if not role.parameters:
                 yield Diagnostic(f"'{name}' cannot stand in {what}", node.span, role.why)
             elif node.primes:
-                yield Diagnostic(f"'{node}' is 0: a parameter is constant", node.span)
+                yield Diagnostic(f"{node} is 0: a parameter is constant", node.span)
         case "multiplier":
             if not role.multipliers:
                 yield Diagnostic(f"the multiplier '{name}' cannot stand in {what}", node.span)
@@ -94,25 +94,22 @@ def _name(
             yield from _other_name(node, scope, role, what)
 
 
-def _derivative(node: Name, order: int, role: Role, what: str) -> Iterator[Diagnostic]:
+def _derivative(
+    node: Name, order: int, role: Role, what: str, *, of_definition: bool
+) -> Iterator[Diagnostic]:
     """A coordinate or a definition, of which `order` time derivatives are needed."""
     if order <= role.order:
         return
-    if order > 2 >= role.order and order == node.primes:
-        yield Diagnostic(f"'{node}' is {_ordinal(order)} derivative", node.span, role.why)
-    elif order == node.primes:
-        message = f"{_ORDERS[order]}, '{node}', cannot stand in {what}"
-        yield Diagnostic(message, node.span, role.why)
+    kind = _ORDERS[order] if order < len(_ORDERS) else f"derivative of order {order}"
+    if of_definition:
+        article = "an" if kind.startswith("a") else "a"
+        message = f"{node} contains {article} {kind}, which cannot stand in {what}"
     else:
-        message = f"'{node}' contains {_ordinal(order)}, which cannot stand in {what}"
-        yield Diagnostic(message, node.span, role.why)
+        message = f"the {kind} {node} cannot stand in {what}"
+    yield Diagnostic(message, node.span, role.why)
 
 
-def _ordinal(order: int) -> str:
-    return _ORDERS[order] if order < len(_ORDERS) else f"a derivative of order {order}"
-
-
-def _uses_later(node: Name, itself: bool) -> Diagnostic:
+def _uses_later(node: Name, *, itself: bool) -> Diagnostic:
     if itself:
         return Diagnostic(f"the definition of '{node.name}' uses itself", node.span)
     hint = "a definition may use earlier ones: change their order"
@@ -129,7 +126,7 @@ def _other_name(node: Name, scope: Scope, role: Role, what: str) -> Iterator[Dia
             yield Diagnostic(f"the time cannot stand in {what}", span, role.why)
     elif name == "pi":
         if node.primes:
-            yield Diagnostic(f"'{node}' is 0: pi is a number", span)
+            yield Diagnostic(f"{node} is 0: pi is a number", span)
     elif name in FUNCTIONS or name == "diff":
         yield Diagnostic(f"'{name}' is a function and needs arguments", span, f"write {name}(…)")
     elif scope.coordinate_of_momentum(name) is not None:
@@ -150,7 +147,7 @@ def _advice(name: str, scope: Scope, role: Role) -> str:
     return hint or "declare it under 'parameters'"
 
 
-def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnostic]:
+def _call(node: Call, scope: Scope, what: str) -> Iterator[Diagnostic]:
     name, count = node.function, len(node.arguments)
     if name in FUNCTIONS:
         if node.primes:
@@ -168,7 +165,7 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
             yield _wrong_count(name, arity, count, node)
     elif name in scope.kinds or name in {"t", "pi"} or scope.coordinate_of_momentum(name):
         written = name + "'" * node.primes
-        message = f"'{written}' is {_a(scope.kinds.get(name))}, not a function"
+        message = f"{written} is {_a(scope.kinds.get(name))}, not a function"
         yield Diagnostic(message, node.span, f"did you mean {written}*(…)?")
     else:
         functions = [*FUNCTIONS, *scope.of_kind("function")]
@@ -186,7 +183,7 @@ def _wrong_count(name: str, arity: int, count: int, node: Expression) -> Diagnos
     return Diagnostic(f"'{name}' takes {arity} {plural}, not {count}", node.span)
 
 
-def _partial_call(node: PartialCall, scope: Scope, role: Role, what: str) -> Iterator[Diagnostic]:
+def _partial_call(node: PartialCall, scope: Scope) -> Iterator[Diagnostic]:
     name = node.function
     if scope.kinds.get(name) != "function":
         functions = list(scope.of_kind("function"))

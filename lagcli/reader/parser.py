@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import json
 from functools import cache
-from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +21,7 @@ from lagcli.reader.builder import Builder
 from lagcli.reader.nesting import check_nesting
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from lark.lexer import Token
 
@@ -47,17 +46,18 @@ def parser() -> Lark:
         tables = json.loads(TABLES.read_bytes())
     except (OSError, ValueError):
         tables = {}
-    if tables.get("lark") != lark.__version__ or tables.get("grammar") != _digest():
+    if tables.get("lark") != lark.__version__ or tables.get("grammar") != _grammar():
         return make_parser()
     data, memo = _with_whole_keys(tables["data"]), _with_whole_keys(tables["memo"])
     # The public `Lark.load` reads a pickle, which could run code; this is its other half.
-    return Lark._load_from_dict(data, memo, transformer=Builder(), postlex=Nesting())  # noqa: SLF001
+    load: Callable[..., Lark] = Lark._load_from_dict  # noqa: SLF001
+    return load(data, memo, transformer=Builder(), postlex=Nesting())
 
 
 def make_parser() -> Lark:
     """The parser, with tables made from the grammar."""
     return Lark(
-        GRAMMAR.read_text("utf-8"),
+        _grammar(),
         parser="lalr",
         lexer="basic",
         start=["expression", "equation", "comparison"],
@@ -75,12 +75,12 @@ def make_tables() -> str:
     data, memo = make_parser().memo_serialize([TerminalDef, Rule])
     for key in ("transformer", "postlex"):
         data["options"][key] = None
-    tables = {"lark": lark.__version__, "grammar": _digest(), "data": data, "memo": memo}
+    tables = {"lark": lark.__version__, "grammar": _grammar(), "data": data, "memo": memo}
     return json.dumps(tables, separators=(",", ":"), sort_keys=True) + "\n"
 
 
-def _digest() -> str:
-    return sha256(GRAMMAR.read_bytes().replace(b"\r\n", b"\n")).hexdigest()
+def _grammar() -> str:
+    return GRAMMAR.read_text("utf-8")
 
 
 def _with_whole_keys(table: Any) -> Any:  # noqa: ANN401

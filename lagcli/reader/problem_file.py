@@ -147,7 +147,7 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
         simulation=read_simulation(sections, section("simulation")),
         expect=expect.read(section("expect")),
     )
-    check_masses(sections, problem)
+    check_masses(sections, problem, section("points").span)
     return problem
 
 

@@ -2,18 +2,28 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast, get_args
+from typing import TYPE_CHECKING, TypedDict, cast, get_args
 
 from lagcli.expression import Expression, Name, walk
 from lagcli.problem import Assumption, Coordinate, Parameter
-from lagcli.reader.latex_symbol import symbol_mistake
 from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence, kind, size
 from lagcli.reader.scope import CONSTANTS, Kind, name_mistake
-from lagcli.reader.sections import UNREADABLE, Sections
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from lagcli.reader.sections import Sections
+
+
+class _Said(TypedDict, total=False):
+    """The attributes that coordinates and parameters share."""
+
+    unit: str
+    symbol: str
+    description: str
+    assume: Assumption
+
 
 _COORDINATE_ATTRIBUTES = ("unit", "symbol", "description", "assume")
 _PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
@@ -27,7 +37,7 @@ def read_coordinates(sections: Sections, node: Node) -> tuple[Coordinate, ...]:
         attributes = _attributes(sections, value, key, "coordinate", _COORDINATE_ATTRIBUTES)
         coordinates.append(Coordinate(name=key.label, span=key.span, **_said(sections, attributes)))
     if isinstance(node, Mapping | Sequence) and not size(node):
-        sections.error("a problem has one coordinate at least", node.span, "coordinates: [x]")
+        sections.error("the problem has no coordinates", node.span, "write coordinates: [x]")
     return tuple(coordinates)
 
 
@@ -114,16 +124,18 @@ def _attributes(
     return {name: value for name, (_, value) in found.items()}
 
 
-def _said(sections: Sections, attributes: dict[str, Node]) -> dict[str, object]:
+def _said(sections: Sections, attributes: dict[str, Node]) -> _Said:
     """The attributes that coordinates and parameters share."""
-    said: dict[str, object] = {}
-    for name in ("unit", "symbol", "description"):
-        if name in attributes:
-            text = sections.scalar(attributes[name], f"'{name}'")
-            if text is not None:
-                said[name] = text.value
-                if name == "symbol" and (wrong := symbol_mistake(text.value)):
-                    sections.error(f"a symbol must be simple LaTeX: {wrong}", text.span)
+    said: _Said = {}
+    if "unit" in attributes and (text := sections.scalar(attributes["unit"], "'unit'")):
+        said["unit"] = text.value
+    if "symbol" in attributes and (text := sections.scalar(attributes["symbol"], "'symbol'")):
+        said["symbol"] = text.value
+        _check_symbol(sections, text)
+    if "description" in attributes:
+        text = sections.scalar(attributes["description"], "'description'")
+        if text is not None:
+            said["description"] = text.value
     if "assume" in attributes:
         text = sections.scalar(attributes["assume"], "'assume'")
         if text is not None and text.value in _ASSUMPTIONS:
@@ -132,6 +144,14 @@ def _said(sections: Sections, attributes: dict[str, Node]) -> dict[str, object]:
             hint = did_you_mean(text.value, _ASSUMPTIONS) or f"known are {', '.join(_ASSUMPTIONS)}"
             sections.error(f"unknown assumption '{text.value}'", text.span, hint)
     return said
+
+
+def _check_symbol(sections: Sections, text: Scalar) -> None:
+    from lagcli.reader.latex_symbol import symbol_mistake
+
+    wrong = symbol_mistake(text.value)
+    if wrong:
+        sections.error(f"a symbol must be simple LaTeX: {wrong}", text.span)
 
 
 def _truth(sections: Sections, node: Node) -> bool:
@@ -143,37 +163,23 @@ def _truth(sections: Sections, node: Node) -> bool:
 
 def _check_cycles(sections: Sections, parameters: list[Parameter]) -> None:
     """A value must not need itself, directly or through others."""
-    values = {parameter.name: parameter.value or UNREADABLE for parameter in parameters}
-    uses = {name: _names(value) & values.keys() for name, value in values.items()}
-    while ready := [name for name, used in uses.items() if not used & uses.keys()]:
-        for name in ready:
-            del uses[name]
-    for parameter in parameters:
-        if parameter.name in uses and (cycle := _cycle(parameter.name, uses)):
-            chain = " → ".join(cycle)
-            assert parameter.value is not None
-            sections.error(f"the value of '{parameter.name}' needs itself: {chain}",
-                           parameter.value.span)  # fmt: skip
-            return
+    spans = {one.name: one.value.span for one in parameters if one.value is not None}
+    cycle = value_cycle({one.name: one.value for one in parameters if one.value is not None})
+    if cycle:
+        chain = " → ".join(cycle)
+        sections.error(f"the value of '{cycle[0]}' needs itself: {chain}", spans[cycle[0]])
 
 
-def _names(value: Expression) -> set[str]:
-    return {node.name for node in walk(value) if isinstance(node, Name)}
+def value_cycle(values: dict[str, Expression]) -> list[str]:
+    """Names of parameters, each of which needs the next, from one back to itself."""
+    from graphlib import CycleError, TopologicalSorter
 
-
-def _cycle(start: str, uses: dict[str, set[str]]) -> list[str]:
-    """A way from `start` back to itself, or nothing when it only leads to a cycle."""
-    came_from: dict[str, str] = {}
-    front = [start]
-    while front:
-        name = front.pop()
-        for used in sorted(uses[name] & uses.keys()):
-            if used == start:
-                way = [start, name]
-                while way[-1] != start:
-                    way.append(came_from[way[-1]])
-                return way[::-1]
-            if used not in came_from:
-                came_from[used] = name
-                front.append(used)
+    uses = {
+        name: {node.name for node in walk(value) if isinstance(node, Name)} & values.keys()
+        for name, value in values.items()
+    }
+    try:
+        TopologicalSorter(uses).prepare()
+    except CycleError as error:
+        return list(reversed(error.args[1]))
     return []

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.expression import Expression, Name
 from lagcli.problem import Question, Rewrite, Simulation, Where
+from lagcli.reader.nodes import Mapping
 from lagcli.reader.scope import CONSTANTS, NUMBERS, QUESTION, Role
 from lagcli.reader.suggest import did_you_mean
 
@@ -45,7 +46,7 @@ def _state_name(sections: Sections, key: Scalar, coordinates: list[str]) -> Name
         return None
     primes = sum(2 if prime == "″" else 1 for prime in key.label[len(letters) :])
     if primes > 1:
-        message = f"'{key.label}' in initial is an acceleration"
+        message = f"{key.label} in initial is an acceleration"
         sections.error(message, key.span, "a state has coordinates x and velocities x'")
         return None
     return Name(letters, primes)
@@ -68,7 +69,7 @@ def read_find(sections: Sections, node: Node) -> tuple[Question, ...]:
         elif missing := {"where": "for", "for": "where", "value": "in_terms_of",
                          "in_terms_of": "value"}.get(next(iter(parts), "")):  # fmt: skip
             sections.error(f"{what} has no '{missing}'", key.span, hint)
-        elif not parts and found is not None and hasattr(value, "entries"):
+        elif isinstance(value, Mapping) and not value.entries:
             sections.error(f"{what} asks nothing", key.span, hint)
     return tuple(questions)
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import TYPE_CHECKING, TypeVar
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import ZERO, Equation, Expression, Name
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression
+from lagcli.reader.limits import MISTAKES
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence, kind
 from lagcli.reader.scope import Kind, Role, Scope, name_mistake
@@ -37,8 +39,22 @@ class Sections:
     def error(
         self, message: str, span: Span, hint: str = "", related: tuple[tuple[Span, str], ...] = ()
     ) -> None:
-        """Note a mistake and go on."""
-        self.diagnostics.append(Diagnostic(message, span, hint, related=related))
+        """Note a mistake and go on; after very many, forget it."""
+        if not self.is_full:
+            self.diagnostics.append(Diagnostic(message, span, hint, related=related))
+
+    @property
+    def is_full(self) -> bool:
+        """Whether there are more mistakes than anybody will read."""
+        return len(self.diagnostics) >= MISTAKES
+
+    def _check_names(
+        self, expression: Expression, role: Role, what: str, before: int | None = None
+    ) -> bool:
+        mistakes = name_mistakes(expression, self.scope, role, what, before)
+        found = list(islice(mistakes, max(0, MISTAKES - len(self.diagnostics))))
+        self.diagnostics += found
+        return not found
 
     # Shapes.
 
@@ -79,6 +95,8 @@ class Sections:
                 found[key.label] = (key, value)
             else:
                 hint = did_you_mean(key.label, names) or f"known are {', '.join(names)}"
+                if key.in_flow and isinstance(value, Scalar) and value.is_empty:
+                    hint = "inside { } a comma ends the value: put a text with commas in quotes"
                 self.error(f"unknown key '{key.label}' in {what}", key.span, hint)
         return found
 
@@ -91,7 +109,7 @@ class Sections:
         expression = self._read(node, what, read_expression)
         if expression is None:
             return UNREADABLE
-        self.diagnostics += name_mistakes(expression, self.scope, role, what, before)
+        self._check_names(expression, role, what, before)
         return expression
 
     def equation(self, node: Node, what: str, role: Role) -> Equation:
@@ -100,7 +118,7 @@ class Sections:
         if equation is None:
             return _NO_EQUATION
         for side in (equation.left, equation.right):
-            self.diagnostics += name_mistakes(side, self.scope, role, what)
+            self._check_names(side, role, what)
         return equation
 
     def comparison(self, node: Node, what: str, role: Role) -> Inequality | None:
@@ -108,7 +126,7 @@ class Sections:
         inequality = self._read(node, what, read_comparison)
         if inequality is not None:
             for side in (inequality.left, inequality.right):
-                self.diagnostics += name_mistakes(side, self.scope, role, what)
+                self._check_names(side, role, what)
         return inequality
 
     def name(self, node: Node, what: str, role: Role) -> Name | None:
@@ -119,15 +137,13 @@ class Sections:
         if not isinstance(expression, Name):
             self.error(f"{what} must be a name", node.span)
             return None
-        mistakes = list(name_mistakes(expression, self.scope, role, what))
-        self.diagnostics += mistakes
-        return None if mistakes else expression
+        return expression if self._check_names(expression, role, what) else None
 
     def _read(self, node: Node, what: str, read: Callable[[Excerpt], _T]) -> _T | None:
         if not isinstance(node, Scalar):
             self.error(f"{what} must be an expression, not {kind(node)}", node.span)
             return None
-        if self.scalar(node, what) is None:
+        if self.is_full or self.scalar(node, what) is None:
             return None
         try:
             return read(node.excerpt())

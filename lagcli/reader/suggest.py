@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import unicodedata
-from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -23,6 +22,43 @@ _ELSEWHERE = {
     **{f"ar{name}": f"a{name}" for name in ["sinh", "cosh", "tanh"]},
     **{f"arc{name}": f"a{name}" for name in ["sinh", "cosh", "tanh"]},
 }
+
+#: Names longer than this, and more names than these, are not compared.
+_LONGEST, _MOST = 60, 300
+
+_GREEK = dict(
+    zip(
+        "αβγδεζηθικλμνξοπρςστυφχψω",
+        [
+            "alpha",
+            "beta",
+            "gamma",
+            "delta",
+            "epsilon",
+            "zeta",
+            "eta",
+            "theta",
+            "iota",
+            "kappa",
+            "lambda",
+            "mu",
+            "nu",
+            "xi",
+            "omicron",
+            "pi",
+            "rho",
+            "sigma",
+            "sigma",
+            "tau",
+            "upsilon",
+            "phi",
+            "chi",
+            "psi",
+            "omega",
+        ],
+        strict=True,
+    )
+)
 
 #: Dots for velocities, as others write them.
 _VELOCITY_ENDINGS = ("_dot", "dot", "_ddot", "ddot", "_d")
@@ -46,12 +82,20 @@ def closest(name: str, known: Iterable[str]) -> str:
         stem = name.removesuffix(ending)
         if stem != name and stem in names:
             return stem + ("''" if ending.endswith("ddot") else "'")
-    if len(name) > 60:
+    from difflib import get_close_matches
+
+    if len(name) > _LONGEST:
         return ""
-    near = get_close_matches(name, names, n=1, cutoff=0.6)
-    return near[0] if near else ""
+    spelled = {_spelled_out(known): known for known in reversed(names) if len(known) <= _LONGEST}
+    near = get_close_matches(name, list(spelled)[-_MOST:], n=1, cutoff=0.6)
+    return spelled[near[0]] if near else ""
+
+
+def _spelled_out(name: str) -> str:
+    """Greek letters by their names: `theta` for θ, and `theta_1` for θ_1."""
+    return "".join(_GREEK.get(letter, letter) for letter in name)
 
 
 def _folded(name: str) -> str:
-    """Look-alikes in one form: µ and μ, X and x."""
-    return unicodedata.normalize("NFKC", name).casefold()
+    """Look-alikes in one form: µ and μ, X and x, ϕ and φ and phi."""
+    return _spelled_out(unicodedata.normalize("NFKC", name).casefold())

@@ -63,13 +63,13 @@ def explain(error: Exception, tokens: list[Token], excerpt: Excerpt, start: str)
         return _unexpected_character(at, tokens, excerpt)
     token: Token = error.token  # type: ignore[attr-defined]
     if token.type == "$END":
-        return _unexpected_end(tokens, excerpt, start)
+        return _unexpected_end(tokens, excerpt)
     place = next(i for i, other in enumerate(tokens) if other.start_pos == token.start_pos)
     previous = tokens[place - 1] if place else None
     if previous is not None and previous.type in _END_VALUE and token.type in _BEGIN_VALUE:
         following = tokens[place + 1] if place + 1 < len(tokens) else None
         return _missing_product(previous, token, following, excerpt)
-    message, hint = _unexpected(token, previous, tokens[:place], start, excerpt)
+    message, hint = _unexpected(token, previous, tokens[:place], start)
     return Diagnostic(message, _span(token, excerpt), hint)
 
 
@@ -86,7 +86,7 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
     return Diagnostic(f"{shown} has no meaning in an expression", span, _INSTEAD.get(character, ""))
 
 
-def _unexpected_end(tokens: list[Token], excerpt: Excerpt, start: str) -> Diagnostic:
+def _unexpected_end(tokens: list[Token], excerpt: Excerpt) -> Diagnostic:
     """The text ends too early: an open parenthesis, or an operator without its right side."""
     last = tokens[-1]
     if last.type not in _END_VALUE:
@@ -123,7 +123,7 @@ def _missing_product(
 
 
 def _unexpected(
-    token: Token, previous: Token | None, before: list[Token], start: str, excerpt: Excerpt
+    token: Token, previous: Token | None, before: list[Token], start: str
 ) -> tuple[str, str]:
     """Sentence and advice for a token that cannot stand where it stands."""
     inside = _open_parenthesis(before)

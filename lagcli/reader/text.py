@@ -11,7 +11,7 @@ from lagcli.reader.limits import FILE_BYTES
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
 
-class Mistake(Exception):
+class Mistake(Exception):  # noqa: N818 - the user's, not the program's
     """One mistake that ends the reading of an expression or of the whole file."""
 
     def __init__(self, diagnostic: Diagnostic) -> None:
@@ -28,7 +28,7 @@ class Text:
 
     @classmethod
     def of(cls, source: Source) -> Text:
-        """Count the lines of `source`, which ends lines by `\\n` alone."""
+        """Count the lines of `source`, which are ended by line feeds alone."""
         starts = [0]
         at = source.text.find("\n")
         while at >= 0:
@@ -47,7 +47,7 @@ class Text:
 
 
 def decode(name: str, data: bytes) -> tuple[Source, list[Diagnostic]]:
-    """The text of a file: UTF-8, without byte-order mark, lines ended by `\\n`.
+    """The text of a file: UTF-8, without byte-order mark, lines ended by line feeds.
 
     Returns
     -------

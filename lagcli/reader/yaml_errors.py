@@ -69,10 +69,15 @@ def explain(error: Exception, text: Text) -> Diagnostic:
         return _explain_character(error, text)
     offset = min(mark.index, len(text.source.text))
     start: Any = getattr(error, "context_mark", None)
-    if start is not None and offset >= len(text.source.text):  # something was never closed
+    at_end = offset >= len(text.source.text.rstrip())
+    if start is not None and at_end and "node" not in context:  # something was never closed
         offset = start.index
     span = text.span(offset, min(offset + 1, len(text.source.text)))
     said = f"{context} {problem}"
+    if text.source.text[offset : offset + 1] == "\t" and "token" in said:
+        return Diagnostic("a tab cannot indent", span, "indent with spaces")
+    if at_end and "node content" in said:
+        return Diagnostic("the file ends inside of a list '[' or a map '{'", span)
     for piece, sentence, hint in _SENTENCES:
         if piece in said:
             return Diagnostic(sentence, span, hint)

@@ -1,0 +1,79 @@
+"""`--set name=value`: values for parameters from the command line."""
+
+from __future__ import annotations
+
+import unicodedata
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from lagcli.diagnostics import Diagnostic, ProblemError, Source
+from lagcli.reader.expressions import read_expression
+from lagcli.reader.names import name_mistakes
+from lagcli.reader.positions import Excerpt
+from lagcli.reader.quantities import value_cycle
+from lagcli.reader.scope import CONSTANTS, Scope
+from lagcli.reader.suggest import did_you_mean
+from lagcli.reader.text import Mistake, Text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from lagcli.expression import Expression
+    from lagcli.problem import Problem
+
+
+def set_parameters(problem: Problem, settings: Iterable[str]) -> Problem:
+    """The problem with other values of its parameters.
+
+    Parameters
+    ----------
+    problem : Problem
+        The problem; it stays as it is.
+    settings : iterable of str
+        Each `name=value`; a value is a number or an expression of parameters.
+
+    Raises
+    ------
+    ProblemError
+        At the first setting that names no parameter, or has no value.
+    """
+    scope = Scope(kinds={one.name: "parameter" for one in problem.parameters})
+    values = {one.name: one.value for one in problem.parameters if one.value is not None}
+    for setting in settings:
+        source = Source(f"--set {setting}", setting)
+        name, value = _read(source, scope)
+        values[name] = value
+        cycle = value_cycle(values)
+        if cycle:
+            chain = " → ".join(cycle)
+            message = f"the value of '{cycle[0]}' needs itself: {chain}"
+            raise ProblemError(source, (Diagnostic(message, value.span),))
+    return replace(
+        problem,
+        parameters=tuple(replace(one, value=values.get(one.name)) for one in problem.parameters),
+    )
+
+
+def _read(source: Source, scope: Scope) -> tuple[str, Expression]:
+    """The name and the value of one setting."""
+    text = Text.of(source)
+    written, equals, value = source.text.partition("=")
+    name = unicodedata.normalize("NFC", written.strip())
+    if not equals:
+        hint = "write name=value"
+        raise ProblemError(source, (Diagnostic("an '=' is missing", text.span(0, 0), hint),))
+    if name not in scope.kinds:
+        hint = did_you_mean(name, scope.kinds) or "known are " + ", ".join(scope.kinds)
+        message = f"there is no parameter '{name}'"
+        raise ProblemError(source, (Diagnostic(message, text.span(0, len(written)), hint),))
+    start = len(written) + 1
+    offsets = range(start, len(source.text) + 1)
+    try:
+        expression = read_expression(Excerpt(value, text, offsets))
+    except Mistake as error:
+        raise ProblemError(source, (error.diagnostic,)) from None
+    what = f"the value of '{name}'"
+    mistakes = tuple(name_mistakes(expression, scope, CONSTANTS, what))
+    if mistakes:
+        raise ProblemError(source, mistakes)
+    return name, expression
