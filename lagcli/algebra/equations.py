@@ -1,0 +1,274 @@
+"""Equations in one unknown, solved exactly: polynomials, and polynomials in sin and cos.
+
+A polynomial is factored; factors of degree one and two, and powers x^k = a, are solved by
+radicals.  What has only numbers in it is solved by numbers where radicals do not serve.
+Roots may be complex for some values of the parameters: the caller tells which are real.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import gcd
+
+import mpmath
+import sympy
+from sympy import Dummy, Expr, Rational, S, Symbol
+
+from lagcli.algebra.entry import Field
+from lagcli.algebra.field import Element
+from lagcli.algebra.ring import Poly
+from lagcli.algebra.simplification import simplify
+
+_DECIMALS = 15
+_MAX_DEGREE = 24
+
+
+@dataclass(frozen=True, slots=True)
+class Roots:
+    """The roots of an equation; those of an angle lie in (-pi, pi]."""
+
+    values: tuple[Expr, ...]
+    angle: bool
+
+
+def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
+    """All roots of expression = 0 that may be real; None where no closed form was found.
+
+    The unknown occurs either as a polynomial variable or inside sines and cosines of
+    integer multiples of it, or of one constant multiple of it.
+    """
+    field = Field([expression])
+    try:
+        poly = field(expression).numerator
+    except ZeroDivisionError:
+        return None
+    used = [
+        g for g in field.ring.used(poly)
+        if unknown in field.generators[g].expression.free_symbols
+    ]  # fmt: skip
+    if not used:
+        return Roots((), angle=False)
+    first = field.generators[used[0]]
+    if used == [field.number_of(unknown)]:
+        found = polynomial_roots(field, poly, used[0])
+        return None if found is None else Roots(tuple(found), angle=False)
+    if first.kind not in ("cos", "sin") or first.argument is None:
+        return None
+    cosine = used[0] if first.kind == "cos" else first.partner
+    if not set(used) <= {cosine, cosine + 1}:
+        return None
+    factor = first.argument / unknown
+    if unknown in factor.free_symbols:
+        return None
+    angles = angle_roots(field, poly, cosine)
+    if angles is None:
+        return None
+    if factor == 1:
+        return Roots(tuple(angles), angle=True)
+    if factor.is_Rational and factor.p == 1:
+        # sin and cos of theta/n: theta lies in (-pi, pi] where theta/n is in (-pi/n, pi/n]
+        return None if any(a.free_symbols for a in angles) else Roots(
+            tuple(a / factor for a in angles if -sympy.pi < a / factor <= sympy.pi), angle=True
+        )
+    return Roots(tuple(a / factor for a in angles), angle=False)
+
+
+def coefficients(field: Field, poly: Poly, generator: int) -> list[Element]:
+    """The coefficients by powers of a generator, constant term first."""
+    ring = field.ring
+    parts: dict[int, list[tuple[tuple[tuple[int, int], ...], int]]] = {}
+    for monomial, coefficient in ring.terms(poly):
+        exponent = dict(monomial).get(generator, 0)
+        rest = tuple(pair for pair in monomial if pair[0] != generator)
+        parts.setdefault(exponent, []).append((rest, coefficient))
+    degree = max(parts, default=0)
+    return [field.polynomial(ring.build(parts.get(k, []))) for k in range(degree + 1)]
+
+
+def polynomial_roots(field: Field, poly: Poly, generator: int) -> list[Expr] | None:
+    """The roots in one generator, without repetition; None where no closed form was found.
+
+    Roots that are surely not real are left out.
+    """
+    ring = field.ring
+    roots: list[Expr] = []
+    _, factors = ring.lift(poly).factor()
+    for factor, _ in sorted(factors, key=lambda pair: (pair[0].total_degree(), str(pair[0]))):
+        if ring.degree(ring.lift(factor), generator) == 0:
+            continue
+        found = _roots(field, coefficients(field, factor, generator))
+        if found is None:
+            return None
+        roots += found
+    return [root for root in dict.fromkeys(roots) if root.is_real is not False]
+
+
+def _roots(field: Field, a: Sequence[Element]) -> list[Expr] | None:
+    """The roots of a_0 + a_1 x + … of an irreducible polynomial."""
+    degree = len(a) - 1
+    step = gcd(*(k for k in range(1, degree + 1) if not a[k].is_zero()))
+    if step > 1:
+        powers = _roots(field, a[::step])
+        if powers is None:
+            return _decimal_roots(a)
+        return _radicals(powers, step)
+    if degree == 1:
+        return [field.to_sympy(-a[0] / a[1])]
+    if degree == 2:
+        # x = (-b ± sqrt(b² - 4 a c)) / (2 a)
+        root = sympy.sqrt(simplify(field.to_sympy(a[1] ** 2 - field.rational(4) * a[2] * a[0])))
+        middle, below = field.to_sympy(-a[1]), field.to_sympy(field.rational(2) * a[2])
+        return [simplify((middle - root) / below), simplify((middle + root) / below)]
+    return _decimal_roots(a)
+
+
+def _radicals(powers: Sequence[Expr], k: int) -> list[Expr] | None:
+    """The real x with x^k one of the given values."""
+    roots: list[Expr] = []
+    for value in map(simplify, powers):
+        if value.is_zero:
+            roots.append(S.Zero)
+        elif k % 2 == 0:
+            if value.is_negative:
+                continue
+            root = simplify(sympy.Pow(value, Rational(1, k)))
+            roots += [-root, root]
+        elif value.is_positive:
+            roots.append(sympy.Pow(value, Rational(1, k)))
+        elif value.is_negative:
+            roots.append(-sympy.Pow(-value, Rational(1, k)))
+        else:
+            return None
+    return roots
+
+
+def _decimal_roots(a: Sequence[Element]) -> list[Expr] | None:
+    """The real roots of a polynomial with rational coefficients, as decimals."""
+    numbers = [each.rational() for each in a]
+    if any(number is None for number in numbers) or len(a) > _MAX_DEGREE:
+        return None
+    x = Dummy()
+    poly = sympy.Poly([Rational(n.numerator, n.denominator) for n in reversed(numbers) if n is not None], x)
+    return [decimal(root.evalf(_DECIMALS + 10)) for root in poly.real_roots()]
+
+
+def decimal(value: Expr) -> Expr:
+    """A number as the exact decimal fraction of its first 15 significant digits."""
+    with mpmath.workdps(_DECIMALS + 5):
+        number = mpmath.mpf(str(value))
+        return Rational(mpmath.nstr(number, _DECIMALS, min_fixed=-9, max_fixed=_DECIMALS))
+
+
+def angle_roots(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
+    """The angles in (-pi, pi] at which a polynomial in its cosine and sine vanishes.
+
+    Parameters
+    ----------
+    cosine
+        The generator of the cosine; that of the sine follows it.
+    """
+    ring = field.ring
+    roots: list[Expr] = []
+    _, factors = ring.lift(poly).factor()
+    for factor, _ in sorted(factors, key=lambda pair: (pair[0].total_degree(), str(pair[0]))):
+        used = ring.used(factor)
+        if cosine not in used and cosine + 1 not in used:
+            continue
+        found = _angles(field, ring.lift(factor), cosine)
+        if found is None:
+            return None
+        roots += found
+    return [root for root in dict.fromkeys(roots) if root.is_real is not False]
+
+
+def _angles(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
+    ring, sine = field.ring, cosine + 1
+    if ring.degree(poly, sine) == 0:
+        values = polynomial_roots(field, poly, cosine)
+        return None if values is None else [a for c in values for a in _with_cosine(c)]
+    swapped = _without_cosine(field, poly, cosine)
+    if swapped is not None:
+        values = polynomial_roots(field, swapped, sine)
+        return None if values is None else [a for s in values for a in _with_sine(s)]
+    free, along = coefficients(field, poly, sine)
+    ratio = free / (along * field.generator(cosine))
+    if not {cosine, sine} & {*ring.used(ratio.numerator), *ring.used(ratio.denominator)}:
+        # a cos + b sin = 0: tan = -a/b
+        return _with_tangent(field.to_sympy(-ratio))
+    return _by_half_angle(field, poly, cosine)
+
+
+def _without_cosine(field: Field, poly: Poly, cosine: int) -> Poly | None:
+    """The polynomial in the sine alone, with cos² = 1 - sin², where it is one."""
+    ring = field.ring
+    s = ring.generator(cosine + 1)
+    result = ring.zero
+    for monomial, coefficient in ring.terms(poly):
+        exponent = dict(monomial).get(cosine, 0)
+        if exponent % 2:
+            return None
+        rest = tuple(pair for pair in monomial if pair[0] != cosine)
+        result += ring.build([(rest, coefficient)]) * (ring.one - s * s) ** (exponent // 2)
+    return result
+
+
+def _with_cosine(value: Expr) -> list[Expr]:
+    if value == 1:
+        return [S.Zero]
+    if value == -1:
+        return [sympy.pi]
+    if value.is_number and abs(value.evalf()) > 1:
+        return []
+    return [-sympy.acos(value), sympy.acos(value)]
+
+
+def _with_sine(value: Expr) -> list[Expr]:
+    if value.is_zero:
+        return [S.Zero, sympy.pi]
+    if abs(value) == 1:
+        return [sympy.asin(value)]
+    if value.is_number and abs(value.evalf()) > 1:
+        return []
+    angle = sympy.asin(value)
+    if value.is_positive:
+        return [angle, sympy.pi - angle]
+    if value.is_negative:
+        return [angle, -sympy.pi - angle]
+    return [angle, sympy.atan2(value, -sympy.sqrt(1 - value**2))]
+
+
+def _with_tangent(value: Expr) -> list[Expr]:
+    angle = sympy.atan(value)
+    if value.is_positive:
+        return [angle, angle - sympy.pi]
+    if value.is_negative:
+        return [angle, angle + sympy.pi]
+    return [angle, sympy.atan2(-value, -1)]
+
+
+def _by_half_angle(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
+    """With t = tan(angle/2): cos = (1 - t²)/(1 + t²), sin = 2 t/(1 + t²)."""
+    ring, sine = field.ring, cosine + 1
+    t = field(Dummy("t", real=True))
+    number = ring.used(t.numerator)[0]
+    one = field.rational(1)
+    images = {
+        cosine: (one - t * t) / (one + t * t),
+        sine: (t + t) / (one + t * t),
+    }
+    total = field.rational(0)
+    for monomial, coefficient in ring.terms(poly):
+        rest = tuple(pair for pair in monomial if pair[0] not in images)
+        term = field.polynomial(ring.build([(rest, coefficient)]))
+        for generator, exponent in monomial:
+            if generator in images:
+                term = term * images[generator] ** exponent
+        total = total + term
+    values = polynomial_roots(field, total.numerator, number)
+    if values is None:
+        return None
+    angles = [2 * sympy.atan(value) for value in values]
+    at_pi = poly
+    at_pi = ring.compose(at_pi, {cosine: ring.constant(-1), sine: ring.zero})
+    return [sympy.pi, *angles] if at_pi == 0 else angles

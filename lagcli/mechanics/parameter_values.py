@@ -1,0 +1,63 @@
+"""Numbers for the parameters: those of the file, else admissible ones."""
+
+from __future__ import annotations
+
+import random
+
+import mpmath
+from mpmath import mpf
+from sympy import Symbol
+
+from lagcli.algebra.numeric import Evaluator
+from lagcli.mechanics.system import System
+
+DIGITS = 60
+
+
+def parameter_values(system: System) -> dict[Symbol, mpf]:
+    """The values that the file gives, by parameter; those without one are left out.
+
+    A value may be a formula of other parameters, in any order.
+    """
+    formulas = {
+        symbol: system.build(parameter.value)
+        for symbol, parameter in zip(system.parameters, system.problem.parameters, strict=True)
+        if parameter.value is not None
+    }
+    values: dict[Symbol, mpf] = {}
+    progress = True
+    while progress:
+        progress = False
+        for symbol, formula in formulas.items():
+            if symbol not in values and formula.free_symbols <= values.keys():
+                [values[symbol]] = Evaluator([formula], DIGITS)(values)
+                progress = True
+    return values
+
+
+def admissible_values(system: System, count: int) -> list[dict[Symbol, mpf]]:
+    """Values for all parameters: the file's where it gives all of them, else random ones.
+
+    Random values obey the assumptions of the file and are the same in every run.
+    """
+    given = parameter_values(system)
+    if len(given) == len(system.parameters):
+        return [given]
+    source = random.Random("lagcli parameters")
+    return [
+        {p: given.get(p, _random_value(source, p)) for p in system.parameters}
+        for _ in range(count)
+    ]
+
+
+def _random_value(source: random.Random, parameter: Symbol) -> mpf:
+    if parameter.is_integer:
+        return mpf(source.randint(1, 5))
+    # from 1/20 to 20, evenly on a logarithmic scale, never a nice number
+    with mpmath.workdps(DIGITS):
+        magnitude = mpmath.exp(mpf(source.randint(-30011, 30011)) / 10007)
+    if parameter.is_negative:
+        return -magnitude
+    if parameter.is_nonnegative or source.random() < 0.5:
+        return magnitude
+    return -magnitude
