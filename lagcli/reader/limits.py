@@ -13,7 +13,7 @@ FILE_BYTES = 1 << 20
 YAML_LEVELS = 40
 
 #: Characters and nodes after every alias has been replaced by what it stands for.
-EXPANDED_SIZE = 4 * FILE_BYTES
+EXPANDED_SIZE = 2 * FILE_BYTES
 
 #: Characters of one expression.
 EXPRESSION_CHARACTERS = 100_000

@@ -1,0 +1,187 @@
+"""Files that break the contract: each is answered with a place and a sentence.
+
+A case is the file's text, the place `line:column`, and a piece of the message or its hint.
+"""
+
+import pytest
+
+from lagcli.diagnostics import render
+from lagcli.reader import read_problem
+
+GOOD = """\
+coordinates: [x, y]
+parameters: {m: {assume: positive}, g: 9.81}
+functions: {U: [r], W: [a, b]}
+definitions: {r: sqrt(x^2 + y^2), d: x' + y}
+T: m*(x'^2 + y'^2)/2
+constraints: {line: x + y}
+symmetries: {shift: {x: 1, y: -1}}
+find: {height: {where: x' = 0, for: x}}
+"""
+
+
+def after(addition: str) -> str:
+    """A good file of eight lines, and from the ninth on what is wrong."""
+    return GOOD + addition
+
+
+FILES = [
+    # The file as a whole.
+    ("", "1:1", "empty"),
+    ("# nothing\n", "1:1", "empty"),
+    ("- x\n- y\n", "1:1", "must be a map"),
+    ("x\n", "1:1", "must be a map"),
+    ("--- {}\n--- {}\n", "2:1", "second document"),
+    (after("V: g\x1b[31m\n"), "9:5", "U+001B"),
+    (after("V: [x\n"), "9:4", "never closed"),
+    (after("V: 'x\n"), "9:4", "never closed"),
+    (after("V: a: b\n"), "9:5", "second ':'"),
+    (after("\tV: x\n"), "9:1", "tab"),
+    (after("V: @x\n"), "9:4", "cannot begin"),
+    (after("V: *nowhere\n"), "9:4", "no anchor"),
+    (after("V: &a [*a]\n"), "9:8", "inside of what it names"),
+    (after("V: !!python/object/apply:os.system [ls]\n"), "9:4", "tags"),
+    (after("g: &a x\nV: !foo x\n"), "10:4", "tags"),
+    (after("? [a, b]\n: x\n"), "9:3", "a key must be a text"),
+    (after("T: x\n"), "9:1", "given twice"),
+    (after("Tee: x\n"), "9:1", "unknown key 'Tee'"),
+    (after("symetries: {}\n"), "9:1", "did you mean 'symmetries'"),
+    (after("<<: {}\n"), "9:1", "merge key"),
+    ("T: 1\n", "1:1", "no coordinates"),
+    ("coordinates: []\nT: 1\n", "1:14", "no coordinates"),
+    ("coordinates: x\nT: 1\n", "1:14", "write [x]"),
+    ("coordinates: [x]\n", "1:1", "no kinetic energy"),
+    ("coordinates: [x]\npoints: {p: {position: [x]}}\n", "2:10", "no mass"),
+    (after("L: x\n"), "5:1", "both L and T"),
+    # Names.
+    ("coordinates: [x, x]\nT: x'^2\n", "1:18", "declared twice"),
+    ("coordinates: [sin]\nT: 1\n", "1:15", "cannot be declared"),
+    ("coordinates: [t]\nT: 1\n", "1:15", "the time"),
+    ("coordinates: [x']\nT: 1\n", "1:15", "without primes"),
+    ("coordinates: [2x]\nT: 1\n", "1:15", "begin with a digit"),
+    ("coordinates: [a-b]\nT: 1\n", "1:15", "letters, digits and underscores"),
+    ("coordinates: [x]\nparameters: [p_x]\nT: x'^2\n", "2:14", "momentum"),
+    ("coordinates: [x]\nparameters: [lambda_a]\nT: x'^2\nconstraints: {a: x}\n", "4:15", "twice"),
+    # Attributes.
+    ("coordinates: {x: {units: m}}\nT: x'^2\n", "1:19", "did you mean 'unit'"),
+    ("coordinates: {x: {assume: positiv}}\nT: x'^2\n", "1:27", "did you mean 'positive'"),
+    ("coordinates: {x: {symbol: '\\input{a}'}}\nT: x'^2\n", "1:27", "simple LaTeX"),
+    ("coordinates: {x: {description: up, down}}\nT: x'^2\n", "1:36", "comma ends the value"),
+    ("coordinates: [x]\nparameters: {a: b, b: a}\nT: x'^2\n", "2:17", "needs itself"),
+    ("coordinates: [x]\nparameters: {a: x}\nT: x'^2\n", "2:17", "only numbers and parameters"),
+    ("coordinates: [x]\nparameters: {a: {integer: yes}}\nT: x'^2\n", "2:27", "true or false"),
+    # Expressions.
+    (after("V: m*g*tetha\n"), "9:8", "unknown name 'tetha' in V"),
+    (after("V: 2 x\n"), "9:4", "did you mean 2*x?"),
+    (after("V: 2x\n"), "9:4", "did you mean 2*x?"),
+    (after("V: x y\n"), "9:4", "did you mean x*y?"),
+    (after("V: 2(x)\n"), "9:4", "did you mean 2*(…)?"),
+    (after("V: (x)(y)\n"), "9:6", "'*' is missing"),
+    (after("V: sin x\n"), "9:4", "did you mean sin(x)?"),
+    (after("V: x(y)\n"), "9:4", "did you mean x*(…)?"),
+    (after("V: m·g\n"), "9:5", "write '*'"),
+    (after("V: x²\n"), "9:4", "write x^2"),
+    (after("V: (x\n"), "9:4", "never closed"),
+    (after("V: x)\n"), "9:5", "never opened"),
+    (after("V: x +\n"), "9:6", "nothing follows '+'"),
+    (after("V: x = y\n"), "9:6", "only in constraints and equations"),
+    (after("V: x > y\n"), "9:6", "only in 'holds_while'"),
+    (after("V:\n"), "9:3", "V is empty"),
+    (after("V: [x]\n"), "9:4", "must be an expression, not a list"),
+    (after("V: sin(x, y)\n"), "9:4", "takes 1 argument, not 2"),
+    (after("V: sinn(x)\n"), "9:4", "did you mean sin(…)?"),
+    (after("V: sin\n"), "9:4", "write sin(…)"),
+    (after("V: U\n"), "9:4", "needs arguments"),
+    (after("V: W'(x, y)\n"), "9:4", "function of one argument"),
+    (after("V: diff(W, 3)(x, y)\n"), "9:4", "no argument number 3"),
+    (after("V: diff(W, 1)\n"), "9:4", "needs its arguments"),
+    (after("V: diff(x, 2*x)\n"), "9:12", "by a name"),
+    (after("V: g'\n"), "9:4", "a parameter is constant"),
+    (after("V: x''\n"), "9:4", "the acceleration x''"),
+    (after("V: d'\n"), "9:4", "contains an acceleration"),
+    (after("V: p_x\n"), "9:4", "the momentum"),
+    (after("V: 1/0\n"), "9:6", "division by zero"),
+    (after("V: x/(2 - 2)\n"), "9:6", "division by zero"),
+    (after("V: log(0)\n"), "9:4", "not a number"),
+    (after('V: "x + \\\n  yy"\n'), "10:3", "unknown name 'yy'"),
+    (after("V: 'x'' + zz'\n"), "9:11", "unknown name 'zz'"),
+    (after("V: >\n  x\n  + zz\n"), "11:5", "unknown name 'zz'"),
+    (after("V: |2\n  x\n  + zz\n"), "11:5", "unknown name 'zz'"),
+    (after("V: x\n  + zz\n"), "10:5", "unknown name 'zz'"),
+    # Sections.
+    (after("forces: {x: atan2(y, x)}\n"), "9:13", "a comma ends the value"),
+    (after("forces: {z: x}\n"), "9:10", "no coordinate"),
+    (after("points: {p: {position: x}}\n"), "9:24", "write [x]"),
+    (after("points: {p: {position: [x']}}\n"), "9:25", "the velocity x'"),
+    (after("points: {p: {position: [x, y, x, y]}}\n"), "9:24", "1 to 3"),
+    (after("points: {p: {position: [x, y], force: [x]}}\n"), "9:39", "its position has 2"),
+    (after("initial: {x: y}\n"), "9:14", "only numbers and parameters"),
+    (after("initial: {x'': 1}\n"), "9:11", "acceleration"),
+    (after("initial: {q: 1}\n"), "9:11", "no coordinate"),
+    (after("simulation: {until: m}\n"), "9:21", "only a number"),
+    (after("simulation: {untill: 1}\n"), "9:14", "did you mean 'until'"),
+    (after("expect: {degrees_of_freedom: 1.5}\n"), "9:30", "whole number"),
+    (after("expect: {charges: {shfit: 1}}\n"), "9:20", "did you mean 'shift'"),
+    (after("expect: {find: {heigt: 1}}\n"), "9:17", "did you mean 'height'"),
+    (after("expect: {accelerations: {x: y''}}\n"), "9:29", "free of accelerations"),
+    (after("expect: {hamiltonian: x'}\n"), "9:23", "momenta"),
+    (after("expect: {equations: x = y}\n"), "9:21", "must be a list"),
+    (GOOD.replace("line: x + y", "line: m = 1"), "6:21", "no coordinate"),
+    (GOOD.replace("line: x + y", "line: x == y"), "6:24", "one '='"),
+    (GOOD.replace("y: -1", "z: -1"), "7:28", "no coordinate"),
+    (GOOD.replace("for: x", "for: x''"), "8:37", "the acceleration"),
+    (GOOD.replace(", for: x", ""), "8:8", "no 'for'"),
+    (GOOD.replace("d: x' + y", "d: e + y, e: x"), "4:38", "defined later"),
+    (GOOD.replace("d: x' + y", "d: d + y"), "4:38", "uses itself"),
+    (GOOD.replace("U: [r]", "U: r"), "3:16", "write [r]"),
+]
+
+
+def test_the_good_file_is_good():
+    assert read_problem("good.yaml", GOOD.encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize(("text", "place", "piece"), FILES)
+def test_a_mistake_is_named_with_its_place(text, place, piece):
+    reading = read_problem("bad.yaml", text.encode())
+    assert reading.problem is None
+    shown = render(reading.source, reading.diagnostics)
+    lines = shown.splitlines()
+    found = [
+        place_line + "\n" + "\n".join(lines[i + 1 : i + 3])
+        for i, place_line in enumerate(lines)
+        if place_line.startswith(f"bad.yaml:{place}:")
+    ]
+    assert any(piece in one for one in found), shown
+
+
+def test_all_mistakes_come_at_once_in_the_order_of_the_file():
+    text = after("V: a*b\nforces: {x: 2 y, z: 1}\nexpect: {modes: [q]}\n")
+    found = read_problem("bad.yaml", text.encode()).diagnostics
+    places = [(one.span.line, one.span.column) for one in found]
+    assert places == [(9, 4), (9, 6), (10, 13), (10, 18), (11, 18)]
+
+
+def test_bytes_that_are_no_utf8_have_a_place():
+    reading = read_problem("bad.yaml", b"coordinates: [x]\nT: \xe9\n")
+    (mistake,) = reading.diagnostics
+    assert (mistake.span.line, mistake.span.column) == (2, 4)
+    assert "0xe9 is not UTF-8" in mistake.message
+
+
+def test_utf16_is_named():
+    (mistake,) = read_problem("bad.yaml", GOOD.encode("utf-16")).diagnostics
+    assert "UTF-16" in mistake.message
+
+
+@pytest.mark.parametrize("name", ["line feed", "carriage return", "both", "byte-order mark"])
+def test_line_ends_and_byte_order_mark_change_no_place(name):
+    text = after("V: tetha\n")
+    data = {
+        "line feed": text.encode(),
+        "carriage return": text.replace("\n", "\r").encode(),
+        "both": text.replace("\n", "\r\n").encode(),
+        "byte-order mark": b"\xef\xbb\xbf" + text.encode(),
+    }[name]
+    (mistake,) = read_problem("bad.yaml", data).diagnostics
+    assert (mistake.span.line, mistake.span.column) == (9, 4)
