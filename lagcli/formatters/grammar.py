@@ -21,7 +21,16 @@ from lagcli.expression import (
     Sum,
 )
 from lagcli.formatters.display_width import display_width
-from lagcli.formatters.layout import COMMA, DIGITS, PRODUCT, SUM, Layout, Piece, joined
+from lagcli.formatters.layout import (
+    AFTER_BRACKET,
+    COMMA,
+    DIGITS,
+    PRODUCT,
+    SUM,
+    Layout,
+    Piece,
+    joined,
+)
 from lagcli.formatters.precedence import Level, Printer
 
 #: A number with more digits than this may be broken between groups of so many.
@@ -55,7 +64,7 @@ class GrammarPrinter(Printer[Layout]):
         return name + "'" * primes
 
     def bracketed(self, shown: Layout) -> Layout:
-        return (Piece("(", 1, nesting=1), *shown, Piece(")", 1, nesting=-1))
+        return (Piece("(", 1, nesting=1), AFTER_BRACKET, *shown, Piece(")", 1, nesting=-1))
 
     def number(self, node: Number) -> Layout:
         value = node.value

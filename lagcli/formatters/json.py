@@ -48,7 +48,7 @@ Object = dict[str, Value]
 _Some = TypeVar("_Some")
 
 
-def render(answers: Sequence[Answers], options: Options) -> str:  # noqa: ARG001 - every formatter is called alike
+def render(answers: Sequence[Answers], options: Options) -> str:
     """JSON for machines: a stable contract."""
     objects = [to_object(each) for each in answers]
     value: Value = objects[0] if len(objects) == 1 and not options.several else objects

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 #: How bad a break is, apart from its brackets.
-RELATION, SUM, COMMA, PRODUCT, DIGITS = 0, 1, 1, 2, 8
+RELATION, SUM, COMMA, PRODUCT, OPENING, DIGITS = 0, 1, 1, 3, 7, 8
 
 #: One more pair of brackets around a break is as bad as two lower ranks.
 _NESTING = 2.0
@@ -46,6 +46,9 @@ class Piece:
 
 
 Layout = tuple[Piece, ...]
+
+#: Behind an opening bracket: the last resort where functions are deeply nested.
+AFTER_BRACKET = Piece("", 0, rank=OPENING)
 
 
 @dataclass(frozen=True, slots=True)

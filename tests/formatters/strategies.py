@@ -40,7 +40,9 @@ def _larger(parts):
         st.builds(Product, several),
         st.builds(Quotient, parts, parts),
         st.builds(Power, parts, parts),
-        st.builds(lambda f, x: Call(f, (x,)), st.sampled_from(["sin", "sqrt", "log", "abs"]), parts),
+        st.builds(
+            lambda f, x: Call(f, (x,)), st.sampled_from(["sin", "sqrt", "log", "abs"]), parts
+        ),
         st.builds(lambda x, y: Call("atan2", (x, y)), parts, parts),
         st.builds(lambda x, n: Call("U", (x,), n), parts, st.integers(0, 2)),
         st.builds(lambda a, b: PartialCall("Phi", (1, 2), (a, b)), parts, parts),

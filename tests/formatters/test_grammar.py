@@ -102,7 +102,7 @@ ONE_OF_EACH = {
 
 @pytest.mark.parametrize("printer", [GrammarPrinter, UnicodePrinter, AsciiPrinter])
 def test_no_kind_of_node_is_forgotten(printer):
-    assert EVERY_KIND == set(ONE_OF_EACH)
+    assert set(ONE_OF_EACH) == EVERY_KIND
     for node in ONE_OF_EACH.values():
         assert printer().show(node)
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from lagcli.answers import LagrangianSection
 from lagcli.expression import Name
 from lagcli.formatters.display_width import display_width
 from lagcli.formatters.layout import joined
@@ -110,7 +113,17 @@ def test_every_section_is_there():
 
 
 def test_a_name_is_never_broken():
-    long_name = "a" * 50
-    node = plus(*(Name(long_name + str(i)) for i in range(3)))
-    assert long_name in shown(node)
-    assert Name("x") in plus(x, g).terms
+    names = [Name("a" * 50 + str(i)) for i in range(3)]
+    answers = replace(HOOP, sections={"lagrangian": LagrangianSection(lagrangian=plus(*names))})
+    printed = render([answers], Options(width=60, unicode=False))
+    assert all(name.name in printed for name in names)
+
+
+def test_functions_in_functions_and_long_numbers_fit():
+    deep = x
+    for _ in range(60):
+        deep = sin(plus(deep, g))
+    for node in (deep, sin(sin(sin(sin(sin(sin(sin(deep))))))), number(7**300)):
+        answers = replace(HOOP, sections={"lagrangian": LagrangianSection(lagrangian=node)})
+        for line in render([answers], Options(width=40)).splitlines():
+            assert display_width(line) <= 40

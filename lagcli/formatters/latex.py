@@ -1,0 +1,86 @@
+r"""LaTeX for \input or a document of its own, compiled with amsmath alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from lagcli.answers import Answers
+from lagcli.formatters.document import Block, Equations, Formula, Heading, Matrix, Paragraph
+from lagcli.formatters.latex_display import LatexDisplay
+from lagcli.formatters.latex_math import LatexPrinter
+from lagcli.formatters.latex_names import LatexNames
+from lagcli.formatters.latex_text import latex_text
+from lagcli.formatters.layout import joined
+from lagcli.formatters.options import Options
+from lagcli.formatters.sections import to_document
+
+_PREAMBLE = r"""\documentclass{article}
+\usepackage{amsmath}
+\begin{document}
+"""
+_END = r"""\end{document}
+"""
+_HEADINGS = {1: r"\subsection*", 2: r"\subsubsection*"}
+#: Letters that a file's own symbols may use and amsmath does not have.
+_BORROWED = {r"\mathbb": r"\mathbf", r"\mathfrak": r"\mathbf"}
+
+
+def render(answers: Sequence[Answers], options: Options) -> str:
+    r"""LaTeX with amsmath: a fragment for \input, or a whole document."""
+    body = "\n".join(line for each in answers for line in _lines(each))
+    if not options.standalone:
+        return body + "\n"
+    return _PREAMBLE + body + "\n" + _END
+
+
+def _lines(answers: Answers) -> Iterator[str]:
+    names = LatexNames(answers.coordinates, answers.symbols)
+    display = LatexDisplay(LatexPrinter(names))
+    document = to_document(answers)
+    for macro, substitute in _BORROWED.items():
+        if any(macro in symbol for symbol in answers.symbols.values()):
+            yield rf"\providecommand{{{macro}}}[1]{{{substitute}{{#1}}}}"
+    yield rf"\section*{{\raggedright {latex_text(document.title)}}}"
+    before: Block | None = None
+    for block in document.blocks:
+        if isinstance(block, Paragraph) and isinstance(before, Paragraph):
+            yield ""
+        yield from _block(block, display)
+        before = block
+
+
+def _block(block: Block, display: LatexDisplay) -> Iterator[str]:
+    match block:
+        case Heading(text=text, level=level):
+            yield f"{_HEADINGS[level]}{{{latex_text(text)}}}"
+        case Paragraph(parts=parts):
+            yield r"\noindent " + _sentence(parts, display)
+        case Equations():
+            for lines in display.equations(block):
+                yield from _aligned(lines)
+        case Matrix():
+            for lines in display.matrix(block):
+                yield from _aligned(lines)
+
+
+def _aligned(lines: Sequence[str]) -> Iterator[str]:
+    """Display equations that may go on on the next page."""
+    yield r"{\allowdisplaybreaks"
+    yield r"\begin{align*}"
+    yield " \\\\\n".join(lines)
+    yield r"\end{align*}}%"
+
+
+def _sentence(parts: Sequence[str | Formula], display: LatexDisplay) -> str:
+    """Words and formulas in running text."""
+    return "".join(
+        _words(part) if isinstance(part, str) else f"${joined(display.formula(part))}$"
+        for part in parts
+    )
+
+
+def _words(part: str) -> str:
+    """Escaped words, with the spaces at their ends."""
+    before = " " if part[:1] == " " else ""
+    after = " " if part[-1:] == " " else ""
+    return before + latex_text(part) + after

@@ -1,0 +1,111 @@
+r"""Displayed equations: aligned at `=`, broken to the text width of the article class."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+from lagcli.formatters.document import Equations, Formula, Label, Matrix, Row
+from lagcli.formatters.latex_math import LatexPrinter
+from lagcli.formatters.latex_text import latex_text
+from lagcli.formatters.latex_width import QUAD, RELATION, TEXT_WIDTH, text_width
+from lagcli.formatters.layout import RELATION as RELATION_RANK
+from lagcli.formatters.layout import Layout, Piece, break_lines, joined, width_of
+
+#: A wider left side stands on lines of its own, in points.
+_NARROW = 90.0
+#: What a line keeps free for the errors of the estimate.
+_MARGIN = 4.0
+#: No more quads of indentation than this, however many brackets are open.
+_DEEPEST = 2
+#: amsmath's matrices have ten columns.
+_COLUMNS = 10
+
+
+@dataclass(frozen=True, slots=True)
+class _Shown:
+    left: Layout
+    right: Layout
+    note: str
+
+    @property
+    def narrow(self) -> bool:
+        return width_of(self.left) <= _NARROW
+
+
+class LatexDisplay:
+    """Sets blocks of equations as the lines of one `aligned` or `align*` each."""
+
+    def __init__(self, printer: LatexPrinter) -> None:
+        self.printer = printer
+
+    def formula(self, formula: Formula) -> Layout:
+        """Set one formula."""
+        if isinstance(formula, Label):
+            text, width = self.printer.names.label(formula)
+            return (Piece(text, width),)
+        return self.printer.show(formula).pieces
+
+    def equations(self, block: Equations) -> Iterator[list[str]]:
+        """Set the displays of a block: rows with narrow left sides share one."""
+        shown = [self._shown(row) for row in block.rows]
+        for narrow, rows in groupby(shown, key=lambda each: each.narrow):
+            if narrow:
+                yield self._aligned(list(rows))
+            else:
+                yield from ([*self._wide(row)] for row in rows)
+
+    def matrix(self, matrix: Matrix) -> Iterator[list[str]]:
+        """Set a matrix in brackets, or its entries one by one where it is too wide."""
+        boxes = [[self.printer.show(entry) for entry in row] for row in matrix.entries]
+        head = self.formula(matrix.label)
+        columns = [max(box.width for box in column) for column in zip(*boxes, strict=True)]
+        total = width_of(head) + RELATION + sum(columns) + QUAD * len(columns) + 2 * QUAD
+        if boxes and len(columns) <= _COLUMNS and total <= TEXT_WIDTH:
+            rows = r" \\ ".join(" & ".join(box.text for box in row) for row in boxes)
+            yield [rf"{joined(head)} &= \begin{{pmatrix}} {rows} \end{{pmatrix}}"]
+            return
+        for i, row in enumerate(matrix.entries):
+            listed = [
+                Row(matrix.entry_label(i, j), entry)
+                for j, entry in enumerate(row)
+                if boxes[i][j].text != "0"
+            ]
+            yield from self.equations(Equations(tuple(listed)))
+
+    def _shown(self, row: Row) -> _Shown:
+        return _Shown(self.formula(row.left), self.formula(row.right), row.note)
+
+    def _aligned(self, rows: Sequence[_Shown]) -> list[str]:
+        column = max(width_of(row.left) for row in rows)
+        lines = []
+        for row in rows:
+            room = TEXT_WIDTH - _MARGIN - column - RELATION
+            broken = self._broken(row.right, row.note, room, room - QUAD)
+            first, *others = broken
+            lines.append(f"{joined(row.left)} &= {first}")
+            lines += [f"&{line}" for line in others]
+        return lines
+
+    def _wide(self, row: _Shown) -> Iterator[str]:
+        equals = Piece(" = ", RELATION, rank=RELATION_RANK, broken="= ", broken_width=RELATION)
+        room = TEXT_WIDTH - _MARGIN
+        for line in self._broken((*row.left, equals, *row.right), row.note, room, room - QUAD):
+            yield f"&{line}"
+
+    def _broken(self, layout: Layout, note: str, first: float, others: float) -> list[str]:
+        """Lines of a formula; every one but the first begins with its indentation."""
+        lines = break_lines(layout, first, others - _DEEPEST * QUAD)
+        texts = [lines[0].text]
+        texts += [
+            r"\quad" * (1 + min(line.depth, _DEEPEST)) + f" {line.text}" for line in lines[1:]
+        ]
+        if note:
+            remark = rf"\quad\text{{({latex_text(note)})}}"
+            room = (first if len(lines) == 1 else others - _DEEPEST * QUAD) - lines[-1].width
+            if text_width(note) + 2 * QUAD <= room:
+                texts[-1] += remark
+            else:
+                texts.append(remark)
+        return texts

@@ -1,0 +1,318 @@
+r"""Expressions in LaTeX, as pieces that may be broken over lines.
+
+Brackets are sized by hand (\bigl, \bigr), since \left and \right cannot stand on two
+lines.  A fraction, root or exponent that would be too wide for any line is set in a form
+that can be broken: \frac{1}{D} ( ... ), ( ... )^{1/2}.
+"""
+# ruff: noqa: D102 - what a method shows is its name: `sum`, `product`, `power`
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from decimal import Decimal
+
+from lagcli.expression import (
+    Call,
+    Diff,
+    Expression,
+    Name,
+    Negative,
+    Number,
+    PartialCall,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+)
+from lagcli.formatters.latex_names import LatexNames
+from lagcli.formatters.latex_width import BINARY, SCRIPT, THIN_SPACE, text_width
+from lagcli.formatters.layout import (
+    AFTER_BRACKET,
+    COMMA,
+    DIGITS,
+    PRODUCT,
+    SUM,
+    Layout,
+    Piece,
+    joined,
+    width_of,
+)
+from lagcli.formatters.precedence import Level, Printer
+
+#: Nothing that cannot be broken is wider, in points.
+WIDEST = 185.0
+
+_FUNCTIONS = {
+    **{f: rf"\{f}" for f in ("sin", "cos", "tan", "cot", "sec", "csc")},
+    **{f: rf"\{f}" for f in ("sinh", "cosh", "tanh", "exp")},
+    "log": r"\ln",
+    "asin": r"\arcsin",
+    "acos": r"\arccos",
+    "atan": r"\arctan",
+    "asinh": r"\operatorname{arsinh}",
+    "acosh": r"\operatorname{arcosh}",
+    "atanh": r"\operatorname{artanh}",
+    "sign": r"\operatorname{sgn}",
+    "atan2": r"\operatorname{atan2}",
+}
+#: Functions that may go without brackets, and whose powers stand behind their names.
+_TRIGONOMETRIC = ("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh")
+_BARE = (*_TRIGONOMETRIC, "log")
+
+#: Brackets by the height of what is in them.
+_SIZES = (("", ""), (r"\bigl", r"\bigr"), (r"\Bigl", r"\Bigr"), (r"\biggl", r"\biggr"))
+_BRACKET_WIDTHS = (3.9, 4.6, 6.0, 7.4)
+_FLAT, _BIG, _TALL = 0, 1, 3
+
+_SLASH = Piece("/", 5)
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A formula on the page.
+
+    Attributes
+    ----------
+    pieces : Layout
+        What is set.
+    level : Level
+        How tightly it binds as it is set.
+    height : int
+        Which brackets it needs, from plain to very tall.
+    closed : Layout, optional
+        How it is set before another factor: with the argument of sin in brackets.
+    """
+
+    pieces: Layout
+    level: Level = Level.ATOM
+    height: int = _FLAT
+    closed: Layout | None = None
+
+    @property
+    def text(self) -> str:
+        """The formula on one line."""
+        return joined(self.pieces)
+
+    @property
+    def width(self) -> float:
+        """Its width on one line, in points."""
+        return width_of(self.pieces)
+
+
+class LatexPrinter(Printer[Box]):
+    """The notation of printed books: fractions, roots, dots, Greek letters."""
+
+    leading_factor = Level.POWER
+
+    def __init__(self, names: LatexNames | None = None) -> None:
+        super().__init__()
+        self.names = names or LatexNames()
+
+    def at(self, node: Expression, lowest: Level) -> Box:
+        box = self.show(node)
+        return box if box.level >= lowest else self.bracketed(box)
+
+    def bracketed(self, shown: Box, before: str = "", after: str = "") -> Box:
+        pieces = (*_enclosed(shown, "(", ")", after),)
+        head = (Piece(before, 0),) if before else ()
+        return Box((*head, *pieces), height=max(shown.height, _BIG))
+
+    def number(self, node: Number) -> Box:
+        numerator = _digits(node.value.numerator)
+        if node.value.denominator == 1:
+            return Box(numerator)
+        return self._fraction(Box(numerator), Box(_digits(node.value.denominator)))
+
+    def name(self, node: Name) -> Box:
+        shown = self.names.name(node.name, node.primes)
+        return Box((Piece(shown, self.names.width(node.name, node.primes)),))
+
+    def negative(self, node: Negative) -> Box:
+        operand = self.at(node.operand, Level.QUOTIENT)
+        return Box((Piece("-", 8), *operand.pieces), Level.SUM, operand.height)
+
+    def sum(self, node: Sum) -> Box:
+        (minus, first), *others = self.terms(node)
+        pieces = [Piece("-", 8), *first.pieces] if minus else [*first.pieces]
+        height = first.height
+        for minus, term in others:
+            sign = "-" if minus else "+"
+            pieces.append(_breakable(f" {sign} ", BINARY, SUM, f"{sign} ", BINARY))
+            pieces += term.pieces
+            height = max(height, term.height)
+        return Box(tuple(pieces), Level.SUM, height)
+
+    def product(self, node: Product) -> Box:
+        boxes = self.factors(node)
+        pieces: list[Piece] = []
+        for position, (factor, box) in enumerate(zip(node.factors, boxes, strict=True)):
+            if position:
+                pieces.append(_between(node.factors[position - 1], factor, box))
+            follower = boxes[position + 1] if position + 1 < len(boxes) else None
+            open_end = follower is None or _is_function(follower)
+            pieces += box.pieces if open_end or box.closed is None else box.closed
+        return Box(tuple(pieces), Level.PRODUCT, max(box.height for box in boxes))
+
+    def quotient(self, node: Quotient) -> Box:
+        return self._fraction(self.show(node.numerator), self.show(node.denominator))
+
+    def _fraction(self, above: Box, below: Box) -> Box:
+        if below.width > WIDEST:
+            numerator = above if above.level >= Level.POWER else self.bracketed(above)
+            pieces = numerator.closed or numerator.pieces
+            inverse = self.bracketed(below, after="^{-1}")
+            gap = _breakable(r" \, ", THIN_SPACE, PRODUCT, r"\cdot ", BINARY)
+            height = max(numerator.height, inverse.height)
+            return Box((*pieces, gap, *inverse.pieces), Level.PRODUCT, height)
+        if above.width > WIDEST:
+            inverse = Box((_frac("1", below.text, below.width),))
+            whole = self.bracketed(above)
+            return Box(
+                (*inverse.pieces, Piece(r" \, ", THIN_SPACE), *whole.pieces), Level.PRODUCT, _TALL
+            )
+        return Box(
+            (_frac(above.text, below.text, max(above.width, below.width)),), Level.POWER, _TALL
+        )
+
+    def power(self, node: Power) -> Box:
+        exponent = self._raised(node.exponent)
+        if SCRIPT * exponent.width > WIDEST / 2:
+            arguments = self._arguments((node.base, node.exponent))
+            return Box((Piece(r"\operatorname{pow}", 18), *arguments.pieces), height=_BIG)
+        raised = Piece(f"^{{{exponent.text}}}", SCRIPT * exponent.width + 1)
+        base = node.base
+        is_natural = isinstance(node.exponent, Number) and node.exponent.value.denominator == 1
+        if isinstance(base, Call) and base.function in _TRIGONOMETRIC and is_natural:
+            return self._function(base, raised)
+        box = self.at(base, Level.ATOM)
+        return Box((*box.pieces, raised), Level.POWER, box.height)
+
+    def _raised(self, node: Expression) -> Box:
+        """Set an exponent; a fraction of numbers stays on one line there, x^{1/2}."""
+        match node:
+            case Negative(operand=Number() | Quotient() as operand):
+                inner = self._raised(operand)
+                return Box((Piece("-", 8), *inner.pieces))
+            case Number(value=value) if value.denominator != 1:
+                return Box((*_digits(value.numerator), _SLASH, *_digits(value.denominator)))
+            case Quotient(numerator=Number(value=a), denominator=Number(value=b)):
+                if a.denominator == b.denominator == 1:
+                    return Box((*_digits(a.numerator), _SLASH, *_digits(b.numerator)))
+        return self.show(node)
+
+    def call(self, node: Call) -> Box:
+        if node.function == "sqrt":
+            return self._root(self.show(node.arguments[0]))
+        if node.function == "abs":
+            content = self.show(node.arguments[0])
+            return Box(_enclosed(content, r"\lvert ", r" \rvert "), height=content.height)
+        if node.function in _FUNCTIONS:
+            return self._function(node)
+        head = self.names.name(node.function) + "'" * node.primes
+        width = self.names.width(node.function) + 3 * node.primes
+        arguments = self._arguments(node.arguments)
+        return Box((Piece(head, width), *arguments.pieces), height=arguments.height)
+
+    def _root(self, content: Box) -> Box:
+        if content.width > WIDEST:
+            whole = self.bracketed(content, after="^{1/2}")
+            return Box(whole.pieces, Level.POWER, whole.height)
+        root = Piece(rf"\sqrt{{{content.text}}}", content.width + 11)
+        return Box((root,), height=_TALL if content.height >= _TALL else _BIG)
+
+    def _function(self, node: Call, raised: Piece | None = None) -> Box:
+        """Set a function with a fixed name, and the power of its value."""
+        macro = _FUNCTIONS[node.function]
+        name = Piece(macro, text_width(macro.rpartition("{")[2].strip("\\}")) + 2 * THIN_SPACE)
+        head = (name, raised) if raised else (name,)
+        arguments = self._arguments(node.arguments)
+        closed = (*head, *arguments.pieces)
+        inner = node.arguments[0]
+        bare = isinstance(inner, Name) and inner.primes <= 2 and self.names.bare(inner.name)
+        level = Level.POWER if raised else Level.ATOM
+        if bare and node.function in _BARE:
+            pieces = (*head, Piece(" ", THIN_SPACE), *self.show(inner).pieces)
+            return Box(pieces, Level.POWER, _FLAT, closed)
+        return Box(closed, level, arguments.height)
+
+    def partial_call(self, node: PartialCall) -> Box:
+        slots = " ".join(rf"\partial_{{{index}}}" for index in node.indices)
+        head = Piece(
+            f"{slots} {self.names.name(node.function)}",
+            11 * len(node.indices) + self.names.width(node.function),
+        )
+        arguments = self._arguments(node.arguments)
+        return Box((head, *arguments.pieces), height=arguments.height)
+
+    def diff(self, node: Diff) -> Box:
+        below = self.show(node.variable)
+        operator = _frac(r"\partial", rf"\partial {below.text}", below.width + 7)
+        operand = self.bracketed(self.show(node.operand))
+        gap = Piece(r" \, ", THIN_SPACE)
+        return Box((operator, gap, *operand.pieces), Level.PRODUCT, _TALL)
+
+    def _arguments(self, nodes: tuple[Expression, ...]) -> Box:
+        pieces: list[Piece] = []
+        height = _FLAT
+        for node in nodes:
+            if pieces:
+                pieces += [Piece(",", 4.5), _breakable(" ", 0, COMMA, "", 0)]
+            box = self.show(node)
+            pieces += box.pieces
+            height = max(height, box.height)
+        return self.bracketed(Box(tuple(pieces), height=height))
+
+
+def _enclosed(content: Box, left: str, right: str, after: str = "") -> Layout:
+    size = min(content.height, len(_SIZES) - 1)
+    width = _BRACKET_WIDTHS[size]
+    before, behind = _SIZES[size]
+    trailing = SCRIPT * text_width(after)
+    return (
+        Piece(before + left, width, nesting=1),
+        AFTER_BRACKET,
+        *content.pieces,
+        Piece(behind + right + after, width + trailing, nesting=-1),
+    )
+
+
+def _frac(above: str, below: str, width: float) -> Piece:
+    return Piece(rf"\frac{{{above}}}{{{below}}}", width + 3)
+
+
+def _breakable(text: str, width: float, rank: int, broken: str, broken_width: float) -> Piece:
+    return Piece(text, width, rank=rank, broken=broken, broken_width=broken_width)
+
+
+def _between(before: Expression, after: Expression, shown: Box) -> Piece:
+    r"""Set the gap between two factors: \cdot before a number, a thin space before brackets.
+
+    x\,(a + b) is a product, U(a + b) a function.
+    """
+    if _is_numeral(after):
+        return _breakable(r" \cdot ", BINARY, PRODUCT, r"\cdot ", BINARY)
+    first = shown.pieces[0]
+    words = any(isinstance(each, Name) and len(each.name) > 1 for each in (before, after))
+    if first.nesting or words:
+        return _breakable(r" \, ", THIN_SPACE, PRODUCT, r"\cdot ", BINARY)
+    return _breakable(" ", THIN_SPACE, PRODUCT, r"\cdot ", BINARY)
+
+
+def _is_numeral(node: Expression) -> bool:
+    while isinstance(node, (Power, Quotient)):
+        node = node.base if isinstance(node, Power) else node.numerator
+    return isinstance(node, Number)
+
+
+def _is_function(box: Box) -> bool:
+    return box.pieces[0].text in _FUNCTIONS.values()
+
+
+def _digits(value: int) -> Layout:
+    digits = str(Decimal(value))
+    first, *others = [digits[i : i + 20] for i in range(0, len(digits), 20)]
+    pieces = [Piece(first, text_width(first))]
+    for group in others:
+        size = text_width(group)
+        pieces.append(_breakable(group, size, DIGITS, group, size))
+    return tuple(pieces)

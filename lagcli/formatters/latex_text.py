@@ -1,0 +1,91 @@
+r"""Text from a file in LaTeX: nothing in it can be a command, and all of it is ASCII.
+
+Accented letters become accents, Greek letters formulas, Cyrillic ones Latin; a letter for
+which pdfLaTeX has no type is shown by its code point.
+"""
+
+from __future__ import annotations
+
+import unicodedata
+
+from lagcli.formatters.greek import CYRILLIC, LATEX, PUNCTUATION
+from lagcli.formatters.plain import harmless
+
+_SPECIAL = {
+    "\\": r"\textbackslash{}",
+    "{": r"\{",
+    "}": r"\}",
+    "$": r"$\mathdollar$",  # \$ would ask for another font
+    "&": r"\&",
+    "#": r"\#",
+    "%": r"\%",
+    "_": r"\_",
+    "^": r"\textasciicircum{}",
+    "~": r"\textasciitilde{}",
+    "<": r"\textless{}",
+    ">": r"\textgreater{}",
+    "|": r"\textbar{}",
+    "`": r"\`{}",
+    '"': "''",
+    "-": r"-{}",  # two of them are no dash
+    "·": r"$\cdot$",
+    "−": "$-$",
+    "ß": r"\ss{}",
+    "æ": r"\ae{}",
+    "ø": r"\o{}",
+    "Ø": r"\O{}",
+    "ł": r"\l{}",
+    "Ł": r"\L{}",
+}
+_ACCENTS = {
+    "\u0300": "\\`",
+    "\u0301": "\\'",
+    "\u0302": "\\^",
+    "\u0303": "\\~",
+    "\u0304": "\\=",
+    "\u0306": "\\u",
+    "\u0307": "\\.",
+    "\u0308": '\\"',
+    "\u030a": "\\r",
+    "\u030b": "\\H",
+    "\u030c": "\\v",
+    "\u0327": "\\c",
+}
+
+#: A longer word may be broken after so many characters.
+_LONG_WORD = 16
+
+
+def latex_text(text: str) -> str:
+    """Escape a text for the running text of a LaTeX document."""
+    shown = harmless(unicodedata.normalize("NFC", text))
+    return " ".join(_word(word) for word in shown.split(" "))
+
+
+def _word(word: str) -> str:
+    if len(word) <= _LONG_WORD:
+        return "".join(map(_character, word))
+    parts = [word[i : i + _LONG_WORD // 2] for i in range(0, len(word), _LONG_WORD // 2)]
+    return r"\allowbreak{}".join("".join(map(_character, part)) for part in parts)
+
+
+def _character(character: str) -> str:
+    if character in _SPECIAL:
+        return _SPECIAL[character]
+    if character.isascii():
+        return character
+    if character in LATEX:
+        return f"${LATEX[character]}$"
+    if character in PUNCTUATION:
+        return PUNCTUATION[character]
+    if character.lower() in CYRILLIC:
+        latin = CYRILLIC[character.lower()]
+        return latin.capitalize() if character.isupper() else latin
+    plain, *marks = [*unicodedata.normalize("NFKD", character)]
+    if all(mark in _ACCENTS for mark in marks) and (plain.isascii() or plain in LATEX):
+        shown = _character(plain)
+        for mark in marks if plain.isascii() else ():
+            dotless = {"i": r"\i{}", "j": r"\j{}"}.get(shown, shown)
+            shown = f"{_ACCENTS[mark]}{{{dotless}}}"
+        return shown
+    return f"[U+{ord(character):04X}]"

@@ -1,0 +1,32 @@
+"""An estimate of how wide LaTeX sets a formula, in points of Computer Modern at 10 pt.
+
+It errs on the wide side: a line that is broken too early is only a little shorter.
+"""
+
+from __future__ import annotations
+
+#: The text width of the article class, in points.
+TEXT_WIDTH = 345.0
+#: A formula in a subscript or an exponent is so much smaller (cmmi7 is broad for its size).
+SCRIPT = 0.82
+#: Spaces around binary operators and relations, the sign included.
+BINARY, RELATION = 12.3, 13.4
+THIN_SPACE = 1.7
+QUAD = 10.0
+
+# The wider of cmmi10 and cmr10, with the italic correction.
+_WIDTHS = {
+    **dict.fromkeys("ijl,.;:'|!", 4.4),
+    **dict.fromkeys("()[]frst", 5.2),
+    **dict.fromkeys("0123456789", 5.05),
+    **dict.fromkeys("abcdeghknopquvxyz", 6.0),
+    **dict.fromkeys("mwMW", 10.8),
+    **dict.fromkeys("IJ", 6.6),
+    **dict.fromkeys("ABCDEFGHKLNOPQRSTUVXYZ", 9.1),
+}
+_OTHER = 8.5
+
+
+def text_width(text: str) -> float:
+    """Estimate the width of letters and digits; one beyond ASCII may need a longer stand-in."""
+    return sum(_WIDTHS.get(c, _OTHER if c.isascii() else 20.0) for c in text)

@@ -1,0 +1,205 @@
+"""The LaTeX says what the formula says, fits the page, and runs nothing from the file."""
+
+from __future__ import annotations
+
+import cmath
+import re
+import shutil
+import subprocess
+
+import pytest
+from hypothesis import assume, given, settings
+
+from lagcli.answers import Answers, LagrangianSection
+from lagcli.expression import Call, Diff, Name, Negative, PartialCall, Power, Quotient
+from lagcli.formatters.document import Equations, Row
+from lagcli.formatters.latex import render
+from lagcli.formatters.latex_display import LatexDisplay
+from lagcli.formatters.latex_math import WIDEST, LatexPrinter
+from lagcli.formatters.latex_names import LatexNames
+from lagcli.formatters.latex_text import latex_text
+from lagcli.formatters.options import Options
+
+from .examples import (
+    HOOP,
+    HOSTILE,
+    TWO,
+    M,
+    R,
+    alpha,
+    g,
+    long_sum,
+    number,
+    plus,
+    sin,
+    square,
+    theta,
+    times,
+    x,
+)
+from .latex_reader import read_latex
+from .strategies import expressions, value
+from .test_grammar import ONE_OF_EACH
+
+needs_latex = [
+    pytest.mark.latex,
+    pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex is missing"),
+]
+
+
+def latex(node, **names):
+    return LatexPrinter(LatexNames(**names)).show(node).text
+
+
+@pytest.mark.parametrize(
+    ("node", "text"),
+    [
+        (Name("theta_1", 1), r"\dot{\theta}_{1}"),
+        (Name("lambda_rolling"), r"\lambda_{\text{rolling}}"),
+        (Name("omega_max"), r"\omega_{\mathrm{max}}"),
+        (Name("phase", 2), r"\ddot{\mathit{phase}}"),
+        (Name("x", 3), "x'''"),
+        (Name("phi"), r"\phi"),
+        (Name("varphi"), r"\varphi"),
+        (Name("φ"), r"\varphi"),
+        (plus(times(M, Name("x", 2)), Negative(times(M, g, sin(alpha)))), r"M \ddot{x} - M g \sin \alpha"),
+        (times(sin(alpha), x), r"\sin(\alpha) x"),
+        (times(sin(alpha), sin(theta)), r"\sin \alpha \sin \theta"),
+        (square(sin(theta)), r"\sin^{2} \theta"),
+        (times(square(sin(theta)), x), r"\sin^{2}(\theta) x"),
+        (Power(sin(theta), Negative(TWO)), r"\bigl(\sin \theta\bigr)^{-2}"),
+        (times(M, plus(g, R)), r"M \, (g + R)"),
+        (times(TWO, number(1, 2)), r"2 \cdot \frac{1}{2}"),
+        (square(Negative(x)), r"(-x)^{2}"),
+        (Negative(Negative(x)), r"-(-x)"),
+        (square(Quotient(x, g)), r"\biggl(\frac{x}{g}\biggr)^{2}"),
+        (Power(x, number(1, 2)), "x^{1/2}"),
+        (Call("U", (Name("r"),), 1), "U'(r)"),
+        (PartialCall("Phi", (1, 2), (x, g)), r"\partial_{1} \partial_{2} \Phi(x, g)"),
+        (Diff(x, g), r"\frac{\partial}{\partial g} \, (x)"),
+        (Call("abs", (x,)), r"\lvert x \rvert "),
+    ],
+)  # fmt: skip
+def test_formulas_look_as_in_a_book(node, text):
+    assert latex(node).replace(r"\bigl", "").replace(r"\bigr", "") == text.replace(
+        r"\bigl", ""
+    ).replace(r"\bigr", "")
+
+
+def test_a_momentum_carries_its_coordinate():
+    assert latex(Name("p_theta_1"), coordinates=("theta_1",)) == r"p_{\theta_{1}}"
+    assert latex(Name("p_theta"), coordinates=("theta",)) == r"p_{\theta}"
+
+
+def test_a_symbol_of_the_file_is_used_as_it_is():
+    names = {"symbols": {"q": r"\vec{q}^{*}", "w": r"\omega_{0}"}}
+    assert latex(square(Name("q")), **names) == r"{\vec{q}^{*}}^{2}"
+    assert latex(Name("w", 1), **names) == r"{\dot{\omega}_{0}}"
+
+
+@settings(max_examples=300, deadline=None)
+@given(expressions)
+def test_what_is_printed_means_the_same(node):
+    try:
+        expected = value(node)
+        read = value(read_latex(latex(node)))
+    except (ZeroDivisionError, OverflowError):
+        assume(False)
+    assume(cmath.isfinite(expected) and 1e-100 < abs(expected) < 1e100)
+    assert cmath.isclose(read, expected, rel_tol=1e-6)
+
+
+def test_no_kind_of_node_is_forgotten():
+    for node in ONE_OF_EACH.values():
+        assert latex(node)
+
+
+def test_nothing_unbreakable_is_too_wide():
+    wide = Quotient(Call("sqrt", (long_sum,)), Power(x, Quotient(long_sum, long_sum)))
+    pieces = LatexPrinter().show(times(wide, wide)).pieces
+    assert max(piece.width for piece in pieces) <= WIDEST + 20
+
+
+@pytest.mark.parametrize(
+    "text", ["\\input{x}", "$x$", "a_b^c", "50% #1 & ~", "é Ÿ ñ θ ж 中", '--`<>|"']
+)
+def test_text_cannot_be_a_command(text):
+    shown = latex_text(text)
+    assert shown.isascii()
+    assert not re.search(r"(?<!\\)[&#%_]", shown)
+    assert r"\input" not in shown
+
+
+def test_the_fragment_has_no_preamble_and_the_document_has():
+    assert "documentclass" not in render([HOOP], Options())
+    whole = render([HOOP], Options(standalone=True))
+    assert whole.startswith(r"\documentclass{article}")
+    assert re.findall(r"\\usepackage\{(.*?)\}", whole) == ["amsmath"]
+
+
+def compiled(text, folder):
+    (folder / "page.tex").write_text(text, encoding="ascii")
+    command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
+    done = subprocess.run(
+        [*command, "page.tex"], cwd=folder, capture_output=True, timeout=100, check=False
+    )
+    log = (folder / "page.log").read_text(encoding="latin-1")
+    assert done.returncode == 0, log[-3000:]
+    overfull = [float(points) for points in re.findall(r"Overfull \\hbox \(([0-9.]+)pt", log)]
+    assert max(overfull, default=0) < 10, log[-3000:]
+
+
+class TestPdflatex:
+    pytestmark = needs_latex
+
+    def test_every_section_compiles_and_fits(self, tmp_path):
+        compiled(render([HOOP, HOSTILE], Options(standalone=True)), tmp_path)
+
+    def test_a_fragment_compiles_where_it_is_input(self, tmp_path):
+        (tmp_path / "part.tex").write_text(render([HOOP], Options()), encoding="ascii")
+        compiled(
+            "\\documentclass{article}\n\\usepackage{amsmath}\n\\begin{document}\n"
+            "\\input{part}\n\\end{document}\n",
+            tmp_path,
+        )
+
+    def test_hostile_formulas_compile_and_fit(self, tmp_path):
+        deep = x
+        for _ in range(25):
+            deep = (
+                Quotient(plus(deep, g), square(plus(theta, Negative(deep))))
+                if _ < 6
+                else sin(plus(deep, times(M, Name("длина", 2))))
+            )
+        formulas = [
+            Quotient(long_sum, long_sum),
+            Power(long_sum, long_sum),
+            Call("sqrt", (Quotient(Call("sqrt", (long_sum,)), square(long_sum)),)),
+            Power(Call("sqrt", (long_sum,)), Quotient(TWO, number(3))),
+            Call("abs", (times(long_sum, Call("atan2", (long_sum, x))),)),
+            Diff(long_sum, Name("theta_1", 1)),
+            number(7**2000, 3),
+            times(*(sin(Name(f"omega_{i}")) for i in range(60))),
+            Power(Power(Name("x_1", 3), TWO), number(1, 2)),
+            square(Name("q")),
+            deep,
+        ]
+        answers = [
+            Answers(
+                title="%$#",
+                coordinates=("x",),
+                parameters=("é", "ab_ç", "_", "q"),
+                degrees_of_freedom=1,
+                symbols={"q": r"\mathbb{Q}'"},
+                sections={"lagrangian": LagrangianSection(lagrangian=formula)},
+            )
+            for formula in formulas
+        ]
+        compiled(render(answers, Options(standalone=True)), tmp_path)
+
+
+def test_left_sides_are_broken_too():
+    rows = (Row(x, g), Row(long_sum, x))
+    first, second = LatexDisplay(LatexPrinter()).equations(Equations(rows))
+    assert first == ["x &= g"]
+    assert all(line.startswith("&") for line in second)
