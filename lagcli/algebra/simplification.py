@@ -10,7 +10,7 @@ from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.leaves import Translator
 from lagcli.algebra.relations import Relations
-from lagcli.algebra.shapes import Shaper
+from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression, operation_count
 

@@ -1,0 +1,1 @@
+"""Readable shapes of the unique form: which formula a textbook would print."""

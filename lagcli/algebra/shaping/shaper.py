@@ -1,0 +1,221 @@
+"""From an element of the field to the shortest of a few readable shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from sympy import Expr
+
+from lagcli.algebra.entry import Field
+from lagcli.algebra.field import Element
+from lagcli.algebra.ring import Monomial, Poly
+from lagcli.algebra.roots import substitute_square
+from lagcli.algebra.shaping.atoms import Atoms, Exponent, Terms, multiply
+from lagcli.algebra.shaping.grouping import Grouper
+from lagcli.algebra.shaping.plan import Product, Sum, product, write
+from lagcli.algebra.shaping.trigonometry import Trigonometry
+from lagcli.algebra.writing import Writer
+from lagcli.expression import Expression
+
+_MAX_FACTORED = 1500  # terms
+_MAX_REWRITTEN = 400
+
+_TRIGONOMETRIC = ("cos", "sin")
+_QUADRATIC = ("cos", "cosh")
+
+
+class Shaper:
+    """Writes elements of one field with one writer."""
+
+    def __init__(self, field: Field, writer: Writer) -> None:
+        self.field = field
+        self.writer = writer
+        self.atoms = Atoms(field, writer)
+        self.trigonometry = Trigonometry(field, self.atoms)
+        self.grouper = Grouper(self.atoms)
+
+    def shape(self, element: Element) -> Expression:
+        """The tree of an element."""
+        return write(self.plan(element), self.atoms, self.writer)
+
+    def to_sympy(self, tree: Expression) -> Expr:
+        """The SymPy expression of a tree made here."""
+        return self.atoms.to_sympy(tree)
+
+    def plan(self, element: Element) -> Product | Sum:
+        """The cheapest plan."""
+        element = self.field.lifted(element)
+        if element.is_zero():
+            return product(self.atoms, Fraction(0), [])
+        above = self._factors(element.numerator)
+        below = self._factors(element.denominator)
+        best: Product | Sum = self._joined(above, below)
+        for candidate in self._spread(element, below):
+            if candidate.cost < best.cost:
+                best = candidate
+        return best
+
+    def _joined(self, above: Product, below: Product) -> Product:
+        inverse = [(p, -e) for p, e in below.parts]
+        exponents: dict[int, Exponent] = {}
+        sums: list[tuple[int | Sum, Exponent]] = []
+        for part, exponent in [*above.parts, *inverse]:
+            if isinstance(part, int):
+                exponents[part] = exponents.get(part, 0) + exponent
+            else:
+                sums.append((part, exponent))
+        parts: list[tuple[int | Sum, Exponent]] = [
+            *((a, e) for a, e in sorted(exponents.items()) if e), *sums
+        ]  # fmt: skip
+        return product(self.atoms, above.coefficient / below.coefficient, parts)
+
+    def _spread(self, element: Element, below: Product) -> Iterator[Product | Sum]:
+        """Terms with denominators of their own, as far as these are products of atoms."""
+        divisors = [(p, -e) for p, e in below.parts if isinstance(p, int)]
+        if not divisors or len(element.numerator) < 2:
+            return
+        if len(element.numerator) > _MAX_REWRITTEN:
+            return
+        sums: list[tuple[int | Sum, Exponent]] = [
+            (p, -e) for p, e in below.parts if isinstance(p, Sum)
+        ]
+        divisor = tuple(sorted(divisors))
+        for terms in self._expansions(element.numerator):
+            divided: Terms = {}
+            for term, value in terms.items():
+                divided[multiply(term, divisor)] = value / below.coefficient
+            plan = self.grouper.group(divided, spread=True)
+            if not sums:
+                yield plan
+            elif isinstance(plan, Product):
+                yield product(self.atoms, plan.coefficient, [*plan.parts, *sums])
+            else:
+                yield product(self.atoms, Fraction(1), [(plan, 1), *sums])
+
+    # -- polynomials ----------------------------------------------------------------------
+
+    def _factors(self, poly: Poly) -> Product:
+        """The plan of a polynomial: its factors, each in its shortest shape."""
+        if len(poly) > _MAX_FACTORED:
+            return _as_product(self.atoms, self.grouper.group(self.atoms.terms(poly)))
+        content, factors = self._factored(poly)
+        number = Fraction(int(content))
+        parts: dict[int | Sum, Exponent] = {}
+        for factor, exponent in factors:
+            plan = self._polynomial(factor)
+            if isinstance(plan, Sum):
+                parts[plan] = parts.get(plan, 0) + int(exponent)
+                continue
+            number *= plan.coefficient ** int(exponent)
+            for part, each in plan.parts:
+                parts[part] = parts.get(part, 0) + each * int(exponent)
+        return product(self.atoms, number, [(p, e) for p, e in parts.items() if e])
+
+    def _factored(self, poly: Poly) -> tuple[int, list[tuple[Poly, int]]]:
+        """Irreducible factors; (1 - cos)(1 + cos) is joined to sin²."""
+        content, factors = poly.factor()
+        factors = [(f, int(e)) for f, e in factors]
+        ring = self.field.ring
+        for index in ring.used(poly):
+            generator = self.field.generators[index]
+            if generator.kind != "cos":
+                continue
+            cosine = ring.generator(index)
+            exponents = {
+                sign: next((e for f, e in factors if f == cosine - sign), 0) for sign in (1, -1)
+            }
+            pairs = min(exponents.values())
+            if not pairs:
+                continue
+            # (cos - 1)(cos + 1) = -sin²
+            content = int(content) * (-1) ** pairs
+            kept = []
+            for f, e in factors:
+                if f == cosine - 1 or f == cosine + 1:
+                    e -= pairs
+                if e:
+                    kept.append((f, e))
+            factors = [*kept, (ring.generator(generator.partner), 2 * pairs)]
+        factors.sort(key=lambda pair: str(pair[0]))
+        return int(content), factors
+
+    def _polynomial(self, poly: Poly) -> Product | Sum:
+        """The shortest plan of an irreducible polynomial."""
+        best: Product | Sum | None = None
+        for terms in self._expansions(poly):
+            plan = self.grouper.group(terms)
+            if best is None or plan.cost < best.cost:
+                best = plan
+        assert best is not None
+        return best
+
+    def _expansions(self, poly: Poly) -> list[Terms]:
+        """Equal sums of products of atoms, which differ in the trigonometric functions."""
+        generators = self.field.generators
+        used = self.field.ring.used(poly)
+        plain = self.atoms.terms(poly)
+        if len(poly) > _MAX_REWRITTEN or not any(generators[g].kind in _QUADRATIC for g in used):
+            if not any(generators[g].kind == "sin" for g in used):
+                return [plain]
+        found = [plain]
+        by_rest = self._by_rest(poly)
+        choices: list[list[Terms]] = []
+        for rest, inner in by_rest:
+            forms = [self.atoms.terms(self.field.ring.build(inner))]
+            swapped = self._swapped(self.field.ring.build(inner))
+            forms.append(self.atoms.terms(swapped))
+            rewritten = self.trigonometry.rewritten(inner)
+            forms.extend(rewritten if rewritten else forms[:1])
+            if not rewritten:
+                forms.append(forms[0])
+            shortest = min(forms, key=lambda f: (self._weight(f)))
+            forms.append(shortest)
+            outer = self.atoms.term(rest)
+            choices.append([{multiply(outer, t): v for t, v in f.items()} for f in forms])
+        width = max(len(c) for c in choices)
+        for position in range(1, width):
+            merged: Terms = {}
+            for forms in choices:
+                for term, value in forms[min(position, len(forms) - 1)].items():
+                    merged[term] = merged.get(term, Fraction(0)) + value
+            merged = {t: v for t, v in merged.items() if v}
+            if merged not in found:
+                found.append(merged)
+        return found
+
+    def _weight(self, terms: Terms) -> int:
+        """Roughly the operations of a sum of products."""
+        costs = self.atoms.costs
+        return sum(
+            1 + (v < 0) + (abs(v) != 1) + sum(1 + costs[a] + (e != 1) for a, e in t)
+            for t, v in terms.items()
+        )
+
+    def _by_rest(self, poly: Poly) -> list[tuple[Monomial, tuple[tuple[Monomial, int], ...]]]:
+        """The trigonometric polynomial that stands by each other monomial."""
+        generators = self.field.generators
+        groups: dict[Monomial, list[tuple[Monomial, int]]] = {}
+        for monomial, coefficient in self.field.ring.terms(poly):
+            inside = tuple(p for p in monomial if generators[p[0]].kind in _TRIGONOMETRIC)
+            outside = tuple(p for p in monomial if generators[p[0]].kind not in _TRIGONOMETRIC)
+            groups.setdefault(outside, []).append((inside, coefficient))
+        return [(rest, tuple(inner)) for rest, inner in groups.items()]
+
+    def _swapped(self, poly: Poly) -> Poly:
+        """The polynomial with cos² = 1 - sin² where that makes it shorter."""
+        ring = self.field.ring
+        for index in ring.used(poly):
+            generator = self.field.generators[index]
+            if generator.kind not in _QUADRATIC or ring.degree(poly, index) < 2:
+                continue
+            square = ring.generator(generator.partner) ** 2
+            value = ring.one - square if generator.kind == "cos" else ring.one + square
+            other = substitute_square(self.field, poly, index, value)
+            if len(other) <= len(poly):
+                poly = other
+        return poly
+
+
+def _as_product(atoms: Atoms, plan: Product | Sum) -> Product:
+    return plan if isinstance(plan, Product) else product(atoms, Fraction(1), [(plan, 1)])
