@@ -63,7 +63,7 @@ def _rewritten(along: AlongTheMotion, question: Rewrite) -> Rewritten:
     system = along.system
     subject = system.build(question.value)
     keep = [system.symbol_of(str(name)) for name in question.in_terms_of]
-    value = along.rewritten(subject, keep)
+    value = along.rewritten(subject, keep, with_time=True)
     return Rewritten(
         value=None if value is None else along.tree(value),
         subject=along.tree(subject),
@@ -117,12 +117,18 @@ class AlongTheMotion:
             self.why_not = "the accelerations or multipliers in it are not determined"
         return replaced
 
-    def rewritten(self, expression: Expr, keep: Sequence[Symbol]) -> Expr | None:
-        """The expression in the named quantities, parameters and t; None with `why_not`."""
+    def rewritten(
+        self, expression: Expr, keep: Sequence[Symbol], *, with_time: bool = False
+    ) -> Expr | None:
+        """The expression in the named quantities and parameters; None with `why_not`.
+
+        The time may be left in it only where it is asked for.
+        """
+        self.why_not = ""
         subject = self.on_motion(expression)
         if subject is None:
             return None
-        for relations, remove in self.attempts(keep):
+        for relations, remove in self.attempts(keep, with_time=with_time):
             found = self.eliminated(subject, relations, remove)
             if not found.complete:
                 continue
@@ -141,18 +147,22 @@ class AlongTheMotion:
         """The expression with symbols removed by the relations, within the time allowed."""
         return eliminate(expression, relations, remove, self.nonzero, deadline=self.deadline)
 
-    def attempts(self, keep: Sequence[Symbol]) -> list[tuple[tuple[Expr, ...], list[Symbol]]]:
+    def attempts(
+        self, keep: Sequence[Symbol], *, with_time: bool
+    ) -> list[tuple[tuple[Expr, ...], list[Symbol]]]:
         """Relations to use and symbols to remove: constraints first, explicit time last."""
         system = self.system
         remove = [s for s in (*system.qdot[::-1], *system.q[::-1]) if s not in keep]
+        timeless = remove if system.t in keep else [*remove, system.t]
         constraints, laws = self.level_set.constraints, self.level_set.laws
         still = tuple(law for law in laws if system.t not in law.free_symbols)
-        plans = [(constraints, remove)]
+        plans = [(constraints, timeless)]
         if still:
-            plans.append(((*constraints, *still), remove))
-        if laws:
-            plans.append(((*constraints, *laws), [*remove, system.t]))
-            plans.append(((*constraints, *laws), remove))
+            plans.append(((*constraints, *still), timeless))
+        if len(still) < len(laws):
+            plans.append(((*constraints, *laws), timeless))
+        if with_time and system.t not in keep:
+            plans += [(relations, remove) for relations, _ in plans]
         return plans
 
     def _not_determined(self, keep: Sequence[Symbol]) -> str:

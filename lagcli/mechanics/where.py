@@ -283,7 +283,7 @@ class Where:
         equation = self.along.on_motion(self.equation)
         if equation is None:
             return None
-        for relations, remove in self.along.attempts([v]):
+        for relations, remove in self.along.attempts([v], with_time=False):
             left = self.along.eliminated(v, (*relations, equation), remove)
             for relation in (*left.relations, v - left.expression):
                 present = relation.free_symbols
