@@ -51,7 +51,7 @@ def compose(text: Text) -> tuple[Node, list[Diagnostic]]:
     return composer.root, composer.diagnostics
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class _Open:
     """A list or map whose end has not come yet."""
 

@@ -7,10 +7,9 @@ number of its digits when it is not.  log10 of numerator and denominator of a po
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, log10
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from lagcli.expression import (
     Call,
@@ -33,8 +32,7 @@ if TYPE_CHECKING:
 _UNDEFINED_AT_ZERO = frozenset({"log", "cot", "csc"})
 
 
-@dataclass(frozen=True, slots=True)
-class _Constant:
+class _Constant(NamedTuple):
     """What is known of the number that a formula contains as a factor."""
 
     digits: float = 0.0  # log10 of the larger of numerator and denominator

@@ -18,7 +18,7 @@ _OPERATORS = frozenset(
 )
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class _Level:
     """What is pending inside one pair of parentheses."""
 

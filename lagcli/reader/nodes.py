@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from lagcli.reader.text import Text
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Node:
     """A piece of the document from the offset `start` up to `end`."""
 
-    text: Text = field(repr=False)
+    text: Text
     start: int
     end: int
     size: int = field(default=1, kw_only=True)  # with every alias expanded
@@ -29,7 +29,7 @@ class Node:
         return self.text.span(self.start, max(self.end, self.start))
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Scalar(Node):
     """Text: a name, a formula, a title.  Never anything but text."""
 
@@ -55,14 +55,14 @@ class Scalar(Node):
         return Excerpt(self.value, self.text, offsets, self.in_flow and not self.style)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Sequence(Node):
     """A list."""
 
     items: list[Node]
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Mapping(Node):
     """A map in the order of the file, no key twice."""
 

@@ -8,8 +8,7 @@ found again by reading the writing from left to right.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from lagcli.reader.text import Text
 
@@ -29,8 +28,7 @@ _PROPERTIES = re.compile(r"(?:[&!]\S*[ \t\n]+)*")
 _ESCAPE_DIGITS = {"x": 2, "u": 4, "U": 8}
 
 
-@dataclass(frozen=True, slots=True)
-class Excerpt:
+class Excerpt(NamedTuple):
     """A piece of text and, character by character, its place in the file."""
 
     value: str

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from lagcli.problem import Constraint, Symmetry
 from lagcli.reader.names import derivative_order
@@ -17,8 +16,7 @@ if TYPE_CHECKING:
 _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while")
 
 
-@dataclass(frozen=True, slots=True)
-class Declared:
+class Declared(NamedTuple):
     """A constraint whose multiplier has its name and whose equation is not read yet."""
 
     key: Scalar

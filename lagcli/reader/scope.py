@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from lagcli.expression import FUNCTIONS, RESERVED
 
@@ -18,8 +18,7 @@ Kind = Literal["coordinate", "parameter", "function", "definition", "multiplier"
 CONSTANT = -1
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Role:
+class Role(NamedTuple):
     """What an expression may contain, by the place at which it stands.
 
     `order` is the highest time derivative of a coordinate: 0 the coordinate itself, 1 the
@@ -46,7 +45,7 @@ PHASE_SPACE = Role(order=0, why="a Hamiltonian has momenta p_x, no velocities", 
 MOTION = Role(order=CONSTANT, why="a trajectory depends on t and parameters")
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Definition:
     """What the scope knows of a definition."""
 
@@ -54,7 +53,7 @@ class Definition:
     order: int = CONSTANT  # the highest time derivative of a coordinate in it
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Scope:
     """The declared names."""
 

@@ -29,7 +29,7 @@ UNREADABLE = ZERO
 _NO_EQUATION = Equation(ZERO, ZERO)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Sections:
     """The mistakes found so far and the names declared so far."""
 

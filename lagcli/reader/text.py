@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic, Source, Span
 from lagcli.reader.limits import FILE_BYTES
@@ -19,8 +19,7 @@ class Mistake(Exception):  # noqa: N818 - the user's, not the program's
         self.diagnostic = diagnostic
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(NamedTuple):
     """The text of a file with the offsets at which its lines begin."""
 
     source: Source
