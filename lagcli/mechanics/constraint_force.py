@@ -23,12 +23,12 @@ def forces_on_points(dynamics: Dynamics) -> dict[str, dict[str, tuple[Expr, ...]
     Empty where the points do not determine the coordinates, or nothing was solved.
     """
     system = dynamics.system
-    slots = [
-        (particle.name, axis, row)
+    components = [
+        (particle.name, axis, [x.diff(q) for q in system.q])
         for particle in system.particles
         for axis, x in enumerate(particle.position)
-        if any(is_zero(a) is not True for a in (row := [x.diff(q) for q in system.q]))
     ]
+    slots = [slot for slot in components if any(is_zero(a) is not True for a in slot[2])]
     if not slots or len(slots) != len(system.q):
         return {}
     transposed = [[row[j] for _, _, row in slots] for j in range(len(system.q))]

@@ -216,6 +216,17 @@ class Dynamics:
 
     # -- on the motion ----------------------------------------------------------------------
 
+    def rate_on_motion(self, rate: Expr) -> Expr | None:
+        """Like `on_motion`, for a rate, in which the constraints act only by their total force.
+
+        Then one valid choice of the multipliers gives the value also where redundancy leaves
+        the single ones undetermined.
+        """
+        if self.motion is None:
+            return self.on_motion(rate)
+        chosen = zip(self.constraints.equations, self.motion.independent, strict=True)
+        return self.on_motion(rate.xreplace({e.multiplier: value for e, value in chosen}))
+
     def on_motion(self, expression: Expr) -> Expr | None:
         """The expression with accelerations and multipliers replaced by their solution."""
         present = expression.free_symbols

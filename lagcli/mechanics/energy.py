@@ -71,7 +71,7 @@ class EnergyFunction:
     def rate(self) -> Expr | None:
         """dh/dt on the motion, simplified; None where the multipliers were not found."""
         total = sympy.Add(*(power.value for power in self.powers))
-        on_motion = self.dynamics.on_motion(total)
+        on_motion = self.dynamics.rate_on_motion(total)
         return None if on_motion is None else self.dynamics.simplified(on_motion)
 
     @cached_property

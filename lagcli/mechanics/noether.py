@@ -145,7 +145,7 @@ class Noether:
         identically = boundary_term(change, self.system)
         if identically is not None or not self.dynamics.constraints.equations:
             return identically
-        on_motion = self.dynamics.on_motion(change)
+        on_motion = self.dynamics.rate_on_motion(change)
         if on_motion is None:
             return None
         return boundary_term(self.dynamics.simplified(on_motion), self.system)
@@ -210,7 +210,7 @@ class Noether:
     ) -> tuple[Expr | None, bool | None, Verification | None]:
         if not contributions:
             return sympy.S.Zero, True, "exact"
-        on_motion = self.dynamics.on_motion(sympy.Add(*contributions))
+        on_motion = self.dynamics.rate_on_motion(sympy.Add(*contributions))
         if on_motion is None:
             return None, None, None
         rate = self.dynamics.simplified(on_motion)
@@ -222,7 +222,7 @@ class Noether:
     def _broken_by(self, contributions: Mapping[str, Expr]) -> str:
         causes = []
         for cause, part in contributions.items():
-            on_motion = self.dynamics.on_motion(part)
+            on_motion = self.dynamics.rate_on_motion(part)
             if on_motion is None or self.dynamics.verifier.is_zero(on_motion).holds is not True:
                 causes.append(cause)
         return ", ".join(causes)

@@ -183,7 +183,9 @@ class RandomStates:
             longest = max(map(abs, step))
             shrink = min(mpf(1), mpf(2) / longest) if longest else mpf(1)
             for q, delta in zip(self.system.q, step, strict=True):
-                state[q] += shrink * delta
+                moved = state[q] + shrink * delta
+                # a coordinate that has a sign keeps it: half-way to zero instead
+                state[q] = moved if _has_assumed_sign(q, moved) else state[q] / 2
             if longest < _TOLERANCE and elimination.dependent:
                 wrong = [i for i in elimination.dependent if abs(values[i]) > mpf(10) ** -20]
                 if wrong:
@@ -192,10 +194,7 @@ class RandomStates:
 
     def _admissible(self, state: State) -> bool:
         """Whether the coordinates kept the signs that the file assumes."""
-        return all(
-            not (q.is_positive and state[q] <= 0) and not (q.is_negative and state[q] >= 0)
-            for q in self.system.q
-        )
+        return all(_has_assumed_sign(q, state[q]) for q in self.system.q)
 
     def _project_velocities(self, state: State) -> int | None:
         equations = self.constraints.equations
@@ -236,6 +235,10 @@ def _random_value(source: random.Random, symbol: Symbol, low: float, high: float
     if symbol.is_nonnegative:
         return magnitude
     return magnitude if source.random() < 0.7 else -magnitude
+
+
+def _has_assumed_sign(symbol: Symbol, value: mpf) -> bool:
+    return not (symbol.is_nonnegative and value <= 0) and not (symbol.is_negative and value >= 0)
 
 
 def _is_real(value: object) -> bool:
