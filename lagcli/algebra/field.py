@@ -109,10 +109,12 @@ class FractionField:
         self.generators: list[Generator] = []
         #: Some generators may depend on each other in ways that no rule tells.
         self.doubtful = False
+        self.has_roots = False
 
     def add_generator(self, generator: Generator) -> int:
         """Add a generator; its number is returned."""
         self.generators.append(generator)
+        self.has_roots |= generator.kind == "root"
         return self.ring.add()
 
     def element(self, numerator: Poly, denominator: Poly) -> Element:
@@ -127,9 +129,29 @@ class FractionField:
             common = numerator.gcd(denominator)
             if common != 1:
                 numerator, denominator = numerator / common, denominator / common
+            if self.has_roots:
+                numerator, denominator = self._without_roots(numerator, denominator)
             if denominator.leading_coefficient() < 0:
                 numerator, denominator = -numerator, -denominator
         return Element(self, numerator, denominator)
+
+    def _without_roots(self, numerator: Poly, denominator: Poly) -> tuple[Poly, Poly]:
+        """1/root^k = root^(q - k)/radicand, so that each has one form."""
+        ring = self.ring
+        for index in ring.used(denominator):
+            generator = self.generators[index]
+            if generator.kind != "root":
+                continue
+            root = ring.generator(index)
+            power = 0
+            while denominator % root == 0:
+                denominator, power = denominator / root, power + 1
+            if power:
+                numerator = ring.reduce(numerator * root ** (generator.index - power))
+                denominator = ring.reduce(denominator * ring.lift(generator.radicand))
+                common = numerator.gcd(denominator)
+                numerator, denominator = numerator / common, denominator / common
+        return numerator, denominator
 
     def rational(self, value: Fraction | int) -> Element:
         """The element of a rational number."""

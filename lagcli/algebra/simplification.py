@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from sympy import Expr
 
+from lagcli.algebra.cancellation import cancelled
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.leaves import Translator
@@ -88,9 +89,12 @@ def is_zero(expression: Expr, relations: Relations | None = None) -> bool | None
 def _shortest(
     shaper: Shaper, element: Element, relations: Relations | None
 ) -> tuple[Expression, int]:
+    element = cancelled(shaper.field, element)
     candidates = [element]
     if relations:
-        candidates.extend(relations.reductions(shaper.field, element))
+        candidates.extend(
+            cancelled(shaper.field, each) for each in relations.reductions(shaper.field, element)
+        )
     shapes = [shaper.shape(each) for each in candidates]
     counted = [(operation_count(s), i, s) for i, s in enumerate(shapes)]
     best = min(counted, key=lambda c: c[:2])

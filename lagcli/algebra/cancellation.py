@@ -1,0 +1,164 @@
+"""Complete cancellation of fractions, also modulo sin² + cos² = 1 and under roots.
+
+Polynomials in sin and cos have no unique factors, sin² = (1 − cos)(1 + cos), so their
+greatest common divisor can miss a factor.  In t = tan(angle/2) they do:
+
+    cos = (1 − t²)/(1 + t²),   sin = 2t/(1 + t²).
+
+A fraction in lowest terms in t is also one of lowest degree in sin and cos.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+
+from flint import nmod_poly
+
+from lagcli.algebra.field import Element, FractionField
+from lagcli.algebra.ring import Poly
+
+_PRIME = 2**61 - 1
+_MAX_TERMS = 600
+
+
+def cancelled(field: FractionField, element: Element) -> Element:
+    """The element with numerator and denominator as short as cancellation makes them."""
+    element = field.lifted(element)
+    if element.is_polynomial() or element.size() > _MAX_TERMS:
+        return element
+    element = _rationalized(field, element)
+    angles = [
+        g for g in field.ring.used(element.denominator) if field.generators[g].kind == "cos"
+    ] + [
+        field.generators[g].partner
+        for g in field.ring.used(element.denominator)
+        if field.generators[g].kind == "sin"
+    ]
+    shared = [g for g in sorted(set(angles)) if _may_cancel(field, element, g)]
+    if not shared:
+        return element
+    shorter = _in_half_angles(field, element, shared)
+    return shorter if shorter.size() <= element.size() else element
+
+
+def _rationalized(field: FractionField, element: Element) -> Element:
+    """Multiply by the conjugate of a + b*sqrt(P) where that makes the fraction shorter."""
+    ring = field.ring
+    for index in ring.used(element.denominator):
+        generator = field.generators[index]
+        if generator.kind != "root" or generator.index != 2:
+            continue
+        below = ring.lift(element.denominator)
+        root = ring.generator(index)
+        slope = ring.derivative(below, index)  # below = a + b*root
+        conjugate = field.element(below - 2 * slope * root, ring.one).numerator
+        other = field.element(
+            ring.lift(element.numerator) * conjugate, below * ring.lift(conjugate)
+        )
+        if other.size() < element.size():
+            element = field.lifted(other)
+    return element
+
+
+def _degree(field: FractionField, poly: Poly, cosine: int) -> int:
+    """The degree in sin and cos of one angle together."""
+    return max(
+        sum(e for g, e in monomial if g in (cosine, cosine + 1))
+        for monomial, _ in field.ring.terms(poly)
+    )
+
+
+def _may_cancel(field: FractionField, element: Element, cosine: int) -> bool:
+    """Whether both have a common factor in t where everything else is a random number.
+
+    They are taken modulo a large prime: a common factor is never missed there, and one
+    that is not common is found with a probability of 1e-18.
+    """
+    source = random.Random(cosine)
+    values: dict[int, int] = {}
+    for index, generator in enumerate(field.generators):
+        if generator.kind == "cos":
+            t = source.randrange(_PRIME)
+            scale = pow(1 + t * t, -1, _PRIME)
+            values[index] = (1 - t * t) * scale % _PRIME
+            values[index + 1] = 2 * t * scale % _PRIME
+        elif index not in values:
+            values[index] = source.randrange(_PRIME)
+    degree = max(_degree(field, p, cosine) for p in (element.numerator, element.denominator))
+    polys = []
+    for poly in (element.numerator, element.denominator):
+        sums: dict[tuple[int, int], int] = {}
+        for monomial, coefficient in field.ring.terms(poly):
+            c = s = 0
+            value = coefficient
+            for g, e in monomial:
+                if g == cosine:
+                    c = e
+                elif g == cosine + 1:
+                    s = e
+                else:
+                    value = value * pow(values[g], e, _PRIME) % _PRIME
+            sums[c, s] = (sums.get((c, s), 0) + value) % _PRIME
+        minus, plus, twice = (
+            nmod_poly([1, 0, -1], _PRIME),
+            nmod_poly([1, 0, 1], _PRIME),
+            nmod_poly([0, 2], _PRIME),
+        )
+        total = nmod_poly([0], _PRIME)
+        for (c, s), value in sums.items():
+            total += minus**c * twice**s * plus ** (degree - c - s) * value
+        polys.append(total)
+    return bool(polys[0].gcd(polys[1]).degree() > 0)
+
+
+def _in_half_angles(field: FractionField, element: Element, angles: Sequence[int]) -> Element:
+    """Cancel in t = tan(angle/2); the slot of the sine stands for t meanwhile."""
+    above, below = element.numerator, element.denominator
+    for cosine in angles:
+        degree = max(_degree(field, p, cosine) for p in (above, below))
+        above, below = (_to_half(field, p, cosine, degree) for p in (above, below))
+    common = above.gcd(below)
+    above, below = above / common, below / common
+    for cosine in angles:
+        t = cosine + 1
+        degree = (max(field.ring.degree(p, t) for p in (above, below)) + 1) // 2
+        above, below = (_from_half(field, p, cosine, degree) for p in (above, below))
+    return field.element(above, below)
+
+
+def _to_half(field: FractionField, poly: Poly, cosine: int, degree: int) -> Poly:
+    """(1 + t²)^degree times the polynomial."""
+    ring = field.ring
+    t = ring.generator(cosine + 1)
+    result = ring.zero
+    for (c, s), rest in _split(field, poly, (cosine, cosine + 1)).items():
+        result += rest * (1 - t * t) ** c * (2 * t) ** s * (1 + t * t) ** (degree - c - s)
+    return result
+
+
+def _from_half(field: FractionField, poly: Poly, cosine: int, degree: int) -> Poly:
+    """2^degree (1 + t²)^-degree times the polynomial in t.
+
+    t²/(1 + t²) = (1 − cos)/2, 1/(1 + t²) = (1 + cos)/2, t/(1 + t²) = sin/2.
+    """
+    ring = field.ring
+    c, s = ring.generator(cosine), ring.generator(cosine + 1)
+    result = ring.zero
+    for (power,), rest in _split(field, poly, (cosine + 1,)).items():
+        half, odd = divmod(power, 2)
+        result += rest * (1 - c) ** half * (1 + c) ** (degree - odd - half) * s**odd
+    return result
+
+
+def _split(
+    field: FractionField, poly: Poly, generators: tuple[int, ...]
+) -> dict[tuple[int, ...], Poly]:
+    """The coefficients of the powers of some generators."""
+    groups: dict[tuple[int, ...], list[tuple[tuple[tuple[int, int], ...], int]]] = {}
+    for monomial, coefficient in field.ring.terms(poly):
+        exponents = dict(monomial)
+        key = tuple(exponents.get(g, 0) for g in generators)
+        rest = tuple(pair for pair in monomial if pair[0] not in generators)
+        groups.setdefault(key, []).append((rest, coefficient))
+    return {key: field.ring.build(terms) for key, terms in groups.items()}
