@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from decimal import Decimal
-
 from lagcli.expression import (
     Call,
     Diff,
@@ -31,10 +29,8 @@ from lagcli.formatters.layout import (
     Piece,
     joined,
 )
+from lagcli.formatters.numbers import DecimalParts, decimal_parts, digit_groups
 from lagcli.formatters.precedence import Level, Printer
-
-#: A number with more digits than this may be broken between groups of so many.
-_DIGIT_GROUP = 20
 
 
 def to_grammar(expression: Expression) -> str:
@@ -68,10 +64,15 @@ class GrammarPrinter(Printer[Layout]):
 
     def number(self, node: Number) -> Layout:
         value = node.value
+        if node.decimal:
+            return self.decimal(decimal_parts(value))
         numerator = _digits(value.numerator)
         if value.denominator == 1:
             return numerator
         return (*numerator, Piece("/", 1), *_digits(value.denominator))
+
+    def decimal(self, parts: DecimalParts) -> Layout:
+        return text(parts.digits + (f"e{parts.exponent}" if parts.exponent else ""))
 
     def name(self, node: Name) -> Layout:
         return text(self.spelled(node.name, node.primes))
@@ -132,9 +133,7 @@ def text(content: str) -> Layout:
 
 def _digits(value: int) -> Layout:
     """Print an integer; a very long one may be broken, with a backslash at the end of the line."""
-    digits = str(Decimal(value))  # str(int) refuses more than 4300 digits
-    groups = [digits[i : i + _DIGIT_GROUP] for i in range(0, len(digits), _DIGIT_GROUP)]
-    first, *others = groups
+    first, *others = digit_groups(value)
     pieces = [Piece(first, len(first))]
     for group in others:
         size = len(group)

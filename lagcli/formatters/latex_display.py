@@ -96,14 +96,13 @@ class LatexDisplay:
 
     def _broken(self, layout: Layout, note: str, first: float, others: float) -> list[str]:
         """Lines of a formula; every one but the first begins with its indentation."""
-        lines = break_lines(layout, first, others - _DEEPEST * QUAD)
+        lines = break_lines(layout, first, others, QUAD, _DEEPEST)
         texts = [lines[0].text]
-        texts += [
-            r"\quad" * (1 + min(line.depth, _DEEPEST)) + f" {line.text}" for line in lines[1:]
-        ]
+        texts += [r"\quad" * (1 + line.depth) + f" {line.text}" for line in lines[1:]]
         if note:
             remark = rf"\quad\text{{({latex_text(note)})}}"
-            room = (first if len(lines) == 1 else others - _DEEPEST * QUAD) - lines[-1].width
+            last = lines[-1]
+            room = (others if lines[1:] else first) - QUAD * last.depth - last.width
             if text_width(note) + 2 * QUAD <= room:
                 texts[-1] += remark
             else:

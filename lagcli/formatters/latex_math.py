@@ -9,7 +9,6 @@ that can be broken: \frac{1}{D} ( ... ), ( ... )^{1/2}.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from decimal import Decimal
 
 from lagcli.expression import (
     Call,
@@ -37,6 +36,7 @@ from lagcli.formatters.layout import (
     joined,
     width_of,
 )
+from lagcli.formatters.numbers import DecimalParts, decimal_parts, digit_groups
 from lagcli.formatters.precedence import Level, Printer
 
 #: Nothing that cannot be broken is wider, in points.
@@ -118,6 +118,8 @@ class LatexPrinter(Printer[Box]):
         return Box((*head, *pieces), height=max(shown.height, _BIG))
 
     def number(self, node: Number) -> Box:
+        if node.decimal:
+            return _decimal(decimal_parts(node.value))
         numerator = _digits(node.value.numerator)
         if node.value.denominator == 1:
             return Box(numerator)
@@ -193,9 +195,12 @@ class LatexPrinter(Printer[Box]):
             case Negative(operand=Number() | Quotient() as operand):
                 inner = self._raised(operand)
                 return Box((Piece("-", 8), *inner.pieces))
-            case Number(value=value) if value.denominator != 1:
+            case Number(value=value, decimal=False) if value.denominator != 1:
                 return Box((*_digits(value.numerator), _SLASH, *_digits(value.denominator)))
-            case Quotient(numerator=Number(value=a), denominator=Number(value=b)):
+            case Quotient(
+                numerator=Number(value=a, decimal=False),
+                denominator=Number(value=b, decimal=False),
+            ):
                 if a.denominator == b.denominator == 1:
                     return Box((*_digits(a.numerator), _SLASH, *_digits(b.numerator)))
         return self.show(node)
@@ -308,9 +313,16 @@ def _is_function(box: Box) -> bool:
     return box.pieces[0].text in _FUNCTIONS.values()
 
 
+def _decimal(parts: DecimalParts) -> Box:
+    digits = Piece(parts.digits, text_width(parts.digits))
+    if not parts.exponent:
+        return Box((digits,))
+    power = Piece(rf" \cdot 10^{{{parts.exponent}}}", BINARY + 10 + SCRIPT * 20)
+    return Box((digits, power), Level.POWER)
+
+
 def _digits(value: int) -> Layout:
-    digits = str(Decimal(value))
-    first, *others = [digits[i : i + 20] for i in range(0, len(digits), 20)]
+    first, *others = digit_groups(value)
     pieces = [Piece(first, text_width(first))]
     for group in others:
         size = text_width(group)

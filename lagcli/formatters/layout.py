@@ -53,7 +53,7 @@ AFTER_BRACKET = Piece("", 0, rank=OPENING)
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One line of a broken formula; `depth` counts the brackets open at its start."""
+    """One line of a broken formula; it is to be indented `depth` times."""
 
     text: str
     depth: int
@@ -71,17 +71,17 @@ def width_of(layout: Sequence[Piece]) -> float:
 
 
 def break_lines(
-    layout: Sequence[Piece], first: float, others: float, indent: float = 0
+    layout: Sequence[Piece], first: float, others: float, indent: float = 0, deepest: int = 0
 ) -> list[Line]:
     """Lines no wider than `first` (the first one) and `others`, where breaks allow it.
 
-    A line that starts inside n brackets has n * `indent` less room.
+    A line that starts inside n brackets is indented by n * `indent`, for `deepest` at most.
     """
     depths = _depths(layout)
     lines: list[Line] = []
     start = 0
     while start < len(layout):
-        depth = depths[start] if lines else 0
+        depth = min(depths[start], deepest) if lines else 0
         room = first if not lines else others - indent * depth
         stop, width = _next_break(layout, depths, start, room, fresh=bool(lines))
         lines.append(Line(_text(layout, start, stop, fresh=bool(lines)), depth, width))

@@ -79,7 +79,7 @@ class Printer(ABC, Generic[Shown]):
                 return Level.SUM
             case Quotient():
                 return Level.QUOTIENT
-            case Number(value=value) if value.denominator != 1:
+            case Number(value=value, decimal=False) if value.denominator != 1:
                 return Level.QUOTIENT
             case Product():
                 return Level.PRODUCT

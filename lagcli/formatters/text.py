@@ -132,13 +132,10 @@ class _TextPage:
         """`head` and a formula over as many lines as it needs, then the note."""
         hanging = display_width(head) or 2 * _STEP
         first = width - display_width(head)
-        lines = break_lines(layout, first, width - hanging, _STEP)
-        deepest = int(width * (1 - _LEAST)) - hanging
+        deepest = max(0, int(width * (1 - _LEAST)) - hanging) // _STEP
+        lines = break_lines(layout, first, width - hanging, _STEP, deepest)
         texts = [head + lines[0].text]
-        texts += [
-            " " * (hanging + min(_STEP * line.depth, max(0, deepest))) + line.text
-            for line in lines[1:]
-        ]
+        texts += [" " * (hanging + _STEP * line.depth) + line.text for line in lines[1:]]
         if note:
             remark = f"({' '.join(self.words(note))})"
             if display_width(texts[-1]) + 3 + display_width(remark) <= width:

@@ -20,6 +20,7 @@ from lagcli.formatters.grammar import GrammarPrinter, text
 from lagcli.formatters.greek import BY_NAME, romanized
 from lagcli.formatters.layout import PRODUCT, Layout, Piece, joined
 from lagcli.formatters.naming import name_parts
+from lagcli.formatters.numbers import DecimalParts, decimal_parts
 from lagcli.formatters.precedence import Level
 
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
@@ -61,7 +62,7 @@ class UnicodePrinter(GrammarPrinter):
     def factors(self, node: Product) -> list[Layout]:
         shown = super().factors(node)
         first = node.factors[0]
-        if isinstance(first, Number):
+        if isinstance(first, Number) and not first.decimal:
             glyph = _FRACTIONS.get((first.value.numerator, first.value.denominator))
             if glyph:
                 shown[0] = text(glyph)
@@ -101,7 +102,15 @@ class UnicodePrinter(GrammarPrinter):
             *self.show(node.variable),
         )
 
+    def decimal(self, parts: DecimalParts) -> Layout:
+        if not parts.exponent:
+            return text(parts.digits)
+        exponent = str(parts.exponent).replace("-", "−").translate(_SUPERSCRIPTS)
+        return text(f"{parts.digits}·10{exponent}")
+
     def level(self, node: Expression) -> Level:
+        if isinstance(node, Number) and node.decimal and decimal_parts(node.value).exponent:
+            return Level.PRODUCT
         return Level.QUOTIENT if isinstance(node, Diff) else super().level(node)
 
     def label(self, label: Label) -> Layout:
@@ -164,4 +173,4 @@ def _before(after: Expression) -> Piece:
 def _begins_with_digit(node: Expression) -> bool:
     while isinstance(node, Power):
         node = node.base
-    return isinstance(node, Number) and node.value.denominator == 1
+    return isinstance(node, Number) and (node.decimal or node.value.denominator == 1)

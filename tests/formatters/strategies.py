@@ -115,6 +115,8 @@ def value(node) -> complex:
             return value(a) / value(b)
         case Power(base=a, exponent=b):
             return value(a) ** value(b)
+        case Call(function="sqrt", arguments=(a,)):
+            return value(a) ** 0.5
         case Call(function=f, arguments=parts, primes=n):
             return _combined(f, n, map(value, parts))
         case PartialCall(function=f, indices=indices, arguments=parts):

@@ -23,6 +23,7 @@ from lagcli.expression import (
     Sum,
 )
 from lagcli.formatters.grammar import GrammarPrinter, equation_to_grammar, to_grammar
+from lagcli.formatters.layout import joined
 from lagcli.formatters.unicode import AsciiPrinter, UnicodePrinter
 from lagcli.reader.expressions import parse_text
 
@@ -67,6 +68,22 @@ def test_brackets_are_where_they_must_be_and_nowhere_else(node, text):
 def test_what_is_printed_reads_back(node):
     assume(not has_refused_constants(node))
     assert shape(parse_text(to_grammar(node))) == shape(node)
+
+
+@pytest.mark.parametrize(
+    ("value", "grammar", "unicode"),
+    [
+        (Fraction(981, 100), "9.81*x", "9.81 x"),
+        (Fraction(6674, 10**14), "6.674e-11*x", "6.674·10⁻¹¹ x"),
+        (Fraction(10**20), "1e20*x", "1·10²⁰ x"),
+        (Fraction(3), "3*x", "3 x"),
+    ],
+)
+def test_decimals_of_numeric_answers(value, grammar, unicode):
+    node = times(Number(value, decimal=True), x)
+    assert to_grammar(node) == grammar
+    assert joined(UnicodePrinter().show(node)) == unicode
+    assert parse_text(grammar) == node
 
 
 def test_an_equation():
