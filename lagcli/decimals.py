@@ -123,7 +123,11 @@ def _known(node: Expression) -> Constant | None:
         value = value_of(node)
     except (ArithmeticError, ValueError):
         return None
-    return value if isinstance(value, Fraction) or (value is not None and math.isfinite(value)) else None
+    return (
+        value
+        if isinstance(value, Fraction) or (value is not None and math.isfinite(value))
+        else None
+    )
 
 
 def _product(values: Iterable[Constant]) -> Constant:
@@ -136,7 +140,7 @@ def _product(values: Iterable[Constant]) -> Constant:
 def _power(base: Constant, exponent: Constant) -> Constant:
     if isinstance(exponent, Fraction) and exponent.denominator == 1 and abs(exponent) < 1000:
         return base ** int(exponent)
-    result = float(base) ** float(exponent)
+    result: float | complex = float(base) ** float(exponent)
     if isinstance(result, complex):
         raise ValueError("not real")  # noqa: TRY004 - as math.sqrt(-1) says it
     return result

@@ -6,18 +6,18 @@ imported when it is come to.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
+from unicodedata import normalize
 
-from lagcli.diagnostics import Diagnostic, ProblemError, Source
+from lagcli.diagnostics import NOWHERE, Diagnostic, ProblemError, Source
 
 if TYPE_CHECKING:
     from os import PathLike
 
     from lagcli.answers import Answers
-    from lagcli.expression import Expression
     from lagcli.formatters import Options
     from lagcli.mechanics.derivation import Derivation
     from lagcli.problem import Problem
@@ -31,14 +31,14 @@ class Request:
     ----------
     sections : tuple of str or None
         Out of `lagcli.answers.SECTIONS`; None for the usual ones.
-    values : mapping of str to Expression
-        Parameter -> what is put in for it before anything is derived.
+    settings : tuple of str
+        Each `name=value`: what is put in for a parameter before anything is derived.
     numeric : bool
         Put in the values of the file as well, and give decimal numbers.
     """
 
     sections: tuple[str, ...] | None = None
-    values: Mapping[str, Expression] = field(default_factory=dict)
+    settings: tuple[str, ...] = ()
     numeric: bool = False
 
 
@@ -61,20 +61,41 @@ def read(name: str, data: bytes, request: Request | None = None) -> Read:
     data
         The file's bytes.
     request
-        What is wanted of it; only `values` and `numeric` matter here.
+        What is wanted of it; only `settings` and `numeric` matter here.
     """
     from lagcli.reader import read_problem
 
-    reading = read_problem(name, data)
-    problem, request = reading.problem, request or Request()
-    if problem is None or not (request.values or request.numeric):
+    reading, request = read_problem(name, data), request or Request()
+    problem = reading.problem
+    if problem is None or not (request.settings or request.numeric):
         return Read(reading.source, problem, reading.diagnostics)
-    from lagcli.values import values_of_file, with_values
-
-    own = values_of_file(problem) if request.numeric else {}
-    problem, mistakes = with_values(problem, {**own, **request.values})
+    problem, mistakes = _with_values(problem, request)
     diagnostics = (*reading.diagnostics, *mistakes)
     return Read(reading.source, None if mistakes else problem, diagnostics)
+
+
+def _with_values(problem: Problem, request: Request) -> tuple[Problem, list[Diagnostic]]:
+    from lagcli.reader.settings import set_parameters
+    from lagcli.values import parameters_with_values, with_values_of
+
+    mistakes: list[Diagnostic] = []
+    names: dict[str, None] = {}
+    for setting in request.settings:
+        try:
+            problem = set_parameters(problem, [setting])
+        except ProblemError as error:
+            mistakes += [
+                replace(found, message=f"--set {setting}: {found.message}", span=NOWHERE)
+                for found in error.diagnostics
+            ]
+        else:
+            names[normalize("NFC", setting.partition("=")[0].strip())] = None
+    if request.numeric:
+        names.update(dict.fromkeys(parameters_with_values(problem)))
+    if mistakes:
+        return problem, mistakes
+    changed, wrong = with_values_of(problem, names)
+    return changed, list(wrong)
 
 
 def derive(problem: Problem) -> Derivation:
@@ -116,7 +137,7 @@ def render(answers: Sequence[Answers], format_name: str, options: Options) -> st
 
     formatter = find_formatter(format_name)
     if isinstance(formatter, UnknownFormatter):
-        raise LookupError(formatter.message)
+        raise LookupError(formatter.message)  # noqa: TRY004 - a name, not a type
     return formatter(answers, options)
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
-from difflib import get_close_matches
+from typing import TypeVar
 
 from lagcli.decimals import Constant, value_of
 from lagcli.diagnostics import Diagnostic
@@ -13,93 +13,79 @@ from lagcli.problem import Parameter, Problem, Question, Rewrite, Where
 from lagcli.rewriting import rebuilt, rewritten
 
 Values = Mapping[str, Expression]
+Value = TypeVar("Value")
 
 
-def values_of_file(problem: Problem) -> dict[str, Expression]:
-    """The values that the file gives, but for parameters that a `find` solves for."""
+def parameters_with_values(problem: Problem) -> tuple[str, ...]:
+    """Those that have a value, but for the ones that a `find` solves for."""
     unknown = {q.unknown.name for q in problem.find if isinstance(q, Where)}
-    return {
-        parameter.name: parameter.value
+    return tuple(
+        parameter.name
         for parameter in problem.parameters
         if parameter.value is not None and parameter.name not in unknown
-    }
+    )
 
 
-def with_values(problem: Problem, values: Values) -> tuple[Problem, tuple[Diagnostic, ...]]:
-    """Put values in for parameters, which are then no longer parameters of the problem.
+def with_values_of(
+    problem: Problem, names: Collection[str]
+) -> tuple[Problem, tuple[Diagnostic, ...]]:
+    """Put the values of some parameters in, which are then no longer parameters.
 
     Parameters
     ----------
-    values
-        Parameter -> a number, or an expression of other parameters.
+    problem
+        Its values go in no circle, as the reader sees to.
+    names
+        Parameters that have a value: a number, or an expression of other parameters.
 
     Returns
     -------
     problem, diagnostics
-        The problem is unchanged when there are diagnostics.
+        The diagnostics say which values cannot be put in.
     """
-    mistakes = [*_wrong_names(problem, values)]
-    resolved: dict[str, Expression] = {}
-    if not mistakes:
-        mistakes += _resolve(values, resolved)
-    if not mistakes:
-        mistakes += _wrong_numbers(problem, resolved)
+    values = _resolved({p.name: p.value for p in problem.parameters if p.name in names and p.value})
+    mistakes = [*_unknowns(problem, names), *_wrong_numbers(problem, values)]
     if mistakes or not values:
         return problem, tuple(mistakes)
-    put_in = _substitution(resolved)
-    remaining = tuple(p for p in problem.parameters if p.name not in resolved)
-    questions = tuple(_question(question, resolved, put_in) for question in problem.find)
-    changed = rewritten(replace(problem, parameters=remaining, find=()), put_in)
+    remaining = tuple(p for p in problem.parameters if p.name not in values)
+    questions = tuple(_question(question, values) for question in problem.find)
+    changed = substituted(replace(problem, parameters=remaining, find=()), values)
     changed = replace(changed, find=questions)
     return changed, tuple(_undefined(problem, changed))
 
 
-def _substitution(values: Values) -> Callable[[Expression], Expression]:
+def substituted(value: Value, values: Values) -> Value:
+    """A tree, or anything that holds trees, with values in place of those names."""
+
     def put_in(node: Expression) -> Expression:
         if isinstance(node, Name):
             return values.get(node.name, node)
         return rebuilt(node, put_in)
 
-    return put_in
+    return rewritten(value, put_in)
 
 
-def _question(
-    question: Question, values: Values, put_in: Callable[[Expression], Expression]
-) -> Question:
+def _question(question: Question, values: Values) -> Question:
     """The question with values in it; what it is put in terms of keeps only names."""
     if isinstance(question, Rewrite):
         names = tuple(n for n in question.in_terms_of if n.name not in values)
-        return replace(question, value=put_in(question.value), in_terms_of=names)
-    return replace(question, equation=rewritten(question.equation, put_in))
+        return replace(question, value=substituted(question.value, values), in_terms_of=names)
+    return replace(question, equation=substituted(question.equation, values))
 
 
-def _wrong_names(problem: Problem, values: Values) -> list[Diagnostic]:
-    parameters = [p.name for p in problem.parameters]
-    coordinates = {c.name for c in problem.coordinates}
-    unknowns = {q.unknown.name for q in problem.find if isinstance(q, Where)}
+def _unknowns(problem: Problem, names: Collection[str]) -> list[Diagnostic]:
+    """Parameters that must stay names."""
+    solved_for = {q.unknown.name for q in problem.find if isinstance(q, Where)}
     variables = _differentiated_by(problem)
-    mistakes = []
-    for name, value in values.items():
-        if name not in parameters:
-            what = "a coordinate, not a parameter" if name in coordinates else "no parameter"
-            mistakes.append(_mistake(f"'{name}' is {what}", name, parameters))
-        elif name in unknowns:
-            mistakes.append(Diagnostic(f"'{name}' has no value to set: a `find` solves for it"))
-        elif name in variables:
-            mistakes.append(Diagnostic(f"'{name}' has no value to set: a `diff` is taken by it"))
-        used = {n.name: n for n in walk(value) if isinstance(n, Name) and n.name != "pi"}
-        mistakes += [
-            _mistake(f"the value of '{name}' uses '{other}', which is no parameter", str(n), parameters)
-            for other, n in used.items()
-            if other not in parameters or n.primes
-        ]
-    return mistakes
-
-
-def _mistake(message: str, word: str, known: list[str]) -> Diagnostic:
-    close = get_close_matches(word, known, n=1)
-    hint = f"did you mean '{close[0]}'?" if close else f"parameters: {', '.join(known) or 'none'}"
-    return Diagnostic(message, hint=hint)
+    return [
+        Diagnostic(f"'{name}' can have no value here: {why}")
+        for name in names
+        for names_of, why in (
+            (solved_for, "a `find` solves for it"),
+            (variables, "a `diff` is taken by it"),
+        )
+        if name in names_of
+    ]
 
 
 def _differentiated_by(problem: Problem) -> set[str]:
@@ -113,29 +99,20 @@ def _differentiated_by(problem: Problem) -> set[str]:
     return names
 
 
-def _resolve(values: Values, resolved: dict[str, Expression]) -> list[Diagnostic]:
-    """Fill `resolved` with the values in terms of parameters that have none."""
-    open_names: list[str] = []
-    cycles: list[Diagnostic] = []
+def _resolved(values: Values) -> dict[str, Expression]:
+    """The values in terms of parameters that are not among them."""
+    resolved: dict[str, Expression] = {}
 
     def resolve(node: Expression) -> Expression:
-        if not isinstance(node, Name) or node.name not in values:
-            return node if isinstance(node, Name) else rebuilt(node, resolve)
-        name = node.name
-        if name in open_names:
-            if not cycles:
-                circle = " -> ".join([*open_names[open_names.index(name) :], name])
-                cycles.append(Diagnostic(f"the values go in a circle: {circle}"))
-            return node
-        if name not in resolved:
-            open_names.append(name)
-            resolved[name] = resolve(values[name])
-            open_names.pop()
-        return resolved[name]
+        if not isinstance(node, Name):
+            return rebuilt(node, resolve)
+        if node.name in values and node.name not in resolved:
+            resolved[node.name] = resolve(values[node.name])
+        return resolved.get(node.name, node)
 
     for name in values:
         resolve(Name(name))
-    return cycles
+    return resolved
 
 
 _BREAKS: dict[str, Callable[[Constant], bool]] = {
@@ -183,9 +160,11 @@ def _undefined(before: Problem, after: Problem) -> list[Diagnostic]:
         return node
 
     rewritten(replace(after, expect=before.expect), look)
-    return [Diagnostic("with these values something is divided by zero", places[0].span)] if (
-        places
-    ) else []
+    return (
+        [Diagnostic("with these values something is divided by zero", places[0].span)]
+        if (places)
+        else []
+    )
 
 
 def _is_zero(node: Expression) -> bool:

@@ -6,11 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from lagcli.answers import SECTIONS
-from lagcli.diagnostics import ProblemError
-from lagcli.expression import Expression, Name
 from lagcli.formatters.registry import UnknownFormatter, find_formatter
 from lagcli.pipeline import Request
-from lagcli.reader import parse_text
 from lagcli.reader.suggest import did_you_mean
 
 
@@ -30,9 +27,7 @@ def asked(
     formatter = find_formatter(format_name)
     if isinstance(formatter, UnknownFormatter):
         mistakes.append(f"--format: {formatter.message}")
-    request = Request(
-        sections=_sections(show, mistakes), values=_values(settings, mistakes), numeric=numeric
-    )
+    request = Request(sections=_sections(show, mistakes), settings=tuple(settings), numeric=numeric)
     return Asked(request, tuple(mistakes))
 
 
@@ -45,34 +40,3 @@ def _sections(show: Sequence[str], mistakes: list[str]) -> tuple[str, ...] | Non
             advice = did_you_mean(name, SECTIONS) or f"there are {', '.join(SECTIONS)}"
             mistakes.append(f"--show: unknown section '{name}': {advice}")
     return tuple(name for name in SECTIONS if name in names)
-
-
-def _values(settings: Sequence[str], mistakes: list[str]) -> dict[str, Expression]:
-    values: dict[str, Expression] = {}
-    for setting in settings:
-        word, equals, text = setting.partition("=")
-        if not (equals and word.strip() and text.strip()):
-            mistakes.append(f"--set: '{setting}' is not of the form name=value")
-            continue
-        name = _parsed(word, setting, mistakes)
-        value = _parsed(text, setting, mistakes)
-        if name is None or value is None:
-            continue
-        if not isinstance(name, Name) or name.primes:
-            mistakes.append(f"--set: '{word.strip()}' in '{setting}' is not a parameter's name")
-        elif name.name in values:
-            mistakes.append(f"--set: '{name.name}' is given twice")
-        else:
-            values[name.name] = value
-    return values
-
-
-def _parsed(text: str, setting: str, mistakes: list[str]) -> Expression | None:
-    try:
-        return parse_text(text.strip(), "--set")
-    except ProblemError as error:
-        said = "; ".join(
-            d.message + (f" ({d.hint})" if d.hint else "") for d in error.diagnostics
-        )
-        mistakes.append(f"--set: in '{setting}': {said}")
-        return None

@@ -16,3 +16,8 @@ def complete_format(incomplete: str) -> list[str]:
     from lagcli.formatters.registry import BUILT_IN
 
     return [name for name in BUILT_IN if name.startswith(incomplete)]
+
+
+def complete_report(incomplete: str) -> list[str]:
+    """The forms of a check's report that begin so."""
+    return [name for name in ("text", "json", "junit", "github") if name.startswith(incomplete)]

@@ -41,9 +41,9 @@ def run(arguments: Sequence[str]) -> int:
         hush()
         return Status.WELL
     except Exception as error:  # noqa: BLE001 - the last resort: no traceback reaches a user
-        from lagcli.cli.failures import report_bug
+        from lagcli.failures import describe
 
-        report_bug(error)
+        sys.stderr.write(f"lagcli: error: {describe(error)}\n")
         return Status.NOT_FOUND
     return outcome if isinstance(outcome, int) else Status.WELL
 

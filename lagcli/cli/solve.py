@@ -13,7 +13,11 @@ Files = Annotated[list[str], typer.Argument(metavar="FILE...", help="Problems; -
 Format = Annotated[
     str,
     typer.Option(
-        "--format", "-f", metavar="NAME", help="See: lagcli formats.", autocompletion=complete_format
+        "--format",
+        "-f",
+        metavar="NAME",
+        help="See: lagcli formats.",
+        autocompletion=complete_format,
     ),
 ]
 Output = Annotated[
@@ -54,8 +58,8 @@ def solve(
     output: Output = None,
     show: Show = None,
     settings: Set = None,
-    numeric: Numeric = False,  # noqa: FBT002 - typer makes a flag of it
-    standalone: Standalone = False,  # noqa: FBT002
+    numeric: Numeric = False,
+    standalone: Standalone = False,
     width: Width = None,
 ) -> int:
     """Derive and print the equations of motion, multipliers and charges.
@@ -68,7 +72,7 @@ def solve(
       lagcli solve problems/hoop.yaml
       lagcli solve problems/hoop.yaml --show accelerations,multipliers -f latex
       lagcli solve problems/hoop.yaml --set R=1/2 --set "alpha=pi/6" -f json -o hoop.json
-    """
+    """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.asking import asked
     from lagcli.cli.solving import Printing, solve_files
     from lagcli.stack import with_deep_stack

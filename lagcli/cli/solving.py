@@ -10,11 +10,11 @@ from pathlib import Path
 
 from lagcli.answers import Answers
 from lagcli.cli.asking import Asked
-from lagcli.cli.failures import report_bug
 from lagcli.cli.files import print_result, read_input, reason, write_output
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
+from lagcli.failures import describe
 from lagcli.formatters import Options
 from lagcli.pipeline import Request, derive, read, render, state
 from lagcli.problem import Problem
@@ -89,7 +89,7 @@ def solve_files(files: Sequence[str], asked: Asked, printing: Printing) -> Statu
 
 
 def _check_output(printing: Printing, tally: Tally) -> None:
-    """Before any work is done: is there a place for what comes out of it?"""
+    """See, before any work is done, that there is a place for what comes out of it."""
     path = printing.output
     if path is None:
         return
@@ -121,7 +121,7 @@ def _answer(name: str, problem: Problem, request: Request, tally: Tally) -> Answ
         tell(error.source, error.diagnostics)
         tally.wrong = True
     except Exception as error:  # noqa: BLE001 - one file's failure is not the others'
-        report_bug(error, name)
+        tell_line(f"{name}: error: {describe(error)}")
         tally.missing = True
     else:
         tally.missing = tally.missing or not answers.complete

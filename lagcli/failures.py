@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 import os
-import sys
 import traceback
 
 
-def report_bug(error: BaseException, subject: str = "lagcli") -> None:
-    """Say that something went wrong inside lagcli, and with what."""
+def describe(error: BaseException) -> str:
+    """A sentence for an error that no one foresaw; its traceback only when asked for."""
     if os.environ.get("LAGCLI_TRACEBACK"):
         traceback.print_exception(error)
-    sys.stderr.write(f"{subject}: error: {describe(error)}\n")
-
-
-def describe(error: BaseException) -> str:
-    """A sentence for an error that no one foresaw."""
     match error:
         case MemoryError():
-            return "the memory did not suffice; `--show matrix_form` needs least"
+            return "the memory did not suffice; --show matrix_form needs least"
         case RecursionError():
             return "the formulas are nested too deeply"
         case _:

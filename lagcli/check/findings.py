@@ -1,0 +1,70 @@
+"""What a check has to say of one problem."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from lagcli.diagnostics import NOWHERE, Diagnostic, Source, Span
+
+
+class Outcome(Enum):
+    """How the check of one problem ended."""
+
+    PASSED = "passed"
+    WRONG = "wrong"
+    UNDECIDED = "undecided"
+    TOO_LONG = "took too long"
+    BROKEN = "broken"  # lagcli itself failed
+    INVALID = "invalid file"
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One answer that is wrong, or of which nobody could say whether it is right.
+
+    Attributes
+    ----------
+    outcome
+        `WRONG`, `UNDECIDED`, `TOO_LONG` or `BROKEN`.
+    subject
+        Which answer: `accelerations.x`.
+    message
+        What is the matter with it.
+    span
+        Where the file expects it.
+    """
+
+    outcome: Outcome
+    subject: str
+    message: str
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """The check of one file.
+
+    `checks` counts the comparisons made; `diagnostics` say why a file is invalid.
+    """
+
+    source: Source
+    checks: int = 0
+    findings: Sequence[Finding] = ()
+    diagnostics: Sequence[Diagnostic] = ()
+    seconds: float = 0.0
+
+    @property
+    def outcome(self) -> Outcome:
+        """The worst that was found: what is wrong over what is undecided."""
+        if any(diagnostic.is_error for diagnostic in self.diagnostics):
+            return Outcome.INVALID
+        found = {finding.outcome for finding in self.findings}
+        worst = (Outcome.BROKEN, Outcome.WRONG, Outcome.TOO_LONG, Outcome.UNDECIDED)
+        return next((outcome for outcome in worst if outcome in found), Outcome.PASSED)
+
+    @property
+    def passed(self) -> bool:
+        """Whether everything holds."""
+        return self.outcome is Outcome.PASSED

@@ -1,0 +1,42 @@
+"""For reading: a line for each problem, and where and what for each failure."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+
+from lagcli.check.findings import Finding, Outcome, Report
+from lagcli.diagnostics import NOWHERE
+from lagcli.diagnostics import render as render_diagnostics
+
+
+def render(reports: Iterable[Report]) -> Iterator[str]:
+    """The lines of each report when it comes, then how many ended how."""
+    outcomes: Counter[Outcome] = Counter()
+    checks = 0
+    for report in reports:
+        outcomes[report.outcome] += 1
+        checks += report.checks
+        yield "".join(f"{line}\n" for line in _lines(report))
+    told = [f"{outcomes[outcome]} {outcome.value}" for outcome in Outcome if outcomes[outcome]]
+    problems = outcomes.total()
+    yield f"{problems} problem{'s' * (problems != 1)}, {checks} checks: {', '.join(told)}\n"
+
+
+def _lines(report: Report) -> Iterator[str]:
+    if report.passed:
+        yield f"passed  {report.source.name}  ({report.checks} checks)"
+        return
+    yield f"FAILED  {report.source.name}  ({report.outcome.value})"
+    for line in render_diagnostics(report.source, report.diagnostics).splitlines():
+        yield f"    {line}"
+    for finding in report.findings:
+        yield f"    {place(report, finding)}: {finding.outcome.value}: {finding.subject}"
+        yield f"        {finding.message}"
+
+
+def place(report: Report, finding: Finding) -> str:
+    """`file:line:column` of the expectation, or the file alone."""
+    if finding.span == NOWHERE:
+        return report.source.name
+    return f"{report.source.name}:{finding.span.line}:{finding.span.column}"

@@ -1,0 +1,49 @@
+"""`lagcli check`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from lagcli.cli.choices import complete_report
+
+Paths = Annotated[
+    list[str], typer.Argument(metavar="PATH...", help="Problems, or folders with problems.")
+]
+Format = Annotated[
+    str,
+    typer.Option(
+        "--format", "-f", metavar="NAME", help="text, json, junit or github.",
+        autocompletion=complete_report,
+    ),
+]  # fmt: skip
+Jobs = Annotated[
+    int | None,
+    typer.Option("--jobs", "-j", metavar="N", min=1, help="Processes.  [default: one per core]"),
+]
+Timeout = Annotated[
+    float, typer.Option("--timeout", metavar="SECONDS", min=0.01, help="For each problem.")
+]
+
+
+def check(
+    paths: Paths, format_name: Format = "text", jobs: Jobs = None, timeout: Timeout = 60.0
+) -> int:
+    """Check problems against their known answers and against the mathematics.
+
+    Every answer is compared with the `expect` block of its file.  The solved accelerations
+    are put back into the equations, the constraints and the charges are differentiated
+    along the motion.
+
+    The exit status is 0 when all holds, 1 when an answer is wrong, undecided or late, and 2
+    when a file is not a problem.
+
+    \b
+    Examples:
+      lagcli check problems/
+      lagcli check problems/hoop.yaml problems/rigid --format junit > report.xml
+    """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.checking import check_paths
+
+    return check_paths(paths, format_name, jobs, timeout)

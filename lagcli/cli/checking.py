@@ -1,0 +1,64 @@
+"""The files under the paths, checked and reported as the results come."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import closing
+
+from lagcli.check import NothingToCheck, Outcome, Report, check_all, problem_files
+from lagcli.check.reports import FORMS
+from lagcli.cli.files import print_result
+from lagcli.cli.status import Status
+from lagcli.cli.telling import tell_line
+from lagcli.reader.suggest import did_you_mean
+
+
+def check_paths(paths: Sequence[str], form: str, jobs: int | None, limit: float) -> Status:
+    """Check, print, and say how it ended."""
+    if form not in FORMS:
+        advice = did_you_mean(form, FORMS) or f"there are {', '.join(FORMS)}"
+        tell_line(f"lagcli: error: --format: unknown format '{form}': {advice}")
+    try:
+        files = problem_files(paths)
+    except NothingToCheck as error:
+        tell_line(str(error))
+        return Status.USAGE
+    if form not in FORMS:
+        return Status.USAGE
+    worst = Status.WELL
+
+    def noted(reports: Iterable[Report]) -> Iterator[Report]:
+        nonlocal worst
+        for report in reports:
+            worst = max(worst, _status(report))
+            yield report
+
+    with closing(check_all(files, jobs or _cores(), limit)) as reports:
+        for piece in FORMS[form](_with_progress(noted(reports), len(files))):
+            print_result(piece.encode("utf-8", "replace"))
+    return worst
+
+
+def _status(report: Report) -> Status:
+    if report.passed:
+        return Status.WELL
+    return Status.USAGE if report.outcome is Outcome.INVALID else Status.NOT_FOUND
+
+
+def _cores() -> int:
+    """The cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def _with_progress(reports: Iterable[Report], total: int) -> Iterable[Report]:
+    """A bar on standard error, where someone is there to see it and the results are not."""
+    if total < 2 or not sys.stderr.isatty() or sys.stdout.isatty():
+        return reports
+    from rich.console import Console
+    from rich.progress import track
+
+    return track(reports, "checking", total=total, console=Console(stderr=True), transient=True)
