@@ -73,7 +73,7 @@ class _Composer:
         self._anchors: dict[str, Node | None] = {}  # None while its node is still open
         self._documents = 0
 
-    def take(self, event: Any) -> None:  # noqa: ANN401 - yaml events are untyped
+    def take(self, event: Any) -> None:
         """Use the next event."""
         start, end = event.start_mark.index, event.end_mark.index
         match event:
@@ -100,7 +100,7 @@ class _Composer:
     def _in_flow(self) -> bool:
         return bool(self._stack) and self._stack[-1].is_flow
 
-    def _open(self, event: Any, start: int, end: int) -> None:  # noqa: ANN401
+    def _open(self, event: Any, start: int, end: int) -> None:
         if len(self._stack) >= YAML_LEVELS:
             self._stop(start, end, f"lists and maps more than {YAML_LEVELS} levels deep")
         if event.anchor is not None:
@@ -159,7 +159,7 @@ class _Composer:
             self._stop(start, end, f"the alias '*{anchor}' stands inside of what it names")
         return node
 
-    def _check_tag(self, event: Any) -> None:  # noqa: ANN401
+    def _check_tag(self, event: Any) -> None:
         if event.tag is not None and event.tag not in {"!", "tag:yaml.org,2002:str"}:
             end = event.end_mark.index
             written = self.text.source.text[event.start_mark.index : end].split(maxsplit=1)

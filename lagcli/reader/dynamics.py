@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lagcli.problem import Point, Problem
-from lagcli.reader.names import derivative_order
-from lagcli.reader.nodes import Node, Scalar, Sequence
+from lagcli.reader.names import depends_on_time, derivative_order
+from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence
 from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Role
 from lagcli.reader.suggest import did_you_mean
 
@@ -68,8 +68,9 @@ def read_definitions(
         what = f"the definition of '{key.label}'"
         expression = sections.expression(value, what, STATE, before=place)
         definitions[key.label] = expression
-        order = derivative_order(expression, sections.scope)
-        sections.scope.definitions[key.label].order = min(order, STATE.order)
+        known = sections.scope.definitions[key.label]
+        known.order = min(derivative_order(expression, sections.scope), STATE.order)
+        known.time = depends_on_time(expression, sections.scope)
     return definitions
 
 
@@ -84,7 +85,8 @@ def read_points(sections: Sections, node: Node) -> tuple[Point, ...]:
             for name, (_, attribute) in sections.attributes(value, what, _POINT_ATTRIBUTES).items()
         }
         if "position" not in attributes:
-            sections.error(f"{what} has no position", key.span)
+            if isinstance(value, Mapping):
+                sections.error(f"{what} has no position", key.span)
             continue
         position = _position(sections, attributes["position"], key.label)
         mass = force = None

@@ -50,6 +50,15 @@ def derivative_order(expression: Expression, scope: Scope) -> int:
     return max((_order(node, scope) for node in walk(expression)), default=CONSTANT)
 
 
+def depends_on_time(expression: Expression, scope: Scope) -> bool:
+    """Whether t stands in an expression, or in a definition that it uses."""
+    names = (node.name for node in walk(expression) if isinstance(node, Name))
+    return any(
+        name == "t" or (name in scope.definitions and scope.definitions[name].time)
+        for name in names
+    )
+
+
 def _order(node: Expression, scope: Scope) -> int:
     if not isinstance(node, Name):
         return CONSTANT
@@ -71,12 +80,17 @@ def _name(
             yield from _derivative(node, node.primes, role, what, of_definition=False)
         case "definition":
             definition = scope.definitions[name]
-            if before is not None and definition.place >= before:
+            if not role.definitions:
+                yield Diagnostic(f"'{name}' cannot stand in {what}", node.span, role.why)
+            elif before is not None and definition.place >= before:
                 yield _uses_later(node, itself=definition.place == before)
             else:
                 order = definition.order
                 order = CONSTANT if order == CONSTANT else order + node.primes
                 yield from _derivative(node, order, role, what, of_definition=True)
+                if definition.time and not role.time:
+                    message = f"{node} contains the time, which cannot stand in {what}"
+                    yield Diagnostic(message, node.span, role.why)
         case "parameter":
             if not role.parameters:
                 yield Diagnostic(f"'{name}' cannot stand in {what}", node.span, role.why)
@@ -168,7 +182,7 @@ def _call(node: Call, scope: Scope, what: str) -> Iterator[Diagnostic]:
         message = f"{written} is {_a(scope.kinds.get(name))}, not a function"
         yield Diagnostic(message, node.span, f"did you mean {written}*(…)?")
     else:
-        functions = [*FUNCTIONS, *scope.of_kind("function")]
+        functions = [*FUNCTIONS, "diff", *scope.of_kind("function")]
         best = closest(name, functions)
         hint = f"did you mean {best}(…)?" if best else "declare it under 'functions'"
         yield Diagnostic(f"unknown function '{name}' in {what}", node.span, hint)

@@ -68,10 +68,6 @@ class Mapping(Node):
 
     entries: list[tuple[Scalar, Node]]
 
-    def get(self, key: str) -> Node | None:
-        """The value at `key`."""
-        return next((value for name, value in self.entries if name.label == key), None)
-
 
 def kind(node: Node) -> str:
     """What a node is, in the words of a message."""

@@ -83,7 +83,7 @@ def _grammar() -> str:
     return GRAMMAR.read_text("utf-8")
 
 
-def _with_whole_keys(table: Any) -> Any:  # noqa: ANN401
+def _with_whole_keys(table: Any) -> Any:
     """Undo what JSON does to a map of numbers: its keys come back as texts."""
     if isinstance(table, dict):
         return {int(key) if key.isdigit() else key: _with_whole_keys(value)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypedDict, cast, get_args
 from lagcli.expression import Expression, Name, walk
 from lagcli.problem import Assumption, Coordinate, Parameter
 from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence, kind, size
-from lagcli.reader.scope import CONSTANTS, Kind, name_mistake
+from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def read_parameters(
         value = None
         if "value" in attributes:
             what = f"the value of '{key.label}'"
-            value = sections.expression(attributes["value"], what, CONSTANTS)
+            value = sections.expression(attributes["value"], what, VALUES)
         integer = "integer" in attributes and _truth(sections, attributes["integer"])
         said = _said(sections, attributes)
         parameters.append(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from lagcli.expression import Expression, Name
 from lagcli.problem import Question, Rewrite, Simulation, Where
 from lagcli.reader.nodes import Mapping
-from lagcli.reader.scope import CONSTANTS, NUMBERS, QUESTION, Role
+from lagcli.reader.scope import NUMBERS, QUESTION, VALUES, Role
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ def read_initial(sections: Sections, node: Node) -> dict[Name, Expression]:
     coordinates = list(sections.scope.of_kind("coordinate"))
     for key, value in sections.entries(node, "initial", "write x: 1"):
         what = f"the initial '{key.label}'"
-        expression = sections.expression(value, what, CONSTANTS)
+        expression = sections.expression(value, what, VALUES)
         name = _state_name(sections, key, coordinates)
         if name is None:
             continue

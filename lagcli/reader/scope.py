@@ -29,6 +29,7 @@ class Role(NamedTuple):
     why: str = ""  # the reason, for whoever wrote a higher derivative
     time: bool = True
     parameters: bool = True
+    definitions: bool = True
     multipliers: bool = False
     momenta: bool = False
 
@@ -37,8 +38,17 @@ class Role(NamedTuple):
 STATE = Role(why="it may depend on coordinates, velocities and t")
 POSITION = Role(order=0, why="a position depends on coordinates and t only")
 MASS = Role(order=0, why="a mass does not depend on velocities")
-CONSTANTS = Role(order=CONSTANT, time=False, why="only numbers and parameters can stand here")
-NUMBERS = Role(order=CONSTANT, time=False, parameters=False, why="only a number can stand here")
+CONSTANTS = Role(order=CONSTANT, time=False, why="it is made of numbers and parameters")
+VALUES = Role(
+    order=CONSTANT, time=False, definitions=False, why="only numbers and parameters can stand here"
+)
+NUMBERS = Role(
+    order=CONSTANT,
+    time=False,
+    parameters=False,
+    definitions=False,
+    why="only a number can stand here",
+)
 QUESTION = Role(order=2, why="no law needs a third derivative", multipliers=True, momenta=True)
 EQUATION = Role(order=2, why="the equations of motion are of second order", multipliers=True)
 PHASE_SPACE = Role(order=0, why="a Hamiltonian has momenta p_x, no velocities", momenta=True)
@@ -51,6 +61,7 @@ class Definition:
 
     place: int  # its rank in the file: earlier definitions may be used, later ones may not
     order: int = CONSTANT  # the highest time derivative of a coordinate in it
+    time: bool = False  # whether t is in it
 
 
 @dataclass(slots=True, eq=False, repr=False)
@@ -78,7 +89,7 @@ class Scope:
             "coordinate": role.order >= 0,
             "parameter": role.parameters,
             "function": True,
-            "definition": True,
+            "definition": role.definitions,
             "multiplier": role.multipliers,
         }
         names = [name for name, kind in self.kinds.items() if allowed[kind]]

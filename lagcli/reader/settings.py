@@ -11,7 +11,7 @@ from lagcli.reader.expressions import read_expression
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.quantities import value_cycle
-from lagcli.reader.scope import CONSTANTS, Scope
+from lagcli.reader.scope import VALUES, Scope
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.text import Mistake, Text
 
@@ -73,7 +73,7 @@ def _read(source: Source, scope: Scope) -> tuple[str, Expression]:
     except Mistake as error:
         raise ProblemError(source, (error.diagnostic,)) from None
     what = f"the value of '{name}'"
-    mistakes = tuple(name_mistakes(expression, scope, CONSTANTS, what))
+    mistakes = tuple(name_mistakes(expression, scope, VALUES, what))
     if mistakes:
         raise ProblemError(source, mistakes)
     return name, expression

@@ -67,6 +67,8 @@ _VELOCITY_ENDINGS = ("_dot", "dot", "_ddot", "ddot", "_d")
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """`did you mean 'theta'?`, or nothing when no known name is near."""
     best = closest(name, known)
+    if best.endswith("'"):
+        return f"did you mean {best}?"
     return f"did you mean '{best}'?" if best else ""
 
 

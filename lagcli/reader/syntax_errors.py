@@ -68,6 +68,10 @@ def explain(error: Exception, tokens: list[Token], excerpt: Excerpt, start: str)
     previous = tokens[place - 1] if place else None
     if previous is not None and previous.type in _END_VALUE and token.type in _BEGIN_VALUE:
         following = tokens[place + 1] if place + 1 < len(tokens) else None
+        if place >= 3 and tokens[place - 2].type == "_POWER" and tokens[place - 3] in FUNCTIONS:
+            function = tokens[place - 3]
+            hint = f"did you mean {function}(…)^{previous}?"
+            return Diagnostic(f"'{function}' needs arguments", _span(function, excerpt), hint)
         return _missing_product(previous, token, following, excerpt)
     message, hint = _unexpected(token, previous, tokens[:place], start)
     return Diagnostic(message, _span(token, excerpt), hint)

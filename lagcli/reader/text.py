@@ -11,7 +11,7 @@ from lagcli.reader.limits import FILE_BYTES
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
 
-class Mistake(Exception):  # noqa: N818 - the user's, not the program's
+class Mistake(Exception):
     """One mistake that ends the reading of an expression or of the whole file."""
 
     def __init__(self, diagnostic: Diagnostic) -> None:
