@@ -149,7 +149,7 @@ class LatexPrinter(Printer[Box]):
         pieces: list[Piece] = []
         for position, (factor, box) in enumerate(zip(node.factors, boxes, strict=True)):
             if position:
-                pieces.append(_between(node.factors[position - 1], factor, box))
+                pieces.append(_between(boxes[position - 1], factor, box))
             follower = boxes[position + 1] if position + 1 < len(boxes) else None
             open_end = follower is None or _is_function(follower)
             pieces += box.pieces if open_end or box.closed is None else box.closed
@@ -289,16 +289,16 @@ def _breakable(text: str, width: float, rank: int, broken: str, broken_width: fl
     return Piece(text, width, rank=rank, broken=broken, broken_width=broken_width)
 
 
-def _between(before: Expression, after: Expression, shown: Box) -> Piece:
-    r"""Set the gap between two factors: \cdot before a number, a thin space before brackets.
+def _between(before: Box, after: Expression, shown: Box) -> Piece:
+    r"""Set the gap between two factors: \cdot before a number, a thin space before brackets and words.
 
     x\,(a + b) is a product, U(a + b) a function.
     """
     if _is_numeral(after):
         return _breakable(r" \cdot ", BINARY, PRODUCT, r"\cdot ", BINARY)
     first = shown.pieces[0]
-    words = any(isinstance(each, Name) and len(each.name) > 1 for each in (before, after))
-    if first.nesting or words:
+    neighbours = before.pieces[-1].text + first.text
+    if first.nesting or "text" in neighbours or "mathit" in neighbours:
         return _breakable(r" \, ", THIN_SPACE, PRODUCT, r"\cdot ", BINARY)
     return _breakable(" ", THIN_SPACE, PRODUCT, r"\cdot ", BINARY)
 

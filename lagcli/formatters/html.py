@@ -1,0 +1,143 @@
+"""HTML with MathML, which browsers set without a script."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterator, Sequence
+
+from lagcli.answers import Answers
+from lagcli.expression import Sum, operation_count
+from lagcli.formatters.document import (
+    Block,
+    Document,
+    Equations,
+    Formula,
+    Heading,
+    Label,
+    Matrix,
+    Paragraph,
+    Row,
+)
+from lagcli.formatters.mathml import MathmlPrinter
+from lagcli.formatters.options import Options
+from lagcli.formatters.plain import harmless
+from lagcli.formatters.sections import to_document
+
+_HEAD = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{title}</title>
+<style>
+body {{ max-width: 50rem; margin: 2rem auto; padding: 0 1rem; font-family: serif; }}
+</style>
+</head>
+<body>
+"""
+_END = """</body>
+</html>
+"""
+_DISPLAY = '<div style="overflow-x: auto"><math display="block"><mtable displaystyle="true">'
+_END_DISPLAY = "</mtable></math></div>"
+_CELL = '<mtd style="text-align: {side}; padding: 0.3em 0.2em">{content}</mtd>'
+#: A side of an equation is broken where its terms reach so many operations.
+_LONG = 24
+
+
+def render(answers: Sequence[Answers], options: Options) -> str:
+    """HTML with MathML: a fragment, or a whole page."""
+    documents = [to_document(each) for each in answers]
+    body = "\n".join(line for document in documents for line in _article(document)) + "\n"
+    if not options.standalone:
+        return body
+    title = ", ".join(escaped(document.title) for document in documents)
+    return _HEAD.format(title=title) + body + _END
+
+
+def escaped(text: str) -> str:
+    """Escape a text for the content of an element."""
+    return html.escape(harmless(text))
+
+
+def _article(document: Document) -> Iterator[str]:
+    printer = MathmlPrinter()
+    yield "<article>"
+    yield f"<h1>{escaped(document.title)}</h1>"
+    for block in document.blocks:
+        yield from _block(block, printer)
+    yield "</article>"
+
+
+def _block(block: Block, printer: MathmlPrinter) -> Iterator[str]:
+    match block:
+        case Heading(text=text, level=level):
+            yield f"<h{level + 1}>{escaped(text)}</h{level + 1}>"
+        case Paragraph(parts=parts):
+            yield f"<p>{''.join(_part(part, printer) for part in parts)}</p>"
+        case Equations(rows=rows):
+            yield _DISPLAY
+            for row in rows:
+                yield from _row(row, printer)
+            yield _END_DISPLAY
+        case Matrix():
+            yield _DISPLAY
+            yield _cells(_show(block.label, printer), "<mo>=</mo>", _matrix(block, printer))
+            yield _END_DISPLAY
+
+
+def _part(part: str | Formula, printer: MathmlPrinter) -> str:
+    if isinstance(part, str):
+        before = " " if part[:1] == " " else ""
+        after = " " if part[-1:] == " " else ""
+        return before + escaped(part) + after
+    return f"<math>{_show(part, printer)}</math>"
+
+
+def _row(row: Row, printer: MathmlPrinter) -> Iterator[str]:
+    """An equation; a long sum goes over several rows, its signs in front."""
+    *above, last = _lines(row.left, printer)
+    first, *below = _lines(row.right, printer)
+    if row.note:
+        note = f"<mspace width='1em'/><mtext>({escaped(row.note)})</mtext>"
+        if below:
+            below[-1] += note
+        else:
+            first += note
+    for line in above:
+        yield _cells(line, "", "")
+    yield _cells(last, "<mo>=</mo>", first)
+    for line in below:
+        yield _cells("", "", f"<mspace width='1em'/>{line}")
+
+
+def _lines(formula: Formula, printer: MathmlPrinter) -> list[str]:
+    if not isinstance(formula, Sum):
+        return [_show(formula, printer)]
+    lines: list[str] = []
+    room = 0
+    for term, shown in zip(formula.terms, printer.signed_terms(formula), strict=True):
+        size = operation_count(term) + 1
+        if not lines or size > room:
+            lines.append("")
+            room = _LONG
+        lines[-1] += shown
+        room -= size
+    return [f"<mrow>{line}</mrow>" for line in lines]
+
+
+def _cells(left: str, middle: str, right: str) -> str:
+    sides = zip(("right", "center", "left"), (left, middle, right), strict=True)
+    return f"<mtr>{''.join(_CELL.format(side=side, content=each) for side, each in sides)}</mtr>"
+
+
+def _matrix(matrix: Matrix, printer: MathmlPrinter) -> str:
+    rows = "".join(
+        "<mtr>" + "".join(f"<mtd>{printer.show(entry)}</mtd>" for entry in row) + "</mtr>"
+        for row in matrix.entries
+    )
+    return f"<mrow><mo>(</mo><mtable>{rows}</mtable><mo>)</mo></mrow>"
+
+
+def _show(formula: Formula, printer: MathmlPrinter) -> str:
+    return printer.label(formula) if isinstance(formula, Label) else printer.show(formula)

@@ -1,0 +1,75 @@
+"""Markdown for GitHub and Pandoc, the mathematics in $$ blocks of LaTeX."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from lagcli.answers import Answers
+from lagcli.formatters.document import Block, Equations, Formula, Heading, Matrix, Paragraph
+from lagcli.formatters.latex_display import LatexDisplay
+from lagcli.formatters.latex_math import LatexPrinter
+from lagcli.formatters.latex_names import LatexNames
+from lagcli.formatters.layout import joined
+from lagcli.formatters.options import Options
+from lagcli.formatters.plain import harmless
+from lagcli.formatters.sections import to_document
+
+#: Characters that mean something to HTML or to GitHub, and those that a backslash disarms.
+_ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", "$": "&#36;", "@": "&#64;"}
+_MARKS = frozenset("\\`*_[]#|~^{}!")
+#: `:smile:`, `https://`.
+_COLON = re.compile(r":(?=[\w/+-])")
+#: What would start a list, a rule or a heading at the start of a line.
+_LINE_START = re.compile(r"^([-+=]|\d+(?=[.)]))")
+
+
+def render(answers: Sequence[Answers], options: Options) -> str:  # noqa: ARG001 - all alike
+    """Markdown for GitHub and Pandoc, with LaTeX in $$ blocks."""
+    blocks = [block for each in answers for block in _blocks(each)]
+    return "\n\n".join(blocks) + "\n"
+
+
+def escaped(text: str) -> str:
+    """Escape a text for a line of Markdown: it shows as it is and means nothing."""
+    shown = "".join(_ENTITIES.get(c, f"\\{c}" if c in _MARKS else c) for c in harmless(text))
+    return _COLON.sub("&#58;", shown)
+
+
+def _blocks(answers: Answers) -> Iterator[str]:
+    display = LatexDisplay(LatexPrinter(LatexNames(answers.coordinates, answers.symbols)))
+    document = to_document(answers)
+    yield f"# {escaped(document.title)}"
+    for block in document.blocks:
+        yield from _block(block, display)
+
+
+def _block(block: Block, display: LatexDisplay) -> Iterator[str]:
+    match block:
+        case Heading(text=text, level=level):
+            yield f"{'#' * (level + 1)} {escaped(text)}"
+        case Paragraph(parts=parts):
+            yield _LINE_START.sub(r"\\\1", _sentence(parts, display))
+        case Equations():
+            yield from map(_display, display.equations(block))
+        case Matrix():
+            yield from map(_display, display.matrix(block))
+
+
+def _display(lines: Sequence[str]) -> str:
+    """A display; no line in it starts with a sign that would start a list."""
+    body = " \\\\\n".join(lines)
+    return f"$$\n\\begin{{aligned}}\n{body}\n\\end{{aligned}}\n$$"
+
+
+def _sentence(parts: Sequence[str | Formula], display: LatexDisplay) -> str:
+    return "".join(
+        _words(part) if isinstance(part, str) else f"${joined(display.formula(part)).strip()}$"
+        for part in parts
+    )
+
+
+def _words(part: str) -> str:
+    before = " " if part[:1] == " " else ""
+    after = " " if part[-1:] == " " else ""
+    return before + escaped(part) + after
