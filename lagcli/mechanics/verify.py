@@ -49,7 +49,8 @@ class Verifier:
         numeric = self.vanishes_at_random_states([expression])
         if numeric is None:
             return Verdict(exact, None if exact is None else "exact")
-        return Verdict(numeric, "50 digits" if numeric or exact is None else "exact")
+        # a value that is not 0 at one state is a proof; 0 at a few states is none
+        return Verdict(numeric, "50 digits" if numeric else "exact")
 
     def all_zero(self, expressions: Sequence[Expr]) -> Verdict:
         """Whether all vanish; the weakest of the single verdicts."""
