@@ -19,7 +19,8 @@ from lagcli.expression import (
     children,
 )
 
-type_rank = {Number: 0, Name: 1, Power: 1, Quotient: 2, Sum: 3, Product: 3, Negative: 3}
+#: sin(x)*cos(x), but other functions by name.
+_RANK = {"sin": "co", "sinh": "co"}
 
 Key = tuple[object, ...]
 
@@ -58,7 +59,7 @@ class Ordering:
             case Sum():
                 return (3, *self._parts(node))
             case Call(function=function, primes=primes):
-                return (4, function, primes, *self._parts(node))
+                return (4, _RANK.get(function, function), primes, *self._parts(node))
             case PartialCall(function=function, indices=indices):
                 return (4, function, len(indices), *indices, *self._parts(node))
             case _:
@@ -106,8 +107,8 @@ def _flat(key: Key) -> tuple[tuple[int, Fraction, str], ...]:
 def _degrees(node: Expression) -> tuple[int, int]:
     """The degrees of a term in accelerations and in velocities."""
     match node:
-        case Name(primes=primes):
-            return int(primes > 1), int(primes == 1)
+        case Name(name=name, primes=primes):
+            return int(primes > 1), int(primes == 1 or name.startswith("p_"))
         case Negative(operand=operand):
             return _degrees(operand)
         case Product(factors=factors):

@@ -43,12 +43,8 @@ class Writer:
         """coefficient * prod base^exponent, with what divides in one denominator."""
         if coefficient == 0:
             return ZERO
-        exponents: dict[Expression, Fraction] = {}
-        for base, exponent in factors:
-            exponents[base] = exponents.get(base, Fraction(0)) + exponent
-        pairs = [(base, exponent) for base, exponent in exponents.items() if exponent]
-        coefficient, pairs = _positive_sums(coefficient, pairs)
-        coefficient, pairs = _tangents(coefficient, pairs)
+        coefficient, pairs = _flattened(coefficient, factors)
+        pairs = self._joined_exponentials(_tangents(_merged(pairs)))
         coefficient, pairs = self._joined_roots(coefficient, pairs)
         above = self._factors(pairs, 1)
         below = self._factors(pairs, -1)
@@ -61,6 +57,31 @@ class Writer:
         if below:
             result = Quotient(result, _product(below))
         return Negative(result) if coefficient < 0 else result
+
+    def _joined_exponentials(self, pairs: list[Factor]) -> list[Factor]:
+        """exp(a)^k exp(b) = exp(k a + b), x^n x^k = x^(n + k)."""
+        result: list[Factor] = []
+        exponents: list[Expression] = []
+        powers: dict[Expression, list[Expression]] = {}
+        for base, exponent in pairs:
+            if isinstance(base, Call) and base.function == "exp":
+                exponents.append(self.product(exponent, [(base.arguments[0], Fraction(1))]))
+            elif isinstance(base, Power):
+                part = self.product(exponent, [(base.exponent, Fraction(1))])
+                powers.setdefault(base.base, []).append(part)
+            else:
+                result.append((base, exponent))
+        if exponents:
+            result.append((Call("exp", (self.sum(exponents),)), Fraction(1)))
+        for base, parts in powers.items():
+            plain = [pair for pair in result if pair[0] == base]
+            result = [pair for pair in result if pair[0] != base]
+            whole = self.sum([*parts, *(self.number(exponent) for _, exponent in plain)])
+            if isinstance(whole, Negative):
+                result.append((Power(base, whole.operand), Fraction(-1)))
+            else:
+                result.append((Power(base, whole), Fraction(1)))
+        return result
 
     def _factors(self, pairs: list[Factor], sign: int) -> list[Expression]:
         chosen = [(base, exponent * sign) for base, exponent in pairs if exponent * sign > 0]
@@ -147,37 +168,53 @@ def _product(factors: list[Expression]) -> Expression:
     return flat[0] if len(flat) == 1 else Product(tuple(flat))
 
 
-def _positive_sums(
-    coefficient: Fraction, pairs: list[Factor]
+def _merged(pairs: Iterable[Factor]) -> list[Factor]:
+    exponents: dict[Expression, Fraction] = {}
+    for base, exponent in pairs:
+        exponents[base] = exponents.get(base, Fraction(0)) + exponent
+    return [(base, exponent) for base, exponent in exponents.items() if exponent]
+
+
+def _flattened(
+    coefficient: Fraction, factors: Iterable[Factor]
 ) -> tuple[Fraction, list[Factor]]:
-    """Signs out of the factors, numbers and products out of their brackets."""
+    """Signs, numbers, products, quotients and powers out of the factors."""
     result: list[Factor] = []
-    for node, exponent in pairs:
-        base = node
-        if isinstance(base, Negative) and exponent.denominator == 1:
-            coefficient *= (-1) ** int(exponent)
-            base = base.operand
-        if isinstance(base, Number) and exponent.denominator == 1:
-            coefficient *= base.value ** int(exponent)
-        elif isinstance(base, Sum) and exponent.denominator == 1 and _mostly_negative(base):
-            coefficient *= (-1) ** int(exponent)
-            terms = [t.operand if isinstance(t, Negative) else Negative(t) for t in base.terms]
-            result.append((Sum(tuple(terms)), exponent))
-        elif isinstance(base, Call) and base.function == "sqrt":
-            result.append((base.arguments[0], exponent / 2))
-        else:
-            result.append((base, exponent))
+    stack = list(factors)
+    stack.reverse()
+    while stack:
+        base, exponent = stack.pop()
+        whole = exponent.denominator == 1
+        match base:
+            case Negative(operand=operand) if whole:
+                coefficient *= (-1) ** int(exponent)
+                stack.append((operand, exponent))
+            case Number(value=value) if whole:
+                coefficient *= value ** int(exponent)
+            case Product(factors=inner) if whole:
+                stack.extend((each, exponent) for each in reversed(inner))
+            case Quotient(numerator=above, denominator=below) if whole:
+                stack.extend([(below, -exponent), (above, exponent)])
+            case Power(base=inner_base, exponent=Number(value=value)) if whole:
+                stack.append((inner_base, exponent * value))
+            case Call(function="sqrt", arguments=(radicand,)):
+                stack.append((radicand, exponent / 2))
+            case Sum(terms=terms) if whole and _all_negative(base):
+                coefficient *= (-1) ** int(exponent)
+                result.append((Sum(tuple(t.operand for t in terms)), exponent))  # type: ignore[attr-defined]
+            case _:
+                result.append((base, exponent))
     return coefficient, result
 
 
-def _mostly_negative(node: Sum) -> bool:
+def _all_negative(node: Sum) -> bool:
     return all(isinstance(term, Negative) for term in node.terms)
 
 
 _RATIOS = {"sin": ("cos", "tan"), "sinh": ("cosh", "tanh")}
 
 
-def _tangents(coefficient: Fraction, pairs: list[Factor]) -> tuple[Fraction, list[Factor]]:
+def _tangents(pairs: list[Factor]) -> list[Factor]:
     """sin(x)/cos(x) as tan(x), cos(x)/sin(x) as 1/tan(x)."""
     exponents = dict(pairs)
     for base, exponent in pairs:
@@ -193,7 +230,7 @@ def _tangents(coefficient: Fraction, pairs: list[Factor]) -> tuple[Fraction, lis
             del exponents[base], exponents[other]
             ratio = Call(tangent, base.arguments)
             exponents[ratio] = exponents.get(ratio, Fraction(0)) + exponent
-    return coefficient, list(exponents.items())
+    return list(exponents.items())
 
 
 def name(text: str) -> Name:

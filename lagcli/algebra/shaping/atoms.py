@@ -7,6 +7,7 @@ are atoms besides those of the single angles.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from typing import TypeAlias
 
@@ -39,7 +40,10 @@ Angles: TypeAlias = tuple[tuple[int, int], ...]  # (cosine generator, multiple),
 class Atoms:
     """The atoms of one field: their trees, their cost, and the way back to SymPy."""
 
-    def __init__(self, field: Field, writer: Writer) -> None:
+    def __init__(
+        self, field: Field, writer: Writer, shape: Callable[[Poly], Expression]
+    ) -> None:
+        self.shape = shape  # of a radicand
         self.field = field
         self.writer = writer
         self.trees: list[Expression] = []
@@ -79,12 +83,27 @@ class Atoms:
                 if terms[0][1] == 1:
                     atom, inner = self.generator(terms[0][0][0][0])
                     return atom, inner * exponent
-            radicand = generator.expression.args[0]
-            atom = self.add(self._translator.tree(radicand), radicand)
+            tree = self.shape(generator.radicand)
+            atom = self.add(tree, generator.expression.args[0])
             if len(terms) > 1:
                 self.roots[atom] = generator.radicand
             return atom, exponent
         return self.add(self._translator.tree(generator.expression), generator.expression), 1
+
+    def radicand(self, poly: Poly) -> tuple[int, int] | None:
+        """(sign, atom) of a polynomial whose root occurs, up to its sign."""
+        for atom, value in self.roots.items():
+            lifted = self.field.ring.lift(value)
+            if poly == lifted:
+                return 1, atom
+            if poly == -lifted:
+                return -1, atom
+        return None
+
+    def angle_rank(self, cosine: int) -> tuple[object, int]:
+        """Where the base argument of a cosine comes in a sum of angles."""
+        tree = self._translator.tree(self.field.generators[cosine].argument)
+        return self.writer.ordering.term(tree)[2], cosine
 
     def circular(self, function: str, angles: Angles) -> int:
         """The atom sin or cos of a sum of multiples of base arguments."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import gcd, lcm
+from typing import TypeAlias
 
 from flint import Ordering, fmpz_mpoly_ctx
 
@@ -15,7 +16,10 @@ from lagcli.algebra.shaping.atoms import Atoms, Exponent, Term, Terms, multiply
 from lagcli.algebra.shaping.plan import Product, Sum, product, total
 
 _MAX_FACTORED = 400  # terms
-_EFFORT = 400  # groups in which several atoms are tried
+_EFFORT = 200  # groups in which several atoms are tried
+
+
+Integers: TypeAlias = dict[Term, int]
 
 
 class Grouper:
@@ -23,7 +27,7 @@ class Grouper:
 
     def __init__(self, atoms: Atoms) -> None:
         self.atoms = atoms
-        self._memo: dict[tuple[frozenset[tuple[Term, Fraction]], bool], Product | Sum] = {}
+        self._memo: dict[tuple[frozenset[tuple[Term, int]], bool], Product | Sum] = {}
         self._effort = _EFFORT
 
     def group(self, terms: Terms, *, spread: bool = False) -> Product | Sum:
@@ -35,19 +39,27 @@ class Grouper:
             Whether terms may keep denominators of their own.
         """
         self._effort = _EFFORT
-        return self._group(terms, spread)
+        common = lcm(*(v.denominator for v in terms.values()))
+        integers = {t: v.numerator * (common // v.denominator) for t, v in terms.items()}
+        plan = self._group(integers, spread)
+        return plan if common == 1 else self._scaled(Fraction(1, common), plan)
 
-    def _group(self, terms: Terms, spread: bool) -> Product | Sum:
+    def _scaled(self, number: Fraction, plan: Product | Sum) -> Product:
+        if isinstance(plan, Sum):
+            return product(self.atoms, number, [(plan, 1)])
+        return product(self.atoms, number * plan.coefficient, list(plan.parts))
+
+    def _group(self, terms: Integers, spread: bool) -> Product | Sum:
         key = (frozenset(terms.items()), spread)
         known = self._memo.get(key)
         if known is None:
             known = self._memo[key] = self._search(terms, spread)
         return known
 
-    def _search(self, terms: Terms, spread: bool) -> Product | Sum:
+    def _search(self, terms: Integers, spread: bool) -> Product | Sum:
         if len(terms) == 1:
-            (term, coefficient), = terms.items()
-            return product(self.atoms, coefficient, list(term))
+            ((term, coefficient),) = terms.items()
+            return product(self.atoms, Fraction(coefficient), list(term))
         common, number, inner = _content(terms, spread)
         if common or number != 1:
             return self._times(number, common, inner, spread)
@@ -55,25 +67,27 @@ class Grouper:
             factored = self._factored(inner)
             if factored is not None:
                 return factored
-        best: Product | Sum = total([product(self.atoms, c, list(t)) for t, c in inner.items()])
+        best: Product | Sum = total(
+            [product(self.atoms, Fraction(c), list(t)) for t, c in inner.items()]
+        )
         for with_atom, without in self._splits(inner):
             parts: list[Product] = []
             for half in (with_atom, without):
                 plan = self._group(half, spread)
                 parts.extend(plan.terms if isinstance(plan, Sum) else (plan,))
             candidate = total(parts)
-            if candidate.cost < best.cost:
+            if candidate.score < best.score:
                 best = candidate
         return best
 
-    def _times(self, number: Fraction, common: Term, inner: Terms, spread: bool) -> Product | Sum:
+    def _times(self, number: int, common: Term, inner: Integers, spread: bool) -> Product | Sum:
         plan = self._group(inner, spread)
         if isinstance(plan, Product):
             parts: list[tuple[int | Sum, Exponent]] = [*common, *plan.parts]
             return product(self.atoms, number * plan.coefficient, parts)
-        return product(self.atoms, number, [*common, (plan, 1)])
+        return product(self.atoms, Fraction(number), [*common, (plan, 1)])
 
-    def _splits(self, terms: Terms) -> list[tuple[Terms, Terms]]:
+    def _splits(self, terms: Integers) -> list[tuple[Integers, Integers]]:
         """Terms with an atom and terms without it, the most promising atoms first."""
         counts: dict[tuple[int, bool], int] = {}
         for term in terms:
@@ -92,8 +106,8 @@ class Grouper:
         splits = []
         for *_, atom, positive in weighed[:width]:
             self._effort -= 1
-            with_atom: Terms = {}
-            without: Terms = {}
+            with_atom: Integers = {}
+            without: Integers = {}
             for term, value in terms.items():
                 holds = any(a == atom and (e > 0) == positive for a, e in term)
                 (with_atom if holds else without)[term] = value
@@ -101,40 +115,41 @@ class Grouper:
                 splits.append((with_atom, without))
         return splits
 
-    def _factored(self, terms: Terms) -> Product | None:
+    def _factored(self, terms: Integers) -> Product | None:
         """The product of the irreducible factors, None when there is only one."""
         if len(terms) > _MAX_FACTORED:
             return None
         scales: dict[int, int] = {}
-        lows: dict[int, Exponent] = {}
         for term in terms:
             for atom, exponent in term:
-                scales[atom] = lcm(scales.get(atom, 1), Fraction(exponent).denominator)
-                lows[atom] = min(lows.get(atom, 0), exponent)
-        if any(low < 0 for low in lows.values()):
-            return None
-        used = sorted(scales)
+                if exponent < 0:
+                    return None
+                if isinstance(exponent, int):
+                    scales.setdefault(atom, 1)
+                else:
+                    scales[atom] = lcm(scales.get(atom, 1), exponent.denominator)
+        used = {atom: position for position, atom in enumerate(sorted(scales))}
         context = fmpz_mpoly_ctx.get([f"a{a}" for a in used], Ordering.lex)
-        common = lcm(*(v.denominator for v in terms.values()))
         data = {}
         for term, value in terms.items():
-            exponents = dict(term)
-            key = tuple(int(exponents.get(a, 0) * scales[a]) for a in used)
-            data[key] = int(value * common)
+            exponents = [0] * len(used)
+            for atom, exponent in term:
+                exponents[used[atom]] = int(exponent * scales[atom])
+            data[tuple(exponents)] = value
         content, factors = context.from_dict(data).factor()
         if len(factors) == 1 and int(factors[0][1]) == 1:
             return None
         parts: list[tuple[int | Sum, Exponent]] = []
-        number = Fraction(int(content), common)
+        number = Fraction(int(content))
         for factor, exponent in factors:
-            inner: Terms = {}
+            inner: Integers = {}
             for key, value in factor.to_dict().items():
                 term = tuple(
-                    (a, _exact(Fraction(int(e), scales[a])))
+                    (a, int(e) if scales[a] == 1 else _exact(Fraction(int(e), scales[a])))
                     for a, e in zip(used, key, strict=True)
                     if e
                 )
-                inner[term] = Fraction(int(value))
+                inner[term] = int(value)
             plan = self._group(inner, spread=False)
             if isinstance(plan, Sum):
                 parts.append((plan, int(exponent)))
@@ -148,40 +163,30 @@ def _exact(value: Fraction) -> Exponent:
     return value.numerator if value.denominator == 1 else value
 
 
-def _content(terms: Terms, spread: bool) -> tuple[Term, Fraction, Terms]:
+def _content(terms: Integers, spread: bool) -> tuple[Term, int, Integers]:
     """A common product of atoms, a common number, and what is left of the terms."""
-    shared: dict[int, tuple[Exponent, Exponent, int]] = {}
+    shared: dict[int, list[Exponent]] = {}
     for term in terms:
         for atom, exponent in term:
-            low, high, count = shared.get(atom, (exponent, exponent, 0))
-            shared[atom] = (min(low, exponent), max(high, exponent), count + 1)
+            if atom in shared:
+                shared[atom].append(exponent)
+            else:
+                shared[atom] = [exponent]
     common: list[tuple[int, Exponent]] = []
-    for atom, (low, high, count) in shared.items():
-        everywhere = count == len(terms)
+    for atom, exponents in shared.items():
+        everywhere = len(exponents) == len(terms)
+        low = min(exponents)
         if low > 0:
             if everywhere:
                 common.append((atom, low))
         elif not spread:
             common.append((atom, low))
-        elif high < 0 and everywhere:
-            common.append((atom, high))
-    number = _number(list(terms.values()))
+        elif everywhere and max(exponents) < 0:
+            common.append((atom, max(exponents)))
+    number = gcd(*terms.values())
+    if not common and number == 1:
+        return (), 1, terms
     common.sort()
     inverse = tuple((atom, -exponent) for atom, exponent in common)
-    inner = {multiply(term, inverse): value / number for term, value in terms.items()}
+    inner = {multiply(term, inverse): value // number for term, value in terms.items()}
     return tuple(common), number, inner
-
-
-def _number(values: list[Fraction]) -> Fraction:
-    """The common number whose extraction leaves the fewest numbers to write."""
-    above = gcd(*(v.numerator for v in values))
-    candidates = [
-        Fraction(1),
-        Fraction(above, lcm(*(v.denominator for v in values))),
-        Fraction(above, gcd(*(v.denominator for v in values))),
-    ]
-
-    def written(value: Fraction) -> int:
-        return (abs(value.numerator) != 1) + (value.denominator != 1)
-
-    return min(candidates, key=lambda c: written(c) + sum(written(v / c) for v in values))

@@ -10,18 +10,38 @@ from lagcli.algebra.writing import Factor, Writer
 from lagcli.expression import Expression
 
 
+#: One operation less is worth brackets around this many operations.
+_BRACKETED = 6
+#: A fraction inside brackets is worth that many bracketed operations.
+_FRACTION = 3
+
+
 @dataclass(frozen=True, slots=True)
 class Product:
-    """coefficient * prod part^exponent; a part is an atom or a sum."""
+    """coefficient * prod part^exponent; a part is an atom or a sum.
+
+    `cost` is the number of operations shown, `strain` that of operations inside
+    brackets, counted once for every bracket around them.
+    """
 
     coefficient: Fraction
     parts: tuple[tuple[int | Sum, Exponent], ...]
     cost: int
+    strain: int
+
+    @property
+    def score(self) -> int:
+        """What is to be least: a short formula, but not at the price of nested brackets."""
+        return _BRACKETED * self.cost + self.strain
+
+    def has_denominator(self) -> bool:
+        """Whether it is written as a quotient."""
+        return self.coefficient.denominator != 1 or any(e < 0 for _, e in self.parts)
 
     def negated(self) -> Product:
         """The product with the other sign."""
         cost = self.cost + (1 if self.coefficient > 0 else -1)
-        return Product(-self.coefficient, self.parts, cost)
+        return Product(-self.coefficient, self.parts, cost, self.strain)
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,11 +50,17 @@ class Sum:
 
     terms: tuple[Product, ...]
     cost: int
+    strain: int
+
+    @property
+    def score(self) -> int:
+        """As for a product."""
+        return _BRACKETED * self.cost + self.strain
 
     def negated(self) -> Sum:
         """The sum with the other sign."""
         terms = tuple(t.negated() for t in self.terms)
-        return Sum(terms, self.cost + sum(t.cost for t in terms) - sum(t.cost for t in self.terms))
+        return total(list(terms))
 
     def negatives(self) -> int:
         """How many terms have a minus sign."""
@@ -64,10 +90,17 @@ def product(
         assert isinstance(part, Sum)
         signed[best] = (part.negated(), exponent)
         coefficient = -coefficient
-    above = below = cost = 0
+    if coefficient.denominator != 1:
+        coefficient = _halved(atoms, coefficient, signed)
+    above = below = cost = strain = 0
     for part, exponent in signed:
         size = abs(exponent)
-        cost += atoms.costs[part] if isinstance(part, int) else part.cost
+        if isinstance(part, Sum):
+            cost += part.cost
+            strain += part.cost + part.strain
+            strain += _FRACTION * any(t.has_denominator() for t in part.terms)
+        else:
+            cost += atoms.costs[part]
         if size != 1:
             cost += 1 if size.denominator == 1 or size == Fraction(1, 2) else 2
         if exponent > 0:
@@ -77,12 +110,31 @@ def product(
     above += abs(coefficient.numerator) != 1 or not above
     below += coefficient.denominator != 1
     cost += above - 1 + below + (coefficient < 0)
-    return Product(coefficient, tuple(signed), cost)
+    return Product(coefficient, tuple(signed), cost, strain)
+
+
+def _halved(
+    atoms: Atoms, coefficient: Fraction, parts: list[tuple[int | Sum, Exponent]]
+) -> Fraction:
+    """(a + 2*b)/2 as a/2 + b where that shows less; the sum in `parts` is replaced."""
+    below = coefficient.denominator
+    for position, (part, exponent) in enumerate(parts):
+        if not isinstance(part, Sum) or exponent != 1:
+            continue
+        before = sum(abs(t.coefficient) != 1 for t in part.terms)
+        after = sum((abs(t.coefficient / below).numerator != 1)
+                    + ((t.coefficient / below).denominator != 1) for t in part.terms)  # fmt: skip
+        if after < before + 1:
+            terms = [product(atoms, t.coefficient / below, list(t.parts)) for t in part.terms]
+            parts[position] = (total(terms), exponent)
+            return coefficient * below
+    return coefficient
 
 
 def total(terms: list[Product]) -> Sum:
     """The sum of two or more products."""
-    return Sum(tuple(terms), sum(t.cost for t in terms) + len(terms) - 1)
+    cost = sum(t.cost for t in terms) + len(terms) - 1
+    return Sum(tuple(terms), cost, sum(t.strain for t in terms))
 
 
 def write(plan: Product | Sum, atoms: Atoms, writer: Writer) -> Expression:

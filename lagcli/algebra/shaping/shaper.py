@@ -13,13 +13,14 @@ from lagcli.algebra.ring import Monomial, Poly
 from lagcli.algebra.roots import substitute_square
 from lagcli.algebra.shaping.atoms import Atoms, Exponent, Terms, multiply
 from lagcli.algebra.shaping.grouping import Grouper
-from lagcli.algebra.shaping.plan import Product, Sum, product, write
+from lagcli.algebra.shaping.plan import Product, Sum, product, total, write
 from lagcli.algebra.shaping.trigonometry import Trigonometry
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression
 
 _MAX_FACTORED = 1500  # terms
 _MAX_REWRITTEN = 400
+_EXPANSIONS = 3  # that are bracketed, the shortest ones
 
 _TRIGONOMETRIC = ("cos", "sin")
 _QUADRATIC = ("cos", "cosh")
@@ -31,7 +32,7 @@ class Shaper:
     def __init__(self, field: Field, writer: Writer) -> None:
         self.field = field
         self.writer = writer
-        self.atoms = Atoms(field, writer)
+        self.atoms = Atoms(field, writer, self._radicand)
         self.trigonometry = Trigonometry(field, self.atoms)
         self.grouper = Grouper(self.atoms)
 
@@ -43,18 +44,46 @@ class Shaper:
         """The SymPy expression of a tree made here."""
         return self.atoms.to_sympy(tree)
 
-    def plan(self, element: Element) -> Product | Sum:
-        """The cheapest plan."""
+    def plan(self, element: Element, *, divide: bool = True) -> Product | Sum:
+        """The cheapest plan; `divide` allows Q + R/D."""
         element = self.field.lifted(element)
         if element.is_zero():
             return product(self.atoms, Fraction(0), [])
+        for index in self.field.ring.used(element.numerator):
+            self.atoms.generator(index)  # so that the radicands are known
         above = self._factors(element.numerator)
         below = self._factors(element.denominator)
         best: Product | Sum = self._joined(above, below)
-        for candidate in self._spread(element, below):
-            if candidate.cost < best.cost:
+        divided = self._divided(element) if divide else ()
+        for candidate in (*self._spread(element, below), *divided):
+            if candidate.score < best.score:
                 best = candidate
         return best
+
+    def _radicand(self, poly: Poly) -> Expression:
+        return write(self._factors(poly), self.atoms, self.writer)
+
+    def _divided(self, element: Element) -> Iterator[Sum]:
+        """N/D = Q + R/D for a factor D of the denominator that divides part of N."""
+        if not 2 < len(element.numerator) <= _MAX_REWRITTEN:
+            return
+        _, factors = element.denominator.factor()
+        for factor, exponent in factors:
+            divisor = factor**exponent
+            if len(factor) < 2:
+                continue
+            quotient, rest = divmod(element.numerator, divisor)
+            if quotient == 0 or rest == 0 or len(quotient) + len(rest) >= len(element.numerator):
+                continue
+            field = self.field
+            parts: list[Product] = []
+            for each in (
+                field.element(quotient, element.denominator / divisor),
+                field.element(rest, element.denominator),
+            ):
+                plan = self.plan(each, divide=False)
+                parts.extend(plan.terms if isinstance(plan, Sum) else (plan,))
+            yield total(parts)
 
     def _joined(self, above: Product, below: Product) -> Product:
         inverse = [(p, -e) for p, e in below.parts]
@@ -103,6 +132,11 @@ class Shaper:
         number = Fraction(int(content))
         parts: dict[int | Sum, Exponent] = {}
         for factor, exponent in factors:
+            root = self.atoms.radicand(factor)
+            if root is not None:
+                number *= root[0] ** int(exponent)
+                parts[root[1]] = parts.get(root[1], 0) + int(exponent)
+                continue
             plan = self._polynomial(factor)
             if isinstance(plan, Sum):
                 parts[plan] = parts.get(plan, 0) + int(exponent)
@@ -145,7 +179,7 @@ class Shaper:
         best: Product | Sum | None = None
         for terms in self._expansions(poly):
             plan = self.grouper.group(terms)
-            if best is None or plan.cost < best.cost:
+            if best is None or plan.score < best.score:
                 best = plan
         assert best is not None
         return best
@@ -182,7 +216,8 @@ class Shaper:
             merged = {t: v for t, v in merged.items() if v}
             if merged not in found:
                 found.append(merged)
-        return found
+        found.sort(key=self._weight)
+        return found[:_EXPANSIONS]
 
     def _weight(self, terms: Terms) -> int:
         """Roughly the operations of a sum of products."""

@@ -70,7 +70,8 @@ class Trigonometry:
         generators = self.field.generators
         cosines = sorted(
             {g if generators[g].kind == "cos" else generators[g].partner
-             for monomial, _ in terms for g, _ in monomial}
+             for monomial, _ in terms for g, _ in monomial},
+            key=self.atoms.angle_rank,
         )  # fmt: skip
         if any(sum(e for _, e in monomial) > _MAX_DEGREE for monomial, _ in terms):
             return
