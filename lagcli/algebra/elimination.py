@@ -176,7 +176,7 @@ class Elimination:
                 if h not in (g, generator.partner)
             ):
                 continue
-            c, s = Dummy("c", real=True), Dummy("s", real=True)
+            c, s = Dummy("#c", real=True), Dummy("#s", real=True)
             argument = generator.argument
             images = {sympy.cos(argument): c, sympy.sin(argument): s}
             plain = [field.to_sympy(e).xreplace(images) for e in elements]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from math import gcd
 
 import mpmath
@@ -91,17 +92,26 @@ def polynomial_roots(field: Field, poly: Poly, generator: int) -> list[Expr] | N
 
     Roots that are surely not real are left out.
     """
-    ring = field.ring
     roots: list[Expr] = []
-    _, factors = ring.lift(poly).factor()
-    for factor, _ in sorted(factors, key=lambda pair: (pair[0].total_degree(), str(pair[0]))):
-        if ring.degree(ring.lift(factor), generator) == 0:
-            continue
-        found = _roots(field, coefficients(field, factor, generator))
+    for found, _ in factor_roots(field, poly, generator):
         if found is None:
             return None
         roots += found
     return [root for root in dict.fromkeys(roots) if root.is_real is not False]
+
+
+def factor_roots(
+    field: Field, poly: Poly, generator: int
+) -> list[tuple[list[Expr] | None, int]]:
+    """For each irreducible factor its roots (None without a closed form) and its multiplicity."""
+    ring = field.ring
+    _, factors = ring.lift(poly).factor()
+    factors.sort(key=lambda pair: (pair[0].total_degree(), str(pair[0])))
+    return [
+        (_roots(field, coefficients(field, factor, generator)), multiplicity)
+        for factor, multiplicity in factors
+        if ring.degree(ring.lift(factor), generator)
+    ]
 
 
 def _roots(field: Field, a: Sequence[Element]) -> list[Expr] | None:
@@ -110,9 +120,7 @@ def _roots(field: Field, a: Sequence[Element]) -> list[Expr] | None:
     step = gcd(*(k for k in range(1, degree + 1) if not a[k].is_zero()))
     if step > 1:
         powers = _roots(field, a[::step])
-        if powers is None:
-            return _decimal_roots(a)
-        return _radicals(powers, step)
+        return None if powers is None else _radicals(powers, step)
     if degree == 1:
         return [field.to_sympy(-a[0] / a[1])]
     if degree == 2:
@@ -120,7 +128,46 @@ def _roots(field: Field, a: Sequence[Element]) -> list[Expr] | None:
         root = sympy.sqrt(simplify(field.to_sympy(a[1] ** 2 - field.rational(4) * a[2] * a[0])))
         middle, below = field.to_sympy(-a[1]), field.to_sympy(field.rational(2) * a[2])
         return [simplify((middle - root) / below), simplify((middle + root) / below)]
-    return _decimal_roots(a)
+    return _scaled_roots(field, a)
+
+
+def _scaled_roots(field: Field, a: Sequence[Element]) -> list[Expr] | None:
+    """With x = r y, r = a_(n-1)/a_n, the coefficients may become numbers."""
+    n = len(a) - 1
+    scale = field.rational(1) if a[n - 1].is_zero() else _without_number(a[n - 1] / a[n])
+    numbers = [(a[k] / (a[n] * scale ** (n - k))).rational() for k in range(n)]
+    if any(number is None for number in numbers):
+        return None
+    unit = scale.rational()
+    exact = [Rational(b.numerator, b.denominator) for b in numbers if b is not None]
+    if n == 3:
+        return [simplify(field.to_sympy(scale)) * y for y in _cubic_roots(*exact)]
+    if unit is None or n > _MAX_DEGREE:
+        return None
+    poly = sympy.Poly([1, *reversed(exact)], Dummy())
+    return [decimal(Rational(unit) * root.evalf(_DECIMALS + 10)) for root in poly.real_roots()]
+
+
+def _without_number(element: Element) -> Element:
+    """The element over the ratio of its leading coefficients."""
+    above = int(element.numerator.leading_coefficient())
+    below = int(element.denominator.leading_coefficient())
+    return element * element.field.rational(Fraction(below, above))
+
+
+def _cubic_roots(a0: Rational, a1: Rational, a2: Rational) -> list[Expr]:
+    """The real roots of y³ + a_2 y² + a_1 y + a_0 (Viète, Cardano), y = z - a_2/3."""
+    p, q = a1 - a2**2 / 3, 2 * a2**3 / 27 - a2 * a1 / 3 + a0
+    discriminant = -4 * p**3 - 27 * q**2
+    if discriminant >= 0:
+        # z = 2 sqrt(-p/3) cos(acos(3 q/(2 p) sqrt(-3/p))/3 - 2 pi k/3)
+        angle = sympy.acos(3 * q / (2 * p) * sympy.sqrt(-3 / p))
+        return [
+            2 * sympy.sqrt(-p / 3) * sympy.cos((angle - 2 * sympy.pi * k) / 3) - a2 / 3
+            for k in range(3)
+        ]
+    root = sympy.sqrt(q**2 / 4 + p**3 / 27)
+    return [sympy.real_root(-q / 2 + root, 3) + sympy.real_root(-q / 2 - root, 3) - a2 / 3]
 
 
 def _radicals(powers: Sequence[Expr], k: int) -> list[Expr] | None:
@@ -143,21 +190,16 @@ def _radicals(powers: Sequence[Expr], k: int) -> list[Expr] | None:
     return roots
 
 
-def _decimal_roots(a: Sequence[Element]) -> list[Expr] | None:
-    """The real roots of a polynomial with rational coefficients, as decimals."""
-    numbers = [each.rational() for each in a]
-    if any(number is None for number in numbers) or len(a) > _MAX_DEGREE:
-        return None
-    x = Dummy()
-    poly = sympy.Poly([Rational(n.numerator, n.denominator) for n in reversed(numbers) if n is not None], x)
-    return [decimal(root.evalf(_DECIMALS + 10)) for root in poly.real_roots()]
-
-
 def decimal(value: Expr) -> Expr:
     """A number as the exact decimal fraction of its first 15 significant digits."""
     with mpmath.workdps(_DECIMALS + 5):
         number = mpmath.mpf(str(value))
         return Rational(mpmath.nstr(number, _DECIMALS, min_fixed=-9, max_fixed=_DECIMALS))
+
+
+def is_decimal(value: Expr) -> bool:
+    """Whether a root is one that `decimal` rounded."""
+    return bool(value.is_Rational and len(str(value.q)) > _DECIMALS // 2)
 
 
 def angle_roots(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
@@ -250,7 +292,7 @@ def _with_tangent(value: Expr) -> list[Expr]:
 def _by_half_angle(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
     """With t = tan(angle/2): cos = (1 - t²)/(1 + t²), sin = 2 t/(1 + t²)."""
     ring, sine = field.ring, cosine + 1
-    t = field(Dummy("t", real=True))
+    t = field(Dummy("#t", real=True))
     number = ring.used(t.numerator)[0]
     one = field.rational(1)
     images = {

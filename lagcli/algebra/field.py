@@ -110,6 +110,8 @@ class FractionField:
         #: Some generators may depend on each other in ways that no rule tells.
         self.doubtful = False
         self.has_roots = False
+        #: Root -> d, where sqrt(f/d²) was put in and became sqrt(f)/d.
+        self.root_scales: dict[int, Poly] = {}
 
     def add_generator(self, generator: Generator) -> int:
         """Add a generator; its number is returned."""

@@ -63,10 +63,27 @@ def _root(field: Field, base: Element, index: int) -> Element:
     above, below = base.numerator, base.denominator
     if below == 1 or is_nonnegative(field, below):
         # (N/D)^(1/q) = (N D^(q-1))^(1/q) / D for D >= 0
-        return _polynomial_root(field, above * below ** (index - 1), index) / field.polynomial(below)
+        root = _polynomial_root(field, above * below ** (index - 1), index)
+        if index == 2 and len(above) > 1:
+            _note_scale(field, above, below)
+        return root / field.polynomial(below)
     if index == 2:
         return _polynomial_root(field, above * below, 2) / _absolute(field, below)
     return field.opaque(sympy.Pow(field.to_sympy(base), sympy.Rational(1, index)))
+
+
+def _note_scale(field: Field, above: Poly, below: Poly) -> None:
+    """Remember that sqrt(above/d²) was asked for: it may read better than sqrt(above)/d."""
+    if len(below) != 1 or below.leading_coefficient() != 1:
+        return
+    ring = field.ring
+    monomial, _ = next(ring.terms(below))
+    if not monomial or any(e % 2 for _, e in monomial):
+        return
+    scale = ring.build([(tuple((g, e // 2) for g, e in monomial), 1)])
+    for number, generator in enumerate(field.generators):
+        if generator.kind == "root" and ring.lift(generator.radicand) == ring.lift(above):
+            field.root_scales[number] = scale
 
 
 def _polynomial_root(field: Field, radicand: Poly, index: int) -> Element:

@@ -39,8 +39,7 @@ def shape(
         element = field(expression)
     except ZeroDivisionError:
         return Translator(writer).tree(expression)
-    shaper = Shaper(field, writer)
-    tree, _ = _shortest(shaper, element, relations)
+    tree, _ = _shortest(field, writer, element, relations)
     given = Translator(writer).tree(expression)
     return given if operation_count(given) < operation_count(tree) else tree
 
@@ -59,8 +58,7 @@ def simplify(expression: Expr, relations: Relations | None = None) -> Expr:
 
 def readable(field: Field, element: Element, relations: Relations | None = None) -> Expr:
     """The shortest readable shape of an element of the field."""
-    shaper = Shaper(field, Writer())
-    tree, _ = _shortest(shaper, element, relations)
+    tree, shaper = _shortest(field, Writer(), element, relations)
     return shaper.to_sympy(tree)
 
 
@@ -87,15 +85,15 @@ def is_zero(expression: Expr, relations: Relations | None = None) -> bool | None
 
 
 def _shortest(
-    shaper: Shaper, element: Element, relations: Relations | None
-) -> tuple[Expression, int]:
-    element = cancelled(shaper.field, element)
-    candidates = [element]
+    field: Field, writer: Writer, element: Element, relations: Relations | None
+) -> tuple[Expression, Shaper]:
+    """The best tree among equal elements, and the shaper that made it."""
+    candidates = [cancelled(field, element)]
     if relations:
-        candidates.extend(
-            cancelled(shaper.field, each) for each in relations.reductions(shaper.field, element)
-        )
-    shapes = [shaper.shape(each) for each in candidates]
-    counted = [(operation_count(s), i, s) for i, s in enumerate(shapes)]
-    best = min(counted, key=lambda c: c[:2])
-    return best[2], best[0]
+        candidates.extend(cancelled(field, e) for e in relations.reductions(field, element))
+    shapers = [Shaper(field, writer)]
+    if field.root_scales:
+        shapers.insert(0, Shaper(field, writer, scaled=True))
+    shapes = [(shaper.plan(each), shaper) for each in candidates for shaper in shapers]
+    plan, shaper = min(shapes, key=lambda pair: pair[0].score)
+    return shaper.written(plan), shaper

@@ -15,6 +15,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra.entry import Field
+from lagcli.algebra.field import Element
 from lagcli.algebra.leaves import Translator
 from lagcli.algebra.ring import Monomial, Poly
 from lagcli.algebra.writing import Writer
@@ -41,16 +42,22 @@ class Atoms:
     """The atoms of one field: their trees, their cost, and the way back to SymPy."""
 
     def __init__(
-        self, field: Field, writer: Writer, shape: Callable[[Poly], Expression]
+        self,
+        field: Field,
+        writer: Writer,
+        shape: Callable[[Element], Expression],
+        *,
+        scaled: bool = False,
     ) -> None:
         self.shape = shape  # of a radicand
+        self.scaled = scaled
         self.field = field
         self.writer = writer
         self.trees: list[Expression] = []
         self.costs: list[int] = []
-        self.roots: dict[int, Poly] = {}  # atom -> radicand, where that is a sum
+        self.roots: list[tuple[Poly, Term]] = []  # radicands that are sums, in atoms
         self._numbers: dict[Expression, int] = {}
-        self._of_generator: dict[int, tuple[int, Exponent]] = {}
+        self._of_generator: dict[int, Term] = {}
         self._expressions: dict[Expression, Expr] = {}
         self._trigonometric: dict[tuple[str, Angles], int] = {}
         self._translator = Translator(writer)
@@ -67,37 +74,47 @@ class Atoms:
             self._expressions[tree] = expression
         return number
 
-    def generator(self, number: int) -> tuple[int, Exponent]:
-        """The atom of a generator of the field, and the exponent it comes with."""
+    def generator(self, number: int) -> Term:
+        """A generator of the field in atoms."""
         known = self._of_generator.get(number)
         if known is None:
             known = self._of_generator[number] = self._generator(number)
         return known
 
-    def _generator(self, number: int) -> tuple[int, Exponent]:
+    def _generator(self, number: int) -> Term:
         generator = self.field.generators[number]
-        if generator.kind == "root":
-            exponent = Fraction(1, generator.index)
-            terms = list(self.field.ring.terms(generator.radicand))
-            if len(terms) == 1 and len(terms[0][0]) == 1 and terms[0][0][0][1] == 1:
-                if terms[0][1] == 1:
-                    atom, inner = self.generator(terms[0][0][0][0])
-                    return atom, inner * exponent
-            tree = self.shape(generator.radicand)
-            atom = self.add(tree, generator.expression.args[0])
-            if len(terms) > 1:
-                self.roots[atom] = generator.radicand
-            return atom, exponent
-        return self.add(self._translator.tree(generator.expression), generator.expression), 1
+        if generator.kind != "root":
+            tree = self._translator.tree(generator.expression)
+            return ((self.add(tree, generator.expression), 1),)
+        return tuple((a, _exact(Fraction(e) / generator.index)) for a, e in self._inside(number))
 
-    def radicand(self, poly: Poly) -> tuple[int, int] | None:
-        """(sign, atom) of a polynomial whose root occurs, up to its sign."""
-        for atom, value in self.roots.items():
+    def _inside(self, number: int) -> Term:
+        """The radicand of a root in atoms: a monomial, f, or d² (f/d²)."""
+        radicand = self.field.ring.lift(self.field.generators[number].radicand)
+        terms = list(self.field.ring.terms(radicand))
+        if len(terms) == 1 and terms[0][1] == 1:
+            return self.term(terms[0][0])
+        inside = self.field.polynomial(radicand)
+        outside: Term = ()
+        scale = self.field.root_scales.get(number) if self.scaled else None
+        if scale is not None:
+            square = self.field.ring.lift(scale) ** 2
+            inside = self.field.element(radicand, square)
+            outside = self.term(next(self.field.ring.terms(square))[0])
+        atom = self.add(self.shape(inside), self.field.to_sympy(inside))
+        whole = multiply(((atom, 1),), outside)
+        if len(terms) > 1:
+            self.roots.append((radicand, whole))
+        return whole
+
+    def radicand(self, poly: Poly) -> tuple[int, Term] | None:
+        """(sign, atoms) of a polynomial whose root occurs, up to its sign."""
+        for value, term in self.roots:
             lifted = self.field.ring.lift(value)
             if poly == lifted:
-                return 1, atom
+                return 1, term
             if poly == -lifted:
-                return -1, atom
+                return -1, term
         return None
 
     def angle_rank(self, cosine: int) -> tuple[object, int]:
@@ -121,8 +138,8 @@ class Atoms:
         """The product of atoms for a monomial of the ring."""
         exponents: dict[int, Exponent] = {}
         for number, exponent in monomial:
-            atom, each = self.generator(number)
-            exponents[atom] = exponents.get(atom, 0) + each * exponent
+            for atom, each in self.generator(number):
+                exponents[atom] = exponents.get(atom, 0) + each * exponent
         return tuple(sorted((a, e) for a, e in exponents.items() if e))
 
     def terms(self, poly: Poly) -> Terms:
@@ -166,6 +183,10 @@ class Atoms:
                 self._expressions[self._translator.tree(symbol)] = symbol
         self._expressions[Name("pi")] = sympy.pi
         return True
+
+
+def _exact(value: Fraction) -> Exponent:
+    return value.numerator if value.denominator == 1 else value
 
 
 def multiply(left: Term, right: Term) -> Term:

@@ -44,10 +44,14 @@ class Grouper:
         plan = self._group(integers, spread)
         return plan if common == 1 else self._scaled(Fraction(1, common), plan)
 
-    def _scaled(self, number: Fraction, plan: Product | Sum) -> Product:
-        if isinstance(plan, Sum):
-            return product(self.atoms, number, [(plan, 1)])
-        return product(self.atoms, number * plan.coefficient, list(plan.parts))
+    def _scaled(self, number: Fraction, plan: Product | Sum) -> Product | Sum:
+        if isinstance(plan, Product):
+            return product(self.atoms, number * plan.coefficient, list(plan.parts))
+        outside = product(self.atoms, number, [(plan, 1)])
+        inside = total(
+            [product(self.atoms, number * t.coefficient, list(t.parts)) for t in plan.terms]
+        )
+        return inside if inside.score < outside.score else outside
 
     def _group(self, terms: Integers, spread: bool) -> Product | Sum:
         key = (frozenset(terms.items()), spread)

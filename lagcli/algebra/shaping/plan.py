@@ -79,7 +79,7 @@ def product(
             count, minus = len(part.terms), part.negatives()
             if 2 * minus > count:
                 part, coefficient, minus = part.negated(), -coefficient, count - minus
-            if count - 2 * minus < 1 and gain == 0:
+            if count - 2 * minus < 1 + (len(parts) == 1) and gain == 0:
                 # turning this sum round costs less than the sign of the product
                 best, gain = len(signed), 1
         elif isinstance(part, Sum) and exponent % 2 == 0 and 2 * part.negatives() > len(part.terms):

@@ -27,18 +27,28 @@ _QUADRATIC = ("cos", "cosh")
 
 
 class Shaper:
-    """Writes elements of one field with one writer."""
+    """Writes elements of one field with one writer.
 
-    def __init__(self, field: Field, writer: Writer) -> None:
+    Parameters
+    ----------
+    scaled
+        Whether sqrt(f/d²) is kept where it was put in so, instead of sqrt(f)/d.
+    """
+
+    def __init__(self, field: Field, writer: Writer, *, scaled: bool = False) -> None:
         self.field = field
         self.writer = writer
-        self.atoms = Atoms(field, writer, self._radicand)
+        self.atoms = Atoms(field, writer, self.shape, scaled=scaled)
         self.trigonometry = Trigonometry(field, self.atoms)
         self.grouper = Grouper(self.atoms)
 
     def shape(self, element: Element) -> Expression:
         """The tree of an element."""
-        return write(self.plan(element), self.atoms, self.writer)
+        return self.written(self.plan(element))
+
+    def written(self, plan: Product | Sum) -> Expression:
+        """The tree of a plan made here."""
+        return write(plan, self.atoms, self.writer)
 
     def to_sympy(self, tree: Expression) -> Expr:
         """The SymPy expression of a tree made here."""
@@ -59,9 +69,6 @@ class Shaper:
             if candidate.score < best.score:
                 best = candidate
         return best
-
-    def _radicand(self, poly: Poly) -> Expression:
-        return write(self._factors(poly), self.atoms, self.writer)
 
     def _divided(self, element: Element) -> Iterator[Sum]:
         """N/D = Q + R/D for a factor D of the denominator that divides part of N."""
@@ -135,7 +142,8 @@ class Shaper:
             root = self.atoms.radicand(factor)
             if root is not None:
                 number *= root[0] ** int(exponent)
-                parts[root[1]] = parts.get(root[1], 0) + int(exponent)
+                for atom, each in root[1]:
+                    parts[atom] = parts.get(atom, 0) + each * int(exponent)
                 continue
             plan = self._polynomial(factor)
             if isinstance(plan, Sum):
