@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
 from lagcli.answers import (
@@ -16,7 +16,7 @@ from lagcli.answers import (
     Rewritten,
     Solutions,
 )
-from lagcli.expression import ZERO, Name, Number, Power
+from lagcli.expression import ZERO, Expression, Name, Number, Power, operation_count
 from lagcli.formatters.document import (
     Block,
     Equations,
@@ -33,6 +33,9 @@ _SOURCES = {
     "time": "translation in time",
     "discovered": "discovered",
 }
+
+#: A value with so many operations stands within a sentence.
+_SHORT = 3
 
 _CHECKED = {
     "exact": ", checked exactly",
@@ -67,9 +70,9 @@ def _verdict(charge: Charge) -> str:
         return f"Conserved: dQ/dt = 0 on the motion{checked}."
     if charge.conserved is None:
         words = "Whether it is conserved is undecided"
-    else:
-        words = f"Not conserved{checked}"
-    return f"{words}: {charge.broken_by}" if charge.broken_by else f"{words}."
+        return f"{words}: {charge.broken_by}." if charge.broken_by else f"{words}."
+    words = f"Not conserved{checked}"
+    return f"{words}; broken by {charge.broken_by}." if charge.broken_by else f"{words}."
 
 
 def find_blocks(section: FindSection) -> Iterator[Block]:
@@ -98,9 +101,22 @@ def equilibrium_blocks(section: EquilibriaSection) -> Iterator[Block]:
     elif not section.equilibria:
         yield Paragraph(("There is none.",))
     for equilibrium in section.equilibria or ():
-        if equilibrium.at:
-            yield Equations(tuple(Row(Name(n), value) for n, value in equilibrium.at.items()))
+        yield from _state(equilibrium.at)
         yield Paragraph(_stability(equilibrium))
+
+
+def _state(at: Mapping[str, Expression], before: str = "") -> Iterator[Block]:
+    """A state: on one line where its values are short, else as equations."""
+    if all(operation_count(value) <= _SHORT for value in at.values()):
+        parts: list[str | Formula] = [before]
+        for position, (name, value) in enumerate(at.items()):
+            parts += [", " if position else "", Name(name), " = ", value]
+        if at:
+            yield Paragraph((*parts, ":"))
+        return
+    if before:
+        yield Paragraph((before,))
+    yield Equations(tuple(Row(Name(name), value) for name, value in at.items()))
 
 
 def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:
@@ -128,25 +144,16 @@ def mode_blocks(section: ModesSection) -> Iterator[Block]:
     for mode in section.modes or ():
         if mode.at != about:
             about = mode.at
-            yield Paragraph(("About the equilibrium",))
-            yield Equations(tuple(Row(Name(n), value) for n, value in mode.at.items()))
-        yield from _mode(mode)
+            yield from _state(mode.at, "Angular frequencies and shapes about the equilibrium ")
+        yield Equations(tuple(_mode(mode)))
 
 
-def _mode(mode: Mode) -> Iterator[Block]:
+def _mode(mode: Mode) -> Iterator[Row]:
     note = f"{mode.multiplicity} times" if mode.multiplicity > 1 else ""
-    rows = []
     if mode.frequency is not None:
-        rows.append(Row(Name("omega"), mode.frequency, note))
+        yield Row(Name("omega"), mode.frequency, note)
     elif mode.frequency_squared is not None:
-        rows.append(
-            Row(
-                Power(Name("omega"), Number(Fraction(2))),
-                mode.frequency_squared,
-                note or "not real",
-            )
-        )
-    rows += [Row(Label("a", (name,)), part) for name, part in (mode.shape or {}).items()]
-    yield Paragraph(("Angular frequency and shape:" if mode.shape else "Angular frequency:",))
-    if rows:
-        yield Equations(tuple(rows))
+        squared = Power(Name("omega"), Number(Fraction(2)))
+        yield Row(squared, mode.frequency_squared, note or "not real")
+    for name, part in (mode.shape or {}).items():
+        yield Row(Label("a", (name,)), part)

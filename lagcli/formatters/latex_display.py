@@ -66,13 +66,13 @@ class LatexDisplay:
             rows = r" \\ ".join(" & ".join(box.text for box in row) for row in boxes)
             yield [rf"{joined(head)} &= \begin{{pmatrix}} {rows} \end{{pmatrix}}"]
             return
-        for i, row in enumerate(matrix.entries):
-            listed = [
-                Row(matrix.entry_label(i, j), entry)
-                for j, entry in enumerate(row)
-                if boxes[i][j].text != "0"
-            ]
-            yield from self.equations(Equations(tuple(listed)))
+        listed = [
+            Row(matrix.entry_label(i, j), entry)
+            for i, row in enumerate(matrix.entries)
+            for j, entry in enumerate(row)
+            if boxes[i][j].text != "0"
+        ]
+        yield from self.equations(Equations(tuple(listed)))
 
     def _shown(self, row: Row) -> _Shown:
         return _Shown(self.formula(row.left), self.formula(row.right), row.note)

@@ -40,7 +40,7 @@ from lagcli.formatters.numbers import DecimalParts, decimal_parts, digit_groups
 from lagcli.formatters.precedence import Level, Printer
 
 #: Nothing that cannot be broken is wider, in points.
-WIDEST = 185.0
+WIDEST = 205.0
 
 _FUNCTIONS = {
     **{f: rf"\{f}" for f in ("sin", "cos", "tan", "cot", "sec", "csc")},
@@ -153,14 +153,18 @@ class LatexPrinter(Printer[Box]):
             follower = boxes[position + 1] if position + 1 < len(boxes) else None
             open_end = follower is None or _is_function(follower)
             pieces += box.pieces if open_end or box.closed is None else box.closed
-        return Box(tuple(pieces), Level.PRODUCT, max(box.height for box in boxes))
+        last = boxes[-1]
+        closed = None
+        if last.closed is not None:
+            closed = (*pieces[: -len(last.pieces)], *last.closed)
+        return Box(tuple(pieces), Level.PRODUCT, max(box.height for box in boxes), closed)
 
     def quotient(self, node: Quotient) -> Box:
         return self._fraction(self.show(node.numerator), self.show(node.denominator))
 
     def _fraction(self, above: Box, below: Box) -> Box:
         if below.width > WIDEST:
-            numerator = above if above.level >= Level.POWER else self.bracketed(above)
+            numerator = above if above.level >= Level.PRODUCT else self.bracketed(above)
             pieces = numerator.closed or numerator.pieces
             inverse = self.bracketed(below, after="^{-1}")
             gap = _breakable(r" \, ", THIN_SPACE, PRODUCT, r"\cdot ", BINARY)
@@ -290,7 +294,7 @@ def _breakable(text: str, width: float, rank: int, broken: str, broken_width: fl
 
 
 def _between(before: Box, after: Expression, shown: Box) -> Piece:
-    r"""Set the gap between two factors: \cdot before a number, a thin space before brackets and words.
+    r"""Set the gap between two factors: \cdot before a number, a thin space at brackets and words.
 
     x\,(a + b) is a product, U(a + b) a function.
     """
@@ -300,7 +304,7 @@ def _between(before: Box, after: Expression, shown: Box) -> Piece:
     neighbours = before.pieces[-1].text + first.text
     if first.nesting or "text" in neighbours or "mathit" in neighbours:
         return _breakable(r" \, ", THIN_SPACE, PRODUCT, r"\cdot ", BINARY)
-    return _breakable(" ", THIN_SPACE, PRODUCT, r"\cdot ", BINARY)
+    return _breakable(" ", 0.3, PRODUCT, r"\cdot ", BINARY)
 
 
 def _is_numeral(node: Expression) -> bool:
@@ -326,5 +330,5 @@ def _digits(value: int) -> Layout:
     pieces = [Piece(first, text_width(first))]
     for group in others:
         size = text_width(group)
-        pieces.append(_breakable(group, size, DIGITS, group, size))
+        pieces.append(Piece(group, size, 0, DIGITS, group, size, tail=r" \backslash"))
     return tuple(pieces)

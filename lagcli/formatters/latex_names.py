@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection, Mapping
 
 from lagcli.formatters.document import Label
-from lagcli.formatters.greek import LATEX, latex_of_name
+from lagcli.formatters.greek import BY_NAME, LATEX, latex_of_name
 from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.latex_width import SCRIPT, text_width
 from lagcli.formatters.naming import name_parts
@@ -51,8 +51,8 @@ class LatexNames:
         if self._is_momentum(name):
             return text_width("p") + SCRIPT * self.width(name[2:]) + 3 * primes
         parts = name_parts(name)
-        size = text_width("m" if latex_of_name(parts.base) else parts.base)
-        indices = ["m" if latex_of_name(each) else each for each in parts.subscripts]
+        size = text_width(_as_wide(parts.base))
+        indices = [_as_wide(each) for each in parts.subscripts]
         return size + SCRIPT * text_width(",".join(indices)) + 3 * max(0, primes - 2)
 
     def bare(self, name: str) -> bool:
@@ -117,6 +117,14 @@ class LatexNames:
         if _PLAIN_WORD.fullmatch(base):
             return rf"\mathit{{{base}}}"
         return rf"\text{{{latex_text(base)}}}"
+
+
+def _as_wide(word: str) -> str:
+    """Latin letters as wide as a word is set: a Greek letter is one of them."""
+    letter = BY_NAME.get(word, word)
+    if letter not in LATEX:
+        return word
+    return "m" if letter.isupper() else "J"
 
 
 def _ascii(symbol: str) -> str:

@@ -19,7 +19,7 @@ _WIDTHS = {
     **dict.fromkeys("ijl,.;:'|!", 4.4),
     **dict.fromkeys("()[]frst", 5.2),
     **dict.fromkeys("0123456789", 5.05),
-    **dict.fromkeys("abcdeghknopquvxyz", 6.0),
+    **dict.fromkeys("abcdeghknopquvxyz", 5.9),
     **dict.fromkeys("mwMW", 10.8),
     **dict.fromkeys("IJ", 6.6),
     **dict.fromkeys("ABCDEFGHKLNOPQRSTUVXYZ", 9.1),

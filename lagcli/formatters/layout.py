@@ -12,8 +12,8 @@ from dataclasses import dataclass
 #: How bad a break is, apart from its brackets.
 RELATION, SUM, COMMA, PRODUCT, OPENING, DIGITS = 0, 1, 1, 3, 7, 8
 
-#: One more pair of brackets around a break is as bad as two lower ranks.
-_NESTING = 2.0
+#: One more pair of brackets around a break is worse than a product outside them.
+_NESTING = 3.0
 #: An empty line is as bad as this many ranks.
 _RAGGEDNESS = 6.0
 

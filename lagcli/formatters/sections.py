@@ -247,7 +247,11 @@ def _energy(section: EnergySection) -> Iterator[Block]:
         None: "",
     }
     words = conserved[section.conserved] + total[section.is_total_energy]
-    yield Paragraph((f"{words} {section.reason}".strip(),))
+    reason = section.reason.strip().rstrip(".")
+    if reason.startswith(("conserved", "not conserved")):  # it says all of that, and why
+        yield Paragraph((f"{reason[0].upper()}{reason[1:]}.",))
+    else:
+        yield Paragraph((f"{words} {reason}.".replace(" .", ""),))
 
 
 def _canonical(section: CanonicalSection) -> Iterator[Block]:

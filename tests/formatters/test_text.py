@@ -105,7 +105,7 @@ def test_every_section_is_there():
         "checked exactly",
         "at random states to 50 digits",
         "Q̇  = M R g sin(α)/2",
-        "the constraint force",
+        "50 digits;",
         "(rolling: holonomic)",
         "θ = arccos(4/7)",
     ):
