@@ -73,9 +73,10 @@ def solve_files(files: Sequence[str], asked: Asked, printing: Printing) -> Statu
     for mistake in asked.mistakes:
         tell_line(f"lagcli: error: {mistake}")
         tally.wrong = True
-    _check_output(printing, tally)
+    has_place = _has_place(printing.output)
+    tally.wrong = tally.wrong or not has_place
     problems = [_read(name, asked.request, tally) for name in files]
-    if asked.mistakes:
+    if asked.mistakes or not has_place:
         return tally.status
     answers = [
         answer
@@ -88,18 +89,17 @@ def solve_files(files: Sequence[str], asked: Asked, printing: Printing) -> Statu
     return tally.status
 
 
-def _check_output(printing: Printing, tally: Tally) -> None:
-    """See, before any work is done, that there is a place for what comes out of it."""
-    path = printing.output
-    if path is None:
-        return
-    if path.is_dir():
-        tell_line(f"{path}: error: is a directory")
-    elif not path.resolve().parent.is_dir():
-        tell_line(f"{path}: error: there is no directory {path.resolve().parent}")
-    else:
-        return
-    tally.wrong = True
+def _has_place(output: Path | None) -> bool:
+    """Whether there is a place for what comes out; asked before any work is done."""
+    if output is None:
+        return True
+    if output.is_dir():
+        tell_line(f"{output}: error: is a directory")
+        return False
+    if not output.resolve().parent.is_dir():
+        tell_line(f"{output}: error: there is no directory '{output.parent}'")
+        return False
+    return True
 
 
 def _read(name: str, request: Request, tally: Tally) -> Problem | None:

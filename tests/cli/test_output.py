@@ -1,0 +1,80 @@
+"""`--output` writes the whole file or none of it."""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+import sys
+from pathlib import Path
+
+import pytest
+
+from lagcli.cli.files import write_output
+from lagcli.cli.run import run
+from tests.cli.conftest import FILES
+
+SOLVE = ["solve", str(FILES / "pendulum.yaml"), "--show", "momenta", "-f", "json"]
+
+
+def test_output_is_what_would_be_printed(tmp_path, capsysbinary):
+    assert run([*SOLVE, "-o", str(tmp_path / "answer.json")]) == 0
+    assert capsysbinary.readouterr().out == b""
+    run(SOLVE)
+    assert (tmp_path / "answer.json").read_bytes() == capsysbinary.readouterr().out
+
+
+def test_a_write_that_fails_leaves_the_old_file_and_nothing_beside_it(tmp_path, monkeypatch):
+    path = tmp_path / "answer.json"
+    path.write_text("old")
+
+    def full(_handle):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OSError, match="No space"):
+        write_output(path, b"new")
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_file_that_is_wrong_leaves_the_old_output(tmp_path):
+    path = tmp_path / "answer.json"
+    path.write_text("old")
+    assert run(["solve", str(FILES / "wrong.yaml"), "-o", str(path)]) == 2
+    assert path.read_text() == "old"
+
+
+def test_several_files_make_one_output(tmp_path):
+    path = tmp_path / "answers.json"
+    files = [str(FILES / "pendulum.yaml"), str(FILES / "atwood.yaml")]
+    assert run(["solve", *files, "--show", "momenta", "-f", "json", "-o", str(path)]) == 0
+    titles = [each["title"] for each in json.loads(path.read_text())]
+    assert titles == ["Pendulum", "Atwood's machine"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="permissions are others there")
+def test_a_new_file_has_the_usual_permissions_and_an_old_one_keeps_its_own(tmp_path):
+    path = tmp_path / "answer"
+    mask = os.umask(0o027)
+    try:
+        write_output(path, b"new")
+        assert stat.S_IMODE(path.stat().st_mode) == 0o640
+        path.chmod(0o600)
+        write_output(path, b"newer")
+        assert stat.S_IMODE(path.stat().st_mode) == 0o600
+    finally:
+        os.umask(mask)
+
+
+def test_a_link_stays_a_link(tmp_path):
+    (tmp_path / "target").write_text("old")
+    (tmp_path / "link").symlink_to(tmp_path / "target")
+    write_output(tmp_path / "link", b"new")
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "target").read_text() == "new"
+
+
+def test_what_is_no_file_is_written_as_it_is():
+    write_output(Path(os.devnull), b"new")
+    assert not Path(os.devnull).is_file()

@@ -1,0 +1,104 @@
+"""What only a whole process shows: pipes, signals, encodings, standard input."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from tests.cli.conftest import FILES
+
+MOMENTA = ("--show", "momenta", "-f", "json")
+
+
+def test_a_problem_may_come_from_standard_input(lagcli):
+    done = lagcli("solve", "-", *MOMENTA, input=(FILES / "pendulum.yaml").read_bytes())
+    assert json.loads(done.stdout)["momenta"] == {"theta": "m*l^2*theta'"}
+    assert (done.returncode, done.stderr) == (0, b"")
+
+
+def test_standard_input_is_named_with_a_dash(lagcli):
+    done = lagcli("solve", "-", input=b"coordinates: [x]\nL: x'^2 + q\n")
+    assert done.returncode == 2
+    assert done.stderr.startswith(b"-:2:11: error: unknown name 'q'")
+
+
+def test_the_same_input_gives_the_same_bytes(lagcli):
+    one, other = (
+        lagcli("solve", "atwood.yaml", env={"PYTHONHASHSEED": seed, "COLUMNS": columns})
+        for seed, columns in (("1", "40"), ("2", "200"))
+    )
+    assert one.stdout == other.stdout
+    assert one.returncode == 0
+
+
+def test_a_reader_that_leaves_is_no_error(lagcli):
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = subprocess.run(
+        [sys.executable, "-m", "lagcli", "solve", "pendulum.yaml", "--show", "momenta"],
+        cwd=FILES,
+        stdout=writing,
+        stderr=subprocess.PIPE,
+        check=False,
+    )
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (0, b"")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="SIGINT is sent otherwise")
+def test_an_interrupt_ends_with_130_and_without_a_traceback(tmp_path):
+    pipe = tmp_path / "pipe.yaml"  # nobody ever writes to it: lagcli waits
+    os.mkfifo(pipe)
+    running = subprocess.Popen(
+        [sys.executable, "-m", "lagcli", "solve", str(pipe)], stderr=subprocess.PIPE
+    )
+    time.sleep(1.5)
+    running.send_signal(signal.SIGINT)
+    _, told = running.communicate(timeout=20)
+    assert (running.returncode, told) == (130, b"")
+
+
+def test_text_is_ascii_where_the_terminal_is(lagcli):
+    done = lagcli("solve", "pendulum.yaml", env={"PYTHONIOENCODING": "ascii"})
+    assert done.returncode == 0
+    assert done.stdout.isascii()
+    assert b"theta" in done.stdout
+
+
+def test_a_mistake_of_lagcli_is_one_line(lagcli, tmp_path):
+    (tmp_path / "sitecustomize.py").write_text(
+        "import lagcli.mechanics.derivation as d\n"
+        "def broken(self, problem): raise ZeroDivisionError('of a test')\n"
+        "d.Derivation.__init__ = broken\n"
+    )
+    done = lagcli("solve", "pendulum.yaml", env={"PYTHONPATH": str(tmp_path)})
+    assert (done.returncode, done.stdout) == (1, b"")
+    assert done.stderr.decode() == (
+        "pendulum.yaml: error: this is a bug of lagcli (ZeroDivisionError: of a test); "
+        "LAGCLI_TRACEBACK=1 shows where\n"
+    )
+    env = {"PYTHONPATH": str(tmp_path), "LAGCLI_TRACEBACK": "1"}
+    assert b"Traceback" in lagcli("solve", "pendulum.yaml", env=env).stderr
+
+
+def test_deep_formulas_are_solved(lagcli, tmp_path):
+    deep = "(" * 190 + "theta" + " + 1)" * 190
+    (tmp_path / "deep.yaml").write_text(
+        f"coordinates: [theta]\nT: theta'^2/2\nV: {deep}\n", encoding="utf-8"
+    )
+    done = lagcli("solve", "deep.yaml", "--show", "accelerations", "-f", "json", cwd=tmp_path)
+    assert done.stderr == b""
+    assert json.loads(done.stdout)["accelerations"] == {"theta": "-1"}
+
+
+def test_a_missing_file_does_not_stop_the_others(lagcli):
+    done = lagcli("solve", "nowhere.yaml", "pendulum.yaml", *MOMENTA)
+    assert [each["title"] for each in json.loads(done.stdout)] == ["Pendulum"]
+    assert done.returncode == 2
+    assert done.stderr == b"nowhere.yaml: error: no such file or directory\n"
