@@ -91,7 +91,12 @@ class Hamiltonian:
             constraint = sympy.Add(
                 *(e.multiplier * e.row[j] for e in self.dynamics.constraints.equations)
             )
-            pairs.append((simplify(h.diff(p)), simplify(-h.diff(q) + force + constraint)))
+            if self._is_quadratic:
+                pairs.append((simplify(h.diff(p)), simplify(-h.diff(q) + force + constraint)))
+                continue
+            # dH/dp = q'(q, p) and -dH/dq = dL/dq, which spares a derivative of roots and signs
+            slope = system.L.diff(q).xreplace(flow)
+            pairs.append((self.velocities[j], simplify(slope + force + constraint)))
         return tuple(pairs)
 
     # -- the inversion ------------------------------------------------------------------
