@@ -10,7 +10,7 @@ from sympy import Expr
 from sympy.core.function import AppliedUndef
 
 from lagcli.algebra.writing import Writer, name
-from lagcli.expression import Call, Expression, Name, PartialCall, Power
+from lagcli.expression import Call, Expression, Name, PartialCall, Power, operation_count
 
 _NAMES = {"Abs": "abs"}
 
@@ -41,6 +41,13 @@ class Translator:
         if known is None:
             known = self._memo[node] = self._tree(node)
         return known
+
+    def count(self, node: Expr) -> int | None:
+        """The operations of the expression as it stands; None where it has no tree."""
+        try:
+            return operation_count(self.tree(node))
+        except TypeError:
+            return None
 
     def _tree(self, node: Expr) -> Expression:
         if node.is_Symbol:

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from lagcli.algebra.entry import Field
 
 #: Beyond these, an argument is a base argument of its own.
-MAX_MULTIPLE = 24
-MAX_PARTS = 12
+MAX_MULTIPLE = 10
+MAX_PARTS = 10
 
 _INVERSE = (
     sympy.log, sympy.asin, sympy.acos, sympy.atan, sympy.atan2,
@@ -130,6 +130,11 @@ class Multiples:
         field, sign = self.field, -1 if self.kind == "circular" else 1
         cosine, sine = field.rational(1), field.rational(0)
         parts = split(field, argument)
+        if sum(abs(multiple) for multiple, _ in parts) > MAX_MULTIPLE:
+            # expanded, it would be longer than anyone wants to see
+            field.doubtful = True
+            number = parts[0][0]
+            parts = [(Fraction(1 if number > 0 else -1), argument if number > 0 else -argument)]
         for position, (multiple, base) in enumerate(parts):
             if base is sympy.pi and self.kind == "circular":
                 value = multiple.numerator * base / multiple.denominator

@@ -53,7 +53,11 @@ def simplify(expression: Expr, relations: Relations | None = None) -> Expr:
         element = field(expression)
     except ZeroDivisionError:
         return expression
-    return readable(field, element, relations)
+    tree, shaper = _shortest(field, Writer(), element, relations)
+    given = Translator(shaper.writer).count(expression)
+    if given is not None and given < operation_count(tree):
+        return expression
+    return shaper.to_sympy(tree)
 
 
 def readable(field: Field, element: Element, relations: Relations | None = None) -> Expr:
