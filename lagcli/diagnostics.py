@@ -111,19 +111,19 @@ def render(source: Source, diagnostics: Iterable[Diagnostic], limit: int = 50) -
 def _place(name: str, lines: list[str], span: Span, label: str, hint: str) -> Iterator[str]:
     """`file:line:column: label`, the line, and the carets with the hint behind them."""
     if span.line < 1:  # no place in the file
-        yield f"{_printable(name)}: {_printable(label)}"
+        yield f"{printable(name)}: {printable(label)}"
         if hint:
-            yield f"      = {_printable(hint)}"
+            yield f"      = {printable(hint)}"
         return
-    yield f"{_printable(name)}:{span.line}:{span.column}: {_printable(label)}"
+    yield f"{printable(name)}:{span.line}:{span.column}: {printable(label)}"
     line = lines[span.line - 1] if span.line <= len(lines) else ""
     start = min(span.column - 1, len(line))
     end = min(span.end_column - 1, len(line)) if span.end_line == span.line else len(line)
     before, marked, after = line[:start], line[start:end], line[end:]
-    before, marked, after = _cut(_printable(before), _printable(marked), _printable(after))
+    before, marked, after = _cut(printable(before), printable(marked), printable(after))
     carets = "^" * max(1, _width(marked))
     yield f"{span.line:5} | {before}{marked}{after}".rstrip()
-    yield f"      | {' ' * _width(before)}{carets} {_printable(hint)}".rstrip()
+    yield f"      | {' ' * _width(before)}{carets} {printable(hint)}".rstrip()
 
 
 def _cut(before: str, marked: str, after: str) -> tuple[str, str, str]:
@@ -142,7 +142,7 @@ def _cut(before: str, marked: str, after: str) -> tuple[str, str, str]:
     return before, marked, after
 
 
-def _printable(text: str) -> str:
+def printable(text: str) -> str:
     """The text without tabs, and with what a terminal would obey made visible."""
     return "".join(_shown(character) for character in text)
 

@@ -7,8 +7,9 @@ import threading
 from collections.abc import Callable
 from typing import TypeVar
 
-_FRAMES = 60_000
 _BYTES = 512 * 1024 * 1024  # of address space; only what is used is taken
+_LEAST_BYTES = 1024 * 1024
+_BYTES_OF_FRAME = 8192  # of C stack, for a Python frame that is called from C
 
 Result = TypeVar("Result")
 
@@ -28,28 +29,30 @@ def with_deep_stack(work: Callable[[], Result]) -> Result:
         except BaseException as error:  # noqa: BLE001 - raised again below
             errors.append(error)
 
-    thread = _started(run)
-    thread.join()  # an interrupt is raised here, in the main thread
+    usual = sys.getrecursionlimit()
+    try:
+        _started(run).join()  # an interrupt is raised here, in the main thread
+    finally:
+        sys.setrecursionlimit(usual)
     if errors:
         raise errors[0]
     return results[0]
 
 
 def _started(run: Callable[[], None]) -> threading.Thread:
-    """A thread with the largest stack that this machine grants."""
+    """A thread with the largest stack that this machine grants, and as many frames."""
     size = _BYTES
     while True:
+        sys.setrecursionlimit(max(1000, size // _BYTES_OF_FRAME))
         before = threading.stack_size(size)
         thread = threading.Thread(target=run, name="lagcli", daemon=True)
         try:
             thread.start()
         except RuntimeError:  # not so much address space here (ulimit -v)
-            if size <= 1024 * 1024:
+            if size <= _LEAST_BYTES:
                 raise
             size //= 4
         else:
-            # about 8 KiB of C stack for a Python frame called from C
-            sys.setrecursionlimit(max(1000, min(_FRAMES, size // 8192)))
             return thread
         finally:
             threading.stack_size(before)

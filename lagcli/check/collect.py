@@ -9,7 +9,11 @@ SUFFIXES = (".yaml", ".yml")
 
 
 class NothingToCheck(Exception):
-    """A path where there is no problem; the message says which and why."""
+    """Paths where there is no problem; `lines` say which and why."""
+
+    def __init__(self, lines: Sequence[str]) -> None:
+        super().__init__("; ".join(lines))
+        self.lines = tuple(lines)
 
 
 def problem_files(paths: Sequence[str]) -> list[str]:
@@ -36,5 +40,5 @@ def problem_files(paths: Sequence[str]) -> list[str]:
         else:
             mistakes.append(f"{name}: error: no such file or directory")
     if mistakes:
-        raise NothingToCheck("\n".join(mistakes))
+        raise NothingToCheck(mistakes)
     return list(files)

@@ -23,7 +23,8 @@ def check_paths(paths: Sequence[str], form: str, jobs: int | None, limit: float)
     try:
         files = problem_files(paths)
     except NothingToCheck as error:
-        tell_line(str(error))
+        for line in error.lines:
+            tell_line(line)
         return Status.USAGE
     if form not in FORMS:
         return Status.USAGE

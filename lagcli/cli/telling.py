@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from lagcli.diagnostics import Diagnostic, Source, render
+from lagcli.diagnostics import Diagnostic, Source, printable, render
 
 
 def tell(source: Source, diagnostics: Sequence[Diagnostic]) -> None:
@@ -22,7 +22,7 @@ def tell(source: Source, diagnostics: Sequence[Diagnostic]) -> None:
 
 def tell_line(line: str) -> None:
     """Show one sentence that has no place in a file."""
-    sys.stderr.write(line.rstrip("\n") + "\n")
+    sys.stderr.write(printable(line) + "\n")
     sys.stderr.flush()
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from lagcli.check.findings import Report
-from lagcli.diagnostics import NOWHERE, Span
+from lagcli.diagnostics import NOWHERE, Span, printable
 
 
 def render(reports: Iterable[Report]) -> Iterator[str]:
@@ -42,7 +42,9 @@ def _command(severity: str, report: Report, span: Span, title: str, message: str
 
 
 def _data(text: str) -> str:
-    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+    """The text with its line breaks and percent signs escaped."""
+    lines = map(printable, text.replace("%", "%25").splitlines())
+    return "%0A".join(lines)
 
 
 def _property(text: str) -> str:

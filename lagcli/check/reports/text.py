@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from lagcli.check.findings import Finding, Outcome, Report
-from lagcli.diagnostics import NOWHERE
+from lagcli.diagnostics import NOWHERE, printable
 from lagcli.diagnostics import render as render_diagnostics
 
 
@@ -25,18 +25,19 @@ def render(reports: Iterable[Report]) -> Iterator[str]:
 
 def _lines(report: Report) -> Iterator[str]:
     if report.passed:
-        yield f"passed  {report.source.name}  ({report.checks} checks)"
+        yield f"passed  {printable(report.source.name)}  ({report.checks} checks)"
         return
-    yield f"FAILED  {report.source.name}  ({report.outcome.value})"
+    yield f"FAILED  {printable(report.source.name)}  ({report.outcome.value})"
     for line in render_diagnostics(report.source, report.diagnostics).splitlines():
         yield f"    {line}"
     for finding in report.findings:
         yield f"    {place(report, finding)}: {finding.outcome.value}: {finding.subject}"
-        yield f"        {finding.message}"
+        yield f"        {printable(finding.message)}"
 
 
 def place(report: Report, finding: Finding) -> str:
     """`file:line:column` of the expectation, or the file alone."""
+    name = printable(report.source.name)
     if finding.span == NOWHERE:
-        return report.source.name
-    return f"{report.source.name}:{finding.span.line}:{finding.span.column}"
+        return name
+    return f"{name}:{finding.span.line}:{finding.span.column}"
