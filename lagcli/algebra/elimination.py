@@ -128,9 +128,7 @@ class Elimination:
                 product = product * ring.lift(factor)
         return ring.lift(element.numerator) if product.is_constant() else product
 
-    def _linear(
-        self, field: Field, poly: Poly
-    ) -> Iterable[tuple[tuple[int, ...], Symbol, Expr]]:
+    def _linear(self, field: Field, poly: Poly) -> Iterable[tuple[tuple[int, ...], Symbol, Expr]]:
         """The symbols in which the relation is linear, with the cost of each solution."""
         ring = field.ring
         poly = ring.lift(poly)
@@ -161,9 +159,7 @@ class Elimination:
         except ZeroDivisionError:
             return False
         ring = field.ring
-        used = {
-            g for e in elements for p in (e.numerator, e.denominator) for g in ring.used(p)
-        }
+        used = {g for e in elements for p in (e.numerator, e.denominator) for g in ring.used(p)}
         wanted = {s for s in self.remove if not isinstance(s, Dummy)}
         for g in sorted(used):
             generator = field.generators[g]

@@ -65,12 +65,17 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
     angles = angle_roots(field, poly, cosine)
     if angles is None:
         return None
+    angles = [_rounded(angle) for angle in angles]
     if factor == 1:
         return Roots(tuple(angles), angle=True)
     if factor.is_Rational and factor.p == 1:
         # sin and cos of theta/n: theta lies in (-pi, pi] where theta/n is in (-pi/n, pi/n]
-        return None if any(a.free_symbols for a in angles) else Roots(
-            tuple(a / factor for a in angles if -sympy.pi < a / factor <= sympy.pi), angle=True
+        return (
+            None
+            if any(a.free_symbols for a in angles)
+            else Roots(
+                tuple(a / factor for a in angles if -sympy.pi < a / factor <= sympy.pi), angle=True
+            )
         )
     return Roots(tuple(a / factor for a in angles), angle=False)
 
@@ -100,9 +105,7 @@ def polynomial_roots(field: Field, poly: Poly, generator: int) -> list[Expr] | N
     return [root for root in dict.fromkeys(roots) if root.is_real is not False]
 
 
-def factor_roots(
-    field: Field, poly: Poly, generator: int
-) -> list[tuple[list[Expr] | None, int]]:
+def factor_roots(field: Field, poly: Poly, generator: int) -> list[tuple[list[Expr] | None, int]]:
     """For each irreducible factor its roots (None without a closed form) and its multiplicity."""
     ring = field.ring
     _, factors = ring.lift(poly).factor()
@@ -200,6 +203,13 @@ def decimal(value: Expr) -> Expr:
 def is_decimal(value: Expr) -> bool:
     """Whether a root is one that `decimal` rounded."""
     return bool(value.is_Rational and len(str(value.q)) > _DECIMALS // 2)
+
+
+def _rounded(value: Expr) -> Expr:
+    """A function of a decimal as a decimal."""
+    if value.is_number and any(map(is_decimal, value.atoms(Rational))):
+        return decimal(value.evalf(_DECIMALS + 10))
+    return value
 
 
 def angle_roots(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:

@@ -107,7 +107,9 @@ class _Completion:
                         self.values[unknown[0]] = value
                         progress = True
 
-    def _solve(self, equation: Expr, unknown: Symbol, constraint: ConstraintEquation) -> Expr | None:
+    def _solve(
+        self, equation: Expr, unknown: Symbol, constraint: ConstraintEquation
+    ) -> Expr | None:
         """The value that the equation determines; None where it leaves the value open."""
         field = Field([equation])
         element, number = field(equation), field.number_of(unknown)

@@ -54,8 +54,7 @@ class LevelSet:
         noether = Noether(self.dynamics, EnergyFunction(self.dynamics))
         quantities = [*self._integrals_of_constraints(), *noether.conserved_quantities()]
         laws = [
-            quantity - simplify(self.initial.at(quantity, self.system.t))
-            for quantity in quantities
+            quantity - simplify(self.initial.at(quantity, self.system.t)) for quantity in quantities
         ]
         laws = [law for law in laws if law.is_finite is not False and is_zero(law) is not True]
         return tuple(sorted(laws, key=lambda law: not free_of(law, [self.system.t])))
@@ -79,9 +78,7 @@ class LevelSet:
 
     # -- states on it ----------------------------------------------------------------------
 
-    def states(
-        self, count: int, values: Mapping[Symbol, mpf] | None = None
-    ) -> list[State]:
+    def states(self, count: int, values: Mapping[Symbol, mpf] | None = None) -> list[State]:
         """Up to `count` real states of the set at 50 digits, fewer where none were found.
 
         Parameters

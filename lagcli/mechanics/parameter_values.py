@@ -45,8 +45,7 @@ def admissible_values(system: System, count: int) -> list[dict[Symbol, mpf]]:
         return [given]
     source = random.Random("lagcli parameters")
     return [
-        {p: given.get(p, _random_value(source, p)) for p in system.parameters}
-        for _ in range(count)
+        {p: given.get(p, _random_value(source, p)) for p in system.parameters} for _ in range(count)
     ]
 
 

@@ -98,9 +98,7 @@ class Reach:
     def _open_until(self, target: mpf) -> bool:
         """Whether w >= 0 and every contact holds on the way."""
         way = target - self.start
-        return all(
-            self._state(self.start + way * k / _SAMPLES) == FREE for k in range(1, _SAMPLES)
-        )
+        return all(self._state(self.start + way * k / _SAMPLES) == FREE for k in range(1, _SAMPLES))
 
     def _state(self, u: mpf) -> str:
         try:
@@ -140,9 +138,7 @@ class Reach:
         return self._state(self.start + direction * outside)
 
 
-def real_value(
-    expression: Expr, values: Mapping[Symbol, mpf], digits: int = DIGITS
-) -> mpf | None:
+def real_value(expression: Expr, values: Mapping[Symbol, mpf], digits: int = DIGITS) -> mpf | None:
     """The value of a formula, None where it is not a finite real number."""
     try:
         [value] = Evaluator([expression], digits)(values)
@@ -151,5 +147,3 @@ def real_value(
     if isinstance(value, mpmath.mpc):
         return value.real if abs(value.imag) < _SMALL * abs(value) else None
     return value if mpmath.isfinite(value) else None
-
-

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
+from time import monotonic
 
 import mpmath
 import sympy
@@ -12,28 +12,19 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, simplify
-from lagcli.algebra.equations import Roots, solve_for
+from lagcli.algebra.equations import Roots, is_decimal, solve_for
 from lagcli.algebra.numeric import Evaluator
 from lagcli.answers import Solutions
-from lagcli.mechanics.find import AlongTheMotion
+from lagcli.mechanics.along_the_motion import AlongTheMotion
 from lagcli.mechanics.parameter_values import admissible_values
-from lagcli.mechanics.reach import LineOfMotion, Reach, real_value
+from lagcli.mechanics.passing import Passage, Passing, admissible
+from lagcli.mechanics.reach import real_value
 from lagcli.problem import Where as WhereQuestion
 
-_CHOICES = 8  # of parameter values, where the file gives none
-_ZERO = mpf(10) ** -12
+_CHOICES = 24  # of parameter values, where the file gives none
+_VERIFIED = 3  # of these, at which a root is substituted
 _EXACTLY = mpf(10) ** -40
-
-
-@dataclass(frozen=True, slots=True)
-class Root:
-    """A root of the equation with the other unknown it was solved together with.
-
-    `velocity` is u' at the root, where the equation speaks of it.
-    """
-
-    value: Expr
-    velocity: Expr | None = None
+_ROUNDED = mpf(10) ** -10  # for roots given as decimals
 
 
 class Where:
@@ -42,11 +33,9 @@ class Where:
     def __init__(self, along: AlongTheMotion, question: WhereQuestion) -> None:
         self.along = along
         self.system = along.system
-        self.question = question
         self.unknown = self.system.symbol_of(str(question.unknown))
-        equation = question.equation
         build = self.system.build
-        self.equation = build(equation.left) - build(equation.right)
+        self.equation = build(question.equation.left) - build(question.equation.right)
         self.notes: list[str] = []
 
     def solutions(self) -> Solutions:
@@ -56,7 +45,7 @@ class Where:
         elif self.unknown in self.system.qdot:
             roots = self._velocity()
         else:
-            roots = self._parameter()
+            roots = self._with_coordinates([])
         if roots is None:
             return self._answer(None, [self.along.why_not])
         return self._answer(roots, [*self.notes, *self.along.notes(roots)])
@@ -69,185 +58,47 @@ class Where:
     # -- a coordinate -----------------------------------------------------------------------
 
     def _coordinate(self) -> list[Expr] | None:
-        u, velocity = self.unknown, self._rate
-        equation = self.along.rewritten(self.equation, [u])
-        speeds: Expr | None = None
-        if equation is None:
-            both = self.along.rewritten(self.equation, [u, velocity])
-            square = self._square
-            if both is None or square is None:
-                return None
-            split = _split(both, velocity, square)
-            if split is None:
-                self.along.why_not = f"the equation is not solved with {velocity}"
-                return None
-            # A + B u' = 0 with u'^2 = w:  A^2 = B^2 w
-            a, b = split
-            speeds = -a / b
-            equation = a**2 - b**2 * square
-        found = self._roots(equation)
-        if found is None:
+        passing = Passing(self.along, self.unknown)
+        places = self._places(passing)
+        if places is None:
             return None
-        return self._reached(found, equation, speeds)
-
-    @cached_property
-    def _rate(self) -> Symbol:
-        return self.system.symbol_of(self.unknown.name + "'")
-
-    @cached_property
-    def _square(self) -> Expr | None:
-        """w(u) = u'^2 by the conservation laws."""
-        if self.along.initial is None:
-            return None
-        return self.along.rewritten(self._rate**2, [self.unknown])
-
-    def _roots(self, equation: Expr) -> Roots | None:
-        """All real roots, verified; None with the reason."""
-        if self.unknown not in equation.free_symbols:
-            holds = is_zero(equation)
-            everywhere = "everywhere" if holds is True else "nowhere"
-            self.along.why_not = f"the equation does not depend on {self.unknown}: it holds {everywhere}"
-            return Roots((), angle=False) if holds is False else None
-        found = solve_for(equation, self.unknown)
-        if found is None:
-            self.along.why_not = f"no closed form was found for {self.unknown}"
-            return None
-        kept = []
-        for root in map(simplify, found.values):
-            verdict = self._satisfies(equation, root)
-            if verdict is None:
-                continue
-            if verdict is False:
-                self.along.why_not = "a root could not be verified"
-                return None
-            kept.append(root)
-        return Roots(tuple(kept), found.angle)
-
-    def _satisfies(self, equation: Expr, root: Expr) -> bool | None:
-        """Substitution at 50 digits, wherever the root is real and admissible.
-
-        None where it is real for none of the tested parameters.
-        """
-        others = sorted(
-            (equation.free_symbols | root.free_symbols)
-            - {self.unknown, *self.system.parameters},
-            key=lambda s: s.name,
-        )
-        tested = None
-        approximate = root.is_Rational and len(str(root.q)) > 12
-        limit = mpf(10) ** -10 if approximate else _EXACTLY
-        for index, values in enumerate(self._choices):
-            place = {**values, **{s: mpf(7 + index + k) / 11 for k, s in enumerate(others)}}
-            value = real_value(root, place, digits=60)
-            if value is None or not self._admissible(value):
-                continue
-            with mpmath.workdps(60):
-                try:
-                    parts = Evaluator(
-                        [equation, *sympy.Add.make_args(sympy.expand(equation))], 60
-                    )({**place, self.unknown: value})
-                except (ArithmeticError, ValueError):
-                    continue  # the root of a denominator
-                tested = abs(parts[0]) < limit * max(mpf(1), *map(abs, parts[1:]))
-                if not tested:
-                    return False
-        return tested
-
-    @cached_property
-    def _choices(self) -> list[dict[Symbol, mpf]]:
-        return admissible_values(self.system, _CHOICES)
-
-    def _admissible(self, value: mpf) -> bool:
-        """Whether the unknown may have this value by what the file assumes."""
-        u = self.unknown
-        return not (
-            (u.is_nonnegative and value < 0)
-            or (u.is_positive and value <= 0)
-            or (u.is_negative and value >= 0)
-            or (u.is_nonzero and value == 0)
-        )
-
-    # -- reach ----------------------------------------------------------------------------------
-
-    def _reached(self, found: Roots, equation: Expr, speeds: Expr | None) -> list[Expr] | None:
-        """The roots that the motion comes to for some of the tested parameters."""
+        found, equation, velocity = places
         roots = list(found.values)
         if self.along.initial is None:
             self.notes.append("without an initial state all roots are listed")
             return self._sorted(roots)
-        square = self._square
-        if square is None:
+        if passing.square is None:
             self.notes.append("whether the motion comes there was not decided")
             return self._sorted(roots)
-        line = self._line(square, angle=found.angle)
-        if line is None:
+        kept = passing.passed([Passage(r, velocity) for r in roots], angle=found.angle)
+        if kept is None:
             return None
-        times_reached = dict.fromkeys(roots, 0)
-        tested = 0
-        rest = False
-        for values in self._choices:
-            try:
-                reach = Reach(line, values)
-            except (ArithmeticError, ValueError):
-                continue
-            tested += 1
-            rest = rest or reach.at_equilibrium
-            for root in roots:
-                times_reached[root] += self._passes(reach, root, speeds)
-        if not tested:
-            self.along.why_not = "the initial state is not real for the tested parameters"
+        self.notes += passing.notes
+        reached = [passage.place for passage in kept]
+        if passing.starts_at_equilibrium and reached:
+            reached = self._departing(reached, equation, passing.square)
+        return self._sorted(reached)
+
+    def _places(self, passing: Passing) -> tuple[Roots, Expr, Expr | None] | None:
+        """Roots u of the equation, the equation in u alone, and u' where it speaks of u'."""
+        u, rate = passing.u, passing.rate
+        equation = self.along.rewritten(self.equation, [u])
+        if equation is not None:
+            found = self._roots(equation, u)
+            return None if found is None else (found, equation, None)
+        both = self.along.rewritten(self.equation, [u, rate])
+        square = passing.square
+        if both is None or square is None:
             return None
-        kept = [root for root in roots if times_reached[root]]
-        if any(times_reached[root] < tested for root in kept):
-            self.notes.append("for some values of the parameters only")
-        if roots and not kept:
-            self.notes.append("the motion comes to none of the roots of the equation")
-        if rest:
-            kept = self._departing(kept, equation, square)
-        return self._sorted(kept)
-
-    def _line(self, square: Expr, *, angle: bool) -> LineOfMotion | None:
-        along, u = self.along, self.unknown
-        acceleration = along.on_motion(self.system.symbol_of(u.name + "''"))
-        if acceleration is None:
+        split = _split(both, rate, square)
+        if split is None:
+            self.along.why_not = f"the equation could not be solved together with {rate}^2"
             return None
-        return LineOfMotion(
-            coordinate=u,
-            square_of_velocity=square,
-            margins=tuple(self._margins()),
-            start=along.initially(u),
-            velocity=along.initially(self._rate),
-            acceleration=along.initially(acceleration),
-            angle=angle,
-        )
-
-    def _margins(self) -> list[Expr]:
-        """left - right of every `holds_while`, as a function of u where it is one."""
-        margins = []
-        build = self.system.build
-        for constraint in self.system.problem.constraints:
-            if (condition := constraint.holds_while) is None:
-                continue
-            margin = build(condition.left) - build(condition.right)
-            margin = margin if condition.comparison in (">", ">=") else -margin
-            formula = self.along.rewritten(margin, [self.unknown])
-            if formula is None:
-                self.notes.append(f"whether contact '{constraint.name}' lasts was not decided")
-            else:
-                margins.append(formula)
-        return margins
-
-    def _passes(self, reach: Reach, root: Expr, speeds: Expr | None) -> bool:
-        place = real_value(root, reach.values)
-        if place is None or not self._admissible(place):
-            return False
-        signs = reach.signs(place)
-        if speeds is None or not signs:
-            return bool(signs)
-        speed = real_value(speeds, {**reach.values, self.unknown: place})
-        if speed is None:
-            return True  # 0/0: both parts of the equation vanish there
-        return abs(speed) < _ZERO or (1 if speed > 0 else -1) in signs
+        # A + B u' = 0 with u'^2 = w:  A^2 = B^2 w
+        a, b = split
+        equation = simplify(a**2 - b**2 * square)
+        found = self._roots(equation, u)
+        return None if found is None else (found, equation, simplify(-a / b))
 
     def _departing(self, roots: list[Expr], equation: Expr, square: Expr) -> list[Expr]:
         """From rest at an equilibrium: mirror images are told once."""
@@ -259,26 +110,49 @@ class Where:
         even = is_zero(square - square.xreplace(mirrored)) is True and any(
             is_zero(equation + sign * equation.xreplace(mirrored)) is True for sign in (1, -1)
         )
-        positive = [r for r in roots if (self._number(r) or 0) > 0]
-        if not even or len(positive) == len(roots):
+        negative = [r for r in roots if self._number(r) < 0]
+        if not even or not negative:
             return roots
         self.notes.append(f"{u} and -{u} are mirror images, the positive ones are listed")
-        return [r for r in roots if (self._number(r) or 0) >= 0]
-
-    def _number(self, root: Expr) -> mpf | None:
-        for values in self._choices:
-            number = real_value(root, values)
-            if number is not None:
-                return number
-        return None
-
-    def _sorted(self, roots: list[Expr]) -> list[Expr]:
-        return sorted(roots, key=lambda r: (self._number(r) or mpf(0), str(r)))
+        return [r for r in roots if r not in negative]
 
     # -- a velocity or a parameter ----------------------------------------------------------
 
     def _velocity(self) -> list[Expr] | None:
-        """u' where the equation holds: from it together with all relations."""
+        """u' where the equation holds: at the places u that solve it, else by elimination."""
+        u = self.system.q[self.system.qdot.index(self.unknown)]
+        passing = Passing(self.along, u)
+        if passing.square is not None:
+            places = self._places(passing)
+            if places is not None and places[0].values:
+                return self._velocities(passing, places)
+        found = self._eliminated_to_velocity()
+        if found is not None:
+            self.notes.append("whether the motion comes there was not decided")
+        return found
+
+    def _velocities(
+        self, passing: Passing, places: tuple[Roots, Expr, Expr | None]
+    ) -> list[Expr] | None:
+        found, _, velocity = places
+        square = passing.square
+        assert square is not None
+        passages = []
+        for place in found.values:
+            put = {passing.u: place}
+            if velocity is not None:
+                passages.append(Passage(place, simplify(velocity.xreplace(put))))
+            else:
+                root = sympy.sqrt(simplify(square.xreplace(put)))
+                passages += [Passage(place, simplify(-root)), Passage(place, simplify(root))]
+        kept = passing.passed(passages, angle=found.angle)
+        if kept is None:
+            return None
+        self.notes += passing.notes
+        return self._sorted(list(dict.fromkeys(p.velocity for p in kept if p.velocity is not None)))
+
+    def _eliminated_to_velocity(self) -> list[Expr] | None:
+        """The equation together with all relations, freed of everything but u'."""
         v = self.unknown
         equation = self.along.on_motion(self.equation)
         if equation is None:
@@ -288,34 +162,98 @@ class Where:
             for relation in (*left.relations, v - left.expression):
                 present = relation.free_symbols
                 if v in present and not present & {*remove, self.system.t}:
-                    found = self._roots(relation)
-                    return None if found is None else self._sorted(self._allowed(found))
-        formula = self.along.rewritten(self.equation, [v, *self.system.q])
-        if formula is None or v not in formula.free_symbols:
-            self.along.why_not = f"constraints and conserved quantities do not determine {v}"
-            return None
-        found = self._roots(formula)
-        return None if found is None else self._sorted(self._allowed(found))
+                    found = self._roots(relation, v)
+                    return None if found is None else self._sorted(list(found.values))
+        return self._with_coordinates([v])
 
-    def _parameter(self) -> list[Expr] | None:
-        """A parameter for which the equation holds, with the coordinates that are left."""
-        for keep in ((), self.system.q):
-            formula = self.along.rewritten(self.equation, keep)
-            if formula is not None:
-                found = self._roots(formula)
-                return None if found is None else self._sorted(self._allowed(found))
+    def _with_coordinates(self, keep: list[Symbol]) -> list[Expr] | None:
+        """The roots with as few coordinates in them as there must be."""
+        q = self.system.q
+        for others in ((), *((x,) for x in q), q):
+            formula = self.along.rewritten(self.equation, [*keep, *others])
+            if formula is not None and self.unknown in formula.free_symbols:
+                found = self._roots(formula, self.unknown)
+                return None if found is None else self._sorted(list(found.values))
+            if monotonic() > self.along.deadline:
+                break
+        self.along.why_not = f"constraints and conserved quantities do not determine {self.unknown}"
         return None
 
-    def _allowed(self, found: Roots) -> list[Expr]:
-        """Without the roots that the assumptions exclude."""
-        u = self.unknown
+    # -- roots --------------------------------------------------------------------------------
+
+    def _roots(self, equation: Expr, unknown: Symbol) -> Roots | None:
+        """All real roots, verified; None with the reason."""
+        if unknown not in equation.free_symbols:
+            holds = is_zero(equation)
+            where = "everywhere" if holds is True else "nowhere"
+            self.along.why_not = f"the equation does not depend on {unknown}: it holds {where}"
+            self.notes.append(self.along.why_not)
+            return Roots((), angle=False) if holds is False else None
+        found = solve_for(equation, unknown)
+        if found is None:
+            self.along.why_not = f"no closed form was found for {unknown}"
+            return None
+        kept = []
+        for root in map(simplify, found.values):
+            verdict = self._satisfies(equation, unknown, root)
+            if verdict is None:
+                continue
+            if verdict is False:
+                self.along.why_not = "a root could not be verified"
+                return None
+            kept.append(root)
+        return Roots(tuple(kept), found.angle)
+
+    def _satisfies(self, equation: Expr, unknown: Symbol, root: Expr) -> bool | None:
+        """Substitution at 50 digits, wherever the root is real and admissible.
+
+        None where it is so for none of the tested parameters.
+        """
+        limit = _ROUNDED if is_decimal(root) else _EXACTLY
+        tested = 0
+        for values in self._states(equation.free_symbols | root.free_symbols):
+            value = real_value(root, values, digits=60)
+            if value is None or not admissible(unknown, value):
+                continue
+            with mpmath.workdps(60):
+                try:
+                    parts = Evaluator([equation, *sympy.Add.make_args(equation.expand())], 60)(
+                        {**values, unknown: value}
+                    )
+                except (ArithmeticError, ValueError):
+                    continue  # the root of a denominator
+                if not abs(parts[0]) < limit * max(mpf(1), *map(abs, parts[1:])):
+                    return False
+            tested += 1
+            if tested == _VERIFIED:
+                break
+        return True if tested else None
+
+    def _states(self, present: set[Symbol]) -> list[dict[Symbol, mpf]]:
+        """Values of the parameters, and of the other quantities that occur."""
+        others = sorted(present - set(self.system.parameters), key=lambda s: s.name)
+        count = 1 if not others else 8
         return [
-            r
-            for r in found.values
-            if not (u.is_nonnegative and r.is_negative)
-            and not (u.is_positive and r.is_nonpositive)
-            and not (u.is_negative and r.is_nonnegative)
-        ]
+            {**values, **{s: mpf(5 * (-1) ** k * (k + 1) + i + 1) / 13
+                          for i, s in enumerate(others)}}
+            for values in self._choices
+            for k in range(count)
+        ]  # fmt: skip
+
+    @cached_property
+    def _choices(self) -> list[dict[Symbol, mpf]]:
+        return admissible_values(self.system, _CHOICES)
+
+    def _number(self, root: Expr) -> mpf:
+        """A value by which roots are ordered."""
+        for values in self._states(root.free_symbols):
+            number = real_value(root, values)
+            if number is not None:
+                return number
+        return mpf(0)
+
+    def _sorted(self, roots: list[Expr]) -> list[Expr]:
+        return sorted(roots, key=lambda r: (self._number(r), str(r)))
 
 
 def _split(expression: Expr, velocity: Symbol, square: Expr) -> tuple[Expr, Expr] | None:

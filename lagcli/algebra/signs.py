@@ -1,0 +1,98 @@
+"""The sign of an expression, proved factor by factor from what is known to be positive."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sympy import Expr
+
+from lagcli.algebra.entry import Field
+from lagcli.algebra.ring import Poly
+
+
+def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
+    """1, -1 or 0 where the sign is certain, None where it is not.
+
+    Parameters
+    ----------
+    positive
+        Expressions that are positive, beside what the symbols' assumptions say.
+    """
+    if expression.is_number:
+        return _of_number(expression)
+    field = Field([expression, *positive])
+    try:
+        element = field(expression)
+        given = [field(each).numerator for each in positive if sign(each) is None]
+    except ZeroDivisionError:
+        return None
+    if element.is_zero():
+        return 0
+    known = [factor for poly in given for factor in _open_factors(field, poly)]
+    result = 1
+    for poly in (element.numerator, element.denominator):
+        content, factors = field.ring.lift(poly).factor()
+        result *= 1 if int(content) > 0 else -1
+        for factor, exponent in factors:
+            found = _of_factor(field, factor, known)
+            if found is None:
+                return None
+            result *= found**exponent
+    return result
+
+
+def _open_factors(field: Field, poly: Poly) -> list[Poly]:
+    """The one factor whose sign a positive product decides, made positive; none if several."""
+    content, factors = field.ring.lift(poly).factor()
+    value = 1 if int(content) > 0 else -1
+    unknown = []
+    for factor, exponent in factors:
+        found = _by_terms(field, factor)
+        if found is None:
+            unknown.append((factor, exponent))
+        else:
+            value *= found**exponent
+    if len(unknown) != 1 or unknown[0][1] % 2 == 0:
+        return []
+    return [unknown[0][0] * value]
+
+
+def _of_factor(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | None:
+    by_terms = _by_terms(field, factor)
+    if by_terms is not None:
+        return by_terms
+    for known in positive:
+        if factor == field.ring.lift(known):
+            return 1
+        if -factor == field.ring.lift(known):
+            return -1
+    expression = field.polynomial_to_sympy(factor)
+    if expression.is_number:
+        return _of_number(expression)
+    if expression.is_positive:
+        return 1
+    return -1 if expression.is_negative else None
+
+
+def _by_terms(field: Field, poly: Poly) -> int | None:
+    """All terms of one sign: products of positive generators and even powers."""
+    signs = set()
+    for monomial, coefficient in field.ring.terms(poly):
+        value = 1 if coefficient > 0 else -1
+        for g, exponent in monomial:
+            expression = field.generators[g].expression
+            if exponent % 2 == 0 and expression.is_nonzero is not True:
+                return None
+            if exponent % 2 and expression.is_negative:
+                value = -value
+            elif exponent % 2 and not expression.is_positive:
+                return None
+        signs.add(value)
+    return signs.pop() if len(signs) == 1 else None
+
+
+def _of_number(expression: Expr) -> int | None:
+    value = expression.evalf(30)
+    if not value.is_real or abs(value) < 1e-20:
+        return 0 if expression.is_zero else None
+    return 1 if value > 0 else -1

@@ -1,0 +1,207 @@
+"""All solutions of several equations in several unknowns, one factor and one root at a time.
+
+Equations are factored, each factor opens a branch.  In a branch a factor with one unknown
+is solved, or one that is linear in an unknown, and the solution is put into the others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from dataclasses import field as default
+from time import monotonic
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra.entry import Field
+from lagcli.algebra.equations import coefficients, solve_for
+from lagcli.algebra.signs import sign
+from lagcli.algebra.simplification import is_zero, simplify
+
+_MAX_BRANCHES = 256
+
+
+@dataclass(frozen=True, slots=True)
+class SystemSolution:
+    """Values of unknowns, formulas in the free ones; it is there where `positive` > 0."""
+
+    values: Mapping[Symbol, Expr]
+    positive: tuple[Expr, ...] = ()
+
+
+@dataclass(slots=True)
+class SolvedSystem:
+    """The solutions found; `complete` tells whether there can be no other."""
+
+    solutions: list[SystemSolution] = default(default_factory=list)
+    complete: bool = True
+
+
+def solve_system(
+    equations: Sequence[Expr], unknowns: Sequence[Symbol], budget: float = 5.0
+) -> SolvedSystem:
+    """All real solutions of equations = 0 within the assumptions on the unknowns."""
+    solver = _Solver(unknowns, monotonic() + budget)
+    solver.branch(list(equations), {}, ())
+    return solver.found
+
+
+class _Solver:
+    def __init__(self, unknowns: Sequence[Symbol], deadline: float) -> None:
+        self.unknowns = tuple(unknowns)
+        self.found = SolvedSystem()
+        self._deadline = deadline
+        self._branches = 0
+
+    def branch(
+        self, equations: list[Expr], values: dict[Symbol, Expr], positive: tuple[Expr, ...]
+    ) -> None:
+        """Follow one branch to its solutions."""
+        self._branches += 1
+        if self._branches > _MAX_BRANCHES or monotonic() > self._deadline:
+            self.found.complete = False
+            return
+        left: list[list[Expr]] = []
+        for equation in equations:
+            factors = self._factors(equation)
+            if factors is None:
+                continue
+            if not factors:
+                return
+            left.append(factors)
+        if not left:
+            self._keep(values, positive)
+            return
+        left.sort(key=self._cost)
+        for index, factors in enumerate(left):
+            if all(self._solvable(factor) for factor in factors):
+                rest = [sympy.Mul(*other) for k, other in enumerate(left) if k != index]
+                for factor in factors:
+                    self._solve(factor, rest, values, positive)
+                return
+        self.found.complete = False
+
+    def _cost(self, factors: Sequence[Expr]) -> tuple[int, int]:
+        most = max(len(self._in(factor)) for factor in factors)
+        return most, len(factors)
+
+    def _in(self, expression: Expr) -> list[Symbol]:
+        return [u for u in self.unknowns if u in expression.free_symbols]
+
+    def _factors(self, equation: Expr) -> list[Expr] | None:
+        """The factors that can vanish: None for 0 = 0, empty for a contradiction."""
+        field = Field([equation])
+        try:
+            element = field(equation)
+        except ZeroDivisionError:
+            return []
+        if element.is_zero():
+            return None
+        factors = [
+            field.polynomial_to_sympy(factor)
+            for factor, _ in field.ring.lift(element.numerator).factor()[1]
+        ]
+        if field.doubtful and any(is_zero(f) is None and abs(_value(f)) < 1e-25 for f in factors
+                                  if not f.free_symbols):  # fmt: skip
+            return None
+        return [f for f in factors if self._in(f) and sign(f) not in (1, -1)]
+
+    def _solvable(self, factor: Expr) -> bool:
+        unknowns = self._in(factor)
+        if len(unknowns) == 1:
+            return solve_for(factor, unknowns[0]) is not None
+        return self._linear(factor) is not None
+
+    def _linear(self, factor: Expr) -> tuple[Symbol, Expr] | None:
+        """An unknown in which the factor is linear, with a slope that cannot vanish."""
+        field = Field([factor])
+        poly = field(factor).numerator
+        ring = field.ring
+        for unknown in self._in(factor):
+            number = field.number_of(unknown)
+            used = ring.used(poly)
+            if number not in used or ring.degree(poly, number) != 1:
+                continue
+            if any(
+                unknown in field.generators[g].expression.free_symbols for g in used if g != number
+            ):
+                continue
+            rest, slope = coefficients(field, poly, number)
+            divisor = field.to_sympy(slope)
+            if self._in(divisor) and sign(divisor) not in (1, -1):
+                continue
+            return unknown, field.to_sympy(-rest / slope)
+        return None
+
+    def _solve(
+        self, factor: Expr, rest: list[Expr], values: dict[Symbol, Expr], positive: tuple[Expr, ...]
+    ) -> None:
+        linear = self._linear(factor)
+        if linear is not None:
+            unknown, roots = linear[0], [linear[1]]
+        else:
+            unknown = self._in(factor)[0]
+            found = solve_for(factor, unknown)
+            if found is None:
+                self.found.complete = False
+                return
+            roots = list(found.values)
+        for root in map(simplify, roots):
+            conditions = self._conditions(root, unknown)
+            if conditions is None:
+                continue
+            put = {unknown: root}
+            self.branch(
+                [_substituted(e, unknown, root) for e in rest],
+                {**{s: v.xreplace(put) for s, v in values.items()}, **put},
+                tuple(dict.fromkeys((*positive, *conditions))),
+            )
+
+    def _conditions(self, root: Expr, unknown: Symbol) -> list[Expr] | None:
+        """What must be positive for the root to be real and admissible; None: it never is."""
+        wanted: list[Expr] = []
+        for node in sympy.preorder_traversal(root):
+            if isinstance(node, (sympy.acos, sympy.asin)):
+                k = node.args[0]
+                wanted += [1 - k, 1 + k]
+            elif node.is_Pow and node.exp.is_Rational and node.exp.q % 2 == 0:
+                wanted.append(node.base)
+        if unknown.is_positive or (unknown.is_nonnegative and root != 0):
+            wanted.append(root)
+        elif unknown.is_negative:
+            wanted.append(-root)
+        elif unknown.is_nonzero and root == 0:
+            return None
+        conditions = []
+        for each in wanted:
+            if self._in(each):
+                continue
+            value = sign(each)
+            if value in (0, -1):
+                return None
+            if value is None:
+                conditions.append(simplify(each))
+        return conditions
+
+    def _keep(self, values: dict[Symbol, Expr], positive: tuple[Expr, ...]) -> None:
+        plain = {s: simplify(v) for s, v in values.items()}
+        ordered = {u: plain[u] for u in self.unknowns if u in plain}
+        if any(other.values == ordered for other in self.found.solutions):
+            return
+        self.found.solutions.append(SystemSolution(ordered, positive))
+
+
+def _substituted(expression: Expr, unknown: Symbol, root: Expr) -> Expr:
+    """The root put in, sines of multiples expanded first so that sin(acos(k)) is radical."""
+    if unknown not in expression.free_symbols:
+        return expression
+    field = Field([expression])
+    try:
+        return field.to_sympy(field(expression)).subs(unknown, root)
+    except ZeroDivisionError:
+        return expression.subs(unknown, root)
+
+
+def _value(expression: Expr) -> float:
+    return float(abs(expression.evalf(40)))

@@ -1,0 +1,183 @@
+"""Expressions rewritten with all that is known along the motion from the initial state.
+
+Accelerations and multipliers are replaced by the solved motion, momenta by dL/dq'.  Then
+velocities and the other coordinates are eliminated with what holds along the motion: the
+constraints, and the conserved quantities at their initial values.  Each result is put to
+the test at random states with those values, at 50 digits.
+
+References
+----------
+Landau, Lifshitz, *Mechanics*, 3rd ed., sections 11 and 14 (motion from conserved quantities).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import cached_property
+from time import monotonic
+
+import mpmath
+from mpmath import mpf
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import is_zero, shape, simplify
+from lagcli.algebra.elimination import Eliminated, eliminate
+from lagcli.algebra.numeric import Evaluator
+from lagcli.expression import Expression
+from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.initial import InitialState, initial_state
+from lagcli.mechanics.level_set import LevelSet
+from lagcli.mechanics.states import State
+
+#: Seconds that one question may take.
+BUDGET = 8.0
+_STATES = 3
+_ZERO = mpf(10) ** -38
+_NONZERO = mpf(10) ** -25
+
+
+class AlongTheMotion:
+    """Expressions rewritten with all that is known along the motion."""
+
+    def __init__(self, dynamics: Dynamics) -> None:
+        self.dynamics = dynamics
+        self.system = dynamics.system
+        self.deadline = float("inf")
+        self.why_not = ""
+
+    @cached_property
+    def initial(self) -> InitialState | None:
+        """The initial state; None where the file has no `initial` at all."""
+        return initial_state(self.dynamics) if self.system.problem.initial else None
+
+    @cached_property
+    def level_set(self) -> LevelSet:
+        """The states that share the conserved quantities of the initial one."""
+        return LevelSet(self.dynamics, self.initial)
+
+    @cached_property
+    def states(self) -> list[State]:
+        """Random states of the level set."""
+        return self.level_set.states(_STATES)
+
+    def tree(self, expression: Expr) -> Expression:
+        """The readable shape as a tree."""
+        return shape(expression, self.system.order)
+
+    def notes(self, used: Iterable[Expr | None]) -> list[str]:
+        """What must be said with an answer."""
+        if self.initial is not None and self.initial.only_at_values and any(used):
+            return ["the initial state satisfies the constraints for the values of the file only"]
+        return []
+
+    # -- substitution ------------------------------------------------------------------------
+
+    def on_motion(self, expression: Expr) -> Expr | None:
+        """Accelerations, multipliers and momenta replaced by functions of q, q', t."""
+        momenta = dict(zip(self.system.momenta, self.dynamics.lagrange.momenta, strict=True))
+        replaced = self.dynamics.on_motion(expression.xreplace(momenta))
+        if replaced is None:
+            self.why_not = "the accelerations or multipliers in it are not determined"
+        return replaced
+
+    def rewritten(
+        self, expression: Expr, keep: Sequence[Symbol], *, with_time: bool = False
+    ) -> Expr | None:
+        """The expression in the named quantities and parameters; None with `why_not`.
+
+        The time may be left in it only where it is asked for.
+        """
+        self.why_not = ""
+        subject = self.on_motion(expression)
+        if subject is None:
+            return None
+        for relations, remove in self.attempts(keep, with_time=with_time):
+            found = self.eliminated(subject, relations, remove)
+            if not found.complete:
+                continue
+            value = simplify(found.expression)
+            if self._agrees(subject - value):
+                return value
+        if monotonic() > self.deadline:
+            self.why_not = f"not found within {BUDGET:g} s"
+        elif not self.why_not:
+            self.why_not = self._not_determined(keep)
+        return None
+
+    def eliminated(
+        self, expression: Expr, relations: Sequence[Expr], remove: Sequence[Symbol]
+    ) -> Eliminated:
+        """The expression with symbols removed by the relations, within the time allowed."""
+        return eliminate(expression, relations, remove, self.nonzero, deadline=self.deadline)
+
+    def attempts(
+        self, keep: Sequence[Symbol], *, with_time: bool
+    ) -> list[tuple[tuple[Expr, ...], list[Symbol]]]:
+        """Relations to use and symbols to remove: constraints first, explicit time last."""
+        system = self.system
+        remove = [s for s in (*system.qdot[::-1], *system.q[::-1]) if s not in keep]
+        timeless = remove if system.t in keep else [*remove, system.t]
+        constraints, laws = self.level_set.constraints, self.level_set.laws
+        still = tuple(law for law in laws if system.t not in law.free_symbols)
+        plans = [(constraints, timeless)]
+        if still:
+            plans.append(((*constraints, *still), timeless))
+        if len(still) < len(laws):
+            plans.append(((*constraints, *laws), timeless))
+        if with_time and system.t not in keep:
+            plans += [(relations, remove) for relations, _ in plans]
+        return plans
+
+    def _not_determined(self, keep: Sequence[Symbol]) -> str:
+        names = ", ".join(s.name for s in keep) or "the parameters"
+        known = "constraints and conserved quantities" if self.initial else "constraints"
+        reason = f"the {known} do not determine it by {names} alone"
+        if self.initial is None:
+            reason += "; with an `initial` state the conserved quantities could be used"
+        return reason
+
+    # -- tests -------------------------------------------------------------------------------
+
+    def nonzero(self, divisor: Expr) -> bool:
+        """Whether one may divide: the expression vanishes at none of the random states."""
+        if divisor.is_number or not divisor.free_symbols - set(self.system.parameters):
+            return is_zero(divisor) is not True
+        plan = Evaluator([divisor], 60)
+        for state in self.states or self.dynamics.states.take(2):
+            try:
+                [value] = plan(state)
+            except (ArithmeticError, ValueError):
+                return False
+            if not abs(value) > _NONZERO:
+                return False
+        return True
+
+    def _agrees(self, difference: Expr) -> bool:
+        """Whether it vanishes at random states of the level set."""
+        if is_zero(difference) is True:
+            return True
+        if not self.states:
+            self.why_not = "no state with the initial values was found to verify the result at"
+            return False
+        plan = Evaluator([*_terms(difference)], 60)
+        for state in self.states:
+            with mpmath.workdps(60):
+                try:
+                    values = plan(state)
+                except (ArithmeticError, ValueError):
+                    return False
+                size = max(mpf(1), *map(abs, values))
+                if not abs(sum(values)) < _ZERO * size:
+                    return False
+        return True
+
+    def initially(self, expression: Expr) -> Expr:
+        """The value in the initial state; 0 without one."""
+        if self.initial is None:
+            return S.Zero
+        return self.initial.at(expression, self.system.t)
+
+
+def _terms(expression: Expr) -> Sequence[Expr]:
+    terms: Sequence[Expr] = expression.as_ordered_terms() if expression.is_Add else [expression]
+    return terms

@@ -1,0 +1,86 @@
+"""The characteristic polynomial of a linearised motion and what its coefficients tell.
+
+det(K - W M) = 0,  W = omega^2,          without terms in x'
+det(s^2 M + s C + K) = 0,  s^2 = -W,     with gyroscopic terms, where only s^2 occurs
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import Field, solve_linear
+from lagcli.algebra.equations import coefficients, factor_roots
+from lagcli.mechanics.linearization import Linearization
+
+_BUDGET = 6.0
+
+
+def determinant(matrix: Sequence[Sequence[Expr]]) -> Expr | None:
+    """The determinant; None where it was not found in time, 0 for a singular matrix."""
+    solution = solve_linear(matrix, [S.Zero] * len(matrix), budget=_BUDGET)
+    if solution is None:
+        return None
+    return S.Zero if solution.determinant is None else solution.determinant
+
+
+def determinant_in(symbol: Symbol, matrix: Sequence[Sequence[Expr]]) -> list[Expr] | None:
+    """The coefficients of a determinant by powers of a symbol, the constant term first."""
+    whole = determinant(matrix)
+    if whole is None:
+        return None
+    field = Field([whole])
+    element, number = field(whole), field.number_of(symbol)
+    if number is None:
+        return [whole]
+    below = field.polynomial(element.denominator)
+    return [field.to_sympy(part / below) for part in coefficients(field, element.numerator, number)]
+
+
+class Characteristic:
+    """The polynomial in W = omega^2; None in all answers where there is none (damping)."""
+
+    def __init__(self, linear: Linearization) -> None:
+        self.linear = linear
+
+    @cached_property
+    def in_s(self) -> list[Expr] | None:
+        """The coefficients by powers of s, the constant term det K first."""
+        linear, s = self.linear, Symbol("#s", real=True)
+        n = len(linear.M)
+        return determinant_in(
+            s,
+            [
+                [s**2 * linear.M[i][j] + s * linear.C[i][j] + linear.K[i][j] for j in range(n)]
+                for i in range(n)
+            ],
+        )
+
+    @cached_property
+    def in_square(self) -> list[Expr] | None:
+        """The coefficients by powers of W = -s^2; None where odd powers of s occur."""
+        if self.in_s is None or any(c != 0 for c in self.in_s[1::2]):
+            return None
+        return [(-1) ** k * c for k, c in enumerate(self.in_s[::2])]
+
+    @cached_property
+    def squares(self) -> list[tuple[list[Expr] | None, int, int]] | None:
+        """By irreducible factor: the roots W (None: no closed form), multiplicity, degree."""
+        powers = self.in_square
+        if powers is None:
+            return None
+        W = Symbol("#W", real=True)
+        polynomial = sum((c * W**k for k, c in enumerate(powers)), S.Zero)
+        field = Field([polynomial])
+        number = field.number_of(W)
+        assert number is not None
+        numerator = field(polynomial).numerator
+        found = factor_roots(field, numerator, number)
+        degree = len(powers) - 1
+        known = sum(len(roots) * m for roots, m in found if roots is not None)
+        return [
+            (roots, m, len(roots) if roots is not None else max(1, (degree - known) // m))
+            for roots, m in found
+        ]

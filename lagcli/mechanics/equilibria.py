@@ -1,0 +1,187 @@
+"""Equilibria: states of rest at which all forces and constraint forces balance.
+
+    forcing_j(q, q' = 0) + sum_k lambda_k a_kj(q) = 0,   f(q) = 0,   b(q) = 0
+
+The multipliers are removed by taking the components along the constraint surface: the
+virtual work of the forces vanishes for every displacement with A dq = 0.
+
+References
+----------
+Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., sections 1.4 and 6.1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+
+import sympy
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import Field, is_zero, nullspace, simplify
+from lagcli.algebra.build import free_of
+from lagcli.algebra.systems import solve_system
+from lagcli.mechanics.dynamics import Dynamics
+
+_MAX_EVIDENT = 64
+
+
+@dataclass(frozen=True, slots=True)
+class RestPoint:
+    """An equilibrium: values of coordinates as formulas in the free ones and parameters.
+
+    It is there where each of `positive` is > 0.
+    """
+
+    values: Mapping[Symbol, Expr]
+    free: tuple[Symbol, ...]
+    positive: tuple[Expr, ...] = ()
+
+
+class RestPoints:
+    """All equilibria of a system, or the evident ones.
+
+    Attributes
+    ----------
+    reason
+        Why none can be given, in a sentence; empty otherwise.
+    """
+
+    def __init__(self, dynamics: Dynamics) -> None:
+        self.dynamics = dynamics
+        self.system = dynamics.system
+        self.reason = ""
+        self.complete = True
+
+    @cached_property
+    def points(self) -> tuple[RestPoint, ...] | None:
+        """The equilibria; None with a reason where there is nothing to solve.
+
+        `complete` tells afterwards whether there can be no other.
+        """
+        if self._depends_on_time():
+            self.reason = "the system depends explicitly on the time"
+            return None
+        equations = self._equations
+        solved = solve_system(equations, self.system.q)
+        self.complete = solved.complete
+        found = [
+            RestPoint(s.values, tuple(q for q in self.system.q if q not in s.values), s.positive)
+            for s in solved.solutions
+            if self.balanced(s.values)
+        ]
+        if not solved.complete:
+            known = {tuple(p.values.get(q, q) for q in self.system.q) for p in found}
+            found += [p for p in self._evident() if tuple(p.values.values()) not in known]
+            if not found:
+                self.reason = "the equations of equilibrium could not be solved"
+                return None
+        return tuple(found)
+
+    def _depends_on_time(self) -> bool:
+        system, constraints = self.system, self.dynamics.constraints
+        everything = [
+            *self.dynamics.lagrange.forcing,
+            *(entry for e in constraints.equations for entry in (*e.row, e.drift)),
+        ]
+        return not all(
+            free_of(e, [system.t]) or is_zero(e.diff(system.t)) is True for e in everything
+        )
+
+    @cached_property
+    def forces_at_rest(self) -> tuple[Expr, ...]:
+        """forcing(q, q' = 0)."""
+        at_rest = dict.fromkeys(self.system.qdot, S.Zero)
+        return tuple(f.xreplace(at_rest) for f in self.dynamics.lagrange.forcing)
+
+    @cached_property
+    def _equations(self) -> list[Expr]:
+        constraints = self.dynamics.constraints
+        conditions = [e.f for e in constraints.equations if e.holonomic]
+        conditions += [e.drift for e in constraints.equations if not e.holonomic]
+        forces: Sequence[Expr] = self.forces_at_rest
+        if constraints.equations:
+            forces = [
+                sympy.Add(*(v * f for v, f in zip(vector, forces, strict=True)))
+                for vector in _polynomial(nullspace(constraints.jacobian))
+            ]
+        return [e for e in (*conditions, *forces) if is_zero(e) is not True]
+
+    def balanced(self, values: Mapping[Symbol, Expr]) -> bool:
+        """Whether a state of rest is an equilibrium, by substitution."""
+        return all(
+            is_zero(residual) is True or _vanishes(residual) for residual in self._residuals(values)
+        )
+
+    def _residuals(self, values: Mapping[Symbol, Expr]) -> list[Expr]:
+        constraints = self.dynamics.constraints
+        forces = [at(f, values) for f in self.forces_at_rest]
+        conditions = [at(e.f if e.holonomic else e.drift, values) for e in constraints.equations]
+        if not constraints.equations:
+            return forces
+        rows = [[at(a, values) for a in row] for row in constraints.jacobian]
+        along = [
+            sympy.Add(*(v * f for v, f in zip(vector, forces, strict=True)))
+            for vector in nullspace(rows)
+        ]
+        return [*conditions, *along]
+
+    def _evident(self) -> list[RestPoint]:
+        """Of the states q = 0, with angles at 0 or pi, those that are equilibria."""
+        choices = [(S.Zero, sympy.pi) if self._is_angle(q) else (S.Zero,) for q in self.system.q]
+        found = []
+        for count, place in enumerate(product(*choices)):
+            if count == _MAX_EVIDENT:
+                break
+            values = dict(zip(self.system.q, place, strict=True))
+            if any(q.is_nonzero for q in self.system.q):
+                break
+            if self.balanced(values):
+                found.append(RestPoint(values, ()))
+        return found
+
+    def _is_angle(self, q: Symbol) -> bool:
+        """Whether the coordinate occurs inside sin and cos only."""
+        field = Field(self._equations)
+        elements = [field(e) for e in self._equations]
+        used = {g for e in elements for g in field.ring.used(e.numerator)}
+        kinds = {
+            field.generators[g].kind
+            for g in used
+            if q in field.generators[g].expression.free_symbols
+        }
+        return bool(kinds) and kinds <= {"cos", "sin"}
+
+
+def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
+    """The value at a place; multiple angles are expanded, so that sin(acos(k)) is radical."""
+    present = {s: v for s, v in values.items() if s in expression.free_symbols}
+    if not present:
+        return expression
+    field = Field([expression])
+    with suppress(ZeroDivisionError):
+        expression = field.to_sympy(field(expression))
+    return simplify(expression.subs(list(present.items()), simultaneous=True))
+
+
+def _polynomial(vectors: Sequence[Sequence[Expr]]) -> list[list[Expr]]:
+    """The vectors times their denominators: defined everywhere."""
+    whole = []
+    for vector in vectors:
+        field = Field(vector)
+        elements = [field(v) for v in vector]
+        common = field.ring.one
+        for each in elements:
+            below = field.ring.lift(each.denominator)
+            common = field.ring.lift(common) * (below / field.ring.lift(common).gcd(below))
+        factor = field.polynomial(common)
+        whole.append([field.to_sympy(each * factor) for each in elements])
+    return whole
+
+
+def _vanishes(expression: Expr) -> bool:
+    """A number that is 0 to 40 digits."""
+    return bool(expression.is_number and abs(expression.evalf(50)) < sympy.Float("1e-40"))

@@ -1,0 +1,195 @@
+"""Frequencies and shapes of small oscillations, each checked by substitution at 50 digits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import mpmath
+import sympy
+from mpmath import mpf
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import nullspace, simplify
+from lagcli.algebra.equations import decimal, is_decimal
+from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.signs import sign
+from lagcli.mechanics.characteristic import Characteristic
+from lagcli.mechanics.linearization import Linearization
+from lagcli.mechanics.parameter_values import admissible_values
+
+_DIGITS = 60
+_CHOICES = 24
+_ZERO = mpf(10) ** -35
+_ROUNDED = mpf(10) ** -10  # for squared frequencies given as decimals
+
+
+@dataclass(frozen=True, slots=True)
+class NormalMode:
+    """`square` is omega^2; `frequency` None where it is not real, `shape` where complex.
+
+    All are None for a frequency that was not found, or not undamped.
+    """
+
+    square: Expr | None
+    frequency: Expr | None
+    shape: tuple[Expr, ...] | None
+    multiplicity: int
+
+
+def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[NormalMode]:
+    """The modes by rising frequency."""
+    factors = characteristic.squares
+    if factors is None:
+        return [NormalMode(None, None, None, len(linear.M))]
+    choices = _choices(linear)
+    values = choices[0]
+    modes: list[NormalMode] = []
+    unknown = 0
+    for roots, multiplicity, degree in factors:
+        if roots is None or not all(_is_root(characteristic, r, values) for r in roots):
+            unknown += multiplicity * degree
+            continue
+        pair = _beats(roots, values)
+        for k, root in enumerate(roots):
+            if pair:
+                frequency, square = pair[k], simplify(pair[k] ** 2)
+            else:
+                frequency = _frequency(linear, root, choices)
+                square = shorter(simplify(root), root)
+            displacement = _shape(linear, square, values)
+            modes.append(NormalMode(square, frequency, displacement, multiplicity))
+    modes.sort(key=lambda mode: _number(mode.square, values))
+    if unknown:
+        modes.append(NormalMode(None, None, None, unknown))
+    return modes
+
+
+def _frequency(
+    linear: Linearization, square: Expr, choices: Sequence[Mapping[Symbol, mpf]]
+) -> Expr | None:
+    """sqrt(W); None where W < 0.  Where the sign is open, the root stands for both cases."""
+    known = sign(square, linear.point.positive)
+    if known is None and all(_number(square, values) < 0 for values in choices):
+        known = -1
+    if known == -1:
+        return None
+    if is_decimal(square):
+        return decimal(sympy.sqrt(square).evalf(30))
+    root = sympy.sqrt(shorter(simplify(square), square))
+    return root if known is None else shorter(simplify(sympy.sqrt(square)), root)
+
+
+def _beats(squares: Sequence[Expr], values: Mapping[Symbol, mpf]) -> list[Expr] | None:
+    """omega = p ± q for omega^2 = a ± sqrt(b), where that is shorter.
+
+    4 p^2 = W1 + W2 + 2 sqrt(W1 W2) and 4 q^2 = W1 + W2 - 2 sqrt(W1 W2).
+    """
+    if len(squares) != 2 or not any(x.exp == S.Half for x in squares[0].atoms(sympy.Pow)):
+        return None
+    both, times = simplify(squares[0] + squares[1]), simplify(squares[0] * squares[1])
+    if _number(times, values) <= 0 or _number(both, values) <= 0:
+        return None
+    cross = 2 * simplify(sympy.sqrt(times))
+    p, q = (sympy.sqrt(simplify((both + sign_ * cross) / 4)) for sign_ in (1, -1))
+    p, q = shorter(simplify(p), p), shorter(simplify(q), q)
+    # p + |q| and p - |q| are together p + q and p - q
+    q = q.replace(sympy.Abs, lambda x: x)
+    pair = [p - q, p + q]
+    plain = [sympy.sqrt(simplify(square)) for square in squares]
+    if sum(map(sympy.count_ops, pair)) >= sum(map(sympy.count_ops, plain)):
+        return None
+    with mpmath.workdps(_DIGITS):
+        found = sorted(_number(each, values) ** 2 for each in pair)
+        wanted = sorted(_number(each, values) for each in squares)
+        agree = all(abs(a - b) < _ZERO * (1 + abs(b)) for a, b in zip(found, wanted, strict=True))
+        return pair if agree and all(_number(each, values) > 0 for each in pair) else None
+
+
+def shorter(first: Expr, second: Expr) -> Expr:
+    """Whichever has fewer operations, the first of equals."""
+    return second if sympy.count_ops(second) < sympy.count_ops(first) else first
+
+
+def _shape(
+    linear: Linearization, square: Expr, values: Mapping[Symbol, mpf]
+) -> tuple[Expr, ...] | None:
+    """The displacement, first nonzero component 1: a null vector of K - W M.
+
+    None for a complex one (gyroscopic terms), or where none was found.
+    """
+    n = len(linear.M)
+    if linear.gyroscopic or linear.damped or square.has(sympy.acos):
+        return None
+    matrix = [
+        [simplify(linear.K[i][j] - square * linear.M[i][j]) for j in range(n)] for i in range(n)
+    ]
+    vectors = nullspace(matrix)
+    if not vectors or not _annihilates(matrix, vectors[0], values):
+        return None
+    displacement = [
+        simplify(
+            sympy.Add(*(x * column[i] for x, column in zip(vectors[0], linear.basis, strict=True)))
+        )
+        for i in range(len(linear.system.q))
+    ]
+    first = next((x for x in displacement if x != 0), None)
+    return None if first is None else tuple(simplify(x / first) for x in displacement)
+
+
+# -- checks ------------------------------------------------------------------------------------
+
+
+def _choices(linear: Linearization) -> list[dict[Symbol, mpf]]:
+    """Values of parameters (and free coordinates) at which the equilibrium is there.
+
+    Raises
+    ------
+    ZeroDivisionError
+        When none were found.
+    """
+    free = {q: mpf(3 + k) / 7 for k, q in enumerate(linear.system.q)}
+    positive = Evaluator(list(linear.point.positive), _DIGITS)
+    found = []
+    for choice in admissible_values(linear.system, _CHOICES):
+        values = {**free, **choice}
+        if all(isinstance(x, mpf) and x > 0 for x in positive(values)):
+            found.append(values)
+    if not found:
+        raise ZeroDivisionError
+    return found
+
+
+def _number(expression: Expr | None, values: Mapping[Symbol, mpf]) -> mpf:
+    if expression is None:
+        return mpf("inf")
+    [number] = Evaluator([expression], _DIGITS)(values)
+    return mpf(number.real) if isinstance(number, mpmath.mpc) else number
+
+
+def _is_root(characteristic: Characteristic, square: Expr, values: Mapping[Symbol, mpf]) -> bool:
+    powers = characteristic.in_square
+    if powers is None:
+        return False
+    with mpmath.workdps(_DIGITS):
+        [W, *numbers] = Evaluator([square, *powers], _DIGITS)(values)
+        terms = [c * W**k for k, c in enumerate(numbers)]
+        limit = _ROUNDED if is_decimal(square) else _ZERO
+        return bool(abs(sum(terms)) < limit * max(mpf(1) / 10**6, *map(abs, terms)))
+
+
+def _annihilates(
+    matrix: Sequence[Sequence[Expr]], vector: Sequence[Expr], values: Mapping[Symbol, mpf]
+) -> bool:
+    n = len(vector)
+    with mpmath.workdps(_DIGITS):
+        try:
+            numbers = Evaluator([*vector, *(x for row in matrix for x in row)], _DIGITS)(values)
+        except (ArithmeticError, ValueError):
+            return False
+        v, flat = numbers[:n], numbers[n:]
+        for i in range(n):
+            terms = [a * x for a, x in zip(flat[i * n : (i + 1) * n], v, strict=True)]
+            if not abs(sum(terms)) < _ZERO * max(mpf(1), *map(abs, terms)):
+                return False
+    return True

@@ -1,0 +1,171 @@
+"""Which of the possible values of a coordinate u the motion passes, and with which u'.
+
+Decided by numbers: with the parameters of the file where it gives all of them, else with
+random ones; a place counts when it is passed for some of these.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cached_property
+
+from mpmath import mpf
+from sympy import Expr, Symbol
+
+from lagcli.algebra.numeric import Evaluator
+from lagcli.mechanics.along_the_motion import AlongTheMotion
+from lagcli.mechanics.parameter_values import admissible_values
+from lagcli.mechanics.reach import DIGITS, LineOfMotion, Reach, real_value
+
+_DRAWS = 240  # of random parameters, to find some at which a place is possible at all
+_TESTED = 6  # of these, the ones with which the motion is followed
+_SMALL = mpf(10) ** -12
+
+
+@dataclass(frozen=True, slots=True)
+class Passage:
+    """A place u with the velocity u' there, None where either sign will do."""
+
+    place: Expr
+    velocity: Expr | None = None
+
+
+class Passing:
+    """The motion of one coordinate from the initial state."""
+
+    def __init__(self, along: AlongTheMotion, u: Symbol) -> None:
+        self.along = along
+        self.system = along.system
+        self.u = u
+        self.rate = self.system.symbol_of(u.name + "'")
+        self.notes: list[str] = []
+        self._reaches: dict[tuple[int, bool], Reach | None] = {}
+
+    @cached_property
+    def square(self) -> Expr | None:
+        """w(u) = u'^2 by the conservation laws; None where they do not give it."""
+        if self.along.initial is None:
+            return None
+        return self.along.rewritten(self.rate**2, [self.u])
+
+    @cached_property
+    def margins(self) -> tuple[Expr, ...]:
+        """left - right of every `holds_while`, where it is a function of u."""
+        margins = []
+        build = self.system.build
+        for constraint in self.system.problem.constraints:
+            if (condition := constraint.holds_while) is None:
+                continue
+            margin = build(condition.left) - build(condition.right)
+            margin = margin if condition.comparison in (">", ">=") else -margin
+            formula = self.along.rewritten(margin, [self.u])
+            if formula is None:
+                self.notes.append(f"whether contact '{constraint.name}' lasts was not decided")
+            else:
+                margins.append(formula)
+        return tuple(margins)
+
+    @cached_property
+    def _draws(self) -> list[dict[Symbol, mpf]]:
+        return admissible_values(self.system, _DRAWS)
+
+    @cached_property
+    def _possible(self) -> Evaluator:
+        assert self.square is not None
+        return Evaluator([self.square, *self.margins], DIGITS)
+
+    @cached_property
+    def starts_at_equilibrium(self) -> bool:
+        """Whether the initial state is one of rest, from which no motion would start."""
+        reach = self._reach(0, angle=False)
+        return reach is not None and reach.at_equilibrium
+
+    def passed(self, passages: Sequence[Passage], *, angle: bool) -> list[Passage] | None:
+        """Those that the motion comes to; None where that was not decided."""
+        kept = []
+        decided = len(self._draws) == 1
+        for passage in passages:
+            draws = self._informative(passage)
+            times = [self._passes(index, passage, angle=angle) for index in draws]
+            decided = decided or bool(times)
+            if any(times):
+                kept.append(passage)
+            if any(times) and not (all(times) and draws == list(range(len(draws)))):
+                self.notes.append("for some values of the parameters only")
+        if passages and not kept:
+            if not decided:
+                self.along.why_not = "no parameters were found for which the motion comes there"
+                return None
+            tested = "values of the file" if len(self._draws) == 1 else "tested parameters"
+            self.notes.append(f"with the {tested} the motion comes to no root of the equation")
+        return kept
+
+    def _informative(self, passage: Passage) -> list[int]:
+        """Draws with which the place is possible: w >= 0 and every contact holds there."""
+        found = []
+        for index, values in enumerate(self._draws):
+            place = real_value(passage.place, values)
+            if place is None or not admissible(self.u, place):
+                continue
+            try:
+                numbers = self._possible({**values, self.u: place})
+            except (ArithmeticError, ValueError):
+                continue
+            if all(isinstance(x, mpf) and x > -_SMALL * (1 + abs(place)) for x in numbers):
+                found.append(index)
+            if len(found) == _TESTED:
+                break
+        return found
+
+    def _reach(self, index: int, *, angle: bool) -> Reach | None:
+        """The reach with one draw of parameters; None where there is no real start."""
+        key = (index, angle)
+        if key not in self._reaches:
+            line = self._line(angle=angle)
+            self._reaches[key] = None
+            if line is not None:
+                with suppress(ArithmeticError, ValueError, TypeError):
+                    self._reaches[key] = Reach(line, self._draws[index])
+        return self._reaches[key]
+
+    def _line(self, *, angle: bool) -> LineOfMotion | None:
+        along = self.along
+        acceleration = along.on_motion(self.system.symbol_of(self.u.name + "''"))
+        if acceleration is None or self.square is None:
+            return None
+        return LineOfMotion(
+            coordinate=self.u,
+            square_of_velocity=self.square,
+            margins=self.margins,
+            start=along.initially(self.u),
+            velocity=along.initially(self.rate),
+            acceleration=along.initially(acceleration),
+            angle=angle,
+        )
+
+    def _passes(self, index: int, passage: Passage, *, angle: bool) -> bool:
+        reach = self._reach(index, angle=angle)
+        if reach is None:
+            return False
+        place = real_value(passage.place, reach.values)
+        if place is None:
+            return False
+        signs = reach.signs(place)
+        if passage.velocity is None or not signs:
+            return bool(signs)
+        velocity = real_value(passage.velocity, {**reach.values, self.u: place})
+        if velocity is None:
+            return False
+        return abs(velocity) < _SMALL or (1 if velocity > 0 else -1) in signs
+
+
+def admissible(symbol: Symbol, value: mpf) -> bool:
+    """Whether a quantity may have this value by what the file assumes."""
+    return not (
+        (symbol.is_nonnegative and value < 0)
+        or (symbol.is_positive and value <= 0)
+        or (symbol.is_negative and value >= 0)
+        or (symbol.is_nonzero and value == 0)
+    )

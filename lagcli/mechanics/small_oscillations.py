@@ -1,0 +1,152 @@
+"""Equilibria with their stability, and the normal modes about them.
+
+    (K - omega^2 M) a = 0
+
+Modes are given about every equilibrium that is not unstable, or about the unstable ones
+where there is no other.
+
+References
+----------
+Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., sections 6.2 to 6.4.
+Landau, Lifshitz, *Mechanics*, 3rd ed., section 23.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+from sympy import Add, Expr
+
+from lagcli.algebra import shape, simplify
+from lagcli.answers import EquilibriaSection, Equilibrium, Mode, ModesSection
+from lagcli.expression import Expression
+from lagcli.mechanics.characteristic import Characteristic
+from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.equilibria import RestPoint, RestPoints
+from lagcli.mechanics.linearization import Linearization
+from lagcli.mechanics.normal_modes import NormalMode, normal_modes
+from lagcli.mechanics.stability import Stability, stability
+
+
+def equilibria(dynamics: Dynamics) -> EquilibriaSection:
+    """The states of rest with their stability."""
+    oscillations = SmallOscillations(dynamics)
+    places = oscillations.places
+    if places is None:
+        return EquilibriaSection(equilibria=None)
+    return EquilibriaSection(equilibria=tuple(map(oscillations.equilibrium, places)))
+
+
+def modes(dynamics: Dynamics) -> ModesSection:
+    """The normal modes about the equilibria that are not unstable, else about all."""
+    oscillations = SmallOscillations(dynamics)
+    places = oscillations.places
+    if not places:
+        return ModesSection(modes=None)
+    chosen = [p for p in places if p.verdict.stable is not False] or places
+    found = [mode for place in chosen for mode in oscillations.modes(place)]
+    return ModesSection(modes=tuple(found) if found else None)
+
+
+class Place:
+    """One equilibrium with the motion near it."""
+
+    def __init__(self, rest: RestPoints, point: RestPoint) -> None:
+        self.point = point
+        self.linear = Linearization(rest, point)
+        self.characteristic = Characteristic(self.linear)
+
+    @cached_property
+    def verdict(self) -> Stability:
+        """Whether it is stable."""
+        try:
+            return stability(self.linear, self.characteristic)
+        except ZeroDivisionError:
+            return Stability(None, "the equations of motion are singular there")
+
+    @cached_property
+    def modes(self) -> list[NormalMode]:
+        """The normal modes, each verified; empty where the motion is singular."""
+        try:
+            if not self.linear.regular:
+                return []
+            return normal_modes(self.linear, self.characteristic)
+        except ZeroDivisionError:
+            return []
+
+
+class SmallOscillations:
+    """Equilibria and modes as statements."""
+
+    def __init__(self, dynamics: Dynamics) -> None:
+        self.dynamics = dynamics
+        self.system = dynamics.system
+        self.rest = RestPoints(dynamics)
+
+    @cached_property
+    def places(self) -> list[Place] | None:
+        """The equilibria; None where the equations could not be solved."""
+        points = self.rest.points
+        return None if points is None else [Place(self.rest, point) for point in points]
+
+    def equilibrium(self, place: Place) -> Equilibrium:
+        """One equilibrium as a statement."""
+        verdict = place.verdict
+        reasons = [verdict.reason]
+        if verdict.where:
+            reasons = ["stable where " + " and ".join(map(positive_condition, verdict.where))]
+        if not self.rest.complete:
+            reasons.append("there may be other equilibria")
+        return Equilibrium(
+            at=self._at(place.point),
+            stable=verdict.stable,
+            condition=" and ".join(map(positive_condition, place.point.positive)),
+            free=tuple(q.name for q in place.point.free),
+            reason="; ".join(reasons),
+        )
+
+    def modes(self, place: Place) -> list[Mode]:
+        """The modes about one equilibrium as statements."""
+        return [
+            Mode(
+                at=self._at(place.point),
+                frequency=self._tree_or_none(mode.frequency),
+                frequency_squared=self._tree_or_none(mode.square),
+                shape=self._shape(mode.shape),
+                multiplicity=mode.multiplicity,
+            )
+            for mode in place.modes
+        ]
+
+    def _at(self, point: RestPoint) -> dict[str, Expression]:
+        return {q.name: self._tree(value) for q, value in point.values.items()}
+
+    def _shape(self, displacements: Sequence[Expr] | None) -> dict[str, Expression] | None:
+        if displacements is None:
+            return None
+        return {
+            name: self._tree(value)
+            for name, value in zip(self.system.names, displacements, strict=True)
+        }
+
+    def _tree(self, expression: Expr) -> Expression:
+        return shape(expression, self.system.order)
+
+    def _tree_or_none(self, expression: Expr | None) -> Expression | None:
+        return None if expression is None else self._tree(expression)
+
+
+def positive_condition(expression: Expr) -> str:
+    """`a > b` for an expression a - b that is positive, `a < 1` for 1 - a."""
+    terms = Add.make_args(simplify(expression).expand())
+    above = Add(*(term for term in terms if not term.could_extract_minus_sign()))
+    below = Add(*(-term for term in terms if term.could_extract_minus_sign()))
+    if above == 1:
+        return f"{_text(below)} < 1"
+    return f"{_text(above)} > {_text(below)}"
+
+
+def _text(expression: Expr) -> str:
+    """SymPy's linear notation in the words of the grammar."""
+    return str(expression).replace("**", "^").replace("Abs(", "abs(")
