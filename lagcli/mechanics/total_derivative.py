@@ -21,24 +21,34 @@ def boundary_term(expression: Expr, system: System) -> Expr | None:
     rest = expression
     found = sympy.S.Zero
     for rates, variables in ((system.qddot, system.qdot), (system.qdot, system.q)):
-        for rate, variable in zip(rates, variables, strict=True):
-            coefficient = rest.diff(rate) if rate in rest.free_symbols else sympy.S.Zero
-            if is_zero(coefficient) is True:
-                continue
-            coefficient = simplify(coefficient)
-            if coefficient.has(*rates):
+        waiting = list(zip(rates, variables, strict=True))
+        while waiting:
+            # any order will do: what cannot be integrated by x is often easy by y
+            for rate, variable in waiting:
+                part = _part(rest, rate, variable, rates)
+                if part is not None:
+                    break
+            else:
                 return None
-            part = antiderivative(coefficient, variable)
-            if part is None:
-                return None
-            found += part
-            rest = simplify(rest - system.total_derivative(part))
+            waiting.remove((rate, variable))
+            if part != 0:
+                found += part
+                rest = simplify(rest - system.total_derivative(part))
     if is_zero(rest) is True:
         return found
     if not free_of(rest, [*system.q, *system.qdot, *system.qddot]):
         return None
     part = antiderivative(rest, TIME)
     return None if part is None else found + part
+
+
+def _part(rest: Expr, rate: Symbol, variable: Symbol, rates: tuple[Symbol, ...]) -> Expr | None:
+    """The antiderivative by a variable of what multiplies its rate; None where not found."""
+    coefficient = rest.diff(rate) if rate in rest.free_symbols else sympy.S.Zero
+    if is_zero(coefficient) is True:
+        return sympy.S.Zero
+    coefficient = simplify(coefficient)
+    return None if coefficient.has(*rates) else antiderivative(coefficient, variable)
 
 
 def antiderivative(expression: Expr, variable: Symbol) -> Expr | None:
