@@ -5,6 +5,7 @@ from lagcli.algebra.leaves import to_expression
 from lagcli.algebra.linear import LinearSolution, left_nullspace, nullspace, rank, solve_linear
 from lagcli.algebra.relations import Relations
 from lagcli.algebra.simplification import is_zero, shape, simplify
+from lagcli.algebra.terms import terms
 
 __all__ = [
     "Field",
@@ -17,5 +18,6 @@ __all__ = [
     "shape",
     "simplify",
     "solve_linear",
+    "terms",
     "to_expression",
 ]

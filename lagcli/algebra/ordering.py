@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from typing import TypeAlias
 
 from lagcli.expression import (
     Call,
@@ -17,12 +18,14 @@ from lagcli.expression import (
     Quotient,
     Sum,
     children,
+    walk,
 )
 
 #: sin(x)*cos(x), but other functions by name.
 _RANK = {"sin": "co", "sinh": "co"}
 
-Key = tuple[object, ...]
+Key: TypeAlias = tuple[object, ...]
+Flat: TypeAlias = tuple[tuple[int, Fraction, str], ...]  # a key whose entries compare
 
 
 class Ordering:
@@ -37,6 +40,7 @@ class Ordering:
 
     def __init__(self, names: Sequence[str] = ()) -> None:
         self._index = {name: position for position, name in enumerate(names)}
+        self._first_variable = self._index.get("t", len(self._index))
         self._memo: dict[Expression, Key] = {}
 
     def factor(self, node: Expression) -> Key:
@@ -56,6 +60,8 @@ class Ordering:
                 return (*self._factor(base), *self._factor(exponent))
             case Call(function="sqrt"):
                 return (2, *self._parts(node))
+            case Sum() if self._is_constant(node):
+                return (Fraction(1, 2), *self._parts(node))  # (m1 + m2) g l
             case Sum():
                 return (3, *self._parts(node))
             case Call(function=function, primes=primes):
@@ -71,10 +77,35 @@ class Ordering:
             flat.extend(self.factor(part))
         return tuple(map(str, flat))
 
-    def term(self, node: Expression) -> Key:
-        """Terms with accelerations first, then by falling degree in the velocities."""
+    def rank(self, node: Expression) -> Flat:
+        """Where a factor stands in a product."""
+        return _flat(self._term(node))
+
+    def term(self, node: Expression) -> tuple[int, int, tuple[int, ...], Flat]:
+        """Accelerations first, then falling degree in the velocities, then by coordinate.
+
+        So x² + R² θ² + l²: coordinates in the order of the file, parameters alone at the end.
+        """
         accelerations, velocities = _degrees(node)
-        return (-accelerations, -velocities, _flat(self._term(node)))
+        variables = tuple(sorted(self._variables(node))) or (len(self._index),)
+        return (-accelerations, -velocities, variables, self.rank(node))
+
+    def _variables(self, node: Expression) -> Iterator[int]:
+        """Positions of the coordinates among the factors, of those with the most primes."""
+        names = list(_factor_names(node))
+        most = max((part.primes for part in names), default=0)
+        for part in names:
+            index = self._index.get(part.name, -1)
+            if part.primes == most and index > self._first_variable:
+                yield index
+
+    def _is_constant(self, node: Expression) -> bool:
+        """Whether only parameters occur."""
+        return all(
+            part.primes == 0 and self._index.get(part.name, -1) < self._first_variable
+            for part in walk(node)
+            if isinstance(part, Name)
+        )
 
     def _term(self, node: Expression) -> Key:
         match node:
@@ -93,7 +124,21 @@ class Ordering:
                 return self.factor(node)
 
 
-def _flat(key: Key) -> tuple[tuple[int, Fraction, str], ...]:
+def _factor_names(node: Expression) -> Iterator[Name]:
+    """The names that are factors, or bases of factors, of a term."""
+    match node:
+        case Name():
+            yield node
+        case Negative(operand=inner) | Quotient(numerator=inner) | Power(base=inner):
+            yield from _factor_names(inner)
+        case Product(factors=factors):
+            for factor in factors:
+                yield from _factor_names(factor)
+        case _:
+            return
+
+
+def _flat(key: Key) -> Flat:
     """A key whose entries of different types can be compared."""
     flat = []
     for entry in key:

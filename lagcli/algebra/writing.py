@@ -85,7 +85,7 @@ class Writer:
 
     def _factors(self, pairs: list[Factor], sign: int) -> list[Expression]:
         chosen = [(base, exponent * sign) for base, exponent in pairs if exponent * sign > 0]
-        chosen.sort(key=lambda pair: self.ordering.term(pair[0])[2])
+        chosen.sort(key=lambda pair: self.ordering.rank(pair[0]))
         return [self.power(base, exponent) for base, exponent in chosen]
 
     def _joined_roots(

@@ -102,6 +102,14 @@ class EnergyFunction:
         return self.dynamics.verifier.is_zero(self.function - system.T - system.V).holds
 
     @property
+    def readable_function(self) -> Expr:
+        """h, as T + V where it is that."""
+        system = self.dynamics.system
+        if self.is_total_energy and system.T is not None and system.V is not None:
+            return system.T + system.V
+        return self.function
+
+    @property
     def reason(self) -> str:
         """Why h is (not) conserved and is (not) T + V, in a sentence."""
         return f"{self._why_conserved}; {self._why_total}"

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import shape
+from lagcli.algebra import shape, terms
 from lagcli.answers import (
     DEFAULT_SECTIONS,
     SECTIONS,
@@ -65,6 +65,9 @@ class Statements:
         self.dynamics = derivation.dynamics
         self.warnings: list[str] = []
         self.complete = True
+        system = self.system
+        fast = (*system.qdot, *system.qddot, *system.multipliers)
+        self._leading = frozenset(symbol.name for symbol in fast)
         self._sections: Mapping[str, Callable[[], Section]] = {
             "lagrangian": self._lagrangian,
             "equations": self._equations,
@@ -117,6 +120,10 @@ class Statements:
         """Readable, without using the constraints."""
         return shape(expression, self.system.order)
 
+    def _by_terms(self, expression: Expr, *, as_given: bool = False) -> Expression:
+        """Term by term in velocities, accelerations, multipliers, as L and h are read."""
+        return terms(expression, self.system.order, self._leading, as_given=as_given)
+
     def _on_surface(self, expression: Expr) -> Expression:
         """Readable, with the constraints used."""
         return shape(expression, self.system.order, self.dynamics.constraints.relations)
@@ -130,15 +137,15 @@ class Statements:
     # -- sections ---------------------------------------------------------------------------
 
     def _lagrangian(self) -> LagrangianSection:
-        return LagrangianSection(lagrangian=self._as_written(self.system.L))
+        return LagrangianSection(lagrangian=self._by_terms(self.system.L, as_given=True))
 
     def _equations(self) -> EquationsSection:
         constraints = self.dynamics.constraints.equations
         equations = tuple(
             LagrangeEquation(
                 coordinate=name,
-                left=self._as_written(left),
-                right=self._as_written(
+                left=self._by_terms(left),
+                right=self._by_terms(
                     sympy.Add(force, *(e.multiplier * e.row[j] for e in constraints))
                 ),
             )
@@ -255,7 +262,7 @@ class Statements:
         noether = self.derivation.noether
         return MomentaSection(
             momenta={
-                name: self._as_written(p)
+                name: self._by_terms(p)
                 for name, p in zip(self.system.names, self.dynamics.lagrange.momenta, strict=True)
             },
             cyclic=tuple(self.system.names[j] for j in noether.cyclic),
@@ -264,7 +271,7 @@ class Statements:
     def _energy(self) -> EnergySection:
         energy = self.derivation.energy
         return EnergySection(
-            function=self._as_written(energy.function),
+            function=self._by_terms(energy.readable_function, as_given=True),
             conserved=energy.conserved,
             is_total_energy=energy.is_total_energy,
             reason=energy.reason,
@@ -316,7 +323,12 @@ class Statements:
             },
             gauge=None if charge.gauge is None else self._as_written(charge.gauge),
             conserved=charge.conserved,
-            charge=self._as_written(charge.charge),
+            charge=self._by_terms(
+                self.derivation.energy.readable_function
+                if charge.source == "time"
+                else charge.charge,
+                as_given=charge.source == "time",
+            ),
             rate=None if charge.rate is None else self._on_surface(charge.rate),
             verified=charge.verified,
             broken_by=charge.broken_by,

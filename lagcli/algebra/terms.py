@@ -1,0 +1,157 @@
+"""A sum of terms, one for each monomial in the velocities: the shape of L, h and p.
+
+The shortest shape brackets wherever that saves an operation.  A Lagrangian, an energy or
+an equation of motion is read term by term: m1 l1² θ1'²/2 + m2 l1 l2 θ1' θ2' cos(θ1 − θ2) + …
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+
+from sympy import Expr
+
+from lagcli.algebra.entry import Field
+from lagcli.algebra.field import Element
+from lagcli.algebra.leaves import Translator
+from lagcli.algebra.ring import Monomial
+from lagcli.algebra.shaping.shaper import Shaper
+from lagcli.algebra.simplification import shape
+from lagcli.algebra.writing import Writer
+from lagcli.expression import Expression, Negative, Product, Quotient, Sum, operation_count
+
+#: A bracket is worth it from this share of the operations of the terms one by one.
+_WORTH_A_BRACKET = 0.72
+
+Term = tuple[Monomial, int]
+
+
+def terms(
+    expression: Expr,
+    order: Sequence[str],
+    leading: Collection[str],
+    *,
+    as_given: bool = False,
+) -> Expression:
+    """The expression as a sum over the monomials in the quantities `leading`.
+
+    Parameters
+    ----------
+    expression
+        A polynomial in the leading quantities; anything else gets its shortest shape.
+    order
+        Parameters, ``t``, coordinates, multipliers, as they are to follow in a product.
+    leading
+        Names of velocities, accelerations, momenta, multipliers.
+    as_given
+        Prefer the expression as it stands where that is no longer.
+    """
+    writer = Writer(order)
+    field = Field([expression])
+    try:
+        element = field(expression)
+    except ZeroDivisionError:
+        return Translator(writer).tree(expression)
+    split = _Splitter(field, Shaper(field, writer), leading).split(element)
+    if split is None:
+        return shape(expression, order)
+    result = writer.sum(split)
+    if as_given:
+        given = Translator(writer).tree(expression)
+        if operation_count(given) <= operation_count(result):
+            return given
+    return result
+
+
+class _Splitter:
+    def __init__(self, field: Field, shaper: Shaper, leading: Collection[str]) -> None:
+        self.field = field
+        self.shaper = shaper
+        self.leading = leading
+
+    def split(self, element: Element) -> list[Expression] | None:
+        """The terms; None where the element is no polynomial in the leading quantities."""
+        ring = self.field.ring
+        used = {*ring.used(element.numerator), *ring.used(element.denominator)}
+        moving = {i for i in used if self._is_leading(i)}
+        for index in used - moving:
+            names = {s.name for s in self.field.generators[index].expression.free_symbols}
+            if names & set(self.leading):
+                return None
+        if moving & set(ring.used(element.denominator)):
+            return None
+        by_degree: dict[tuple[int, int], dict[Monomial, list[Term]]] = {}
+        for monomial, coefficient in ring.terms(element.numerator):
+            fast = tuple((i, e) for i, e in monomial if i in moving)
+            group = by_degree.setdefault(self._degree(fast), {})
+            group.setdefault(fast, []).append((monomial, coefficient))
+        found: list[Expression] = []
+        for degree, group in by_degree.items():
+            groups = list(group.values()) if any(degree) else self._by_function(group[()])
+            found.extend(self._bracketed(groups, element))
+        return found
+
+    def _is_leading(self, index: int) -> bool:
+        generator = self.field.generators[index]
+        return generator.kind == "symbol" and str(generator.expression) in self.leading
+
+    def _degree(self, fast: Monomial) -> tuple[int, int]:
+        """The degrees in accelerations and in the other leading quantities."""
+        accelerations = others = 0
+        for index, exponent in fast:
+            if str(self.field.generators[index].expression).endswith("''"):
+                accelerations += exponent
+            else:
+                others += exponent
+        return accelerations, others
+
+    def _by_function(self, static: list[Term]) -> list[list[Term]]:
+        """What has no leading quantity in it, apart by the functions of the coordinates."""
+        groups: dict[Monomial, list[Term]] = {}
+        for monomial, coefficient in static:
+            functions = tuple(
+                (i, e) for i, e in monomial if self.field.generators[i].kind != "symbol"
+            )
+            groups.setdefault(functions, []).append((monomial, coefficient))
+        return list(groups.values())
+
+    def _bracketed(self, groups: list[list[Term]], whole: Element) -> list[Expression]:
+        """One expression for each group, or one bracket where that is flat and much shorter."""
+        single = [self._shape(group, whole) for group in groups]
+        if len(groups) < 2:
+            return single
+        together = self._shape([term for group in groups for term in group], whole)
+        apart = sum(map(operation_count, single)) + len(single) - 1
+        if _is_flat(together) and operation_count(together) <= _WORTH_A_BRACKET * apart:
+            return [together]
+        return single
+
+    def _shape(self, group: Iterable[Term], whole: Element) -> Expression:
+        numerator = self.field.ring.build(group)
+        return self.shaper.shape(self.field.element(numerator, whole.denominator))
+
+
+def _is_flat(node: Expression) -> bool:
+    """Whether there is no bracket within a bracket."""
+    match node:
+        case Negative(operand=inner) | Quotient(numerator=inner):
+            return _is_flat(inner)
+        case Product(factors=factors):
+            return sum(isinstance(f, Sum) for f in factors) < 2 and all(
+                _no_sum_below(term) for f in factors if isinstance(f, Sum) for term in f.terms
+            )
+        case Sum(terms=parts):
+            return all(_no_sum_below(part) for part in parts)
+        case _:
+            return True
+
+
+def _no_sum_below(node: Expression) -> bool:
+    match node:
+        case Sum():
+            return False
+        case Negative(operand=inner) | Quotient(numerator=inner):
+            return _no_sum_below(inner)
+        case Product(factors=factors):
+            return not any(isinstance(f, Sum) for f in factors)
+        case _:
+            return True
