@@ -103,20 +103,6 @@ def number(value: Constant) -> Expression:
     return Negative(digits) if rounded < 0 else digits
 
 
-def decimal_text(value: Fraction) -> str:
-    """The digits of a terminating decimal: `4.905`, `6.674e-11`.
-
-    Examples
-    --------
-    >>> decimal_text(Fraction(981, 200))
-    '4.905'
-    """
-    if value.denominator == 1 and abs(value) < 10**DIGITS:
-        return str(value.numerator)
-    rounded = _ROUNDING.divide(Decimal(value.numerator), Decimal(value.denominator)).normalize()
-    return f"{rounded:f}" if -6 < rounded.adjusted() < DIGITS else f"{rounded:e}".replace("e+", "e")
-
-
 def _known(node: Expression) -> Constant | None:
     """`value_of`, and None also where there is no finite number."""
     try:

@@ -1,0 +1,168 @@
+"""Whole-process times as ratios, measured in one run: `make bench`.
+
+    python tests/bench/bench.py [--runs N] [--against FILE] [--quick]
+
+Every row is a command, timed from start to exit, over a command of the same run: the
+machine's speed drops out.  The result is kept as .bench/<commit>.json, so that two
+versions can be compared with `--against`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+LAGCLI = [str(Path(sys.executable).with_name("lagcli"))]
+NAIVE = [sys.executable, str(Path(__file__).with_name("naive.py"))]
+IMPORT_TYPER = [sys.executable, "-c", "import typer"]
+IMPORT_SYMPY = [sys.executable, "-c", "import sympy"]
+
+PROBLEMS = (
+    "hoop",
+    "pendulums/plane-pendulum",
+    "pendulums/double-pendulum",
+    "pendulums/pendulum-cartesian",
+    "central/kepler",
+    "classics/spherical-pendulum",
+    "classics/particle-on-cone",
+    "pulleys/double-atwood",
+    "nonholonomic/chaplygin-sleigh",
+    "chains/coupled-pendulums",
+)
+ANSWERS = ["--show", "equations,accelerations,multipliers"]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A command against another; `bar` is the ratio that must not be exceeded."""
+
+    what: str
+    seconds: float
+    against: str
+    against_seconds: float
+    bar: float | None = None
+
+    @property
+    def ratio(self) -> float:
+        return self.seconds / self.against_seconds
+
+    @property
+    def holds(self) -> bool:
+        return self.bar is None or self.ratio <= self.bar
+
+
+class Clock:
+    """Medians of whole-process wall times; each command is measured once."""
+
+    def __init__(self, runs: int) -> None:
+        self.runs = runs
+        self._known: dict[tuple[str, ...], float] = {}
+
+    def seconds(self, command: Sequence[str], runs: int | None = None) -> float:
+        key = tuple(command)
+        if key not in self._known:
+            times = [_once(command) for _ in range(runs or self.runs)]
+            self._known[key] = statistics.median(times)
+        return self._known[key]
+
+
+def _once(command: Sequence[str]) -> float:
+    began = time.perf_counter()
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, check=False)
+    seconds = time.perf_counter() - began
+    if done.returncode > 1:
+        raise SystemExit(f"{' '.join(command)}: {done.stderr.decode()}")
+    return seconds
+
+
+def startup_rows(clock: Clock) -> list[Row]:
+    """What answers without any algebra, against `import typer`."""
+    typer = clock.seconds(IMPORT_TYPER)
+    return [
+        Row("lagcli " + " ".join(arguments), clock.seconds([*LAGCLI, *arguments]),
+            "import typer", typer, 2.0)
+        for arguments in (["--help"], ["solve", "--help"], ["formats"])
+    ]  # fmt: skip
+
+
+def solve_rows(clock: Clock) -> list[Row]:
+    """Each problem, all of its usual sections, against `import sympy`."""
+    sympy = clock.seconds(IMPORT_SYMPY)
+    return [
+        Row(f"lagcli solve {name}", clock.seconds([*LAGCLI, "solve", _path(name)]),
+            "import sympy", sympy, 2.0 if name == "hoop" else None)
+        for name in PROBLEMS
+    ]  # fmt: skip
+
+
+def naive_rows(clock: Clock) -> list[Row]:
+    """The same answers, against SymPy's LagrangesMethod, LUsolve and simplify."""
+    return [
+        Row(f"the equations of {name}", clock.seconds([*LAGCLI, "solve", _path(name), *ANSWERS]),
+            "LagrangesMethod", clock.seconds([*NAIVE, _path(name)], runs=1), 1.0)
+        for name in PROBLEMS
+    ]  # fmt: skip
+
+
+def _path(name: str) -> str:
+    return f"problems/{name}.yaml"
+
+
+def _version() -> str:
+    described = subprocess.run(
+        ["git", "describe", "--always", "--dirty"],
+        cwd=ROOT, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    return described.stdout.strip() or "unknown"
+
+
+def _show(rows: Sequence[Row], earlier: dict[str, float]) -> None:
+    width = max(len(row.what) for row in rows)
+    for row in rows:
+        bar = "" if row.bar is None else f"  (bar {row.bar:g})"
+        told = "" if row.holds else "  MISSED"
+        before = f"  was {earlier[row.what]:.2f}" if row.what in earlier else ""
+        print(f"{row.what:{width}}  {row.seconds:7.3f} s  {row.ratio:6.2f} x {row.against}"
+              f"{bar}{before}{told}")  # fmt: skip
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--runs", type=int, default=5, help="the median of so many")
+    parser.add_argument("--quick", action="store_true", help="without LagrangesMethod")
+    parser.add_argument("--against", type=Path, help="an earlier .bench/*.json")
+    arguments = parser.parse_args()
+    clock = Clock(arguments.runs)
+    rows = [*startup_rows(clock), *solve_rows(clock)]
+    if not arguments.quick:
+        rows += naive_rows(clock)
+    earlier = json.loads(arguments.against.read_text()) if arguments.against else {"rows": []}
+    _show(rows, {row["what"]: row["ratio"] for row in earlier["rows"]})
+    if not arguments.quick:
+        gains = [1 / row.ratio for row in rows if row.against == "LagrangesMethod"]
+        print(f"median gain over LagrangesMethod: {statistics.median(gains):.1f}")
+    folder = ROOT / ".bench"
+    folder.mkdir(exist_ok=True)
+    kept = {
+        "version": _version(),
+        "python": sys.version.split()[0],
+        "cores": os.cpu_count(),
+        "runs": arguments.runs,
+        "rows": [{**asdict(row), "ratio": round(row.ratio, 3)} for row in rows],
+    }
+    path = folder / f"{kept['version']}.json"
+    path.write_text(json.dumps(kept, indent=2) + "\n", encoding="utf-8")
+    print(f"kept in {path.relative_to(ROOT)}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,86 @@
+"""Numbers in place of parameters, before anything is derived."""
+
+from __future__ import annotations
+
+import pytest
+
+from lagcli.pipeline import Request, derive, read, state
+
+FILE = b"""\
+coordinates: [x]
+parameters:
+  m: {assume: positive, value: 2}
+  k: {value: m*w^2}
+  w: {value: 3}
+  n: {integer: true}
+functions: {U: [x]}
+T: m*x'^2/2
+V: k*x^2/2
+find:
+  stop: {where: "x' = 0", for: w}
+"""
+
+
+def accelerations(*settings, numeric=False):
+    request = Request(sections=("accelerations",), settings=settings, numeric=numeric)
+    problem = read("file.yaml", FILE, request).problem
+    answers = state(derive(problem), request)
+    from lagcli.formatters.grammar import to_grammar
+
+    section = answers.sections["accelerations"]
+    return answers.parameters, to_grammar(section.accelerations["x"])
+
+
+def mistakes(*settings, numeric=False):
+    found = read("file.yaml", FILE, Request(settings=settings, numeric=numeric))
+    assert found.problem is None
+    return [diagnostic.message for diagnostic in found.diagnostics]
+
+
+def test_values_of_the_file_stay_symbols():
+    assert accelerations() == (("m", "k", "w", "n"), "-k*x/m")
+
+
+def test_a_setting_replaces_its_parameter():
+    assert accelerations("m=1/2") == (("k", "w", "n"), "-2*k*x")
+
+
+def test_settings_may_use_each_other():
+    assert accelerations("k=4*m", "m=2*n") == (("w", "n"), "-4*x")
+
+
+def test_numeric_puts_in_the_values_but_for_what_is_asked():
+    names, formula = accelerations(numeric=True)
+    assert names == ("w", "n")
+    assert formula == "-w^2*x"
+
+
+def test_a_setting_goes_before_the_value_of_the_file():
+    assert accelerations("m=5", "k=10", numeric=True)[1] == "-2*x"
+
+
+@pytest.mark.parametrize(
+    ("setting", "message"),
+    [
+        ("m=-1", "'m' is positive, and its value is not"),
+        ("m=0", "'m' is positive, and its value is not"),
+        ("n=1/2", "'n' is an integer, and its value is not"),
+        ("m=sqrt(-1)", "the value of 'm' is not a real number"),
+        ("w=1", "'w' can have no value here: a `find` solves for it"),
+        ("x=1", "--set x=1: there is no parameter 'x'"),
+    ],
+)
+def test_values_that_cannot_be(setting, message):
+    assert mistakes(setting) == [message]
+
+
+def test_every_setting_that_is_wrong_is_named():
+    assert len(mistakes("a=1", "b", "m=q")) == 3
+
+
+def test_a_division_by_zero_is_seen():
+    file = FILE.replace(b"V: k*x^2/2", b"V: x^2/(k - 4)")
+    found = read("file.yaml", file, Request(settings=("k=4",)))
+    assert [d.message for d in found.diagnostics] == [
+        "with these values something is divided by zero"
+    ]
