@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from lagcli.answers import Answers
+if TYPE_CHECKING:
+    from lagcli.answers import Answers
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

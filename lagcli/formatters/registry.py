@@ -16,10 +16,14 @@ from lagcli.formatters.options import Formatter
 
 GROUP = "lagcli.formatters"
 
-#: The built-in formatters, in the order in which they are listed.
+#: The built-in formatters in the order in which they are listed, each with what it says
+#: of itself: the list imports none of them.
 BUILT_IN: dict[str, str] = {
-    name: f"lagcli.formatters.{name}:render"
-    for name in ("text", "json", "latex", "markdown", "html")
+    "text": "Aligned equations for reading in a terminal.",
+    "json": "JSON for machines: a stable contract.",
+    "latex": r"LaTeX with amsmath: a fragment for \input, or a whole document.",
+    "markdown": "Markdown for GitHub and Pandoc, with LaTeX in $$ blocks.",
+    "html": "HTML with MathML: a fragment, or a whole page.",
 }
 
 
@@ -45,8 +49,7 @@ class ListedFormatter:
 def find_formatter(name: str) -> Formatter | UnknownFormatter:
     """Find the formatter of that name; only its own module is imported."""
     if name in BUILT_IN:
-        module, _, function = BUILT_IN[name].partition(":")
-        return cast(Formatter, getattr(import_module(module), function))
+        return cast(Formatter, import_module(f"lagcli.formatters.{name}").render)
     plug_ins = [point for point in _plug_ins() if point.name == name]
     if plug_ins:
         return _loaded(plug_ins[0])
@@ -55,7 +58,7 @@ def find_formatter(name: str) -> Formatter | UnknownFormatter:
 
 def list_formatters() -> tuple[ListedFormatter, ...]:
     """List every formatter with its origin and what it says of itself."""
-    built_in = [_listed(name, "lagcli", find_formatter(name)) for name in BUILT_IN]
+    built_in = [ListedFormatter(name, "lagcli", told) for name, told in BUILT_IN.items()]
     others: list[ListedFormatter] = []
     for point in _plug_ins():
         origin = point.dist.name if point.dist else "unknown"
@@ -75,7 +78,7 @@ def _plug_ins() -> list[EntryPoint]:
 
 
 def _ours(point: EntryPoint) -> bool:
-    return BUILT_IN.get(point.name) == point.value
+    return point.name in BUILT_IN and point.value == f"{__package__}.{point.name}:render"
 
 
 def _loaded(point: EntryPoint) -> Formatter | UnknownFormatter:

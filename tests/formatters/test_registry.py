@@ -69,3 +69,8 @@ def test_a_built_in_name_cannot_be_taken(monkeypatch):
     install(monkeypatch, text="evil:render")
     assert find_formatter("text").__module__ == "lagcli.formatters.text"
     assert list_formatters()[-1].problem == "the name 'text' is taken"
+
+
+@pytest.mark.parametrize(("name", "told"), BUILT_IN.items())
+def test_the_list_says_what_each_formatter_says_of_itself(name, told):
+    assert find_formatter(name).__doc__ == told
