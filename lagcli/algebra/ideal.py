@@ -37,6 +37,10 @@ class Ideal:
         self._open()
         rules = [rule for _, rule in field.ring.rules.values()]
         self.basis = _completed([self._inside(p) for p in [*polys, *rules]])
+        self._leading = [
+            {n: int(e) for n, e in zip(self._order, b.monomial(0), strict=True) if e}
+            for b in self.basis
+        ]
 
     def remainder(self, poly: Poly) -> Element:
         """The remainder of a polynomial."""
@@ -45,6 +49,15 @@ class Ideal:
             self._open()
             self.basis = [self._inside(b) for b in basis]
         return self._outside(_remainder(self._inside(poly), self.basis))
+
+    def touches(self, poly: Poly) -> bool:
+        """Whether some term is divisible by a leading term: else it is its own remainder."""
+        for monomial, _ in self.field.ring.terms(poly):
+            exponents = dict(monomial)
+            for leading in self._leading:
+                if all(exponents.get(n, 0) >= e for n, e in leading.items()):
+                    return True
+        return False
 
     def _open(self) -> None:
         ring = self.field.ring
@@ -78,7 +91,7 @@ class Ideal:
 def _remainder(poly: Poly, basis: Sequence[Poly]) -> Poly:
     """The remainder by all of the basis."""
     before = None
-    while poly != before and poly != 0:
+    while poly not in (before, 0):
         before = poly
         for divisor in basis:
             poly = poly % divisor

@@ -66,7 +66,7 @@ def solve_linear(
         Seconds after which None is returned.
     """
     several = bool(b) and isinstance(b[0], (list, tuple))
-    columns: list[list[Expr]] = [list(row) if several else [row] for row in b]  # type: ignore[arg-type]
+    columns: list[list[Expr]] = [list(row) if several else [row] for row in b]
     n, width = len(A), len(columns[0]) if columns else 1
     rows, field = _enter([[*row, *more] for row, more in zip(A, columns, strict=True)], relations)
     try:
@@ -163,6 +163,8 @@ def _eliminate(
             break
         r, c = chosen
         value = rows[r][c]
+        if relations and relations.remaining:
+            value = relations.shortest(field, value)
         determinant = determinant * value
         inverse = value.inverse()
         rows[r] = {j: x * inverse for j, x in rows[r].items()}

@@ -162,9 +162,9 @@ class Evaluator:
                 return (lambda v: mpmath.sqrt(v[0])), (node.base,)
             return (lambda v: mpmath.power(v[0], v[1])), (node.base, node.exp)
         if isinstance(node, AppliedUndef):
-            function = type(node)
-            base = getattr(function, "base_name", function.__name__)
-            indices = getattr(function, "indices", ())
+            kind = type(node)
+            base = getattr(kind, "base_name", kind.__name__)
+            indices = getattr(kind, "indices", ())
             concrete = self._functions.get(base) or concrete_function(base, len(node.args))
             return (lambda v: concrete(v, indices)), node.args
         function = _FUNCTIONS.get(type(node).__name__)

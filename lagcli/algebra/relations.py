@@ -6,7 +6,7 @@ denominators are then taken modulo the ideal of the relations (a Gröbner basis 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import islice, permutations
 
 from sympy import Expr, Symbol
@@ -16,7 +16,9 @@ from lagcli.algebra.field import Element
 from lagcli.algebra.ideal import Ideal
 from lagcli.algebra.ring import Poly
 
-_ORDERS = 4  # monomial orders that are tried
+_ORDERS = 2  # monomial orders that are tried
+_IDEALS = 6  # ideals in all
+_READ = 3  # reductions that are shaped
 
 
 class Relations:
@@ -107,16 +109,46 @@ class Relations:
                 best = (cost, symbol, value)
         return None if best is None else (best[1], field.to_sympy(best[2]))
 
-    def reductions(self, field: Field, element: Element) -> Iterator[Element]:
-        """Equal elements on the relations: numerator and denominator modulo the ideal."""
+    def reductions(self, field: Field, element: Element) -> list[Element]:
+        """Equal elements on the relations: numerator, denominator or both modulo an ideal.
+
+        The shortest few of them.
+        """
+        found: list[Element] = []
         for ideal in self._ideals_in(field):
             below = ideal.remainder(element.denominator)
-            if not below.is_zero():
-                yield ideal.remainder(element.numerator) / below
+            if below.is_zero():
+                continue
+            candidates = [ideal.remainder(element.numerator) / below]
+            if not element.is_polynomial():
+                candidates.append(field.polynomial(element.numerator) / below)
+            for each in map(field.lifted, candidates):
+                new = (each.numerator, each.denominator)
+                if all(new != (x.numerator, x.denominator) for x in map(field.lifted, found)):
+                    found.append(each)
+        found.sort(key=Element.size)
+        return found[:_READ]
+
+    def shortest(self, field: Field, element: Element) -> Element:
+        """An equal element of at most half the size, where there is one."""
+        best = min((element, *self.reductions(field, element)), key=Element.size)
+        return best if 2 * best.size() <= element.size() + 1 else element
+
+    def shorter(self, field: Field, poly: Poly) -> Poly | None:
+        """An equal polynomial with fewer terms, None when none was found."""
+        best = None
+        for ideal in self._ideals_in(field):
+            if not ideal.touches(poly):
+                continue
+            rest = ideal.remainder(poly)
+            fewer = len(rest.numerator) < len(poly if best is None else best)
+            if fewer and rest.denominator == 1:
+                best = rest.numerator
+        return best
 
     def contain(self, field: Field, poly: Poly) -> bool:
         """Whether the polynomial is found to lie in the ideal of the relations."""
-        return any(ideal.remainder(poly).is_zero() for ideal in self._ideals_in(field))
+        return any(ideal.remainder(poly).is_zero() for ideal in self._ideals_in(field)[:1])
 
     def _ideals_in(self, field: Field) -> list[Ideal]:
         if not self.remaining:
@@ -131,11 +163,17 @@ class Relations:
             if field.generators[n].kind in ("cos", "sin")
             or field.generators[n].expression in self._welcome
         ]  # fmt: skip
-        squares = [n for n in variables if any(ring.degree(ring.lift(p), n) > 1 for p in polys)]
-        ideals = []
-        for first in islice(permutations(squares or variables[:2]), _ORDERS):
-            rest = [n for n in reversed(variables) if n not in first]
-            ideals.append(Ideal(field, polys, [*rest, *first]))
+        polys = [ring.lift(p) for p in polys]
+        squares = [n for n in variables if any(ring.degree(p, n) > 1 for p in polys)]
+        # the ideal of all, and those of single relations: using fewer can leave less
+        subsets = [polys, *([p] for p in sorted(polys, key=len) if len(polys) > 1)]
+        ideals: list[Ideal] = []
+        for subset in subsets:
+            within = [n for n in squares or variables if any(ring.degree(p, n) for p in subset)]
+            for first in islice(permutations(within), _ORDERS):
+                if len(ideals) < _IDEALS:
+                    rest = [n for n in reversed(variables) if n not in first]
+                    ideals.append(Ideal(field, subset, [*rest, *first]))
         self._ideals = {id(field): (field, ideals)}
         return ideals
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from sympy import Expr
 
@@ -95,9 +96,10 @@ def _shortest(
     candidates = [cancelled(field, element)]
     if relations:
         candidates.extend(cancelled(field, e) for e in relations.reductions(field, element))
-    shapers = [Shaper(field, writer)]
+    shorter = partial(relations.shorter, field) if relations and relations.remaining else None
+    shapers = [Shaper(field, writer, shorter=shorter)]
     if field.root_scales:
-        shapers.insert(0, Shaper(field, writer, scaled=True))
+        shapers.insert(0, Shaper(field, writer, scaled=True, shorter=shorter))
     shapes = [(shaper.plan(each), shaper) for each in candidates for shaper in shapers]
     plan, shaper = min(shapes, key=lambda pair: pair[0].score)
     return shaper.written(plan), shaper

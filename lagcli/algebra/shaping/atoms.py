@@ -7,7 +7,7 @@ are atoms besides those of the single angles.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import TypeAlias
 
@@ -17,6 +17,7 @@ from sympy import Expr
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.leaves import Translator
+from lagcli.algebra.ordering import Flat
 from lagcli.algebra.ring import Monomial, Poly
 from lagcli.algebra.writing import Writer
 from lagcli.expression import (
@@ -117,10 +118,10 @@ class Atoms:
                 return -1, term
         return None
 
-    def angle_rank(self, cosine: int) -> tuple[object, int]:
+    def angle_rank(self, cosine: int) -> tuple[Flat, int]:
         """Where the base argument of a cosine comes in a sum of angles."""
         tree = self._translator.tree(self.field.generators[cosine].argument)
-        return self.writer.ordering.term(tree)[2], cosine
+        return self.writer.ordering.rank(tree), cosine
 
     def circular(self, function: str, angles: Angles) -> int:
         """The atom sin or cos of a sum of multiples of base arguments."""
@@ -128,7 +129,7 @@ class Atoms:
         known = self._trigonometric.get(key)
         if known is None:
             generators = self.field.generators
-            argument = sympy.Add(*(k * generators[g].argument for g, k in angles))
+            argument = sympy.Add(*(sympy.Mul(k, generators[g].argument) for g, k in angles))
             tree = Call(function, (self._translator.tree(argument),))
             expression = (sympy.sin if function == "sin" else sympy.cos)(argument)
             known = self._trigonometric[key] = self.add(tree, expression)
@@ -149,6 +150,16 @@ class Atoms:
             term = self.term(monomial)
             result[term] = result.get(term, Fraction(0)) + coefficient
         return result
+
+    def polynomial(self, terms: Mapping[Term, int]) -> Poly | None:
+        """The polynomial of the ring, None where an atom is no generator."""
+        generators = {term[0][0]: g for g, term in self._of_generator.items() if len(term) == 1}
+        data = []
+        for term, coefficient in terms.items():
+            if not all(a in generators and isinstance(e, int) and e > 0 for a, e in term):
+                return None
+            data.append((tuple((generators[a], int(e)) for a, e in term), coefficient))
+        return self.field.ring.build(data)
 
     def to_sympy(self, node: Expression) -> Expr:
         """The SymPy expression of a tree made of these atoms."""

@@ -6,17 +6,21 @@ atom comes first is decided by the number of operations of the result.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from math import gcd, lcm
 from typing import TypeAlias
 
 from flint import Ordering, fmpz_mpoly_ctx
 
+from lagcli.algebra.ring import Poly
 from lagcli.algebra.shaping.atoms import Atoms, Exponent, Term, Terms, multiply
 from lagcli.algebra.shaping.plan import Product, Sum, product, total
 
 _MAX_FACTORED = 400  # terms
-_EFFORT = 200  # groups in which several atoms are tried
+_MAX_SHORTENED = 12  # terms
+_SHORTENINGS = 100  # attempts
+_EFFORT = 900  # splits that are tried in all; then the most promising one only
 
 
 Integers: TypeAlias = dict[Term, int]
@@ -25,10 +29,13 @@ Integers: TypeAlias = dict[Term, int]
 class Grouper:
     """Plans for sums of products of atoms, the shortest that a bounded search finds."""
 
-    def __init__(self, atoms: Atoms) -> None:
+    def __init__(self, atoms: Atoms, shorter: Callable[[Poly], Poly | None] | None) -> None:
         self.atoms = atoms
+        self._shorter = shorter
+        self._shortenings = _SHORTENINGS
         self._memo: dict[tuple[frozenset[tuple[Term, int]], bool], Product | Sum] = {}
-        self._effort = _EFFORT
+        self._left = _EFFORT
+        self._effort = 0
 
     def group(self, terms: Terms, *, spread: bool = False) -> Product | Sum:
         """The plan of a sum.
@@ -38,10 +45,14 @@ class Grouper:
         spread
             Whether terms may keep denominators of their own.
         """
-        self._effort = _EFFORT
+        # later calls for the same formula get less and less
+        self._effort = 10 + self._left // 3
+        self._left -= self._left // 3
+        before = self._effort
         common = lcm(*(v.denominator for v in terms.values()))
         integers = {t: v.numerator * (common // v.denominator) for t, v in terms.items()}
         plan = self._group(integers, spread)
+        self._left += max(0, min(self._effort, before - 10))
         return plan if common == 1 else self._scaled(Fraction(1, common), plan)
 
     def _scaled(self, number: Fraction, plan: Product | Sum) -> Product | Sum:
@@ -57,8 +68,21 @@ class Grouper:
         key = (frozenset(terms.items()), spread)
         known = self._memo.get(key)
         if known is None:
-            known = self._memo[key] = self._search(terms, spread)
+            known = self._memo[key] = self._search(self._shortened(terms), spread)
         return known
+
+    def _shortened(self, terms: Integers) -> Integers:
+        """The sum by a shorter one where relations allow that: x² + y² by l²."""
+        if self._shorter is None or not 1 < len(terms) <= _MAX_SHORTENED:
+            return terms
+        self._shortenings -= 1
+        if self._shortenings < 0:
+            return terms
+        poly = self.atoms.polynomial(terms)
+        other = None if poly is None else self._shorter(poly)
+        if other is None or other == 0:
+            return terms
+        return {t: int(v) for t, v in self.atoms.terms(other).items()}
 
     def _search(self, terms: Integers, spread: bool) -> Product | Sum:
         if len(terms) == 1:
@@ -101,7 +125,7 @@ class Grouper:
         weighed = sorted(
             ((n - 1) * (1 + self.atoms.costs[atom]), n, -atom, atom, positive)
             for (atom, positive), n in counts.items()
-            if 1 < n
+            if n > 1
         )
         weighed.reverse()
         width = 4 if len(terms) <= 6 else 3 if len(terms) <= 12 else 2 if len(terms) <= 30 else 1

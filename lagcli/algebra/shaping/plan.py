@@ -9,7 +9,6 @@ from lagcli.algebra.shaping.atoms import Atoms, Exponent
 from lagcli.algebra.writing import Factor, Writer
 from lagcli.expression import Expression
 
-
 #: One operation less is worth brackets around this many operations.
 _BRACKETED = 6
 #: A fraction inside brackets is worth that many bracketed operations.
@@ -102,7 +101,7 @@ def product(
         else:
             cost += atoms.costs[part]
         if size != 1:
-            cost += 1 if size.denominator == 1 or size == Fraction(1, 2) else 2
+            cost += 1 if isinstance(size, int) or size == Fraction(1, 2) else 2
         if exponent > 0:
             above += 1
         else:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 
 from sympy import Expr
@@ -33,14 +33,23 @@ class Shaper:
     ----------
     scaled
         Whether sqrt(f/d²) is kept where it was put in so, instead of sqrt(f)/d.
+    shorter
+        Gives an equal polynomial with fewer terms where relations allow one.
     """
 
-    def __init__(self, field: Field, writer: Writer, *, scaled: bool = False) -> None:
+    def __init__(
+        self,
+        field: Field,
+        writer: Writer,
+        *,
+        scaled: bool = False,
+        shorter: Callable[[Poly], Poly | None] | None = None,
+    ) -> None:
         self.field = field
         self.writer = writer
         self.atoms = Atoms(field, writer, self.shape, scaled=scaled)
         self.trigonometry = Trigonometry(field, self.atoms)
-        self.grouper = Grouper(self.atoms)
+        self.grouper = Grouper(self.atoms, shorter)
 
     def shape(self, element: Element) -> Expression:
         """The tree of an element."""
@@ -197,9 +206,9 @@ class Shaper:
         generators = self.field.generators
         used = self.field.ring.used(poly)
         plain = self.atoms.terms(poly)
-        if len(poly) > _MAX_REWRITTEN or not any(generators[g].kind in _QUADRATIC for g in used):
-            if not any(generators[g].kind == "sin" for g in used):
-                return [plain]
+        periodic = any(generators[g].kind in (*_QUADRATIC, "sin", "sinh") for g in used)
+        if not periodic or len(poly) > _MAX_REWRITTEN:
+            return [plain]
         found = [plain]
         by_rest = self._by_rest(poly)
         choices: list[list[Terms]] = []
@@ -208,11 +217,8 @@ class Shaper:
             swapped = self._swapped(self.field.ring.build(inner))
             forms.append(self.atoms.terms(swapped))
             rewritten = self.trigonometry.rewritten(inner)
-            forms.extend(rewritten if rewritten else forms[:1])
-            if not rewritten:
-                forms.append(forms[0])
-            shortest = min(forms, key=lambda f: (self._weight(f)))
-            forms.append(shortest)
+            forms.extend(rewritten or [forms[0], forms[0]])
+            forms.append(min(forms, key=self._weight))
             outer = self.atoms.term(rest)
             choices.append([{multiply(outer, t): v for t, v in f.items()} for f in forms])
         width = max(len(c) for c in choices)
