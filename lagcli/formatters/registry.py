@@ -9,10 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from difflib import get_close_matches
 from importlib import import_module
-from importlib.metadata import EntryPoint, entry_points
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 from lagcli.formatters.options import Formatter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from importlib.metadata import EntryPoint
 
 GROUP = "lagcli.formatters"
 
@@ -69,6 +72,13 @@ def list_formatters() -> tuple[ListedFormatter, ...]:
         else:
             others.append(_listed(point.name, origin, _loaded(point)))
     return (*built_in, *others)
+
+
+def entry_points(*, group: str) -> Iterable[EntryPoint]:
+    """The entry points of a group; the scanner costs half of typer to import."""
+    from importlib.metadata import entry_points as installed
+
+    return installed(group=group)
 
 
 def _plug_ins() -> list[EntryPoint]:
