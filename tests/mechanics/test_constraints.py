@@ -1,0 +1,155 @@
+"""Constraints: sign, kind, redundancy, contradiction; each test's input is the YAML in it."""
+
+from __future__ import annotations
+
+import pytest
+
+from lagcli.diagnostics import ProblemError
+
+from .derived import derive, same
+
+COIN = """
+coordinates: [x, y, theta, phi]
+parameters: {m: {assume: positive}, R: {assume: positive}}
+T: m*(x'^2 + y'^2)/2 + m*R^2*theta'^2/4 + m*R^2*phi'^2/8
+constraints:
+  along: x' = R*theta'*cos(phi)
+  across: y' = R*theta'*sin(phi)
+"""
+
+
+def test_the_multiplier_of_a_floor_is_the_normal_force_upwards():
+    """N = m g for f = y: d/dt(dL/dy') - dL/dy = m y'' + m g = N."""
+    d = derive(
+        "coordinates: [y]\nparameters: [m, g]\nT: m*y'^2/2\nV: m*g*y\nconstraints: {floor: y}"
+    )
+    assert d.dynamics.motion is not None
+    assert same(d, d.dynamics.motion.multipliers[0], "m*g")
+
+
+def test_the_same_constraint_written_the_other_way_has_the_other_sign():
+    d = derive(
+        "coordinates: [y]\nparameters: [m, g]\nT: m*y'^2/2\nV: m*g*y\nconstraints: {floor: 0 = y}"
+    )
+    assert d.dynamics.motion is not None
+    assert same(d, d.dynamics.motion.multipliers[0], "-m*g")
+
+
+def test_a_rolling_coin_is_nonholonomic():
+    """Goldstein, 3rd ed., section 1.3, the vertical rolling disk."""
+    kinds = derive(COIN).dynamics.constraints.kinds
+    assert kinds == {"along": "nonholonomic", "across": "nonholonomic"}
+
+
+def test_a_coin_that_rolls_straight_ahead_is_integrable():
+    """With phi' = 0 as well, x - R theta cos phi is constant: the same forms, integrable."""
+    kinds = derive(COIN + "  straight: phi' = 0\n").dynamics.constraints.kinds
+    assert set(kinds.values()) == {"integrable"}
+
+
+@pytest.mark.parametrize(
+    ("constraint", "kind"),
+    [
+        ("y*x' + x*y' = 0", "integrable"),  # d(x y)
+        ("x' + x*y'/y = 0", "integrable"),  # with the integrating factor y
+        ("z' = y*x'", "nonholonomic"),  # dz - y dx, the contact form
+        ("z' = x*x' + y*y'", "integrable"),
+        ("x' = t*y' + 1", "nonholonomic"),  # dx - t dy - dt, in (x, y, t)
+        ("x' = 2*t*y + t^2*y'", "integrable"),  # d(x - t^2 y)
+    ],
+)
+def test_frobenius(constraint: str, kind: str):
+    d = derive(
+        f"coordinates: [x, y, z]\nT: (x'^2+y'^2+z'^2)/2\nconstraints: {{c: \"{constraint}\"}}"
+    )
+    assert d.dynamics.constraints.kinds == {"c": kind}
+
+
+def test_one_of_two_velocity_constraints_may_be_integrable():
+    """The derived system of {dz - y dx, dw - dx} keeps dw - dx alone."""
+    d = derive(
+        "coordinates: [x, y, z, w]\nT: (x'^2+y'^2+z'^2+w'^2)/2\n"
+        "constraints: {contact: \"z' = y*x'\", tied: \"w' = x'\"}"
+    )
+    assert d.dynamics.constraints.kinds == {"contact": "nonholonomic", "tied": "integrable"}
+
+
+def test_a_constraint_given_twice_is_named_and_the_motion_stays():
+    d = derive(
+        "coordinates: [x, y]\nparameters: {m: {assume: positive}, g: {}, l: {assume: positive}}\n"
+        "T: m*(x'^2+y'^2)/2\nV: m*g*y\n"
+        "constraints: {rod: x^2 + y^2 = l^2, again: 2*x^2 + 2*y^2 = 2*l^2}"
+    )
+    dynamics = d.dynamics
+    assert dynamics.redundant == ("again",)
+    assert dynamics.degrees_of_freedom == 1
+    assert dynamics.motion is not None
+    assert dynamics.motion.multipliers == (None, None)
+    assert dynamics.total_constraint_force is not None
+
+
+def test_of_three_multipliers_the_one_that_is_unique_is_given():
+    """A block in a corner held by two equal walls: the floor's force is unique, theirs is not."""
+    d = derive(
+        "coordinates: [x, y]\nparameters: [m, g, F]\nT: m*(x'^2+y'^2)/2\nV: m*g*y + F*x\n"
+        "constraints: {wall: x, other_wall: 3*x, floor: y}"
+    )
+    assert d.dynamics.motion is not None
+    wall, other, floor = d.dynamics.motion.multipliers
+    assert (wall, other) == (None, None)
+    assert same(d, floor, "m*g")
+
+
+@pytest.mark.parametrize(
+    "constraints",
+    [
+        "{a: x^2 + y^2 = l^2, b: x^2 + y^2 = 2*l^2}",
+        "{a: x' = 1, b: x' = 2}",
+        "{a: x = t, b: x' = 2}",
+    ],
+)
+def test_contradictory_constraints_are_an_error_that_names_one(constraints: str):
+    text = f"coordinates: [x, y]\nparameters: {{l: {{assume: positive}}}}\nT: (x'^2+y'^2)/2\nconstraints: {constraints}"
+    with pytest.raises(ProblemError) as caught:
+        _ = derive(text).dynamics.independent_constraints
+    [diagnostic] = caught.value.diagnostics
+    assert "cannot be satisfied" in diagnostic.message
+    assert diagnostic.span.line == 4
+
+
+@pytest.mark.parametrize("constraint", ["x'^2 + y'^2 = 1", "x'*y' = 0", "sqrt(1 + x'^2) = 2"])
+def test_a_constraint_that_is_not_linear_in_the_velocities_is_refused(constraint: str):
+    with pytest.raises(ProblemError) as caught:
+        derive(
+            f"coordinates: [x, y]\nT: (x'^2+y'^2)/2\nconstraints: {{c: \"{constraint}\"}}"
+        ).dynamics
+    assert "not linear in the velocities" in caught.value.diagnostics[0].message
+
+
+def test_squares_that_cancel_leave_a_linear_constraint():
+    d = derive(
+        "coordinates: [x, y]\nT: (x'^2+y'^2)/2\nconstraints: {c: \"(x' + y)^2 - x'^2 - y^2 = 0\"}"
+    )
+    assert d.dynamics.constraints.kinds == {"c": "integrable"}  # 2 y x' = 0
+
+
+def test_massless_coordinates_are_solved_by_their_constraints():
+    """A massless pulley coordinate s with s = x - y: the Hessian is singular, the motion is not."""
+    d = derive(
+        "coordinates: [x, s]\nparameters: [m, g]\nT: m*x'^2/2\nV: m*g*x\nconstraints: {tie: s = 2*x}"
+    )
+    assert d.dynamics.motion is not None
+    assert same(d, d.dynamics.motion.accelerations[1], "-2*g")
+
+
+def test_a_lagrangian_linear_in_the_velocities_is_singular_along_all_coordinates():
+    d = derive("coordinates: [x, y]\nL: x*y' - y*x' - x^2 - y^2")
+    assert d.dynamics.motion is None
+    assert d.dynamics.degenerate == (0, 1)
+
+
+def test_a_lagrangian_of_a_difference_is_singular():
+    """L = (x' - y')^2/2 has the gauge freedom x, y -> x + f(t), y + f(t)."""
+    d = derive("coordinates: [x, y]\nL: (x' - y')^2/2")
+    assert d.dynamics.motion is None
+    assert d.dynamics.degenerate == (0, 1)

@@ -1,0 +1,69 @@
+"""The energy function: conserved or not, T + V or not, and why."""
+
+from __future__ import annotations
+
+import pytest
+
+from .derived import derive, same
+
+
+def test_a_bead_on_a_turning_wire_conserves_h_which_is_not_the_energy():
+    """Goldstein, 3rd ed., section 2.7: h = m (r'^2 - r^2 w^2)/2, T = m (r'^2 + r^2 w^2)/2."""
+    energy = derive("coordinates: [r]\nparameters: [m, w]\nT: m*(r'^2 + r^2*w^2)/2").energy
+    assert energy.conserved is True
+    assert energy.is_total_energy is False
+    assert "T is not homogeneous of degree two" in energy.reason
+
+
+def test_a_force_in_time_makes_h_the_energy_and_not_conserved():
+    d = derive("coordinates: [x]\nparameters: [m, F]\nfunctions: {f: [t]}\nT: m*x'^2/2\nV: -x*f(t)")
+    assert d.energy.conserved is False
+    assert d.energy.is_total_energy is True
+    assert same(d, d.energy.rate, "-x*f'(t)")
+    assert "L depends explicitly on the time" in d.energy.reason
+
+
+def test_a_moving_constraint_does_work():
+    """r = l0 + v t: dh/dt = -lambda b with b = df/dt = -v, the rod's power lambda v."""
+    d = derive(
+        "coordinates: {r: {assume: positive}, phi: {}}\nparameters: [m, l0, v]\n"
+        "T: m*(r'^2 + r^2*phi'^2)/2\nconstraints: {rod: r = l0 + v*t}"
+    )
+    assert d.energy.conserved is False
+    assert "the constraint 'rod' moves" in d.energy.reason
+    assert same(d, d.energy.rate, "-m*(l0 + v*t)*phi'^2*v")
+
+
+def test_dissipation_takes_twice_rayleighs_function():
+    """dE/dt = -2 D; Goldstein, 3rd ed., section 1.5."""
+    d = derive(
+        "coordinates: [x]\nparameters: [m, k, b]\nT: m*x'^2/2\nV: k*x^2/2\ndissipation: b*x'^2/2"
+    )
+    assert d.energy.conserved is False
+    assert same(d, d.energy.rate, "-b*x'^2")
+
+
+def test_a_gyroscopic_force_does_no_work():
+    """Q = B (y', -x'): no potential, no power."""
+    d = derive(
+        "coordinates: [x, y]\nparameters: [m, B]\nT: m*(x'^2+y'^2)/2\nforces: {x: B*y', y: -B*x'}"
+    )
+    assert d.energy.conserved is True
+
+
+def test_a_velocity_dependent_potential_is_not_in_h():
+    """Weber's potential k/r (1 - r'^2/(2 c^2)): h = m r'^2/2 + k/r (1 + r'^2/(2 c^2))."""
+    d = derive(
+        "coordinates: {r: {assume: positive}}\nparameters: {m: {}, k: {}, c: {assume: positive}}\n"
+        "T: m*r'^2/2\nV: k/r*(1 - r'^2/(2*c^2))"
+    )
+    assert d.energy.is_total_energy is False
+    assert "V depends on the velocities" in d.energy.reason
+    assert same(d, d.energy.function, "m*r'^2/2 + k/r*(1 + r'^2/(2*c^2))")
+
+
+@pytest.mark.parametrize("potential", ["V: k*x^2/2", "V: U(x)\nfunctions: {U: [x]}"])
+def test_the_ordinary_case(potential: str):
+    energy = derive(f"coordinates: [x]\nparameters: [m, k]\nT: m*x'^2/2\n{potential}").energy
+    assert energy.conserved is True
+    assert energy.is_total_energy is True

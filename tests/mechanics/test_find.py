@@ -1,0 +1,296 @@
+"""Answers to `find`, against textbooks; each test's input is the YAML in it."""
+
+from __future__ import annotations
+
+import pytest
+from sympy import Expr
+
+from lagcli.answers import Rewritten, Solutions
+from lagcli.diagnostics import ProblemError
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.find import answer_questions
+from lagcli.reader import read_problem
+
+from .formulas import formula, formulas, normal
+
+POSITIVE = "{assume: positive}"
+
+
+def answers(text: str) -> dict[str, Solutions | Rewritten]:
+    text = text.replace("POSITIVE", POSITIVE)
+    problem = read_problem("test.yaml", text.encode()).checked()
+    return dict(answer_questions(Derivation(problem).dynamics).answers)
+
+
+def roots(text: str, name: str = "asked") -> list[Expr | None] | None:
+    answer = answers(text)[name]
+    assert isinstance(answer, Solutions)
+    return None if answer.solutions is None else [normal(s) for s in answer.solutions]
+
+
+def value(text: str, name: str = "asked") -> Expr | None:
+    answer = answers(text)[name]
+    assert isinstance(answer, Rewritten)
+    return normal(answer.value)
+
+
+BARRELS = """
+coordinates: {r: POSITIVE, theta: {unit: rad}, phi: {unit: rad}}
+parameters: {m: POSITIVE, g: POSITIVE, R1: POSITIVE, R2: POSITIVE}
+T: m*(r'^2 + r^2*theta'^2)/2 + m*R2^2*phi'^2/4
+V: m*g*r*cos(theta)
+constraints:
+  surface: {equation: r = R1 + R2, multiplier: N, holds_while: N >= 0}
+  rolling: (R1 + R2)*theta = R2*phi
+initial: {theta: 0, theta': 0}
+find:
+  asked: {where: N = 0, for: theta}
+  tension: {value: N, in_terms_of: [theta]}
+"""
+
+
+def test_a_solid_barrel_leaves_another_at_cos_four_sevenths():
+    """Goldstein, chapter 2, exercise 14, with the inertia of a solid cylinder."""
+    assert roots(BARRELS) == formulas("acos(4/7)")
+
+
+def test_mirror_images_are_listed_once_and_the_note_says_so():
+    note = answers(BARRELS)["asked"].note
+    assert "equilibrium" in note
+    assert "mirror images" in note
+
+
+def test_the_normal_force_between_barrels():
+    assert value(BARRELS, "tension") == formula("m*g*(7*cos(theta) - 4)/3")
+
+
+SPHERE = """
+coordinates: {r: POSITIVE, theta: {}}
+parameters: {m: POSITIVE, g: POSITIVE, R: POSITIVE, w: POSITIVE}
+T: m*(r'^2 + r^2*theta'^2)/2
+V: m*g*r*cos(theta)
+constraints:
+  surface: {equation: r = R, multiplier: N, holds_while: N >= 0}
+initial: {theta: 0, theta': RATE}
+find:
+  asked: {where: N = 0, for: theta}
+  rate: {where: theta = pi/6, for: theta'}
+"""
+
+
+def test_a_mass_leaves_a_sphere_at_cos_two_thirds():
+    """Thornton and Marion, 5th ed., example 7.10."""
+    assert roots(SPHERE.replace("RATE", "0")) == formulas("acos(2/3)")
+
+
+def test_a_mass_pushed_to_one_side_leaves_a_sphere_on_that_side_only():
+    assert roots(SPHERE.replace("RATE", "w")) == formulas("acos((2*g + R*w^2)/(3*g))")
+    assert roots(SPHERE.replace("RATE", "-w")) == formulas("-acos((2*g + R*w^2)/(3*g))")
+
+
+def test_a_velocity_that_would_come_only_after_the_contact_is_lost_is_not_listed():
+    assert roots(SPHERE.replace("RATE", "w"), "rate") == formulas("sqrt(g*(2 - sqrt(3))/R + w^2)")
+
+
+LOOP = """
+coordinates: {r: POSITIVE, theta: {}}
+parameters: {m: POSITIVE, g: POSITIVE, R: POSITIVE, v0: SPEED, tilt: {value: 0.1}}
+points:
+  bead: {position: [r*sin(theta), -r*cos(theta)], mass: m}
+V: -m*g*r*cos(theta)
+constraints:
+  track: {equation: R = r, multiplier: N, holds_while: N >= 0}
+initial: {theta: START, theta': v0/R}
+find:
+  asked: {where: N = 0, for: v0}
+  leaves: {where: N = 0, for: theta}
+  turns: {where: theta' = 0, for: theta}
+  square: {value: theta'^2, in_terms_of: [theta]}
+  rate: {value: theta', in_terms_of: [theta]}
+"""
+
+
+def test_the_least_speed_at_the_top_of_a_loop_is_sqrt_g_R():
+    """Morin, *Introduction to Classical Mechanics*, section 5.1: N = 0 for v^2 = g R."""
+    text = LOOP.replace("SPEED", "POSITIVE").replace("START", "pi")
+    in_general = LOOP.replace("SPEED", "POSITIVE").replace("START", "0")
+    assert roots(in_general) == formulas("sqrt(g*R*(2 - 3*cos(theta)))")
+    assert roots(text) == formulas("sqrt(-g*R*(3*cos(theta) + 2))")
+
+
+def test_a_bead_leaves_the_loop_on_the_way_up_and_not_before():
+    """m v^2/R = -m g cos(theta) with the energy gives 3 cos(theta) = 2 - v0^2/(g R)."""
+    text = LOOP.replace("SPEED", "POSITIVE").replace("START", "0")
+    assert roots(text, "leaves") == formulas("acos((2*g*R - v0^2)/(3*g*R))")
+
+
+@pytest.mark.parametrize(
+    ("speed", "leaves", "turns"),
+    [(1, 0, 2), (3, 1, 0), (5, 0, 0)],
+    ids=["swings", "leaves the track", "goes round"],
+)
+def test_the_values_of_the_file_decide_what_is_reached(speed, leaves, turns):
+    """With g = R = 1: v0^2 < 2 swings, 2 < v0^2 < 5 leaves, v0^2 > 5 goes round."""
+    text = LOOP.replace("SPEED", f"{{assume: positive, value: {speed}/2 + 1/100}}")
+    text = text.replace("START", "0").replace("R: POSITIVE", "R: {assume: positive, value: 1}")
+    for name in "mg":
+        text = text.replace(f"{name}: POSITIVE", f"{name}: {{assume: positive, value: 1}}")
+    assert len(roots(text, "leaves") or []) == leaves
+    assert len(roots(text, "turns") or []) == turns
+
+
+def test_a_velocity_whose_sign_nothing_tells_is_not_given():
+    text = LOOP.replace("SPEED", "POSITIVE").replace("START", "0")
+    found = answers(text)
+    assert isinstance(found["rate"], Rewritten)
+    assert found["rate"].value is None
+    assert "do not determine" in found["rate"].note
+    assert value(text, "square") == formula("(2*g*R*(cos(theta) - 1) + v0^2)/R^2")
+
+
+PENDULUM = """
+coordinates: {x: {}, y: {}}
+parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE}
+points:
+  bob: {position: [x, y], mass: m}
+V: m*g*y
+constraints: {CONSTRAINT}
+initial: {x: l, y: 0}
+find:
+  asked: {value: lambda_rod, in_terms_of: [y]}
+"""
+
+
+def test_the_tension_of_a_pendulum_is_three_weights_at_the_bottom():
+    """Released horizontally: 2 l |lambda| = 3 m g at y = -l."""
+    assert value(PENDULUM.replace("CONSTRAINT", "rod: x^2 + y^2 = l^2")) == formula(
+        "3*m*g*y/(2*l^2)"
+    )
+
+
+def test_a_velocity_constraint_that_is_a_derivative_is_used_as_its_integral():
+    """x x' + y y' = 0 keeps x^2 + y^2 = l^2 from the initial state."""
+    assert value(PENDULUM.replace("CONSTRAINT", "rod: x*x' + y*y' = 0")) == formula("3*m*g*y/l^2")
+
+
+def test_the_tension_of_a_pendulum_released_at_theta0():
+    """Morin, section 6.3 (method): T = m g (3 cos theta - 2 cos theta0)."""
+    text = """
+coordinates: {r: POSITIVE, theta: {}}
+parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE, theta0: POSITIVE}
+T: m*(r'^2 + r^2*theta'^2)/2
+V: -m*g*r*cos(theta)
+constraints: {rod: r = l}
+initial: {theta: theta0}
+find:
+  asked: {value: -lambda_rod, in_terms_of: [theta]}
+"""
+    assert value(text) == formula("m*g*(3*cos(theta) - 2*cos(theta0))")
+
+
+def test_turning_points_of_the_spherical_pendulum():
+    """Landau and Lifshitz, section 14, problem 1, started horizontally with phi' = w."""
+    text = """
+coordinates: {theta: {}, phi: {}}
+parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE, w: POSITIVE}
+T: m*l^2*(theta'^2 + sin(theta)^2*phi'^2)/2
+V: -m*g*l*cos(theta)
+initial: {theta: pi/2, phi: 0, theta': 0, phi': w}
+find:
+  asked: {where: theta' = 0, for: theta}
+  rate: {value: phi', in_terms_of: [theta]}
+"""
+    assert roots(text) == formulas("acos((sqrt(16*g^2 + l^2*w^4) - l*w^2)/(4*g))", "pi/2")
+    assert value(text, "rate") == formula("w/sin(theta)^2")
+
+
+PROJECTILE = """
+coordinates: {x: {}, z: {}}
+parameters: {m: POSITIVE, g: POSITIVE, u: POSITIVE, w: POSITIVE}
+T: m*(x'^2 + z'^2)/2
+V: m*g*z
+symmetries:
+  lift: {z: 1}
+initial: {x': u, z': w}
+find:
+  asked: {where: z' = 0, for: z}
+  velocity: {value: z', in_terms_of: []}
+"""
+
+
+def test_the_apex_of_a_projectile():
+    assert roots(PROJECTILE) == formulas("w^2/(2*g)")
+
+
+def test_a_charge_with_explicit_time_gives_the_velocity_as_a_function_of_it():
+    assert value(PROJECTILE, "velocity") == formula("w - g*t")
+
+
+STATIC = """
+coordinates: {theta: {}}
+parameters: {m: POSITIVE, g: POSITIVE, R: POSITIVE, w: POSITIVE}
+T: m*R^2*(theta'^2 + w^2*sin(theta)^2)/2
+V: -m*g*R*cos(theta)
+find:
+  asked: {where: EQUATION, for: theta}
+"""
+
+
+@pytest.mark.parametrize(
+    ("equation", "expected"),
+    [
+        ("theta'' = 0", ["-acos(g/(R*w^2))", "0", "acos(g/(R*w^2))", "pi"]),
+        ("sin(theta) = 1/2", ["pi/6", "5*pi/6"]),
+        ("sin(2*theta) = 0", ["-pi/2", "0", "pi/2", "pi"]),
+        ("sin(theta) = 2", []),
+        ("w*sin(theta) = g*cos(theta)", ["atan(g/w) - pi", "atan(g/w)"]),
+        ("cos(theta)^2 + theta = 0", None),
+    ],
+)
+def test_without_an_initial_state_all_angles_are_listed(equation, expected):
+    expected = None if expected is None else formulas(*expected)
+    assert roots(STATIC.replace("EQUATION", equation)) == expected
+
+
+def test_numbers_are_given_where_radicals_do_not_serve():
+    found = answers(STATIC.replace("EQUATION", "cos(theta)^3 + sin(theta) = 1/3"))["asked"]
+    assert isinstance(found, Solutions)
+    assert found.solutions is not None
+    assert len(found.solutions) == 2
+
+
+CONTRADICTION = """
+coordinates: {x: {}, y: {}}
+parameters: {m: POSITIVE, l: {assume: positive, value: 1}}
+T: m*(x'^2 + y'^2)/2
+constraints: {rod: x^2 + y^2 = l^2}
+initial: {STATE}
+find:
+  asked: {value: x'^2 + y'^2, in_terms_of: []}
+"""
+
+
+@pytest.mark.parametrize(
+    ("state", "message"),
+    [
+        ("x: 2*l, y: 0", "does not satisfy constraint 'rod'"),
+        ("x: 0.6, y: 0.7", "does not satisfy constraint 'rod'"),
+        ("x: 0", "several values of 'y'"),
+        ("x: 0, y: l, y': 1", "does not satisfy constraint 'rod'"),
+    ],
+)
+def test_an_initial_state_that_no_constraint_allows_is_an_error(state, message):
+    with pytest.raises(ProblemError) as caught:
+        answers(CONTRADICTION.replace("STATE", state))
+    [diagnostic] = caught.value.diagnostics
+    assert message in diagnostic.message
+    assert diagnostic.span.line == 6
+
+
+def test_what_initial_leaves_out_follows_from_the_constraints():
+    assert value(CONTRADICTION.replace("STATE", "x: 0, y: l, x': 3")) == formula("9")
+
+
+def test_a_state_that_is_allowed_for_the_values_of_the_file_only_is_told():
+    found = answers(CONTRADICTION.replace("STATE", "x: 0.6, y: 0.8"))["asked"]
+    assert "values of the file only" in found.note

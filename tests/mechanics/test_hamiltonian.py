@@ -1,0 +1,85 @@
+"""The Legendre transform, also where L is not quadratic in the velocities."""
+
+from __future__ import annotations
+
+import pytest
+
+from .derived import derive, same
+
+CASES = {
+    # Landau, Lifshitz, Fields, 4th ed., section 9: H = c sqrt(p^2 + m^2 c^2)
+    "relativistic": (
+        "coordinates: [x]\nparameters: {m: {assume: positive}, c: {assume: positive}}\n"
+        "L: -m*c^2*sqrt(1 - x'^2/c^2)",
+        "c*sqrt(p_x^2 + m^2*c^2)",
+    ),
+    "relativistic in two dimensions with a potential": (
+        "coordinates: [x, y]\nparameters: {m: {assume: positive}, c: {assume: positive}}\n"
+        "functions: {U: [x, y]}\nL: -m*c^2*sqrt(1 - (x'^2 + y'^2)/c^2) - U(x, y)",
+        "c*sqrt(p_x^2 + p_y^2 + m^2*c^2) + U(x, y)",
+    ),
+    # Landau, Lifshitz, Fields, 4th ed., section 16: p -> p - q A/c
+    "charge in a magnetic field, Landau gauge": (
+        "coordinates: [x, y]\nparameters: {m: {assume: positive}, B: {}, q: {}}\n"
+        "L: m*(x'^2 + y'^2)/2 + q*B*x*y'",
+        "p_x^2/(2*m) + (p_y - q*B*x)^2/(2*m)",
+    ),
+    "a rotating frame": (
+        "coordinates: [x, y]\nparameters: {m: {assume: positive}, w: {}}\n"
+        "T: m*((x' - w*y)^2 + (y' + w*x)^2)/2",
+        "(p_x^2 + p_y^2)/(2*m) + w*(y*p_x - x*p_y)",
+    ),
+    "quartic in the velocity": (
+        "coordinates: [x]\nparameters: {a: {assume: positive}}\nL: a*x'^4/4",
+        "3*abs(p_x)^(4/3)/(4*a^(1/3))",
+    ),
+    "spherical coordinates": (
+        "coordinates: {r: {assume: positive}, theta: {}, phi: {}}\nparameters: {m: {assume: positive}}\n"
+        "functions: {U: [r]}\nT: m*(r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2\nV: U(r)",
+        "(p_r^2 + p_theta^2/r^2 + p_phi^2/(r^2*sin(theta)^2))/(2*m) + U(r)",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_hamiltonian(name: str):
+    text, expected = CASES[name]
+    d = derive(text)
+    assert d.hamiltonian.function is not None
+    # the same function at 50 digits where the normal form does not decide about roots
+    difference = d.hamiltonian.function - d.system.build(_parsed(expected))
+    import mpmath
+
+    from lagcli.algebra.numeric import Evaluator
+
+    symbols = sorted(difference.free_symbols, key=str)
+    with mpmath.workdps(50):
+        point = {s: mpmath.mpf(7 + 3 * i) / 11 for i, s in enumerate(symbols)}
+        [value] = Evaluator([difference], 50)(point)
+        assert abs(value) < mpmath.mpf(10) ** -40
+
+
+def _parsed(text: str):
+    from lagcli.reader import parse_text
+
+    return parse_text(text)
+
+
+def test_canonical_equations_carry_multipliers_forces_and_dissipation():
+    d = derive(
+        "coordinates: [x, y]\nparameters: {m: {assume: positive}, b: {}, g: {}, F: {}}\n"
+        "T: m*(x'^2+y'^2)/2\nV: m*g*y\ndissipation: b*x'^2/2\nforces: {x: F}\n"
+        "constraints: {ramp: y = 2*x}"
+    )
+    assert d.hamiltonian.canonical_equations is not None
+    (xq, xp), (yq, yp) = d.hamiltonian.canonical_equations
+    assert same(d, xq, "p_x/m")
+    assert same(d, yq, "p_y/m")
+    assert same(d, xp, "F - b*p_x/m - 2*lambda_ramp")
+    assert same(d, yp, "-m*g + lambda_ramp")
+
+
+def test_a_singular_lagrangian_has_no_hamiltonian_and_says_why():
+    d = derive("coordinates: [x, y]\nL: x*y' - y*x'")
+    assert d.hamiltonian.function is None
+    assert "singular" in d.hamiltonian.reason

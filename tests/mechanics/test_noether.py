@@ -1,0 +1,127 @@
+"""Noether's theorem: charges, boundary terms, and what breaks a symmetry."""
+
+from __future__ import annotations
+
+import pytest
+
+from .derived import charge, derive, same
+
+FREE = "coordinates: [x, y]\nparameters: {m: {assume: positive}, k: {}, c: {assume: positive}}\n"
+
+
+def symmetry(text: str, change: str):
+    d = derive(FREE + text + f"\nsymmetries: {{s: {{{change}}}}}")
+    return d, charge(d, "s")
+
+
+@pytest.mark.parametrize(
+    ("lagrangian", "change", "expected"),
+    [
+        # Goldstein, 3rd ed., section 13.7, and Levy-Leblond, Am. J. Phys. 39 (1971) 502
+        ("T: m*(x'^2+y'^2)/2", "x: 1", "m*x'"),
+        ("T: m*(x'^2+y'^2)/2", "x: t", "m*x'*t - m*x"),
+        ("T: m*(x'^2+y'^2)/2", "x: -y, y: x", "m*(x*y' - y*x')"),
+        ("T: m*(x'^2+y'^2)/2", "t: 1", "-m*(x'^2+y'^2)/2"),
+        # dilation and conformal time of the inverse square: Jackiw, Physics Today 25 (1972) 23
+        (
+            "T: m*x'^2/2\nV: k/x^2 - m*y'^2/2",
+            "t: 2*t, x: x, y: y",
+            "m*(x*x'+y*y') - 2*t*(m*(x'^2+y'^2)/2 + k/x^2)",
+        ),
+        (
+            "T: m*x'^2/2\nV: k/x^2 - m*y'^2/2",
+            "t: t^2, x: t*x, y: t*y",
+            "m*t*(x*x'+y*y') - t^2*(m*(x'^2+y'^2)/2 + k/x^2) - m*(x^2+y^2)/2",
+        ),
+        # Runge-Lenz: Goldstein, 3rd ed., section 3.9
+        (
+            "T: m*(x'^2+y'^2)/2\nV: -k/sqrt(x^2+y^2)",
+            "x: -y*y', y: 2*x*y' - y*x'",
+            "m*y'*(x*y' - y*x') - k*x/sqrt(x^2+y^2)",
+        ),
+        # a boost along x of a relativistic particle: Landau, Lifshitz, Fields, section 14
+        (
+            "L: -m*c^2*sqrt(1 - (x'^2+y'^2)/c^2)",
+            "t: x/c^2, x: t",
+            "m*(t*x' - x)/sqrt(1 - (x'^2+y'^2)/c^2)",
+        ),
+        # oscillator: q -> q + e sin(w t), Lutzky, J. Phys. A 11 (1978) 249
+        (
+            "T: m*(x'^2+y'^2)/2\nV: m*k^2*(x^2+y^2)/2",
+            "x: sin(k*t)",
+            "m*x'*sin(k*t) - m*k*x*cos(k*t)",
+        ),
+        # magnetic translation: uniform field in the symmetric gauge
+        ("L: m*(x'^2+y'^2)/2 + k*(x*y' - y*x')/2", "x: 1", "m*x' - k*y"),
+    ],
+)
+def test_charges(lagrangian: str, change: str, expected: str):
+    d, found = symmetry(lagrangian, change)
+    assert found.conserved is True
+    assert same(d, found.charge, expected)
+
+
+@pytest.mark.parametrize(
+    ("lagrangian", "change", "rate", "culprit"),
+    [
+        ("T: m*(x'^2+y'^2)/2\nV: k*x^2/2", "x: 1", "-k*x", "the Lagrangian"),
+        ("T: m*(x'^2+y'^2)/2\ndissipation: k*x'^2/2", "x: 1", "-k*x'", "the dissipation"),
+        ("T: m*(x'^2+y'^2)/2\nforces: {x: k}", "x: 1", "k", "the applied forces"),
+        (
+            "T: m*(x'^2+y'^2)/2\nV: m*k*y\nconstraints: {ramp: y = x}",
+            "x: 1",
+            "-m*k/2",
+            "the constraint 'ramp'",
+        ),
+        ("T: m*(x'^2+y'^2)/2\ndissipation: k*x'^2/2", "t: 1", "k*x'^2", "the dissipation"),
+    ],
+)
+def test_what_breaks_a_symmetry(lagrangian: str, change: str, rate: str, culprit: str):
+    d, found = symmetry(lagrangian, change)
+    assert found.conserved is False
+    assert same(d, found.rate, rate)
+    assert found.broken_by == culprit
+
+
+def test_a_wrong_gauge_is_not_a_symmetry():
+    d, found = symmetry("T: m*(x'^2+y'^2)/2", "x: t, gauge: 2*m*x")
+    assert found.conserved is False
+    assert same(d, found.rate, "-m*x'")
+
+
+def test_a_symmetry_along_a_constraint_with_its_boundary_term():
+    """The contract's example: a hoop on an incline slides by (R, 1)."""
+    d = derive(
+        "coordinates: [x, theta]\nparameters: [M, R, alpha, g, l]\n"
+        "T: M*x'^2/2 + M*R^2*theta'^2/2\nV: M*g*(l - x)*sin(alpha)\n"
+        "constraints: {rolling: x - R*theta}\nsymmetries: {slide: {x: R, theta: 1}}"
+    )
+    slide = charge(d, "slide")
+    assert slide.conserved is True
+    assert same(d, slide.gauge, "M*R*g*t*sin(alpha)")
+    assert same(d, slide.charge, "M*R*x' + M*R^2*theta' - M*R*g*t*sin(alpha)")
+
+
+def test_an_evident_charge_that_a_candidate_gives_is_not_listed_twice():
+    d = derive(FREE + "T: m*(x'^2+y'^2)/2\nsymmetries: {push: {x: 3}, time: {t: 1}}")
+    assert [c.name for c in d.noether.charges] == ["push", "time", "p_y"]
+
+
+def test_nonholonomic_momentum_of_a_coin_is_conserved_where_it_does_no_work():
+    """Turning about the vertical is free: p_phi; rolling on is not, unless it is tangent."""
+    d = derive(
+        "coordinates: [x, y, theta, phi]\nparameters: {m: {assume: positive}, R: {assume: positive}}\n"
+        "T: m*(x'^2 + y'^2)/2 + m*R^2*theta'^2/4 + m*R^2*phi'^2/8\n"
+        "constraints: {along: x' = R*theta'*cos(phi), across: y' = R*theta'*sin(phi)}\n"
+        "symmetries: {roll: {theta: 1, x: R*cos(phi), y: R*sin(phi)}}"
+    )
+    assert charge(d, "p_phi").conserved is True
+    assert charge(d, "p_x").conserved is False
+    assert charge(d, "roll").conserved is True
+
+
+def test_a_general_lagrangian_conserves_its_energy_function():
+    d = derive("coordinates: [q]\nfunctions: {F: [q, v]}\nL: F(q, q')")
+    energy = charge(d, "energy")
+    assert energy.conserved is True
+    assert same(d, energy.charge, "q'*diff(F, 2)(q, q') - F(q, q')")

@@ -1,0 +1,223 @@
+"""Equilibria and normal modes against textbooks; each test's input is the YAML in it."""
+
+from __future__ import annotations
+
+import pytest
+from sympy import Expr, acos
+
+from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.small_oscillations import equilibria, modes
+from lagcli.reader import read_problem
+
+from .formulas import formula, formulas, normal
+
+
+def dynamics(text: str) -> Dynamics:
+    text = text.replace("POSITIVE", "{assume: positive}")
+    return Derivation(read_problem("test.yaml", text.encode()).checked()).dynamics
+
+
+def frequencies(text: str) -> list[Expr | None]:
+    found = modes(dynamics(text)).modes
+    assert found is not None
+    return [normal(m.frequency) for m in found]
+
+
+def shapes(text: str) -> list[list[Expr | None]]:
+    found = modes(dynamics(text)).modes
+    assert found is not None
+    return [list(map(normal, m.shape.values())) for m in found if m.shape is not None]
+
+
+def rest_states(text: str) -> dict[tuple[str, ...], bool | None]:
+    found = equilibria(dynamics(text)).equilibria
+    assert found is not None
+    return {tuple(map(to_grammar, e.at.values())): e.stable for e in found}
+
+
+HOOP = """
+coordinates: {theta: {}}
+parameters: {m: POSITIVE, g: POSITIVE, R: POSITIVE, w: POSITIVE}
+T: m*R^2*(theta'^2 + w^2*sin(theta)^2)/2
+V: -m*g*R*cos(theta)
+"""
+
+
+def test_the_bead_on_a_rotating_hoop_has_two_more_equilibria_when_it_turns_fast():
+    """Taylor, *Classical Mechanics*, section 7.6; Goldstein, chapter 2, exercise 18."""
+    assert rest_states(HOOP) == {
+        ("-acos(g/(R*w^2))",): True,
+        ("acos(g/(R*w^2))",): True,
+        ("0",): None,  # stable where g > R w^2
+        ("pi",): False,
+    }
+    found = equilibria(dynamics(HOOP)).equilibria
+    assert found is not None
+    assert [e.condition for e in found] == ["g/(R*w^2) < 1", "g/(R*w^2) < 1", "", ""]
+    assert found[2].reason == "stable where g/R > w^2"
+
+
+def test_the_bead_oscillates_about_the_tilted_equilibrium():
+    """Taylor, section 7.6: Omega'^2 = omega^2 - (g/(omega R))^2."""
+    assert frequencies(HOOP)[0] == formula("sqrt(w^2 - g^2/(R^2*w^2))")
+
+
+def test_the_double_pendulum():
+    """Landau and Lifshitz, section 23, problem 2, with equal masses and lengths."""
+    text = """
+coordinates: [a, b]
+parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE}
+L: m*l^2*(a'^2 + b'^2/2 + a'*b'*cos(a - b)) + m*g*l*(2*cos(a) + cos(b))
+"""
+    assert frequencies(text) == formulas("sqrt(g*(2 - sqrt(2))/l)", "sqrt(g*(sqrt(2) + 2)/l)")
+    assert shapes(text) == [formulas("1", "sqrt(2)"), formulas("1", "-sqrt(2)")]
+    assert list(rest_states(text).values()) == [True, False, False, False]
+
+
+def test_a_linear_triatomic_molecule():
+    """Goldstein, section 6.4; CO2 along its line."""
+    text = """
+coordinates: [x1, x2, x3]
+parameters: {m: POSITIVE, M: POSITIVE, k: POSITIVE, b: POSITIVE}
+T: (m*x1'^2 + M*x2'^2 + m*x3'^2)/2
+V: k*((x2 - x1 - b)^2 + (x3 - x2 - b)^2)/2
+"""
+    assert frequencies(text) == formulas("0", "sqrt(k/m)", "sqrt(k*(2*m + M)/(m*M))")
+    assert shapes(text) == [
+        formulas("1", "1", "1"),
+        formulas("1", "0", "-1"),
+        formulas("1", "-2*m/M", "1"),
+    ]
+    [equilibrium] = equilibria(dynamics(text)).equilibria or ()
+    assert equilibrium.free == ("x3",)
+    assert equilibrium.stable is True
+
+
+def test_coupled_pendulums():
+    """Taylor, section 11.3 (method)."""
+    text = """
+coordinates: [a, b]
+parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE, k: POSITIVE}
+T: m*l^2*(a'^2 + b'^2)/2
+V: -m*g*l*(cos(a) + cos(b)) + k*l^2*(sin(a) - sin(b))^2/2
+"""
+    assert frequencies(text) == formulas("sqrt(g/l)", "sqrt(2*k/m + g/l)")
+    assert shapes(text) == [formulas("1", "1"), formulas("1", "-1")]
+
+
+PENDULUM = """
+coordinates: [x, y]
+parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE}
+T: m*(x'^2 + y'^2)/2
+V: m*g*y
+constraints: {rod: x^2 + y^2 = l^2}
+"""
+
+
+def test_the_constraint_force_bends_the_potential_of_a_cartesian_pendulum():
+    assert rest_states(PENDULUM) == {("0", "l"): False, ("0", "-l"): True}
+    assert frequencies(PENDULUM) == formulas("sqrt(g/l)")
+    assert shapes(PENDULUM) == [formulas("1", "0")]
+
+
+def test_only_an_unstable_equilibrium_has_no_real_frequency():
+    text = """
+coordinates: [x]
+parameters: {m: POSITIVE, k: POSITIVE}
+T: m*x'^2/2
+V: -k*x^2/2
+"""
+    [mode] = modes(dynamics(text)).modes or ()
+    assert mode.frequency is None
+    assert mode.frequency_squared is not None
+    assert to_grammar(mode.frequency_squared) == "-k/m"
+
+
+def test_a_double_well():
+    text = """
+coordinates: [x]
+parameters: {m: POSITIVE, a: POSITIVE, b: POSITIVE}
+T: m*x'^2/2
+V: -a*x^2/2 + b*x^4/4
+"""
+    assert rest_states(text) == {("0",): False, ("-sqrt(a/b)",): True, ("sqrt(a/b)",): True}
+    assert frequencies(text) == formulas("sqrt(2*a/m)", "sqrt(2*a/m)")
+
+
+def test_the_pendulum_under_a_cart_drifts_and_swings():
+    """Landau and Lifshitz, section 5, problem 2 (the Lagrangian)."""
+    text = """
+coordinates: [x, theta]
+parameters: {M: POSITIVE, m: POSITIVE, g: POSITIVE, l: POSITIVE}
+T: M*x'^2/2 + m*(x'^2 + 2*l*x'*theta'*cos(theta) + l^2*theta'^2)/2
+V: -m*g*l*cos(theta)
+"""
+    assert rest_states(text) == {("0",): True, ("pi",): False}
+    assert frequencies(text) == formulas("0", "sqrt(g*(M + m)/(M*l))")
+
+
+def test_the_foucault_pendulum_splits_its_frequency():
+    """Landau and Lifshitz, section 39, problem 3: omega +- W."""
+    text = """
+coordinates: [x, y]
+parameters: {m: POSITIVE, w: POSITIVE, W: POSITIVE}
+L: m*(x'^2 + y'^2)/2 + m*W*(x*y' - y*x') - m*w^2*(x^2 + y^2)/2
+"""
+    assert frequencies(text) == formulas("sqrt(w^2 + W^2) - W", "sqrt(w^2 + W^2) + W")
+    assert rest_states(text) == {("0", "0"): True}
+
+
+def test_three_pendulums_have_the_roots_of_a_laguerre_polynomial():
+    """L_3(W l/g) = 0 has three real roots, given by Viete's cosines."""
+    text = """
+coordinates: [a, b, c]
+parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE}
+T: m*l^2*(3*a'^2 + 2*b'^2 + c'^2 + 4*a'*b' + 2*a'*c' + 2*b'*c')/2
+V: m*g*l*(3*a^2 + 2*b^2 + c^2)/2
+"""
+    found = frequencies(text)
+    assert len(found) == 3
+    assert all(f is not None and f.has(acos) for f in found)
+
+
+def test_a_damped_oscillator_is_stable_and_has_no_real_frequency():
+    text = """
+coordinates: [x]
+parameters: {m: POSITIVE, k: POSITIVE, c: POSITIVE}
+T: m*x'^2/2
+V: k*x^2/2
+dissipation: c*x'^2/2
+"""
+    assert rest_states(text) == {("0",): True}
+    assert frequencies(text) == [None]
+
+
+def test_equal_frequencies_are_one_entry():
+    text = """
+coordinates: [x, y]
+parameters: {m: POSITIVE, k: POSITIVE}
+T: m*(x'^2 + y'^2)/2
+V: k*(x^2 + y^2)/2
+"""
+    [mode] = modes(dynamics(text)).modes or ()
+    assert mode.multiplicity == 2
+
+
+def test_numbers_where_the_polynomial_has_no_radicals():
+    text = """
+coordinates: [a, b, c, d]
+T: (a'^2 + 2*b'^2 + 3*c'^2 + d'^2)/2
+V: (a^2 + (a - b)^2 + (b - c)^2 + (c - d)^2)/2
+"""
+    found = modes(dynamics(text)).modes
+    assert found is not None
+    assert [m.frequency is not None for m in found] == [True] * 4
+
+
+@pytest.mark.parametrize("system", ["V: m*g*x", "V: m*g*x*sin(t)"])
+def test_no_equilibrium_no_modes(system):
+    text = f"coordinates: [x]\nparameters: {{m: POSITIVE, g: POSITIVE}}\nT: m*x'^2/2\n{system}\n"
+    assert not equilibria(dynamics(text)).equilibria
+    assert modes(dynamics(text)).modes is None
