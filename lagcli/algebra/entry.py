@@ -54,7 +54,7 @@ class Field(FractionField):
         stack = list(expressions)
         while stack:
             node = stack.pop()
-            if node.args and node not in seen:
+            if isinstance(node, Expr) and node.args and node not in seen:
                 seen.add(node)
                 if node.is_Function or (node.is_Pow and not node.exp.is_Rational):
                     found.append(node)
@@ -89,7 +89,7 @@ class Field(FractionField):
             return self._product(node)
         if node.is_Pow:
             return self._power(node.base, node.exp)
-        if node.is_Function:
+        if node.is_Function and all(isinstance(a, Expr) for a in node.args):
             return self._function(node)
         if node in (sympy.zoo, sympy.nan, sympy.oo, -sympy.oo):
             raise ZeroDivisionError

@@ -85,7 +85,10 @@ class Atoms:
     def _generator(self, number: int) -> Term:
         generator = self.field.generators[number]
         if generator.kind != "root":
-            tree = self._translator.tree(generator.expression)
+            try:
+                tree = self._translator.tree(generator.expression)
+            except TypeError:  # nothing that the grammar can say, such as a Piecewise
+                tree = Name(f"#{number}")
             return ((self.add(tree, generator.expression), 1),)
         return tuple((a, _exact(Fraction(e) / generator.index)) for a, e in self._inside(number))
 

@@ -22,7 +22,7 @@ _MAX_FACTORED = 1500  # terms
 _MAX_REWRITTEN = 400
 _EXPANSIONS = 3  # that are bracketed, the shortest ones
 
-_TRIGONOMETRIC = ("cos", "sin")
+_CIRCULAR = ("cos", "sin")
 _QUADRATIC = ("cos", "cosh")
 
 
@@ -189,7 +189,23 @@ class Shaper:
                     kept.append((f, e))
             factors = [*kept, (ring.generator(generator.partner), 2 * pairs)]
         factors.sort(key=lambda pair: str(pair[0]))
-        return int(content), factors
+        return int(content), self._with_double_angles(factors)
+
+    def _with_double_angles(self, factors: list[tuple[Poly, int]]) -> list[tuple[Poly, int]]:
+        """Sines and cosines joined to one factor where that is shorter: 2 sin cos = sin(2a)."""
+        kinds = self.field.generators
+        used = self.field.ring.used
+        single = [(f, e) for f, e in factors if len(f) == 1 and kinds[used(f)[0]].kind in _CIRCULAR]
+        if len(single) < 2:
+            return factors
+        joined = self.field.ring.one
+        for f, e in single:
+            joined *= f**e
+        plain = self.grouper.group(self.atoms.terms(joined))
+        best = self._polynomial(joined)
+        if not isinstance(best, Product) or best.cost >= plain.cost:
+            return factors
+        return [*(pair for pair in factors if pair not in single), (joined, 1)]
 
     def _polynomial(self, poly: Poly) -> Product | Sum:
         """The shortest plan of an irreducible polynomial."""
@@ -246,8 +262,8 @@ class Shaper:
         generators = self.field.generators
         groups: dict[Monomial, list[tuple[Monomial, int]]] = {}
         for monomial, coefficient in self.field.ring.terms(poly):
-            inside = tuple(p for p in monomial if generators[p[0]].kind in _TRIGONOMETRIC)
-            outside = tuple(p for p in monomial if generators[p[0]].kind not in _TRIGONOMETRIC)
+            inside = tuple(p for p in monomial if generators[p[0]].kind in _CIRCULAR)
+            outside = tuple(p for p in monomial if generators[p[0]].kind not in _CIRCULAR)
             groups.setdefault(outside, []).append((inside, coefficient))
         return [(rest, tuple(inner)) for rest, inner in groups.items()]
 

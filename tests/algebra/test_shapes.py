@@ -1,0 +1,107 @@
+"""Formulas come out the way a textbook writes them."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+import sympy as sp
+from sympy import Expr, Symbol, cos, exp, sin, sqrt, tan
+
+from lagcli.algebra import shape, simplify, to_expression
+from lagcli.algebra.build import unspecified
+from lagcli.expression import operation_count
+from lagcli.formatters.grammar import to_grammar
+
+ORDER = "M m m1 m2 I1 I3 l l1 l2 R g k c alpha t x y r theta phi psi theta1 theta2".split()
+M, m, m1, m2, l1, l2, R, g, k, c, r, x0 = (
+    Symbol(n, positive=True) for n in "M m m1 m2 l1 l2 R g k c r x0".split()
+)
+alpha, t, x, y, theta, phi, u, v = (
+    Symbol(n, real=True) for n in "alpha t x y theta phi theta1 theta2".split()
+)
+dx, dy, dtheta, dphi, du, dv = (
+    Symbol(n + "'", real=True) for n in "x y theta phi theta1 theta2".split()
+)
+
+TEXTBOOK: list[tuple[Expr, str]] = [
+    (M * g * R * t * sin(alpha), "M*R*g*t*sin(alpha)"),
+    (m * l1**2 * dtheta**2 / 2, "m*l1^2*theta'^2/2"),
+    (-M * g * sin(alpha) / 2, "-M*g*sin(alpha)/2"),
+    (g - k * x / m, "g - k*x/m"),
+    (sin(u) * cos(v) - cos(u) * sin(v), "sin(theta1 - theta2)"),
+    (cos(u) * cos(v) + sin(u) * sin(v), "cos(theta1 - theta2)"),
+    (1 - cos(theta) ** 2, "sin(theta)^2"),
+    (m1 + m2 - m2 * cos(u - v) ** 2, "m1 + m2*sin(theta1 - theta2)^2"),
+    (sin(theta) ** 2 / (1 + cos(theta)), "1 - cos(theta)"),
+    ((1 + cos(theta)) / sin(theta) + sin(theta) / (1 + cos(theta)), "2/sin(theta)"),
+    (-2 * dtheta * dphi * cos(theta) / sin(theta), "-2*theta'*phi'/tan(theta)"),
+    ((sin(u) * cos(v) - cos(u) * sin(v)) / sin(2 * u - 2 * v), "1/(2*cos(theta1 - theta2))"),
+    (-k * x / (m * sqrt(x**2 + y**2) ** 3), "-k*x/(m*(x^2 + y^2)^(3/2))"),
+    (sqrt(g) / sqrt(l1), "sqrt(g/l1)"),
+    (sqrt(2) * sqrt(k) / sqrt(m) / 2, "sqrt(k/(2*m))"),
+    (m * c**2 / sqrt(1 - dx**2 / c**2), "m*c^2/sqrt(1 - x'^2/c^2)"),
+    (1 / (sqrt(r) + 1) - (sqrt(r) - 1) / (r - 1), "0"),
+    (exp(x - y) * exp(y), "exp(x)"),
+    (M**x / M ** (x - 1), "M"),
+    (tan(theta) * cos(theta), "sin(theta)"),
+    (sin(theta / 2) * cos(theta / 2) * 2, "sin(theta)"),
+    (sp.cosh(x) ** 2 - sp.sinh(x) ** 2, "1"),
+    (sp.Abs(x) ** 2, "x^2"),
+    (unspecified("U", 1)(r + 0) * 2, "2*U(r)"),
+    (unspecified("F", 2, (1, 2))(x, t), "diff(F, 1, 2)(x, t)"),
+    ((x + y) ** 3, "(x + y)^3"),
+]
+
+
+@pytest.mark.parametrize(("expression", "text"), TEXTBOOK, ids=[text for _, text in TEXTBOOK])
+def test_shape(expression: Expr, text: str) -> None:
+    assert to_grammar(shape(expression, ORDER)) == text
+
+
+def test_the_double_pendulum_is_shorter_than_in_the_books() -> None:
+    """Printed in many places with sin(θ1 − 2θ2) and cos(2θ1 − 2θ2)."""
+    book = (
+        -g * (2 * m1 + m2) * sin(u)
+        - m2 * g * sin(u - 2 * v)
+        - 2 * sin(u - v) * m2 * (dv**2 * l2 + du**2 * l1 * cos(u - v))
+    ) / (l1 * (2 * m1 + m2 - m2 * cos(2 * u - 2 * v)))
+    assert operation_count(shape(book, ORDER)) == 30
+    assert operation_count(to_expression(book, ORDER)) > 30
+
+
+def test_no_shape_is_longer_than_what_was_given() -> None:
+    for expression, _ in TEXTBOOK:
+        given = operation_count(to_expression(expression, ORDER))
+        assert operation_count(shape(expression, ORDER)) <= given
+
+
+def test_simplify_leaves_what_it_does_not_know() -> None:
+    piecewise = sp.Piecewise((x, x > 0), (0, True))
+    assert simplify(piecewise) == piecewise
+    assert simplify(sp.zoo) == sp.zoo
+    assert simplify(piecewise * sin(x) ** 2 + piecewise * cos(x) ** 2) == piecewise
+
+
+SCRIPT = """
+import sympy as sp
+from lagcli.algebra import shape, simplify
+names = "m1 m2 l1 l2 g theta1 theta2 x y".split()
+m1, m2, l1, l2, g, u, v, x, y = (sp.Symbol(n, real=True) for n in names)
+e = (m1*sp.sin(u)*g + m2*sp.sin(u-v)*(l1*sp.cos(u-v)+l2))/(m1+m2-m2*sp.cos(u-v)**2) \
+    + sp.sqrt(x**2+y**2)*sp.exp(x-y)/(x*y+1) + abs(x)*sp.log(y**2+1)
+print(shape(e, names), simplify(e))
+"""
+
+
+def test_the_hash_seed_does_not_matter() -> None:
+    outputs = {
+        subprocess.run(
+            [sys.executable, "-c", SCRIPT],
+            env={"PYTHONHASHSEED": seed, "PYTHONPATH": ":".join(sys.path)},
+            capture_output=True, text=True, check=True,
+        ).stdout
+        for seed in ("0", "1", "2")
+    }  # fmt: skip
+    assert len(outputs) == 1
