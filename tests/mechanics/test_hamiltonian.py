@@ -9,24 +9,32 @@ from .derived import derive, same
 CASES = {
     # Landau, Lifshitz, Fields, 4th ed., section 9: H = c sqrt(p^2 + m^2 c^2)
     "relativistic": (
-        "coordinates: [x]\nparameters: {m: {assume: positive}, c: {assume: positive}}\n"
-        "L: -m*c^2*sqrt(1 - x'^2/c^2)",
+        (
+            "coordinates: [x]\nparameters: {m: {assume: positive}, c: {assume: positive}}\n"
+            "L: -m*c^2*sqrt(1 - x'^2/c^2)"
+        ),
         "c*sqrt(p_x^2 + m^2*c^2)",
     ),
     "relativistic in two dimensions with a potential": (
-        "coordinates: [x, y]\nparameters: {m: {assume: positive}, c: {assume: positive}}\n"
-        "functions: {U: [x, y]}\nL: -m*c^2*sqrt(1 - (x'^2 + y'^2)/c^2) - U(x, y)",
+        (
+            "coordinates: [x, y]\nparameters: {m: {assume: positive}, c: {assume: positive}}\n"
+            "functions: {U: [x, y]}\nL: -m*c^2*sqrt(1 - (x'^2 + y'^2)/c^2) - U(x, y)"
+        ),
         "c*sqrt(p_x^2 + p_y^2 + m^2*c^2) + U(x, y)",
     ),
     # Landau, Lifshitz, Fields, 4th ed., section 16: p -> p - q A/c
     "charge in a magnetic field, Landau gauge": (
-        "coordinates: [x, y]\nparameters: {m: {assume: positive}, B: {}, q: {}}\n"
-        "L: m*(x'^2 + y'^2)/2 + q*B*x*y'",
+        (
+            "coordinates: [x, y]\nparameters: {m: {assume: positive}, B: {}, q: {}}\n"
+            "L: m*(x'^2 + y'^2)/2 + q*B*x*y'"
+        ),
         "p_x^2/(2*m) + (p_y - q*B*x)^2/(2*m)",
     ),
     "a rotating frame": (
-        "coordinates: [x, y]\nparameters: {m: {assume: positive}, w: {}}\n"
-        "T: m*((x' - w*y)^2 + (y' + w*x)^2)/2",
+        (
+            "coordinates: [x, y]\nparameters: {m: {assume: positive}, w: {}}\n"
+            "T: m*((x' - w*y)^2 + (y' + w*x)^2)/2"
+        ),
         "(p_x^2 + p_y^2)/(2*m) + w*(y*p_x - x*p_y)",
     ),
     "quartic in the velocity": (
@@ -34,8 +42,10 @@ CASES = {
         "3*abs(p_x)^(4/3)/(4*a^(1/3))",
     ),
     "spherical coordinates": (
-        "coordinates: {r: {assume: positive}, theta: {}, phi: {}}\nparameters: {m: {assume: positive}}\n"
-        "functions: {U: [r]}\nT: m*(r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2\nV: U(r)",
+        (
+            "coordinates: {r: {assume: positive}, theta: {}, phi: {}}\nparameters: {m: {assume: positive}}\n"
+            "functions: {U: [r]}\nT: m*(r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2\nV: U(r)"
+        ),
         "(p_r^2 + p_theta^2/r^2 + p_phi^2/(r^2*sin(theta)^2))/(2*m) + U(r)",
     ),
 }
