@@ -19,7 +19,8 @@ from sympy import Dummy, Expr, Rational, S, Symbol
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.ring import Poly
-from lagcli.algebra.simplification import simplify
+from lagcli.algebra.simplification import shape, simplify
+from lagcli.expression import Expression, Negative, Number
 
 _DECIMALS = 15
 _MAX_DEGREE = 24
@@ -203,6 +204,14 @@ def decimal(value: Expr) -> Expr:
 def is_decimal(value: Expr) -> bool:
     """Whether a root is one that `decimal` rounded."""
     return bool(value.is_Rational and len(str(value.q)) > _DECIMALS // 2)
+
+
+def written(value: Expr, order: Sequence[str]) -> Expression:
+    """The readable shape of a root; one that was rounded is written with a decimal point."""
+    if not is_decimal(value) or 10**400 % int(value.q):
+        return shape(value, order)
+    number = Number(abs(Fraction(int(value.p), int(value.q))), decimal=True)
+    return Negative(number) if value < 0 else number
 
 
 def _rounded(value: Expr) -> Expr:

@@ -12,7 +12,7 @@ Landau, Lifshitz, *Mechanics*, 3rd ed., sections 11 and 14 (motion from conserve
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 from time import monotonic
 
@@ -20,13 +20,15 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import is_zero, shape, simplify
+from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.elimination import Eliminated, eliminate
+from lagcli.algebra.equations import written
 from lagcli.algebra.numeric import Evaluator
 from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.initial import InitialState, initial_state
 from lagcli.mechanics.level_set import LevelSet
+from lagcli.mechanics.parameter_values import parameter_values
 from lagcli.mechanics.states import State
 
 #: Seconds that one question may take.
@@ -58,15 +60,17 @@ class AlongTheMotion:
     @cached_property
     def states(self) -> list[State]:
         """Random states of the level set."""
-        return self.level_set.states(_STATES)
+        bound = self.initial is not None and self.initial.only_at_values
+        return self.level_set.states(_STATES, parameter_values(self.system) if bound else None)
 
     def tree(self, expression: Expr) -> Expression:
         """The readable shape as a tree."""
-        return shape(expression, self.system.order)
+        return written(expression, self.system.order)
 
-    def notes(self, used: Iterable[Expr | None]) -> list[str]:
-        """What must be said with an answer."""
-        if self.initial is not None and self.initial.only_at_values and any(used):
+    @property
+    def notes(self) -> list[str]:
+        """What must be said with an answer that was found."""
+        if self.initial is not None and self.initial.only_at_values:
             return ["the initial state satisfies the constraints for the values of the file only"]
         return []
 

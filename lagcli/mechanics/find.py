@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from time import monotonic
 
+from sympy import Symbol
+
 from lagcli.answers import FindSection, Rewritten, Solutions
 from lagcli.mechanics.along_the_motion import BUDGET, AlongTheMotion
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.passing import Passing
 from lagcli.mechanics.where import Where
-from lagcli.problem import Question, Rewrite
+from lagcli.problem import Rewrite
 
 
 def answer_questions(dynamics: Dynamics) -> FindSection:
@@ -20,14 +23,15 @@ def answer_questions(dynamics: Dynamics) -> FindSection:
         When no state with the given initial values satisfies the constraints.
     """
     along = AlongTheMotion(dynamics)
-    return FindSection(answers={q.name: _answer(along, q) for q in dynamics.system.problem.find})
-
-
-def _answer(along: AlongTheMotion, question: Question) -> Solutions | Rewritten:
-    along.deadline = monotonic() + BUDGET
-    if isinstance(question, Rewrite):
-        return _rewritten(along, question)
-    return Where(along, question).solutions()
+    known: dict[Symbol, Passing] = {}
+    answers: dict[str, Solutions | Rewritten] = {}
+    for question in dynamics.system.problem.find:
+        along.deadline = monotonic() + BUDGET
+        if isinstance(question, Rewrite):
+            answers[question.name] = _rewritten(along, question)
+        else:
+            answers[question.name] = Where(along, question, known).solutions()
+    return FindSection(answers=answers)
 
 
 def _rewritten(along: AlongTheMotion, question: Rewrite) -> Rewritten:
@@ -38,5 +42,5 @@ def _rewritten(along: AlongTheMotion, question: Rewrite) -> Rewritten:
     return Rewritten(
         value=None if value is None else along.tree(value),
         subject=along.tree(subject),
-        note=along.why_not if value is None else "; ".join(along.notes([value])),
+        note=along.why_not if value is None else "; ".join(along.notes),
     )

@@ -26,7 +26,7 @@ from lagcli.mechanics.states import Contradiction, State, independent_rows, leas
 from lagcli.mechanics.total_derivative import boundary_term
 
 DIGITS = 60
-_NEWTON_STEPS = 60
+_NEWTON_STEPS = 140  # at a double root, as of v^2 = 0, each step halves the distance
 _ON_IT = mpf(10) ** -52
 _TRIES = 12
 

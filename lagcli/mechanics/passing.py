@@ -19,8 +19,8 @@ from lagcli.mechanics.along_the_motion import AlongTheMotion
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reach import DIGITS, LineOfMotion, Reach, real_value
 
-_DRAWS = 240  # of random parameters, to find some at which a place is possible at all
-_TESTED = 6  # of these, the ones with which the motion is followed
+_DRAWS = 160  # of random parameters, to find some at which a place is possible at all
+_TESTED = 4  # of these, the ones with which the motion is followed
 _SMALL = mpf(10) ** -12
 
 
@@ -40,7 +40,8 @@ class Passing:
         self.system = along.system
         self.u = u
         self.rate = self.system.symbol_of(u.name + "'")
-        self.notes: list[str] = []
+        self.notes: list[str] = []  # to the last answer of `passed`
+        self._undecided: list[str] = []
         self._reaches: dict[tuple[int, bool], Reach | None] = {}
 
     @cached_property
@@ -62,7 +63,7 @@ class Passing:
             margin = margin if condition.comparison in (">", ">=") else -margin
             formula = self.along.rewritten(margin, [self.u])
             if formula is None:
-                self.notes.append(f"whether contact '{constraint.name}' lasts was not decided")
+                self._undecided.append(f"whether contact '{constraint.name}' lasts was not decided")
             else:
                 margins.append(formula)
         return tuple(margins)
@@ -84,6 +85,7 @@ class Passing:
 
     def passed(self, passages: Sequence[Passage], *, angle: bool) -> list[Passage] | None:
         """Those that the motion comes to; None where that was not decided."""
+        self.notes = []
         kept = []
         decided = len(self._draws) == 1
         for passage in passages:
@@ -94,6 +96,7 @@ class Passing:
                 kept.append(passage)
             if any(times) and not (all(times) and draws == list(range(len(draws)))):
                 self.notes.append("for some values of the parameters only")
+        self.notes += self._undecided
         if passages and not kept:
             if not decided:
                 self.along.why_not = "no parameters were found for which the motion comes there"

@@ -21,7 +21,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra.numeric import Evaluator
 
 DIGITS = 30
-_SAMPLES = 160
+_SAMPLES = 96
 _SMALL = mpf(10) ** -18
 _HORIZON = 10**4
 
@@ -53,6 +53,7 @@ class Reach:
     def __init__(self, line: LineOfMotion, values: Mapping[Symbol, mpf]) -> None:
         self.line = line
         self.values = dict(values)
+        self._ends: dict[int, str] = {}
         self._plan = Evaluator([line.square_of_velocity, *line.margins], DIGITS)
         with mpmath.workdps(DIGITS):
             start, velocity, acceleration = Evaluator(
@@ -113,6 +114,11 @@ class Reach:
 
     def _end(self, direction: int) -> str:
         """How travel in one direction ends first: free for ever, at a turn, or off contact."""
+        if direction not in self._ends:
+            self._ends[direction] = self._found_end(direction)
+        return self._ends[direction]
+
+    def _found_end(self, direction: int) -> str:
         before = mpf(0)
         for distance in self._distances():
             state = self._state(self.start + direction * distance)

@@ -18,7 +18,8 @@ from functools import cached_property
 
 from sympy import Add, Expr
 
-from lagcli.algebra import shape, simplify
+from lagcli.algebra import simplify
+from lagcli.algebra.equations import written
 from lagcli.answers import EquilibriaSection, Equilibrium, Mode, ModesSection
 from lagcli.expression import Expression
 from lagcli.mechanics.characteristic import Characteristic
@@ -131,7 +132,7 @@ class SmallOscillations:
         }
 
     def _tree(self, expression: Expr) -> Expression:
-        return shape(expression, self.system.order)
+        return written(expression, self.system.order)
 
     def _tree_or_none(self, expression: Expr | None) -> Expression | None:
         return None if expression is None else self._tree(expression)

@@ -28,10 +28,13 @@ _ROUNDED = mpf(10) ** -10  # for roots given as decimals
 
 
 class Where:
-    """One question."""
+    """One question; `known` holds what other questions found of the motion of coordinates."""
 
-    def __init__(self, along: AlongTheMotion, question: WhereQuestion) -> None:
+    def __init__(
+        self, along: AlongTheMotion, question: WhereQuestion, known: dict[Symbol, Passing]
+    ) -> None:
         self.along = along
+        self._known = known
         self.system = along.system
         self.unknown = self.system.symbol_of(str(question.unknown))
         build = self.system.build
@@ -48,17 +51,22 @@ class Where:
             roots = self._with_coordinates([])
         if roots is None:
             return self._answer(None, [self.along.why_not])
-        return self._answer(roots, [*self.notes, *self.along.notes(roots)])
+        return self._answer(roots, [*self.notes, *self.along.notes])
 
     def _answer(self, roots: Sequence[Expr] | None, notes: Sequence[str]) -> Solutions:
         trees = None if roots is None else tuple(map(self.along.tree, roots))
         note = "; ".join(dict.fromkeys(n for n in notes if n))
         return Solutions(unknown=self.unknown.name, solutions=trees, note=note)
 
+    def _passing(self, u: Symbol) -> Passing:
+        if u not in self._known:
+            self._known[u] = Passing(self.along, u)
+        return self._known[u]
+
     # -- a coordinate -----------------------------------------------------------------------
 
     def _coordinate(self) -> list[Expr] | None:
-        passing = Passing(self.along, self.unknown)
+        passing = self._passing(self.unknown)
         places = self._places(passing)
         if places is None:
             return None
@@ -121,7 +129,7 @@ class Where:
     def _velocity(self) -> list[Expr] | None:
         """u' where the equation holds: at the places u that solve it, else by elimination."""
         u = self.system.q[self.system.qdot.index(self.unknown)]
-        passing = Passing(self.along, u)
+        passing = self._passing(u)
         if passing.square is not None:
             places = self._places(passing)
             if places is not None and places[0].values:

@@ -163,9 +163,8 @@ find:
 
 def test_the_tension_of_a_pendulum_is_three_weights_at_the_bottom():
     """Released horizontally: 2 l |lambda| = 3 m g at y = -l."""
-    assert value(PENDULUM.replace("CONSTRAINT", "rod: x^2 + y^2 = l^2")) == formula(
-        "3*m*g*y/(2*l^2)"
-    )
+    text = PENDULUM.replace("CONSTRAINT", "rod: x^2 + y^2 = l^2")
+    assert value(text) == formula("3*m*g*y/(2*l^2)")
 
 
 def test_a_velocity_constraint_that_is_a_derivative_is_used_as_its_integral():
