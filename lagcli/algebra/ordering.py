@@ -25,7 +25,7 @@ from lagcli.expression import (
 _RANK = {"sin": "co", "sinh": "co"}
 
 Key: TypeAlias = tuple[object, ...]
-Flat: TypeAlias = tuple[tuple[int, Fraction, str], ...]  # a key whose entries compare
+Flat: TypeAlias = tuple[tuple[int, int | Fraction, str], ...]  # a key whose entries compare
 
 
 class Ordering:
@@ -140,13 +140,10 @@ def _factor_names(node: Expression) -> Iterator[Name]:
 
 def _flat(key: Key) -> Flat:
     """A key whose entries of different types can be compared."""
-    flat = []
-    for entry in key:
-        if isinstance(entry, (int, Fraction)):
-            flat.append((0, Fraction(entry), ""))
-        else:
-            flat.append((1, Fraction(0), str(entry)))
-    return tuple(flat)
+    return tuple(
+        (0, entry, "") if isinstance(entry, (int, Fraction)) else (1, 0, str(entry))
+        for entry in key
+    )
 
 
 def _degrees(node: Expression) -> tuple[int, int]:

@@ -45,6 +45,8 @@ class Relations:
         self.solved: dict[Symbol, Expr] = {}
         self.remaining: list[Expr] = []
         symbols = sorted({s for e in expressions for s in e.free_symbols}, key=lambda s: s.name)
+        #: Without a preference the name that comes last is solved for.
+        self._direction = 1 if eliminate else -1
         self._welcome = list(eliminate) or _dynamic(symbols) or symbols
         self._ideals: dict[int, tuple[Field, list[Ideal]]] = {}
         for expression in expressions:
@@ -104,7 +106,7 @@ class Relations:
             value = field.element(slope * ring.generator(number) - ring.lift(poly), slope)
             sign = int(symbol.is_positive is True and _negative(value))
             cost = (sign, len(value.denominator), value.denominator.total_degree(),
-                    len(value.numerator), -position)  # fmt: skip
+                    len(value.numerator), self._direction * position)  # fmt: skip
             if best is None or cost < best[0]:
                 best = (cost, symbol, value)
         return None if best is None else (best[1], field.to_sympy(best[2]))

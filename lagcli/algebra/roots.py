@@ -157,9 +157,7 @@ def substitute_square(field: Field, poly: Poly, index: int, value: Poly) -> Poly
     by_power: dict[int, list[tuple[tuple[tuple[int, int], ...], int]]] = {}
     for monomial, coefficient in ring.terms(poly):
         exponent = dict(monomial).get(index, 0)
-        rest = tuple(
-            (g, e % 2 if g == index else e) for g, e in monomial if g != index or e % 2
-        )
+        rest = tuple((g, e % 2 if g == index else e) for g, e in monomial if g != index or e % 2)
         by_power.setdefault(exponent // 2, []).append((rest, coefficient))
     result = ring.zero
     for power, terms in by_power.items():
@@ -171,24 +169,19 @@ def make_radical(field: Field, radicand: Poly, index: int) -> Element:
     """The generator s with s^index = radicand, made when it is new."""
     ring = field.ring
     radicand = ring.lift(radicand)
-    trigonometric = any(
-        field.generators[g].kind not in ("symbol", "opaque", "power", "exp")
-        for g in ring.used(radicand)
-    )
-    others = 0
+    independent = ("symbol", "opaque", "power", "exp")
+    if any(field.generators[g].kind not in independent for g in ring.used(radicand)):
+        field.doubtful = True  # it may be a square: sqrt(3 + 2 sqrt(2)) = 1 + sqrt(2)
     for number, generator in enumerate(field.generators):
         if generator.kind != "root":
             continue
         value = ring.lift(generator.radicand)
         if generator.index == index and value == radicand:
             return field.generator(number)
-        others += not value.is_constant()
         if not value.is_constant() and not value.gcd(radicand).is_constant():
             field.doubtful = True
         if generator.index != index:
             field.doubtful = True
-    if trigonometric and others:
-        field.doubtful = True
     expression = sympy.Pow(field.to_sympy(field.polynomial(radicand)), sympy.Rational(1, index))
     number = field.add_generator(
         Generator("root", expression, index=index, radicand=radicand, nonnegative=True)

@@ -20,7 +20,7 @@ def positive(names: str) -> list[Symbol]:
 
 
 t = Symbol("t", real=True)
-m, m1, m2, m3, M, l, l1, l2, g, k, R, c, I1, I3, a, b, r0 = positive(
+m, m1, m2, m3, M, length, l1, l2, g, k, R, c, I1, I3, a, b, r0 = positive(
     "m m1 m2 m3 M l l1 l2 g k R c I1 I3 a b r0"
 )
 alpha, Omega, F, q0, B = real("alpha Omega F q0 B")
@@ -41,18 +41,14 @@ class System:
         return f.diff(t) + sum((f.diff(x) * y for x, y in pairs), sp.S.Zero)
 
     def equations(self, L: Expr) -> list[Expr]:
-        return [
-            self.rate(L.diff(v)) - L.diff(q) for q, v in zip(self.q, self.v, strict=True)
-        ]
+        return [self.rate(L.diff(v)) - L.diff(q) for q, v in zip(self.q, self.v, strict=True)]
 
     def accelerations(self, L: Expr, forces: list[Expr] | None = None) -> list[Expr]:
         equations = self.equations(L)
         forces = forces or [sp.S.Zero] * len(self.q)
         matrix = sp.Matrix([[e.diff(w) for w in self.w] for e in equations])
         at_rest = dict.fromkeys(self.w, 0)
-        right = sp.Matrix(
-            [f - e.xreplace(at_rest) for e, f in zip(equations, forces, strict=True)]
-        )
+        right = sp.Matrix([f - e.xreplace(at_rest) for e, f in zip(equations, forces, strict=True)])
         return list(matrix.LUsolve(right))
 
     def energy(self, L: Expr) -> Expr:
@@ -85,14 +81,14 @@ def examples() -> dict[str, Expr]:
 
     s = System("x theta")
     (x, th), (dx, dth) = s.q, s.v
-    bob = [x + l * sin(th), -l * cos(th)]
+    bob = [x + length * sin(th), -length * cos(th)]
     L = particle(s, (M, [x]), (m, bob)) - m * g * bob[1]
     add("cart_pole", s.accelerations(L, [F, sp.S.Zero]))
     add("cart_pole_momentum", [L.diff(y) for y in s.v])
 
     s = System("theta phi")
     (th, ph), (dth, dph) = s.q, s.v
-    where = [l * sin(th) * cos(ph), l * sin(th) * sin(ph), -l * cos(th)]
+    where = [length * sin(th) * cos(ph), length * sin(th) * sin(ph), -length * cos(th)]
     L = particle(s, (m, where)) - m * g * where[2]
     add("spherical_pendulum", s.accelerations(L))
     add("spherical_pendulum_energy", s.energy(L))
@@ -103,7 +99,7 @@ def examples() -> dict[str, Expr]:
     w1 = dph * sin(th) * sin(ps) + dth * cos(ps)
     w2 = dph * sin(th) * cos(ps) - dth * sin(ps)
     w3 = dph * cos(th) + dps
-    L = I1 * (w1**2 + w2**2) / 2 + I3 * w3**2 / 2 - M * g * l * cos(th)
+    L = I1 * (w1**2 + w2**2) / 2 + I3 * w3**2 / 2 - M * g * length * cos(th)
     add("heavy_top", s.accelerations(L))
     add("heavy_top_momentum", [L.diff(y) for y in s.v])
     add("heavy_top_energy", s.energy(L))
@@ -136,7 +132,11 @@ def examples() -> dict[str, Expr]:
 
     s = System("r theta", {"r": "positive"})
     (r, th), (dr, dth) = s.q, s.v
-    L = particle(s, (m, [r * sin(th), -r * cos(th)])) + m * g * r * cos(th) - k * (r - l) ** 2 / 2
+    L = (
+        particle(s, (m, [r * sin(th), -r * cos(th)]))
+        + m * g * r * cos(th)
+        - k * (r - length) ** 2 / 2
+    )
     add("spring_pendulum", s.accelerations(L))
 
     s = System("theta")
@@ -145,7 +145,7 @@ def examples() -> dict[str, Expr]:
     add("cycloid", s.accelerations(particle(s, (m, where)) - m * g * where[1]))
     where = [R * sin(th) * cos(Omega * t), R * sin(th) * sin(Omega * t), -R * cos(th)]
     add("hoop_rotating", s.accelerations(particle(s, (m, where)) - m * g * where[2]))
-    where = [a * cos(Omega * t) + l * sin(th), a * sin(Omega * t) - l * cos(th)]
+    where = [a * cos(Omega * t) + length * sin(th), a * sin(Omega * t) - length * cos(th)]
     add("driven_pendulum", s.accelerations(particle(s, (m, where)) - m * g * where[1]))
 
     s = System("x s")
@@ -156,7 +156,13 @@ def examples() -> dict[str, Expr]:
 
     s = System("x y z")
     (x, y, z), (dx, dy, dz) = s.q, s.v
-    L = m1 * dx**2 / 2 + m2 * dy**2 / 2 + m3 * dz**2 / 2 - k * (x - y) ** 2 / 2 - k * (y - z) ** 2 / 2
+    L = (
+        m1 * dx**2 / 2
+        + m2 * dy**2 / 2
+        + m3 * dz**2 / 2
+        - k * (x - y) ** 2 / 2
+        - k * (y - z) ** 2 / 2
+    )
     add("chain_of_masses", s.accelerations(L))
     distances = [sqrt((p - q) ** 2) for p, q in combinations((x, y, z), 2)]
     L = m * (dx**2 + dy**2 + dz**2) / 2 - sum(exp(-d) for d in distances)
@@ -164,13 +170,20 @@ def examples() -> dict[str, Expr]:
 
     s = System("theta1 theta2")
     (u, v), (du, dv) = s.q, s.v
-    L = m * l**2 * (du**2 + dv**2) / 2 + m * g * l * (cos(u) + cos(v)) - k * a**2 * (sin(u) - sin(v)) ** 2 / 2
+    L = (
+        m * length**2 * (du**2 + dv**2) / 2
+        + m * g * length * (cos(u) + cos(v))
+        - k * a**2 * (sin(u) - sin(v)) ** 2 / 2
+    )
     add("coupled_pendulums", s.accelerations(L))
 
     s = System("x phi")
     (x, ph), (dx, dph) = s.q, s.v
     where = [x - R * sin(ph), R - R * cos(ph)]
-    add("bead_in_sliding_hoop", s.accelerations(particle(s, (M, [x]), (m, where)) - m * g * where[1]))
+    add(
+        "bead_in_sliding_hoop",
+        s.accelerations(particle(s, (M, [x]), (m, where)) - m * g * where[1]),
+    )
 
     s = System("x")
     (x,), (dx,) = s.q, s.v
@@ -188,16 +201,24 @@ def examples() -> dict[str, Expr]:
     (x, y, th), (dx, dy, dth) = s.q, s.v
     w = M * g * sin(alpha) / (M + I1 / R**2)
     add("disk", [w, w / R, -I1 * w / R**2, M * g * sin(alpha) - M * w])
-    add("kinetic_com", particle(s, (m, [x + l * cos(th), y + l * sin(th)])) + I1 * dth**2 / 2)
+    add(
+        "kinetic_com",
+        particle(s, (m, [x + length * cos(th), y + length * sin(th)])) + I1 * dth**2 / 2,
+    )
 
     (p1, p2) = real("p_theta1 p_theta2")
     d = u - v
-    add("double_pendulum_hamiltonian",
+    add(
+        "double_pendulum_hamiltonian",
         (m2 * l2**2 * p1**2 + (m1 + m2) * l1**2 * p2**2 - 2 * m2 * l1 * l2 * p1 * p2 * cos(d))
         / (2 * m2 * l1**2 * l2**2 * (m1 + m2 * sin(d) ** 2))
-        - (m1 + m2) * g * l1 * cos(u) - m2 * g * l2 * cos(v))
+        - (m1 + m2) * g * l1 * cos(u)
+        - m2 * g * l2 * cos(v),
+    )
     pr, pph = real("p_r p_phi")
     r = positive("r")[0]
     add("kepler_hamiltonian", pr**2 / (2 * m) + pph**2 / (2 * m * r**2) - k / r)
-    add("frequencies", [sqrt(g / l), sqrt(k / m + g / l), sqrt(2) * sqrt(k) / sqrt(m) / 2])
+    add(
+        "frequencies", [sqrt(g / length), sqrt(k / m + g / length), sqrt(2) * sqrt(k) / sqrt(m) / 2]
+    )
     return found

@@ -44,9 +44,11 @@ expressions = st.recursive(
         st.builds(_power, inner, st.sampled_from((-2, -1, 2, 3))),
         st.builds(_root, inner),
         st.builds(sp.exp, st.sampled_from((A, -A, A / 2 - B, 2 * B, -R))),
-        st.builds(sp.Pow, st.sampled_from((M, R)), st.sampled_from((A, A - 1, sp.Rational(3, 2), -A))),
+        st.builds(
+            sp.Pow, st.sampled_from((M, R)), st.sampled_from((A, A - 1, sp.Rational(3, 2), -A))
+        ),
         st.builds(lambda e: sp.sqrt(M * R) * e + sp.sqrt(M) * sp.sqrt(2), inner),
-        st.builds(lambda e: U(e), st.sampled_from((A, R, A - B, M * R))),
+        st.builds(U, st.sampled_from((A, R, A - B, M * R))),
         st.builds(sp.Abs, inner),
     ),
     max_leaves=9,

@@ -209,4 +209,3 @@ def multiply(left: Term, right: Term) -> Term:
     for atom, exponent in right:
         exponents[atom] = exponents.get(atom, 0) + exponent
     return tuple(sorted((a, e) for a, e in exponents.items() if e))
-

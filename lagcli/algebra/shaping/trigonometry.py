@@ -86,9 +86,7 @@ class Trigonometry:
                 products[term] = products.get(term, Fraction(0)) + value
         yield {t: v for t, v in products.items() if v}
 
-    def _fourier(
-        self, terms: Iterable[tuple[Monomial, int]], cosines: list[int]
-    ) -> Fourier | None:
+    def _fourier(self, terms: Iterable[tuple[Monomial, int]], cosines: list[int]) -> Fourier | None:
         total: Fourier = {}
         for monomial, coefficient in terms:
             exponents = dict(monomial)
@@ -194,9 +192,7 @@ class Trigonometry:
             )
             for m, v in zip(exponents, rest.coeffs(), strict=True)
         }
-        return {
-            multiply(term, each): value for each, value in self._sum(fourier, cosines).items()
-        }
+        return {multiply(term, each): value for each, value in self._sum(fourier, cosines).items()}
 
 
 def _binomial(factor: Poly) -> tuple[int, Vector | None]:
