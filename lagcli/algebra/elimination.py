@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
-from time import monotonic
+from time import process_time
 
 import sympy
 from sympy import Dummy, Expr, Symbol
@@ -80,7 +80,7 @@ class Elimination:
         )
 
     def _late(self) -> bool:
-        return monotonic() > self._deadline
+        return process_time() > self._deadline
 
     def _nonzero(self, divisor: Expr) -> bool:
         return self._divisible(divisor.xreplace(self._meaning))

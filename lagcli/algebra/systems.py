@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from dataclasses import field as default
-from time import monotonic
+from time import process_time
 
 import sympy
 from sympy import Expr, Symbol
@@ -42,7 +42,7 @@ def solve_system(
     equations: Sequence[Expr], unknowns: Sequence[Symbol], budget: float = 5.0
 ) -> SolvedSystem:
     """All real solutions of equations = 0 within the assumptions on the unknowns."""
-    solver = _Solver(unknowns, monotonic() + budget)
+    solver = _Solver(unknowns, process_time() + budget)
     solver.branch(list(equations), {}, ())
     return solver.found
 
@@ -59,7 +59,7 @@ class _Solver:
     ) -> None:
         """Follow one branch to its solutions."""
         self._branches += 1
-        if self._branches > _MAX_BRANCHES or monotonic() > self._deadline:
+        if self._branches > _MAX_BRANCHES or process_time() > self._deadline:
             self.found.complete = False
             return
         left: list[list[Expr]] = []

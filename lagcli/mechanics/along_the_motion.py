@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from time import monotonic
+from time import process_time
 
 import mpmath
 from mpmath import mpf
@@ -102,7 +102,7 @@ class AlongTheMotion:
             value = simplify(found.expression)
             if self._agrees(subject - value):
                 return value
-        if monotonic() > self.deadline:
+        if process_time() > self.deadline:
             self.why_not = f"not found within {BUDGET:g} s"
         elif not self.why_not:
             self.why_not = self._not_determined(keep)

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 
@@ -25,11 +24,12 @@ from lagcli.algebra import Field, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.record import record
 
 _MAX_EVIDENT = 64
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class RestPoint:
     """An equilibrium: values of coordinates as formulas in the free ones and parameters.
 

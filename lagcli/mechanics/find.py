@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from time import monotonic
+from time import process_time
 
 from sympy import Symbol
 
@@ -26,7 +26,7 @@ def answer_questions(dynamics: Dynamics) -> FindSection:
     known: dict[Symbol, Passing] = {}
     answers: dict[str, Solutions | Rewritten] = {}
     for question in dynamics.system.problem.find:
-        along.deadline = monotonic() + BUDGET
+        along.deadline = process_time() + BUDGET
         if isinstance(question, Rewrite):
             answers[question.name] = _rewritten(along, question)
         else:

@@ -8,7 +8,6 @@ well, as y = +-sqrt(l^2 - x^2), determine nothing: then the file must say which.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import mpmath
 from mpmath import mpf
@@ -23,12 +22,13 @@ from lagcli.expression import Name
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.parameter_values import parameter_values
+from lagcli.record import record
 
 _DIGITS = 40
 _SMALL = mpf(10) ** -20
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class InitialState:
     """q and q' at t = 0 as formulas in the parameters.
 

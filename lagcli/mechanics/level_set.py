@@ -27,6 +27,7 @@ from lagcli.mechanics.total_derivative import boundary_term
 
 DIGITS = 60
 _NEWTON_STEPS = 140  # at a double root, as of v^2 = 0, each step halves the distance
+_PATIENCE = 8  # steps within which what is left must halve
 _ON_IT = mpf(10) ** -52
 _TRIES = 12
 
@@ -113,6 +114,7 @@ class LevelSet:
         if not self.relations:
             return True
         with mpmath.workdps(DIGITS):
+            sizes: list[mpf] = []
             for _ in range(_NEWTON_STEPS):
                 try:
                     flat = self._plan(state)
@@ -123,6 +125,9 @@ class LevelSet:
                     return False
                 if step is None:
                     return True
+                sizes.append(max(map(abs, flat[: len(self.relations)])))
+                if len(sizes) > _PATIENCE and sizes[-1] > sizes[-_PATIENCE] / 2:
+                    return False
                 longest = max(map(abs, step))
                 if longest == 0:
                     return False

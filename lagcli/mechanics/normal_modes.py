@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import mpmath
 import sympy
@@ -17,6 +16,7 @@ from lagcli.algebra.signs import sign
 from lagcli.mechanics.characteristic import Characteristic
 from lagcli.mechanics.linearization import Linearization
 from lagcli.mechanics.parameter_values import admissible_values
+from lagcli.record import record
 
 _DIGITS = 60
 _CHOICES = 24
@@ -24,7 +24,7 @@ _ZERO = mpf(10) ** -35
 _ROUNDED = mpf(10) ** -10  # for squared frequencies given as decimals
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class NormalMode:
     """`square` is omega^2; `frequency` None where it is not real, `shape` where complex.
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import cached_property
 
 from mpmath import mpf
@@ -18,13 +17,14 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.along_the_motion import AlongTheMotion
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reach import DIGITS, LineOfMotion, Reach, real_value
+from lagcli.record import record
 
 _DRAWS = 160  # of random parameters, to find some at which a place is possible at all
 _TESTED = 4  # of these, the ones with which the motion is followed
 _SMALL = mpf(10) ** -12
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Passage:
     """A place u with the velocity u' there, None where either sign will do."""
 

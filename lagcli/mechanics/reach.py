@@ -12,13 +12,13 @@ Landau, Lifshitz, *Mechanics*, 3rd ed., section 11 (motion in one dimension).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra.numeric import Evaluator
+from lagcli.record import record
 
 DIGITS = 30
 _SAMPLES = 96
@@ -28,7 +28,7 @@ _HORIZON = 10**4
 FREE, TURNS, LOST = "free", "turns", "lost"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LineOfMotion:
     """The formulas in u and the parameters: w = u'^2, and margins >= 0 while contacts hold."""
 

@@ -14,17 +14,16 @@ Classical Mechanics*, 2nd ed., section 22.  Chetaev, *The Stability of Motion*, 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from sympy import Expr, Symbol, count_ops
 
 from lagcli.algebra import simplify
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.characteristic import Characteristic, determinant, determinant_in
 from lagcli.mechanics.linearization import Linearization
+from lagcli.record import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Stability:
     """The verdict with its reason; `where` are the signs that decide when they are open."""
 
