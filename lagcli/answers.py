@@ -8,10 +8,10 @@ in `Answers.sections`; an answer that does not exist or was not found is None.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Literal
 
 from lagcli.expression import Expression
+from lagcli.record import field, record
 
 #: The sections, in the order in which they are printed.
 SECTIONS = (
@@ -54,14 +54,14 @@ ConstraintKind = Literal["holonomic", "integrable", "nonholonomic"]
 ChargeSource = Literal["candidate", "cyclic", "time", "discovered"]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class LagrangianSection:
     """L = T - V, or L as given."""
 
     lagrangian: Expression
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class LagrangeEquation:
     """d/dt(dL/dq') - dL/dq (left) = Q - dD/dq' + sum lambda df/dq (right)."""
 
@@ -70,7 +70,7 @@ class LagrangeEquation:
     right: Expression
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class EquationsSection:
     """One equation for each coordinate, then the constraints, each `f = 0`."""
 
@@ -78,7 +78,7 @@ class EquationsSection:
     constraints: Mapping[str, tuple[Expression, Expression]] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class MatrixFormSection:
     """M q'' = forcing + A^T lambda with A q'' + bias = 0; `shared` in order of use."""
 
@@ -89,7 +89,7 @@ class MatrixFormSection:
     shared: Mapping[str, Expression] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class AccelerationsSection:
     """q'' by coordinate, solved; None where the Lagrangian is singular or time ran out."""
 
@@ -99,7 +99,7 @@ class AccelerationsSection:
     degenerate: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Multiplier:
     """The multiplier of one constraint; `value` None: not determined, or not found."""
 
@@ -109,7 +109,7 @@ class Multiplier:
     verified: Verification | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class MultipliersSection:
     """By constraint; the redundant ones are named."""
 
@@ -117,7 +117,7 @@ class MultipliersSection:
     redundant: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class ConstraintForcesSection:
     """lambda df/dq by constraint and coordinate, their total, and the force on each point."""
 
@@ -126,7 +126,7 @@ class ConstraintForcesSection:
     on_points: Mapping[str, Mapping[str, tuple[Expression, ...]]] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class MomentaSection:
     """p_q = dL/dq'."""
 
@@ -134,7 +134,7 @@ class MomentaSection:
     cyclic: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class EnergySection:
     """The Jacobi function h = sum q' dL/dq' - L; `reason` is a sentence."""
 
@@ -144,7 +144,7 @@ class EnergySection:
     reason: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class HamiltonianSection:
     """H(q, p, t); None with a reason where the Legendre transform was not inverted."""
 
@@ -152,7 +152,7 @@ class HamiltonianSection:
     reason: str = ""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class CanonicalPair:
     """q' = dH/dp (`q`) and p' = -dH/dq + ... (`p`)."""
 
@@ -160,7 +160,7 @@ class CanonicalPair:
     p: Expression
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class CanonicalSection:
     """The canonical equations by coordinate."""
 
@@ -168,7 +168,7 @@ class CanonicalSection:
     reason: str = ""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Charge:
     """A symmetry with its charge; `rate` is dQ/dt on the motion, None if undecided.
 
@@ -187,14 +187,14 @@ class Charge:
     broken_by: str = ""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class ChargesSection:
     """The candidates of the file, then the evident symmetries (or the discovered ones)."""
 
     charges: tuple[Charge, ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class AlgebraSection:
     """The Lie algebra of the discovered symmetries."""
 
@@ -206,7 +206,7 @@ class AlgebraSection:
     integrable: bool | None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Solutions:
     """The answer to `where ... for ...`: the roots the motion can reach; None: not found."""
 
@@ -215,7 +215,7 @@ class Solutions:
     note: str = ""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Rewritten:
     """The answer to `value ... in_terms_of ...`; None: not found."""
 
@@ -224,14 +224,14 @@ class Rewritten:
     note: str = ""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class FindSection:
     """The answers to the file's questions, by name."""
 
     answers: Mapping[str, Solutions | Rewritten]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Equilibrium:
     """A state of rest; `stable` None where undecided."""
 
@@ -242,14 +242,14 @@ class Equilibrium:
     reason: str = ""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class EquilibriaSection:
     """All equilibria found; None where the equations could not be solved."""
 
     equilibria: tuple[Equilibrium, ...] | None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Mode:
     """A normal mode about an equilibrium; `frequency` is angular, None if not real."""
 
@@ -260,14 +260,14 @@ class Mode:
     multiplicity: int = 1
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class ModesSection:
     """The normal modes; None where there was no equilibrium to expand about."""
 
     modes: tuple[Mode, ...] | None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class ModelSection:
     """What a run keeps and drops, and why (by coordinate or parameter)."""
 
@@ -297,7 +297,7 @@ Section = (
 )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Answers:
     """Everything one `lagcli solve` has to say of one file.
 

@@ -7,8 +7,9 @@ them and shows them together.  Nothing here knows what the mistakes are about.
 from __future__ import annotations
 
 import unicodedata
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
+
+from lagcli.record import field, record
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 Severity = Literal["error", "warning"]
 
 
-@dataclass(frozen=True, slots=True, order=True)
+@record(order=True)
 class Span:
     """A stretch of a text: from (line, column) to (end_line, end_column), exclusive.
 
@@ -37,7 +38,7 @@ class Span:
 NOWHERE = Span(0, 0, 0, 0)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Diagnostic:
     """One mistake (or warning): the place, the sentence, and the advice."""
 
@@ -53,7 +54,7 @@ class Diagnostic:
         return self.severity == "error"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Source:
     """A text under its name, as the user knows it (`-` is standard input)."""
 

@@ -8,10 +8,10 @@ back, the formatters print them.  So neither reading nor printing imports SymPy.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from fractions import Fraction
 
 from lagcli.diagnostics import NOWHERE, Span
+from lagcli.record import field, record
 
 #: Functions of the grammar with a fixed meaning, and their number of arguments.
 FUNCTIONS: dict[str, int] = {
@@ -27,14 +27,14 @@ FUNCTIONS: dict[str, int] = {
 RESERVED = frozenset(FUNCTIONS) | {"diff", "t", "pi"}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Expression:
     """A node; `span` is its place in the file and takes no part in equality."""
 
     span: Span = field(default=NOWHERE, compare=False, repr=False)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Number(Expression):
     """An exact non-negative rational: `0.1` is one tenth.
 
@@ -46,7 +46,7 @@ class Number(Expression):
     decimal: bool = field(default=False, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Name(Expression):
     """A name with its primes: `x`, `x'` the velocity, `x''` the acceleration."""
 
@@ -57,28 +57,28 @@ class Name(Expression):
         return self.name + "'" * self.primes
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Negative(Expression):
     """`-operand`."""
 
     operand: Expression
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Sum(Expression):
     """Two or more terms; a subtracted term is a `Negative`."""
 
     terms: tuple[Expression, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Product(Expression):
     """Two or more factors; a quotient of the file is a `Quotient`."""
 
     factors: tuple[Expression, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Quotient(Expression):
     """`numerator / denominator`."""
 
@@ -86,7 +86,7 @@ class Quotient(Expression):
     denominator: Expression
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Power(Expression):
     """`base ^ exponent`."""
 
@@ -94,7 +94,7 @@ class Power(Expression):
     exponent: Expression
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Call(Expression):
     """A function at its arguments: `sin(x)`, `U(r)`; with primes `U'(d)`, `U''(d)`."""
 
@@ -103,7 +103,7 @@ class Call(Expression):
     primes: int = 0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PartialCall(Expression):
     """`diff(Phi, 1, 2)(a, b)`: Phi differentiated by those arguments (from 1), at (a, b)."""
 
@@ -112,7 +112,7 @@ class PartialCall(Expression):
     arguments: tuple[Expression, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Diff(Expression):
     """`diff(operand, name)`: the partial derivative, which sees through definitions."""
 
@@ -120,7 +120,7 @@ class Diff(Expression):
     variable: Name
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Equation:
     """`left = right`; an expression alone is `left = 0`."""
 

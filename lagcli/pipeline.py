@@ -7,12 +7,13 @@ imported when it is come to.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 from unicodedata import normalize
 
 from lagcli.diagnostics import NOWHERE, Diagnostic, ProblemError, Source
+from lagcli.record import record
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from lagcli.problem import Problem
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Request:
     """What is wanted of a problem.
 
@@ -42,7 +43,7 @@ class Request:
     numeric: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Read:
     """What came of one file: a problem, or none and the diagnostics that say why."""
 

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Literal
 
 from lagcli.diagnostics import NOWHERE, Source, Span
 from lagcli.expression import Equation, Expression, Name
+from lagcli.record import field, record
 
 Assumption = Literal["real", "positive", "nonnegative", "nonzero", "negative"]
 Comparison = Literal[">=", "<=", ">", "<"]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Quantity:
     """A named real quantity and what the file says of it."""
 
@@ -25,12 +25,12 @@ class Quantity:
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Coordinate(Quantity):
     """A generalized coordinate q; its velocity is written q', its acceleration q''."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Parameter(Quantity):
     """A constant; `value` may use other parameters (earlier or later, no cycle)."""
 
@@ -38,7 +38,7 @@ class Parameter(Quantity):
     value: Expression | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Point:
     """A particle: 1 to 3 Cartesian components, its mass, the applied force on it."""
 
@@ -49,7 +49,7 @@ class Point:
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Inequality:
     """`left comparison right`, such as `N >= 0`."""
 
@@ -59,7 +59,7 @@ class Inequality:
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Constraint:
     """f = left - right = 0, holonomic f(q, t) or linear in the velocities."""
 
@@ -70,7 +70,7 @@ class Constraint:
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Symmetry:
     """A candidate: Delta q of the coordinates named (0 for the others) and Delta t."""
 
@@ -81,7 +81,7 @@ class Symmetry:
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Where:
     """`{where: left = right, for: unknown}`."""
 
@@ -91,7 +91,7 @@ class Where:
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Rewrite:
     """`{value: expression, in_terms_of: [names]}`."""
 
@@ -104,7 +104,7 @@ class Rewrite:
 Question = Where | Rewrite
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Simulation:
     """Defaults of the numerical run; numbers are expressions without names."""
 
@@ -116,7 +116,7 @@ class Simulation:
 NOT_CONSERVED = "not conserved"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Expect:
     """The known answers, as the file gives them; None or empty: nothing expected."""
 
@@ -136,7 +136,7 @@ class Expect:
     #: place of each expectation: ("accelerations", "x"), ("equations", "0"), …
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Problem:
     """A checked problem: every name is known, every expression well formed.
 

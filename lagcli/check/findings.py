@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import Enum
 
 from lagcli.diagnostics import NOWHERE, Diagnostic, Source, Span
+from lagcli.record import record
 
 
 class Outcome(Enum):
@@ -20,7 +20,7 @@ class Outcome(Enum):
     INVALID = "invalid file"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Finding:
     """One answer that is wrong, or of which nobody could say whether it is right.
 
@@ -42,7 +42,7 @@ class Finding:
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Report:
     """The check of one file.
 

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from lagcli.answers import SECTIONS
 from lagcli.formatters.registry import UnknownFormatter, find_formatter
 from lagcli.pipeline import Request
 from lagcli.reader.suggest import did_you_mean
+from lagcli.record import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Asked:
     """A request, and sentences on whatever is wrong with it."""
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import shutil
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from lagcli.answers import Answers
@@ -18,11 +17,12 @@ from lagcli.failures import describe
 from lagcli.formatters import Options
 from lagcli.pipeline import Request, derive, read, render, state
 from lagcli.problem import Problem
+from lagcli.record import record
 
 PIPE_WIDTH = 80
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@record(kw_only=True)
 class Printing:
     """Where to, and in which form."""
 

@@ -5,12 +5,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from lagcli.expression import Expression
+from lagcli.record import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Label:
     """A symbol of the page itself, such as L, Q_x, M[x, theta] or Delta x.
 
@@ -35,7 +34,7 @@ class Label:
 Formula = Expression | Label
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Heading:
     """The start of a section (`level` 1) or of a part of it (2)."""
 
@@ -43,14 +42,14 @@ class Heading:
     level: int = 1
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Paragraph:
     """Sentences, with formulas between the words."""
 
     parts: tuple[str | Formula, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Row:
     """`left = right`, with a word on what it is."""
 
@@ -59,14 +58,14 @@ class Row:
     note: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Equations:
     """Equations that belong together and are aligned at their `=`."""
 
     rows: tuple[Row, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Matrix:
     """`label = (entries)`; its rows and columns are labelled where it is too wide to set."""
 
@@ -86,7 +85,7 @@ class Matrix:
 Block = Heading | Paragraph | Equations | Matrix
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Document:
     """One file's answers as a page."""
 

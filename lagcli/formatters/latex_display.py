@@ -3,7 +3,6 @@ r"""Displayed equations: aligned at `=`, broken to the text width of the article
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import groupby
 
 from lagcli.formatters.document import Equations, Formula, Label, Matrix, Row
@@ -12,6 +11,7 @@ from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.latex_width import QUAD, RELATION, TEXT_WIDTH, text_width
 from lagcli.formatters.layout import RELATION as RELATION_RANK
 from lagcli.formatters.layout import Layout, Piece, break_lines, joined, width_of
+from lagcli.record import record
 
 #: A wider left side stands on lines of its own, in points.
 _NARROW = 90.0
@@ -23,7 +23,7 @@ _DEEPEST = 2
 _COLUMNS = 10
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Shown:
     left: Layout
     right: Layout

@@ -8,8 +8,6 @@ that can be broken: \frac{1}{D} ( ... ), ( ... )^{1/2}.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from lagcli.expression import (
     Call,
     Diff,
@@ -38,6 +36,7 @@ from lagcli.formatters.layout import (
 )
 from lagcli.formatters.numbers import DecimalParts, decimal_parts, digit_groups
 from lagcli.formatters.precedence import Level, Printer
+from lagcli.record import record
 
 #: Nothing that cannot be broken is wider, in points.
 WIDEST = 205.0
@@ -67,7 +66,7 @@ _FLAT, _BIG, _TALL = 0, 1, 3
 _SLASH = Piece("/", 5)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Box:
     """A formula on the page.
 

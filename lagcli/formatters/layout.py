@@ -7,7 +7,8 @@ most brackets, at a sum rather than a product, that still fills the line.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from lagcli.record import record
 
 #: How bad a break is, apart from its brackets.
 RELATION, SUM, COMMA, PRODUCT, OPENING, DIGITS = 0, 1, 1, 3, 7, 8
@@ -18,7 +19,7 @@ _NESTING = 3.0
 _RAGGEDNESS = 6.0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Piece:
     """A bit of text that is never broken.
 
@@ -51,7 +52,7 @@ Layout = tuple[Piece, ...]
 AFTER_BRACKET = Piece("", 0, rank=OPENING)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Line:
     """One line of a broken formula; it is to be indented `depth` times."""
 

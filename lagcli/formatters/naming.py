@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+from lagcli.record import record
 
 _LETTERS_AND_DIGITS = re.compile(r"(?P<letters>.*[^0-9])(?P<digits>[0-9]*)", re.DOTALL)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class NameParts:
     """A letter or word with its subscripts."""
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from decimal import Context, Decimal
 from fractions import Fraction
+
+from lagcli.record import record
 
 #: Exact for everything that is printed as a decimal.
 _EXACT = Context(prec=100)
@@ -12,7 +13,7 @@ _EXACT = Context(prec=100)
 _SMALLEST, _LARGEST = -5, 15
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DecimalParts:
     """`digits` * 10^`exponent`; the exponent is 0 for numbers of ordinary size."""
 

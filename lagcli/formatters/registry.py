@@ -6,12 +6,12 @@ resolved without looking at what is installed: that is quick, and nobody else ca
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from difflib import get_close_matches
 from importlib import import_module
 from typing import TYPE_CHECKING, cast
 
 from lagcli.formatters.options import Formatter
+from lagcli.record import record
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -30,7 +30,7 @@ BUILT_IN: dict[str, str] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class UnknownFormatter:
     """A name that no formatter has, or whose plug-in does not load."""
 
@@ -39,7 +39,7 @@ class UnknownFormatter:
     suggestion: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ListedFormatter:
     """One line of the list; `problem` says why a plug-in cannot be used."""
 

@@ -16,7 +16,6 @@ Frobenius' theorem: Frankel, *The Geometry of Physics*, 3rd ed., section 6.1.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 
@@ -29,9 +28,10 @@ from lagcli.answers import ConstraintKind
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.system import System
 from lagcli.problem import Constraint
+from lagcli.record import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ConstraintEquation:
     """One constraint as formulas: f = 0, and a . q' + b = 0, and a . q'' + bias = 0."""
 

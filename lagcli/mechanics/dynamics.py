@@ -10,7 +10,6 @@ that vanishes has a part in it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import sympy
@@ -24,12 +23,13 @@ from lagcli.mechanics.euler_lagrange import EulerLagrange
 from lagcli.mechanics.states import Contradiction, RandomStates
 from lagcli.mechanics.system import System
 from lagcli.mechanics.verify import Verifier
+from lagcli.record import record
 
 #: Beyond this many unknowns a symbolic solution is no longer readable: matrix form only.
 READABLE_UNKNOWNS = 12
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Motion:
     """The solved system.
 

@@ -15,7 +15,6 @@ Landau, Lifshitz, *Mechanics*, 3rd ed., section 6.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import sympy
@@ -25,9 +24,10 @@ from lagcli.algebra import is_zero
 from lagcli.algebra.build import free_of
 from lagcli.answers import Verification
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.record import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Power:
     """One contribution to dh/dt and what it is due to."""
 

@@ -24,7 +24,6 @@ Hill, Rev. Mod. Phys. 23 (1951) 253 (the boundary term).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 import sympy
@@ -36,9 +35,10 @@ from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.energy import EnergyFunction
 from lagcli.mechanics.total_derivative import boundary_term
 from lagcli.problem import Symmetry
+from lagcli.record import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Transformation:
     """Delta q by coordinate, in order, and Delta t."""
 
@@ -46,7 +46,7 @@ class Transformation:
     time: Expr
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class NoetherCharge:
     """A transformation with its boundary term, charge and rate.
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from functools import cached_property
+from time import process_time
 
 from mpmath import mpf
 from sympy import Expr, Symbol
@@ -20,7 +21,8 @@ from lagcli.mechanics.reach import DIGITS, LineOfMotion, Reach, real_value
 from lagcli.record import record
 
 _DRAWS = 160  # of random parameters, to find some at which a place is possible at all
-_TESTED = 4  # of these, the ones with which the motion is followed
+_TESTED = 40  # of these, the ones with which the motion is followed at most
+_ENOUGH = 4  # when it came there
 _SMALL = mpf(10) ** -12
 
 
@@ -90,10 +92,20 @@ class Passing:
         decided = len(self._draws) == 1
         for passage in passages:
             draws = self._informative(passage)
-            times = [self._passes(index, passage, angle=angle) for index in draws]
+            times: list[bool] = []
+            for index in draws:
+                if process_time() > self.along.deadline:
+                    self.along.why_not = "what the motion comes to was not decided in time"
+                    return None
+                times.append(self._passes(index, passage, angle=angle))
+                if len(times) >= _ENOUGH and any(times):
+                    break
+            draws = draws[: len(times)]
             decided = decided or bool(times)
             if any(times):
                 kept.append(passage)
+            elif times and len(self._draws) > 1:
+                self.notes.append(f"no motion was found that comes to {_text(passage)}")
             if any(times) and not (all(times) and draws == list(range(len(draws)))):
                 self.notes.append("for some values of the parameters only")
         self.notes += self._undecided
@@ -162,6 +174,14 @@ class Passing:
         if velocity is None:
             return False
         return abs(velocity) < _SMALL or (1 if velocity > 0 else -1) in signs
+
+
+def _text(passage: Passage) -> str:
+    """The place, and the velocity where it counts, in the words of the grammar."""
+    text = str(passage.place)
+    if passage.velocity is not None:
+        text += f" with the velocity {passage.velocity}"
+    return text.replace("**", "^")
 
 
 def admissible(symbol: Symbol, value: mpf) -> bool:

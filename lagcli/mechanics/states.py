@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import mpmath
 from mpmath import mpf
@@ -18,6 +17,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.system import System
+from lagcli.record import record
 
 DIGITS = 50
 _GUARD = 15  # digits beyond those that are claimed
@@ -28,7 +28,7 @@ _NEWTON_STEPS = 60
 State = dict[Symbol, mpf]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Elimination:
     """The outcome of a pivoted elimination of rows: which are independent."""
 

@@ -6,7 +6,6 @@ This is where the file's words become the field's quantities.  Nothing is derive
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import sympy
@@ -15,9 +14,10 @@ from sympy import Expr, Symbol
 from lagcli.algebra.build import TIME, Builder, symbol
 from lagcli.expression import Expression
 from lagcli.problem import Point, Problem
+from lagcli.record import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Particle:
     """A point of the file as formulas: position r(q, t), mass, applied force."""
 

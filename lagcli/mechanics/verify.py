@@ -7,7 +7,6 @@ put to the test at random states on the constraint surface, at 50 digits.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import mpmath
 from mpmath import mpf
@@ -18,13 +17,14 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.answers import Verification
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates
+from lagcli.record import record
 
 _STATES = 3
 _ZERO = mpf(10) ** -(DIGITS - 12)  # of the sum of magnitudes: cancelled
 _NONZERO = mpf(10) ** -20
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Verdict:
     """`holds` is None where neither way decided; `how` says which way did."""
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import unicodedata
 from contextvars import ContextVar
-from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, cast
 
@@ -32,6 +31,7 @@ from lagcli.expression import (
 from lagcli.problem import Comparison, Inequality
 from lagcli.reader.limits import NUMBER_DIGITS, thousands
 from lagcli.reader.text import Mistake
+from lagcli.record import replace
 
 if TYPE_CHECKING:
     from lark.lexer import Token

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -31,6 +30,7 @@ from lagcli.reader.restrictions import declare_constraints, read_constraints, re
 from lagcli.reader.scope import STATE
 from lagcli.reader.sections import Sections
 from lagcli.reader.text import Mistake, Text, decode
+from lagcli.record import record
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
@@ -42,7 +42,7 @@ KEYS = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Reading:
     """What came of a file: the problem, unless a diagnostic is an error."""
 
