@@ -99,23 +99,26 @@ def polynomial_roots(field: Field, poly: Poly, generator: int) -> list[Expr] | N
     Roots that are surely not real are left out.
     """
     roots: list[Expr] = []
-    for found, _ in factor_roots(field, poly, generator):
+    for found, _, _ in factor_roots(field, poly, generator):
         if found is None:
             return None
         roots += found
     return [root for root in dict.fromkeys(roots) if root.is_real is not False]
 
 
-def factor_roots(field: Field, poly: Poly, generator: int) -> list[tuple[list[Expr] | None, int]]:
-    """For each irreducible factor its roots (None without a closed form) and its multiplicity."""
+def factor_roots(
+    field: Field, poly: Poly, generator: int
+) -> list[tuple[list[Expr] | None, int, int]]:
+    """By irreducible factor: roots (None without closed form), multiplicity, degree."""
     ring = field.ring
     _, factors = ring.lift(poly).factor()
     factors.sort(key=lambda pair: (pair[0].total_degree(), str(pair[0])))
-    return [
-        (_roots(field, coefficients(field, factor, generator)), multiplicity)
-        for factor, multiplicity in factors
-        if ring.degree(ring.lift(factor), generator)
-    ]
+    found = []
+    for factor, multiplicity in factors:
+        parts = coefficients(field, factor, generator)
+        if len(parts) > 1:
+            found.append((_roots(field, parts), multiplicity, len(parts) - 1))
+    return found
 
 
 def _roots(field: Field, a: Sequence[Element]) -> list[Expr] | None:

@@ -46,6 +46,7 @@ class AlongTheMotion:
         self.system = dynamics.system
         self.deadline = float("inf")
         self.why_not = ""
+        self._named: dict[Symbol, Expr] = {}
 
     @cached_property
     def initial(self) -> InitialState | None:
@@ -95,8 +96,11 @@ class AlongTheMotion:
         subject = self.on_motion(expression)
         if subject is None:
             return None
+        if not self._define(keep):
+            return None
+        named = [s - formula for s, formula in self._named.items()]
         for relations, remove in self.attempts(keep, with_time=with_time):
-            found = self.eliminated(subject, relations, remove)
+            found = self.eliminated(subject, (*named, *relations), remove)
             if not found.complete:
                 continue
             value = simplify(found.expression)
@@ -107,6 +111,19 @@ class AlongTheMotion:
         elif not self.why_not:
             self.why_not = self._not_determined(keep)
         return None
+
+    def _define(self, keep: Sequence[Symbol]) -> bool:
+        """Formulas of the momenta, accelerations and multipliers that are to be kept."""
+        system = self.system
+        plain = {*system.q, *system.qdot, *system.parameters, system.t}
+        self._named = {}
+        for symbol in keep:
+            if symbol not in plain:
+                formula = self.on_motion(symbol)
+                if formula is None:
+                    return False
+                self._named[symbol] = formula
+        return True
 
     def eliminated(
         self, expression: Expr, relations: Sequence[Expr], remove: Sequence[Symbol]
@@ -146,7 +163,7 @@ class AlongTheMotion:
         """Whether one may divide: the expression vanishes at none of the random states."""
         if divisor.is_number or not divisor.free_symbols - set(self.system.parameters):
             return is_zero(divisor) is not True
-        plan = Evaluator([divisor], 60)
+        plan = Evaluator([divisor.xreplace(self._named)], 60)
         for state in self.states or self.dynamics.states.take(2):
             try:
                 [value] = plan(state)
@@ -158,6 +175,7 @@ class AlongTheMotion:
 
     def _agrees(self, difference: Expr) -> bool:
         """Whether it vanishes at random states of the level set."""
+        difference = difference.xreplace(self._named)
         if is_zero(difference) is True:
             return True
         if not self.states:

@@ -76,11 +76,4 @@ class Characteristic:
         field = Field([polynomial])
         number = field.number_of(W)
         assert number is not None
-        numerator = field(polynomial).numerator
-        found = factor_roots(field, numerator, number)
-        degree = len(powers) - 1
-        known = sum(len(roots) * m for roots, m in found if roots is not None)
-        return [
-            (roots, m, len(roots) if roots is not None else max(1, (degree - known) // m))
-            for roots, m in found
-        ]
+        return factor_roots(field, field(polynomial).numerator, number)

@@ -45,16 +45,18 @@ def admissible_values(system: System, count: int) -> list[dict[Symbol, mpf]]:
         return [given]
     source = random.Random("lagcli parameters")
     return [
-        {p: given.get(p, _random_value(source, p)) for p in system.parameters} for _ in range(count)
+        {p: given.get(p, _random_value(source, p, wide=k % 2 == 1)) for p in system.parameters}
+        for k in range(count)
     ]
 
 
-def _random_value(source: random.Random, parameter: Symbol) -> mpf:
+def _random_value(source: random.Random, parameter: Symbol, *, wide: bool) -> mpf:
     if parameter.is_integer:
         return mpf(source.randint(1, 5))
-    # from 1/20 to 20, evenly on a logarithmic scale, never a nice number
+    # 1/20 to 20, or 1/2 to 2, evenly on a logarithmic scale, never a nice number
+    size = 30011 if wide else 7001
     with mpmath.workdps(DIGITS):
-        magnitude = mpmath.exp(mpf(source.randint(-30011, 30011)) / 10007)
+        magnitude = mpmath.exp(mpf(source.randint(-size, size)) / 10007)
     if parameter.is_negative:
         return -magnitude
     if parameter.is_nonnegative or source.random() < 0.5:

@@ -293,3 +293,30 @@ def test_what_initial_leaves_out_follows_from_the_constraints():
 def test_a_state_that_is_allowed_for_the_values_of_the_file_only_is_told():
     found = answers(CONTRADICTION.replace("STATE", "x: 0.6, y: 0.8"))["asked"]
     assert "values of the file only" in found.note
+
+
+KEPLER = """
+coordinates: {r: POSITIVE, phi: {}}
+parameters: {m: POSITIVE, w: POSITIVE, a: POSITIVE, k: POSITIVE}
+T: m*(r'^2 + r^2*phi'^2)/2
+V: -k/r
+initial: {r: a, phi: 0, phi': w}
+find:
+  asked: {where: r' = 0, for: r}
+  speed: {where: r = 2*a, for: r'}
+  momentum: {value: m*r^2*phi', in_terms_of: [p_phi]}
+"""
+
+
+def test_the_apsides_of_a_kepler_ellipse():
+    """Landau and Lifshitz, section 15: the other apsis of an orbit that starts at one."""
+    assert roots(KEPLER) == formulas("m*w^2*a^4/(2*k - m*w^2*a^3)", "a")
+
+
+def test_a_bound_orbit_passes_each_distance_outwards_and_inwards():
+    root = "sqrt(3*w^2*a^2/4 - k/(m*a))"
+    assert roots(KEPLER, "speed") == formulas(f"-{root}", root)
+
+
+def test_momenta_may_stay_in_an_answer():
+    assert value(KEPLER, "momentum") == formula("p_phi")
