@@ -7,6 +7,7 @@ import signal
 import sys
 import time
 from collections.abc import Generator, Sequence
+from contextlib import suppress
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 
@@ -148,12 +149,10 @@ def _work(connection: Connection, others: Sequence[Connection]) -> None:
 
 
 def _serve(connection: Connection) -> None:
-    while True:
-        try:
-            name = connection.recv()
-        except (EOFError, OSError):
-            return
-        connection.send(_report(name))
+    """Check what is sent until the other end of the pipe is closed."""
+    with suppress(EOFError, OSError):
+        while True:
+            connection.send(_report(connection.recv()))
 
 
 def _report(name: str) -> Report:
