@@ -16,6 +16,9 @@ from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression, operation_count
 
+_LONG = 60  # terms of an element of which ...
+_OF_LONG = 2  # ... no more than these equal forms are shaped
+
 
 def shape(
     expression: Expr, order: Sequence[str] = (), relations: Relations | None = None
@@ -96,6 +99,9 @@ def _shortest(
     candidates = [cancelled(field, element)]
     if relations:
         candidates.extend(cancelled(field, e) for e in relations.reductions(field, element))
+    candidates.sort(key=Element.size)
+    if candidates[0].size() > _LONG:
+        del candidates[_OF_LONG:]
     shorter = partial(relations.shorter, field) if relations and relations.remaining else None
     shapers = [Shaper(field, writer, shorter=shorter)]
     if field.root_scales:

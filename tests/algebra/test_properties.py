@@ -54,7 +54,7 @@ expressions = st.recursive(
     max_leaves=9,
 )
 quick = settings(
-    max_examples=150, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True
+    max_examples=60, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True
 )
 
 

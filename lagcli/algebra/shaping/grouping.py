@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from math import gcd, lcm
+from itertools import combinations
+from math import gcd, isqrt, lcm
 from typing import TypeAlias
 
 from flint import Ordering, fmpz_mpoly_ctx
@@ -18,6 +19,7 @@ from lagcli.algebra.shaping.atoms import Atoms, Exponent, Term, Terms, multiply
 from lagcli.algebra.shaping.plan import Product, Sum, product, total
 
 _MAX_FACTORED = 400  # terms
+_MAX_PLAIN = 10  # terms that may be left without any bracket
 _MAX_SHORTENED = 12  # terms
 _SHORTENINGS = 100  # attempts
 _EFFORT = 900  # splits that are tried in all; then the most promising one only
@@ -95,17 +97,19 @@ class Grouper:
             factored = self._factored(inner)
             if factored is not None:
                 return factored
-        best: Product | Sum = total(
-            [product(self.atoms, Fraction(c), list(t)) for t, c in inner.items()]
-        )
-        for with_atom, without in self._splits(inner):
+        splits = self._splits(inner)
+        best: Sum | None = None
+        if len(inner) <= _MAX_PLAIN or not splits:
+            best = total([product(self.atoms, Fraction(c), list(t)) for t, c in inner.items()])
+        for with_atom, without in splits:
             parts: list[Product] = []
             for half in (with_atom, without):
                 plan = self._group(half, spread)
                 parts.extend(plan.terms if isinstance(plan, Sum) else (plan,))
             candidate = total(parts)
-            if candidate.score < best.score:
+            if best is None or candidate.score < best.score:
                 best = candidate
+        assert best is not None
         return best
 
     def _times(self, number: int, common: Term, inner: Integers, spread: bool) -> Product | Sum:
@@ -131,7 +135,7 @@ class Grouper:
         width = 4 if len(terms) <= 6 else 3 if len(terms) <= 12 else 2 if len(terms) <= 30 else 1
         if self._effort <= 0:
             width = 1
-        splits = []
+        splits = self._squares(terms) if len(terms) <= _MAX_SHORTENED else []
         for *_, atom, positive in weighed[:width]:
             self._effort -= 1
             with_atom: Integers = {}
@@ -142,6 +146,25 @@ class Grouper:
             if without:
                 splits.append((with_atom, without))
         return splits
+
+    def _squares(self, terms: Integers) -> list[tuple[Integers, Integers]]:
+        """Squares (u ± v)² and (u ± v ± w)², written out among the terms, apart from the rest."""
+        roots = []
+        for term, value in terms.items():
+            root = isqrt(value) if value > 0 else 0
+            if root and root * root == value and all(e % 2 == 0 for _, e in term):
+                roots.append((tuple((a, e // 2) for a, e in term), root, term))
+        found = []
+        for count in (3, 2):
+            for chosen in combinations(roots, count):
+                square = {own: terms[own] for *_, own in chosen}
+                for (u, a, _), (v, b, _) in combinations(chosen, 2):
+                    mixed = multiply(u, v)
+                    if abs(terms.get(mixed, 0)) == 2 * a * b:
+                        square[mixed] = terms[mixed]
+                if len(square) == count * (count + 1) // 2 < len(terms):
+                    found.append((square, {t: c for t, c in terms.items() if t not in square}))
+        return found
 
     def _factored(self, terms: Integers) -> Product | None:
         """The product of the irreducible factors, None when there is only one."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 
 from sympy import Expr
@@ -20,6 +20,7 @@ from lagcli.expression import Expression
 
 _MAX_FACTORED = 1500  # terms
 _MAX_REWRITTEN = 400
+_LONG = 60  # terms of a polynomial that gets one bracketing only
 _EXPANSIONS = 3  # that are bracketed, the shortest ones
 
 _CIRCULAR = ("cos", "sin")
@@ -73,15 +74,37 @@ class Shaper:
         above = self._factors(element.numerator)
         below = self._factors(element.denominator)
         best: Product | Sum = self._joined(above, below)
-        divided = self._divided(element) if divide else ()
+        divided = (*self._by_roots(element), *self._divided(element)) if divide else ()
         for candidate in (*self._spread(element, below), *divided):
             if candidate.score < best.score:
                 best = candidate
         return best
 
+    def _by_roots(self, element: Element) -> Iterator[Sum]:
+        """A/r_1^3 + B/r_2^3: the parts of the numerator with different roots apart."""
+        generators = self.field.generators
+        groups: dict[Monomial, list[tuple[Monomial, int]]] = {}
+        for monomial, coefficient in self.field.ring.terms(element.numerator):
+            roots = tuple(pair for pair in monomial if generators[pair[0]].kind == "root")
+            groups.setdefault(roots, []).append((monomial, coefficient))
+        if len(groups) < 2 or element.is_polynomial():
+            return
+        yield self._together(
+            self.field.element(self.field.ring.build(terms), element.denominator)
+            for terms in groups.values()
+        )
+
+    def _together(self, elements: Iterable[Element]) -> Sum:
+        """The sum of the plans of each."""
+        parts: list[Product] = []
+        for each in elements:
+            plan = self.plan(each, divide=False)
+            parts.extend(plan.terms if isinstance(plan, Sum) else (plan,))
+        return total(parts)
+
     def _divided(self, element: Element) -> Iterator[Sum]:
         """N/D = Q + R/D for a factor D of the denominator that divides part of N."""
-        if not 2 < len(element.numerator) <= _MAX_REWRITTEN:
+        if not 2 < len(element.numerator) <= _LONG:
             return
         _, factors = element.denominator.factor()
         for factor, exponent in factors:
@@ -92,14 +115,12 @@ class Shaper:
             if quotient == 0 or rest == 0 or len(quotient) + len(rest) >= len(element.numerator):
                 continue
             field = self.field
-            parts: list[Product] = []
-            for each in (
-                field.element(quotient, element.denominator / divisor),
-                field.element(rest, element.denominator),
-            ):
-                plan = self.plan(each, divide=False)
-                parts.extend(plan.terms if isinstance(plan, Sum) else (plan,))
-            yield total(parts)
+            yield self._together(
+                (
+                    field.element(quotient, element.denominator / divisor),
+                    field.element(rest, element.denominator),
+                )
+            )
 
     def _joined(self, above: Product, below: Product) -> Product:
         inverse = [(p, -e) for p, e in below.parts]
@@ -118,9 +139,7 @@ class Shaper:
     def _spread(self, element: Element, below: Product) -> Iterator[Product | Sum]:
         """Terms with denominators of their own, as far as these are products of atoms."""
         divisors = [(p, -e) for p, e in below.parts if isinstance(p, int)]
-        if not divisors or len(element.numerator) < 2:
-            return
-        if len(element.numerator) > _MAX_REWRITTEN:
+        if not divisors or not 2 <= len(element.numerator) <= _LONG:
             return
         sums: list[tuple[int | Sum, Exponent]] = [
             (p, -e) for p, e in below.parts if isinstance(p, Sum)
@@ -247,7 +266,7 @@ class Shaper:
             if merged not in found:
                 found.append(merged)
         found.sort(key=self._weight)
-        return found[:_EXPANSIONS]
+        return found[: _EXPANSIONS if len(poly) <= _LONG else 1]
 
     def _weight(self, terms: Terms) -> int:
         """Roughly the operations of a sum of products."""
