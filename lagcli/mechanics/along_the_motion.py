@@ -28,6 +28,7 @@ from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.initial import InitialState, initial_state
 from lagcli.mechanics.level_set import LevelSet
+from lagcli.mechanics.noether import Noether
 from lagcli.mechanics.parameter_values import parameter_values
 from lagcli.mechanics.states import State
 
@@ -41,8 +42,9 @@ _NONZERO = mpf(10) ** -25
 class AlongTheMotion:
     """Expressions rewritten with all that is known along the motion."""
 
-    def __init__(self, dynamics: Dynamics) -> None:
+    def __init__(self, dynamics: Dynamics, noether: Noether) -> None:
         self.dynamics = dynamics
+        self.noether = noether
         self.system = dynamics.system
         self.deadline = float("inf")
         self.why_not = ""
@@ -56,7 +58,7 @@ class AlongTheMotion:
     @cached_property
     def level_set(self) -> LevelSet:
         """The states that share the conserved quantities of the initial one."""
-        return LevelSet(self.dynamics, self.initial)
+        return LevelSet(self.dynamics, self.noether, self.initial)
 
     @cached_property
     def states(self) -> list[State]:

@@ -9,12 +9,13 @@ from sympy import Symbol
 from lagcli.answers import FindSection, Rewritten, Solutions
 from lagcli.mechanics.along_the_motion import BUDGET, AlongTheMotion
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.noether import Noether
 from lagcli.mechanics.passing import Passing
 from lagcli.mechanics.where import Where
 from lagcli.problem import Rewrite
 
 
-def answer_questions(dynamics: Dynamics) -> FindSection:
+def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:
     """The answers to all questions of the file, by name.
 
     Raises
@@ -22,7 +23,7 @@ def answer_questions(dynamics: Dynamics) -> FindSection:
     ProblemError
         When no state with the given initial values satisfies the constraints.
     """
-    along = AlongTheMotion(dynamics)
+    along = AlongTheMotion(dynamics, noether)
     known: dict[Symbol, Passing] = {}
     answers: dict[str, Solutions | Rewritten] = {}
     for question in dynamics.system.problem.find:

@@ -19,7 +19,6 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.energy import EnergyFunction
 from lagcli.mechanics.initial import InitialState
 from lagcli.mechanics.noether import Noether
 from lagcli.mechanics.states import Contradiction, State, independent_rows, least_norm_solution
@@ -35,8 +34,11 @@ _TRIES = 12
 class LevelSet:
     """Relations along the motion from one initial state (constraints only, without one)."""
 
-    def __init__(self, dynamics: Dynamics, initial: InitialState | None) -> None:
+    def __init__(
+        self, dynamics: Dynamics, noether: Noether, initial: InitialState | None
+    ) -> None:
         self.dynamics = dynamics
+        self.noether = noether
         self.system = dynamics.system
         self.initial = initial
 
@@ -52,8 +54,7 @@ class LevelSet:
         """Q - Q(initial), those without explicit time first."""
         if self.initial is None:
             return ()
-        noether = Noether(self.dynamics, EnergyFunction(self.dynamics))
-        quantities = [*self._integrals_of_constraints(), *noether.conserved_quantities()]
+        quantities = [*self._integrals_of_constraints(), *self.noether.conserved_quantities()]
         laws = [
             quantity - simplify(self.initial.at(quantity, self.system.t)) for quantity in quantities
         ]

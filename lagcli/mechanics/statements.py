@@ -20,14 +20,18 @@ from lagcli.answers import (
     ConstraintForcesSection,
     EnergySection,
     EquationsSection,
+    EquilibriaSection,
+    FindSection,
     HamiltonianSection,
     LagrangeEquation,
     LagrangianSection,
     MatrixFormSection,
+    ModesSection,
     MomentaSection,
     Multiplier,
     MultipliersSection,
     Section,
+    Solutions,
 )
 from lagcli.expression import ZERO, Expression
 from lagcli.mechanics.constraint_force import forces_on_points
@@ -334,17 +338,28 @@ class Statements:
             broken_by=charge.broken_by,
         )
 
-    def _find(self) -> Section:
+    def _find(self) -> FindSection:
         from lagcli.mechanics.find import answer_questions
 
-        return answer_questions(self.dynamics)
+        section = answer_questions(self.dynamics, self.derivation.noether)
+        for name, answer in section.answers.items():
+            found = answer.solutions if isinstance(answer, Solutions) else answer.value
+            if found is None:
+                self._missing(f"the answer to '{name}'", answer.note or "no closed form")
+        return section
 
-    def _equilibria(self) -> Section:
+    def _equilibria(self) -> EquilibriaSection:
         from lagcli.mechanics.small_oscillations import equilibria
 
-        return equilibria(self.dynamics)
+        section = equilibria(self.dynamics)
+        if section.equilibria is None:
+            self._missing("the equilibria", "the equations of rest have no closed solution")
+        return section
 
-    def _modes(self) -> Section:
+    def _modes(self) -> ModesSection:
         from lagcli.mechanics.small_oscillations import modes
 
-        return modes(self.dynamics)
+        section = modes(self.dynamics)
+        if section.modes is None:
+            self._missing("the normal modes", "there is no equilibrium to expand about")
+        return section

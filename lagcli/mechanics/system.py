@@ -149,7 +149,8 @@ class System:
         """The Lagrangian."""
         if self.problem.lagrangian is not None:
             return self.build(self.problem.lagrangian)
-        assert self.T is not None and self.V is not None
+        assert self.T is not None
+        assert self.V is not None
         return self.T - self.V
 
     @cached_property

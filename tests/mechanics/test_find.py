@@ -19,7 +19,8 @@ POSITIVE = "{assume: positive}"
 def answers(text: str) -> dict[str, Solutions | Rewritten]:
     text = text.replace("POSITIVE", POSITIVE)
     problem = read_problem("test.yaml", text.encode()).checked()
-    return dict(answer_questions(Derivation(problem).dynamics).answers)
+    derivation = Derivation(problem)
+    return dict(answer_questions(derivation.dynamics, derivation.noether).answers)
 
 
 def roots(text: str, name: str = "asked") -> list[Expr | None] | None:
