@@ -187,7 +187,7 @@ def _flattened(
         whole = exponent.denominator == 1
         match base:
             case Negative(operand=operand) if whole:
-                coefficient *= (-1) ** int(exponent)
+                coefficient = -coefficient if exponent % 2 else coefficient
                 stack.append((operand, exponent))
             case Number(value=value) if whole:
                 coefficient *= value ** int(exponent)
@@ -200,7 +200,7 @@ def _flattened(
             case Call(function="sqrt", arguments=(radicand,)):
                 stack.append((radicand, exponent / 2))
             case Sum(terms=terms) if whole and _all_negative(base):
-                coefficient *= (-1) ** int(exponent)
+                coefficient = -coefficient if exponent % 2 else coefficient
                 result.append((Sum(tuple(t.operand for t in terms)), exponent))  # type: ignore[attr-defined]
             case _:
                 result.append((base, exponent))
