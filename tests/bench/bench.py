@@ -61,56 +61,69 @@ class Row:
 
 
 class Clock:
-    """Medians of whole-process wall times; each command is measured once."""
+    """Whole-process wall times of two commands, run in turn so that both see the same load.
+
+    The least of several runs is what a command takes undisturbed.
+    """
 
     def __init__(self, runs: int) -> None:
         self.runs = runs
-        self._known: dict[tuple[str, ...], float] = {}
 
-    def seconds(self, command: Sequence[str], runs: int | None = None) -> float:
-        key = tuple(command)
-        if key not in self._known:
-            times = [_once(command) for _ in range(runs or self.runs)]
-            self._known[key] = statistics.median(times)
-        return self._known[key]
+    def row(
+        self,
+        what: str,
+        command: Sequence[str],
+        against: str,
+        other: Sequence[str],
+        bar: float | None = None,
+    ) -> Row:
+        pairs = [(_seconds(command), _seconds(other)) for _ in range(self.runs)]
+        return Row(what, min(a for a, _ in pairs), against, min(b for _, b in pairs), bar)
 
 
-def _once(command: Sequence[str]) -> float:
+def _seconds(command: Sequence[str]) -> float:
     began = time.perf_counter()
     done = subprocess.run(command, cwd=ROOT, capture_output=True, check=False)
     seconds = time.perf_counter() - began
-    if done.returncode > 1:
+    if done.returncode:
         raise SystemExit(f"{' '.join(command)}: {done.stderr.decode()}")
     return seconds
 
 
 def startup_rows(clock: Clock) -> list[Row]:
     """What answers without any algebra, against `import typer`."""
-    typer = clock.seconds(IMPORT_TYPER)
     return [
-        Row("lagcli " + " ".join(arguments), clock.seconds([*LAGCLI, *arguments]),
-            "import typer", typer, 2.0)
-        for arguments in (["--help"], ["solve", "--help"], ["formats"])
-    ]  # fmt: skip
+        clock.row(f"lagcli {words}", [*LAGCLI, *words.split()], "import typer", IMPORT_TYPER, 2.0)
+        for words in ("--help", "solve --help", "formats")
+    ]
 
 
 def solve_rows(clock: Clock) -> list[Row]:
     """Each problem, all of its usual sections, against `import sympy`."""
-    sympy = clock.seconds(IMPORT_SYMPY)
     return [
-        Row(f"lagcli solve {name}", clock.seconds([*LAGCLI, "solve", _path(name)]),
-            "import sympy", sympy, 2.0 if name == "hoop" else None)
+        clock.row(
+            f"lagcli solve {name}",
+            [*LAGCLI, "solve", _path(name)],
+            "import sympy",
+            IMPORT_SYMPY,
+            2.0 if name == "hoop" else None,
+        )
         for name in PROBLEMS
-    ]  # fmt: skip
+    ]
 
 
 def naive_rows(clock: Clock) -> list[Row]:
     """The same answers, against SymPy's LagrangesMethod, LUsolve and simplify."""
     return [
-        Row(f"the equations of {name}", clock.seconds([*LAGCLI, "solve", _path(name), *ANSWERS]),
-            "LagrangesMethod", clock.seconds([*NAIVE, _path(name)], runs=1), 1.0)
+        clock.row(
+            f"the equations of {name}",
+            [*LAGCLI, "solve", _path(name), *ANSWERS],
+            "LagrangesMethod",
+            [*NAIVE, _path(name)],
+            1.0,
+        )
         for name in PROBLEMS
-    ]  # fmt: skip
+    ]
 
 
 def _path(name: str) -> str:
@@ -137,14 +150,14 @@ def _show(rows: Sequence[Row], earlier: dict[str, float]) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--runs", type=int, default=5, help="the median of so many")
+    parser.add_argument("--runs", type=int, default=5, help="the least of so many")
     parser.add_argument("--quick", action="store_true", help="without LagrangesMethod")
     parser.add_argument("--against", type=Path, help="an earlier .bench/*.json")
     arguments = parser.parse_args()
     clock = Clock(arguments.runs)
     rows = [*startup_rows(clock), *solve_rows(clock)]
     if not arguments.quick:
-        rows += naive_rows(clock)
+        rows += naive_rows(Clock(1))
     earlier = json.loads(arguments.against.read_text()) if arguments.against else {"rows": []}
     _show(rows, {row["what"]: row["ratio"] for row in earlier["rows"]})
     if not arguments.quick:
