@@ -12,6 +12,7 @@ from lagcli.answers import (
     DEFAULT_SECTIONS,
     SECTIONS,
     AccelerationsSection,
+    AlgebraSection,
     Answers,
     CanonicalPair,
     CanonicalSection,
@@ -84,6 +85,8 @@ class Statements:
             "hamiltonian": self._hamiltonian,
             "canonical_equations": self._canonical_equations,
             "charges": self._charges,
+            "discovered": self._discovered,
+            "algebra": self._algebra,
             "find": self._find,
             "equilibria": self._equilibria,
             "modes": self._modes,
@@ -337,6 +340,16 @@ class Statements:
             verified=charge.verified,
             broken_by=charge.broken_by,
         )
+
+    def _discovered(self) -> ChargesSection:
+        discovery = self.derivation.discovery
+        self.warnings.extend(discovery.stopped)
+        return ChargesSection(charges=tuple(map(self._charge, discovery.charges)))
+
+    def _algebra(self) -> AlgebraSection:
+        from lagcli.mechanics.discovery.summary import algebra_section
+
+        return algebra_section(self.derivation.discovery)
 
     def _find(self) -> FindSection:
         from lagcli.mechanics.find import answer_questions

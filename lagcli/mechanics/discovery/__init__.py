@@ -1,0 +1,1 @@
+"""Symmetries and first integrals that nobody listed: a linear search, then a proof of each."""

@@ -1,0 +1,210 @@
+"""What is searched: which functions of t and of the coordinates multiply the generators.
+
+Coordinates that are lengths enter to first degree, angles by sine and cosine (and by
+cosecant and cotangent, as rotations about other axes have them), a radius also by its
+inverse.  A coordinate is taken for an angle where it occurs in L only inside circular
+functions, or not at all while its inertia depends on other coordinates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra.build import free_of
+from lagcli.mechanics.discovery.search import Unknown
+from lagcli.mechanics.discovery.slots import Equations, Slot
+from lagcli.mechanics.discovery.spectrum import Exponent, differences, exponents
+
+_CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
+_MOST_FUNCTIONS = 60
+
+
+@dataclass(slots=True)
+class Kinds:
+    """The coordinates by what they look like: lengths, angles, radii among the lengths."""
+
+    lengths: list[Symbol] = field(default_factory=list)
+    angles: list[Symbol] = field(default_factory=list)
+    radii: list[Symbol] = field(default_factory=list)
+    cyclic: list[Symbol] = field(default_factory=list)  # among the angles
+    latitudes: list[Symbol] = field(default_factory=list)  # angles in the inertia of others
+
+
+def kinds(L: Expr, equations: Equations) -> Kinds:
+    """Tell lengths from angles."""
+    found = Kinds()
+    inertia = {
+        x: sympy.Tuple(*row) for x, row in zip(equations.q, equations.mass, strict=True)
+    }
+    inside = {s for f in L.atoms(*_CIRCULAR) for s in f.free_symbols}
+    for x in equations.q:
+        cyclic = free_of(L, [x])
+        turned = inertia[x].free_symbols & (set(equations.q) - {x})
+        angle = bool(cyclic and turned) or (x in inside and not _outside(L, x))
+        (found.angles if angle else found.lengths).append(x)
+        if angle and cyclic:
+            found.cyclic.append(x)
+    found.radii = [
+        x for x in found.lengths
+        if any(x in inertia[y].free_symbols for y in found.angles)
+    ]  # fmt: skip
+    found.latitudes = [
+        x for x in found.angles
+        if any(x in inertia[y].free_symbols for y in found.angles if y != x)
+    ]  # fmt: skip
+    return found
+
+
+def _outside(L: Expr, x: Symbol) -> bool:
+    """Whether x occurs anywhere but inside circular functions."""
+    marks = {f: sympy.Dummy() for f in L.atoms(*_CIRCULAR) if x in f.free_symbols}
+    return x in L.xreplace(marks).free_symbols
+
+
+@dataclass(frozen=True, slots=True)
+class TimeFunctions:
+    """Functions of time for generators that are constant in q, and for the others."""
+
+    translations: tuple[Expr, ...]
+    others: tuple[Expr, ...]
+    exponents: tuple[Exponent, ...]
+
+
+def time_functions(
+    equations: Equations, accelerations: Sequence[Expr] | None, *, potential: bool
+) -> TimeFunctions:
+    """1, t, t^2 (t^3 for translations) and the functions that the linear part suggests."""
+    t = equations.t
+    if accelerations is None:
+        polynomial = (sympy.S.One, t, t**2)
+        return TimeFunctions(polynomial, polynomial, ())
+    found = exponents(accelerations, equations.q, equations.v, t)
+    between = differences(found)
+    own = list(found)
+    if not potential:
+        # integrating factors solve the adjoint equation, whose exponents are the negatives
+        own += [Exponent(-e.growth, e.frequency) for e in found]
+    powers = [sympy.S.One, t, t**2]
+    others = [*powers, *_functions(between, t)]
+    translations = [*powers, t**3, *_functions(own, t), *_functions(between, t)]
+    return TimeFunctions(
+        tuple(dict.fromkeys(translations)), tuple(dict.fromkeys(others)), tuple(found)
+    )
+
+
+def _functions(found: Iterable[Exponent], t: Symbol) -> list[Expr]:
+    return [f for each in found for f in each.functions(t)]
+
+
+def affine(found: Kinds) -> list[Expr]:
+    """Functions of the coordinates for point transformations, the simplest first."""
+    one = sympy.S.One
+    by_angle = [_angle(x, found) for x in found.angles]
+    if _size(by_angle) > _MOST_FUNCTIONS:
+        by_angle = [[one, sympy.sin(x), sympy.cos(x)] for x in found.angles]
+    if _size(by_angle) > _MOST_FUNCTIONS:
+        by_angle = []
+    lengths = [one, *found.lengths, *(1 / x for x in found.radii)]
+    if _size([lengths, *by_angle]) > _MOST_FUNCTIONS:
+        lengths = [one, *(x for x in found.lengths if x in found.radii)]
+    if _size([lengths, *by_angle]) > _MOST_FUNCTIONS:
+        lengths = [one]
+    return _products([lengths, *by_angle])
+
+
+def quadratic(found: Kinds, most: int) -> list[Expr]:
+    """At most so many functions for Killing tensors: second degree in lengths, sin and cos."""
+    one = sympy.S.One
+    x = found.lengths
+    squares = [a * b for i, a in enumerate(x) for b in x[: i + 1]]
+    inverse = [1 / r for r in found.radii]
+    lengths = [
+        [one, *x, *squares, *inverse, *(r**-2 for r in found.radii)],
+        [one, *inverse, *(y for y in x if y in found.radii)],
+        [one, *inverse],
+    ]
+    angles = [
+        [[*_angle(y, found), *_second(y, found)] for y in found.angles],
+        [[*_angle(y, found), *_second(y, found)[2:]] for y in found.angles],
+        [[one, sympy.sin(y), sympy.cos(y)] for y in found.angles],
+    ]
+    for plain, by_angle in ((0, 0), (1, 0), (1, 1), (2, 1), (2, 2)):
+        groups = [lengths[plain], *angles[by_angle]]
+        if _size(groups) <= most:
+            return _products(groups)
+    return []
+
+
+def _angle(x: Symbol, found: Kinds) -> list[Expr]:
+    s, c = sympy.sin(x), sympy.cos(x)
+    return [sympy.S.One, s, c, *([c / s, 1 / s] if x in found.latitudes else [])]
+
+
+def _second(x: Symbol, found: Kinds) -> list[Expr]:
+    s, c = sympy.sin(x), sympy.cos(x)
+    return [s * c, s**2, *([c / s**2, s**-2] if x in found.latitudes else [])]
+
+
+def _size(groups: Sequence[Sequence[Expr]]) -> int:
+    size = 1
+    for group in groups:
+        size *= len(group)
+    return size
+
+
+def _products(groups: Sequence[Sequence[Expr]]) -> list[Expr]:
+    made = [sympy.Mul(*parts) for parts in product(*groups)]
+    return sorted(dict.fromkeys(made), key=_complexity)
+
+
+def _complexity(function: Expr) -> tuple[int, str]:
+    return sympy.count_ops(function) + len(function.free_symbols), str(function)
+
+
+def point_unknowns(
+    slots: Sequence[Slot],
+    times: TimeFunctions,
+    spaces: Sequence[Expr],
+    *,
+    time_with_space: bool,
+) -> list[Unknown]:
+    """T(t) g(q) for tau and every xi, those that may be eliminated first in front.
+
+    Where L is quadratic in the velocities tau does not depend on q: the terms of third
+    degree of the condition are T dtau/dq . q'.
+    """
+    unknowns: list[Unknown] = []
+    for k, slot in enumerate(slots):
+        alone = slot.kind[0] == "tau" and not time_with_space
+        for g in [sympy.S.One] if alone else spaces:
+            unknowns += [Unknown(k, T, g) for T in _times(times, slot, g)]
+    return _ordered(unknowns)
+
+
+def _times(times: TimeFunctions, slot: Slot, g: Expr) -> list[Expr]:
+    """t^2 only where it can be: dxi/dq + (dxi/dq)^T is of the degree of dtau/dt."""
+    if slot.kind[0] == "xi":
+        if g == 1:
+            return list(times.translations)
+        return [T for T in times.others if not (T.is_Pow and T.exp == 2)]
+    return list(times.others)
+
+
+def quadratic_unknowns(
+    pairs: Sequence[int], linear: Sequence[int], spaces: Sequence[Expr]
+) -> list[Unknown]:
+    """g(q) for the components of a Killing tensor and of the linear part."""
+    return _ordered([Unknown(k, sympy.S.One, g) for k in (*pairs, *linear) for g in spaces])
+
+
+def _ordered(unknowns: list[Unknown]) -> list[Unknown]:
+    def cost(unknown: Unknown) -> tuple[int, int, str, int]:
+        T, g = unknown.time, unknown.space
+        return (2 * sympy.count_ops(T) + len(T.free_symbols), *_complexity(g), unknown.slot)
+
+    return sorted(unknowns, key=cost, reverse=True)

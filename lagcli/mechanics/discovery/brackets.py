@@ -1,0 +1,250 @@
+"""Poisson brackets of charges at random states, and what follows from them by linear algebra.
+
+With p = dL/dq' the derivatives at constant q and p are, for Q(q, q', t),
+
+    dQ/dp = M^-1 dQ/dq',    dQ/dq|_p = dQ/dq|_q' - (dp/dq)^T dQ/dp,
+
+so no Legendre transform has to be solved.  The structure constants of
+{Q_a, Q_b} = sum_c C_ab^c Q_c + const are found from as many states as there are charges and
+confirmed at others, at 40 digits.
+
+References
+----------
+Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., section 9.5.
+Arnold, *Mathematical Methods of Classical Mechanics*, 2nd ed., section 49 (Liouville).
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import mpmath
+from mpmath import mpf
+from sympy import Expr
+
+from lagcli.algebra.numeric import Evaluator
+from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.dynamics import Dynamics
+
+_DIGITS = 40
+_SMALL = mpf(10) ** -20
+_CHECKS = 2
+_TRIES = 60
+
+Vector = list[mpf]
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """At one state: values of the charges, gradients by q and p, brackets."""
+
+    values: Vector
+    by_q: list[Vector]
+    by_p: list[Vector]
+
+    def bracket(self, a: int, b: int) -> mpf:
+        """{Q_a, Q_b}."""
+        one = mpmath.fdot(self.by_q[a], self.by_p[b])
+        return one - mpmath.fdot(self.by_p[a], self.by_q[b])
+
+
+@dataclass(frozen=True, slots=True)
+class Structure:
+    """C[a][b][c], and the constants K[a][b]; `scale` holds the part that has the energy."""
+
+    constants: list[list[Vector]]
+    central: list[Vector]
+    by_energy: list[list[Vector]] | None = None
+
+
+class Brackets:
+    """Charges as functions on phase space."""
+
+    def __init__(self, charges: Sequence[Expr], dynamics: Dynamics, clock: Clock) -> None:
+        self.charges = tuple(charges)
+        self.dynamics = dynamics
+        self.clock = clock
+        system = dynamics.system
+        q, v = system.q, system.qdot
+        momenta = dynamics.lagrange.momenta
+        expressions: list[Expr] = list(self.charges)
+        expressions += [Q.diff(x) for Q in self.charges for x in (*q, *v)]
+        expressions += [m for row in dynamics.lagrange.mass_matrix for m in row]
+        expressions += [p.diff(x) for p in momenta for x in q]
+        self._evaluate = Evaluator(expressions, _DIGITS)
+        self._samples: list[Sample] = []
+        self._source = self._states()
+
+    # -- states -------------------------------------------------------------------------------
+
+    def _states(self) -> Iterator[Sample]:
+        system = self.dynamics.system
+        source = random.Random("lagcli brackets")
+        with mpmath.workdps(_DIGITS):
+            base = dict(self.dynamics.states.take(1)[0])
+        bad = 0
+        while bad < _TRIES:
+            self.clock.check()
+            with mpmath.workdps(_DIGITS):
+                state = dict(base)
+                for x in (*system.q, *system.qdot):
+                    value = mpf(source.randint(2000, 13000)) / 10007
+                    negative = x.is_negative or (not x.is_nonnegative and source.random() < 0.4)
+                    scale = mpf(1) / 3 if x in system.qdot else mpf(1)
+                    state[x] = -value * scale if negative else value * scale
+                state[system.t] = mpf(source.randint(1000, 9000)) / 10007
+                try:
+                    values = self._evaluate(state)
+                    if not all(isinstance(x, mpf) and mpmath.isfinite(x) for x in values):
+                        bad += 1
+                        continue
+                    sample = self._sample(values)
+                except (ArithmeticError, ValueError):
+                    bad += 1
+                    continue
+            yield sample
+
+    def _sample(self, values: list[mpf]) -> Sample:
+        n, count = len(self.dynamics.system.q), len(self.charges)
+        start = count + 2 * n * count
+        mass = mpmath.matrix(n, n)
+        cross = mpmath.matrix(n, n)  # dp_k/dq_i
+        for i in range(n):
+            for j in range(n):
+                mass[i, j] = values[start + i * n + j]
+                cross[i, j] = values[start + n * n + i * n + j]
+        inverse = mass**-1
+        by_q, by_p = [], []
+        for a in range(count):
+            at = count + 2 * n * a
+            q = mpmath.matrix(values[at : at + n])
+            p = inverse * mpmath.matrix(values[at + n : at + 2 * n])
+            by_p.append(list(p))
+            by_q.append(list(q - cross.T * p))
+        return Sample(values[:count], by_q, by_p)
+
+    def samples(self, count: int) -> list[Sample]:
+        """That many states; fewer where the formulas have no real values."""
+        while len(self._samples) < count:
+            sample = next(self._source, None)
+            if sample is None:
+                break
+            self._samples.append(sample)
+        return self._samples[:count]
+
+    # -- counting ---------------------------------------------------------------------------
+
+    def commute(self, a: int, b: int) -> bool:
+        """Whether the bracket vanishes."""
+        with mpmath.workdps(_DIGITS):
+            return all(abs(s.bracket(a, b)) < _SMALL for s in self.samples(3))
+
+    def independent(self, chosen: Sequence[int]) -> int:
+        """The number of functionally independent ones: the rank of their gradients."""
+        with mpmath.workdps(_DIGITS):
+            sample = self.samples(1)[0]
+            return rank([[*sample.by_q[a], *sample.by_p[a]] for a in chosen])
+
+    def in_involution(self, chosen: Sequence[int]) -> int:
+        """The largest number of independent ones among the chosen that all commute."""
+        friends = {a: {b for b in chosen if b != a and self.commute(a, b)} for a in chosen}
+        n = len(self.dynamics.system.q)
+        best = 0
+
+        def grow(kept: list[int], left: list[int]) -> None:
+            nonlocal best
+            self.clock.check()
+            best = max(best, len(kept))
+            for k, a in enumerate(left):
+                if best == n or len(kept) + len(left) - k <= best:
+                    return
+                if self.independent([*kept, a]) == len(kept) + 1:
+                    grow([*kept, a], [b for b in left[k + 1 :] if b in friends[a]])
+
+        grow([], list(chosen))
+        return best
+
+    # -- structure constants ------------------------------------------------------------------
+
+    def structure(self, chosen: Sequence[int], energy: int | None = None) -> Structure | None:
+        """The structure constants, None where the brackets do not close linearly.
+
+        With `energy`, coefficients may be linear in that charge.
+        """
+        with mpmath.workdps(_DIGITS):
+            return self._structure(list(chosen), energy)
+
+    def _structure(self, chosen: list[int], energy: int | None) -> Structure | None:
+        count = len(chosen)
+        width = count + 1 + (0 if energy is None else count)
+        samples = self.samples(width + _CHECKS)
+        if len(samples) < width + _CHECKS:
+            return None
+
+        def row(sample: Sample) -> Vector:
+            values = [sample.values[a] for a in chosen]
+            more = [] if energy is None else [sample.values[energy] * x for x in values]
+            return [*values, mpf(1), *more]
+
+        try:
+            inverse = mpmath.matrix([row(s) for s in samples[:width]]) ** -1
+        except ZeroDivisionError:
+            return None
+        constants = [[[mpf(0)] * count for _ in chosen] for _ in chosen]
+        second = [[[mpf(0)] * count for _ in chosen] for _ in chosen]
+        central = [[mpf(0)] * count for _ in chosen]
+        for i in range(count):
+            for j in range(i):
+                self.clock.check()
+                brackets = [s.bracket(chosen[i], chosen[j]) for s in samples]
+                c = list(inverse * mpmath.matrix(brackets[:width]))
+                c = [x if abs(x) > _SMALL else mpf(0) for x in c]
+                for sample, value in zip(samples[width:], brackets[width:], strict=True):
+                    if abs(mpmath.fdot(row(sample), c) - value) > _SMALL * (1 + abs(value)):
+                        return None
+                for sign, a, b in ((1, i, j), (-1, j, i)):
+                    constants[a][b] = [sign * x for x in c[:count]]
+                    central[a][b] = sign * c[count]
+                    if energy is not None:
+                        second[a][b] = [sign * x for x in c[count + 1 :]]
+        return Structure(constants, central, None if energy is None else second)
+
+    @cached_property
+    def linearly_independent(self) -> bool:
+        """Whether no combination of the charges is constant."""
+        count = len(self.charges)
+        with mpmath.workdps(_DIGITS):
+            rows = [[*s.values, mpf(1)] for s in self.samples(count + 1)]
+            return rank(rows) == count + 1
+
+
+def rank(rows: Sequence[Vector]) -> int:
+    """The rank by elimination with pivots."""
+    left = [list(row) for row in rows if any(row)]
+    result = 0
+    width = len(left[0]) if left else 0
+    scale = max((abs(x) for row in left for x in row), default=mpf(1))
+    used: set[int] = set()
+    for _ in range(width):
+        best = max(
+            ((abs(row[c]), r, c) for r, row in enumerate(left) for c in range(width)
+             if c not in used),
+            default=None,
+        )  # fmt: skip
+        if best is None or best[0] < _SMALL * scale:
+            break
+        _, r, c = best
+        pivot = left.pop(r)
+        used.add(c)
+        result += 1
+        left = [[x - row[c] / pivot[c] * y for x, y in zip(row, pivot, strict=True)]
+                for row in left]  # fmt: skip
+    return result
+
+
+def kernel_dimension(rows: Sequence[Vector], width: int) -> int:
+    """The dimension of the vectors that all rows annihilate."""
+    return width - rank(rows)

@@ -1,0 +1,242 @@
+"""What was found for one system: the charges, each proved, and what was searched.
+
+References
+----------
+Lutzky, J. Phys. A 11 (1978) 249 (the oscillator's five).
+Ibragimov, *Elementary Lie Group Analysis and Ordinary Differential Equations*, ch. 11.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cached_property
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import free_of
+from lagcli.mechanics.discovery import point
+from lagcli.mechanics.discovery.ansatz import (
+    Kinds,
+    TimeFunctions,
+    affine,
+    kinds,
+    point_unknowns,
+    time_functions,
+)
+from lagcli.mechanics.discovery.constrained import tangent
+from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
+from lagcli.mechanics.discovery.hidden_names import hidden_name
+from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Clock, OutOfTime
+from lagcli.mechanics.discovery.modular import NoPoint
+from lagcli.mechanics.discovery.names import Naming, distinct
+from lagcli.mechanics.discovery.search import Search
+from lagcli.mechanics.discovery.slots import Equations, point_slots
+from lagcli.mechanics.noether import Noether, NoetherCharge
+
+_MOST_COORDINATES = 9
+
+
+class Discovery:
+    """The search for one system, bounded in time.
+
+    Attributes
+    ----------
+    point_charges, hidden_charges : tuple of NoetherCharge
+        Of point symmetries, and of second degree in the velocities beyond them.
+    stopped : list of str
+        Which parts of the search were not finished, and why.
+    """
+
+    def __init__(self, noether: Noether) -> None:
+        self.noether = noether
+        self.dynamics = noether.dynamics
+        self.system = noether.system
+        self.clock = Clock()
+        self.stopped: list[str] = []
+        self.words: list[str] = []
+        self.point_charges: tuple[NoetherCharge, ...] = ()
+        self.hidden_charges: tuple[NoetherCharge, ...] = ()
+        self._run()
+
+    @property
+    def charges(self) -> tuple[NoetherCharge, ...]:
+        """All of them, the symmetries first."""
+        return (*self.point_charges, *self.hidden_charges)
+
+    @property
+    def ansatz(self) -> str:
+        """What was searched and what was not, as a sentence without its full stop."""
+        return "; ".join((*self.words, *self.stopped))
+
+    # -- the two searches -------------------------------------------------------------------
+
+    def _run(self) -> None:
+        n = len(self.system.q)
+        if n > _MOST_COORDINATES:
+            self.words.append("nothing")
+            self.stopped.append(f"more than {_MOST_COORDINATES} coordinates are not searched")
+            return
+        if self.dynamics.degenerate and not self.dynamics.constraints.equations:
+            self.words.append("nothing")
+            self.stopped.append("the Lagrangian is singular")
+            return
+        for search, what in ((self._points, "point symmetries"), (self._hidden, "Killing tensors")):
+            try:
+                search()
+            except OutOfTime:
+                self.stopped.append(f"stopped before all {what} were found: out of time")
+            except NoPoint:
+                self.stopped.append(f"{what}: no sample point was found, the search has a gap")
+            except ZeroDivisionError:
+                self.stopped.append(f"{what}: a formula has no finite form, the search has a gap")
+
+    @cached_property
+    def equations(self) -> Equations:
+        """The equations of motion without constraints."""
+        lagrange = self.dynamics.lagrange
+        return Equations(
+            self.system.t,
+            self.system.q,
+            self.system.qdot,
+            tuple(tuple(map(self._short, row)) for row in lagrange.mass_matrix),
+            tuple(map(self._short, lagrange.forcing)),
+        )
+
+    def _short(self, expression: Expr) -> Expr:
+        self.clock.check()
+        return simplify(expression)
+
+    @cached_property
+    def _kinds(self) -> Kinds:
+        return kinds(self.system.L, self.equations)
+
+    @cached_property
+    def _potential(self) -> bool:
+        return all(is_zero(f) is True for f in self.system.applied_forces)
+
+    @cached_property
+    def _quadratic(self) -> bool:
+        """Whether the mass matrix does not depend on velocities."""
+        v = self.system.qdot
+        return all(free_of(m, v) for row in self.equations.mass for m in row)
+
+    def _points(self) -> None:
+        clock = self.clock.part(0.7)
+        constraints = self.dynamics.constraints.equations
+        motion = None if constraints else self.dynamics.motion
+        times = time_functions(
+            self.equations,
+            None if motion is None else motion.accelerations,
+            potential=self._potential,
+        )
+        slots = point_slots(self.equations)
+        spaces = affine(self._kinds)
+        while True:
+            unknowns = point_unknowns(
+                slots, times, spaces, time_with_space=not self._quadratic
+            )
+            if len(unknowns) <= MOST_UNKNOWNS or len(spaces) == 1:
+                break
+            spaces = spaces[: len(spaces) // 2]
+        self.words.append(self._sentence(times, spaces))
+        search = Search(self.equations, slots, unknowns, clock)
+        naming = Naming(
+            self.system.t, self.system.q, frozenset(self._kinds.angles)
+        )
+        transformations = [
+            point.transformation_of(search, solution, set(self.system.parameters))
+            for solution in search.solutions()
+        ]
+        transformations.reverse()
+        if constraints:
+            transformations = tangent(transformations, self.dynamics, clock)
+            self.words.append(
+                "only symmetries of the unconstrained L that are tangent to the constraints"
+            )
+        found = []
+        for transformation in transformations:
+            clock.check()
+            charge = point.charge_of(self.noether, transformation)
+            if charge is None or is_zero(charge.charge) is True:
+                self.stopped.append("a symmetry whose charge was not proved is left out")
+                continue
+            found.append((naming.of_point(transformation.changes, transformation.time), charge))
+            self._keep_points(found)
+
+    def _keep_points(self, found: Sequence[tuple[str, NoetherCharge]]) -> None:
+        found = sorted(found, key=lambda pair: _rank(pair[0]))
+        names = distinct([name for name, _ in found])
+        self.point_charges = tuple(
+            replace(_oriented(charge, name), name=name)
+            for name, (_, charge) in zip(names, found, strict=True)
+        )
+
+    def _hidden(self) -> None:
+        if self.dynamics.constraints.equations:
+            return
+        if len(self.system.q) < 2 or not self._quadratic or not self._potential:
+            return
+        if self.system.t in self.equations_symbols:
+            return
+        self.words.append(
+            "first integrals of second degree in the velocities without explicit time, "
+            "coefficients up to second degree in the coordinates"
+        )
+        integrals = QuadraticIntegrals(self.noether, self.equations, self._kinds, self.clock)
+        if not integrals.functions:
+            self.stopped.append("there are too many coordinates for the second degree")
+            return
+        found = integrals.found(self.point_charges)
+        names = [hidden_name(functions, charge, self.system) for functions, charge in found]
+        names = distinct([*(c.name for c in self.point_charges), *names])
+        self.hidden_charges = tuple(
+            replace(charge, name=name)
+            for name, (_, charge) in zip(names[len(self.point_charges) :], found, strict=True)
+        )
+
+    @property
+    def equations_symbols(self) -> set[Expr]:
+        """All symbols of M and of the forcing."""
+        return set().union(
+            *(m.free_symbols for row in self.equations.mass for m in row),
+            *(f.free_symbols for f in self.equations.forcing),
+        )
+
+    def _sentence(self, times: TimeFunctions, spaces: Sequence[Expr]) -> str:
+        what = "point transformations" if self._potential else "integrating factors"
+        shapes = []
+        if any(set(s.free_symbols) & set(self._kinds.lengths) for s in spaces) or (
+            not self._kinds.angles
+        ):
+            shapes.append("affine in the coordinates")
+        if self._kinds.angles and len(spaces) > 1 + len(self._kinds.lengths):
+            shapes.append("with sines and cosines of the angles")
+        powers = "polynomial in t to second degree"
+        timed = " and with the exponents of the linear part" if times.exponents else ""
+        space = " ".join(shapes) or "constant in the coordinates"
+        return f"{what} {space}, {powers}{timed}"
+
+
+def _rank(name: str) -> int:
+    """Energy, momenta, angular momenta, boosts, the rest."""
+    order = ("energy", "p_", "momentum", "L_", "angular", "boost", "dilation", "conformal")
+    for k, start in enumerate(order):
+        if name.startswith(start):
+            return k
+    return len(order) if name else len(order) + 1
+
+
+def _oriented(charge: NoetherCharge, name: str) -> NoetherCharge:
+    """L_y is z p_x - x p_z."""
+    if name != "L_y":
+        return charge
+    flipped = charge.transformation
+    return replace(
+        charge,
+        transformation=replace(flipped, changes=tuple(simplify(-c) for c in flipped.changes)),
+        gauge=None if charge.gauge is None else -charge.gauge,
+        charge=sympy.expand(-charge.charge),
+    )

@@ -1,0 +1,110 @@
+"""Exact coefficients of a solution that is known modulo a prime."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations, product
+
+import sympy
+from flint import nmod_mat
+from sympy import Expr, Rational
+
+from lagcli.algebra import nullspace, simplify
+from lagcli.algebra.ring import Poly
+from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, small_fraction
+
+_TOGETHER = 3  # parameters in one recognized monomial
+_POWERS = (-2, -1, 1, 2)
+
+
+class ExactSolver:
+    """Coefficients over the field of the constants (parameters and their roots)."""
+
+    def __init__(self, points: ModularPoints) -> None:
+        self.points = points
+        self.field = points.field
+        self._monomials: list[tuple[int, Expr]] | None = None
+
+    # -- by recognition -------------------------------------------------------------------
+
+    def recognized(self, values: Sequence[int]) -> list[Expr] | None:
+        """Rational numbers times a monomial in the constants; None where one is neither.
+
+        The constants have random values near 2^61, so that a small fraction or a short
+        product of them is no accident; it is proved later all the same.
+        """
+        found = [self._recognize(value) for value in values]
+        return None if any(x is None for x in found) else found
+
+    def _recognize(self, value: int) -> Expr | None:
+        plain = small_fraction(value)
+        if plain is not None:
+            return Rational(plain.numerator, plain.denominator)
+        for inverse, expression in self._constant_monomials():
+            fraction = small_fraction(value * inverse % PRIME, 128)
+            if fraction is not None:
+                return Rational(fraction.numerator, fraction.denominator) * expression
+        return None
+
+    def _constant_monomials(self) -> list[tuple[int, Expr]]:
+        if self._monomials is None:
+            self._monomials = list(self._made())
+        return self._monomials
+
+    def _made(self) -> Iterator[tuple[int, Expr]]:
+        """(1/value, expression), the shortest first."""
+        constants = [
+            g for g, constant in enumerate(self.points.constant)
+            if constant and self.field.generators[g].kind in ("symbol", "root")
+        ]  # fmt: skip
+        for count in range(1, min(_TOGETHER, len(constants)) + 1):
+            for chosen in combinations(constants[:8], count):
+                for powers in product(_POWERS, repeat=count):
+                    if sum(map(abs, powers)) > 4:
+                        continue
+                    value, expression = 1, sympy.S.One
+                    for g, power in zip(chosen, powers, strict=True):
+                        value = value * pow(self.points.constants[g], -power, PRIME) % PRIME
+                        expression *= self.field.generators[g].expression ** power
+                    yield value, expression
+
+    # -- by elimination -------------------------------------------------------------------
+
+    def solved(self, columns: Sequence[Sequence[Expr]]) -> list[Expr] | None:
+        """The one combination of the columns that vanishes identically in t, q, q'."""
+        width = len(columns)
+        rows: list[list[Poly]] = []
+        rank = 0
+        for entries in zip(*columns, strict=True):
+            for row in self._collected(entries):
+                values = [[self.points.constant_value(x) for x in each] for each in (*rows, row)]
+                if nmod_mat(values, PRIME).rank() > rank:
+                    rows.append(row)
+                    rank += 1
+            if rank == width - 1:
+                break
+        if rank != width - 1:
+            return None
+        matrix = [[self.field.polynomial_to_sympy(x) for x in row] for row in rows]
+        kernel = nullspace(matrix) if matrix else [[sympy.S.One]]
+        return [simplify(x) for x in kernel[0]] if len(kernel) == 1 else None
+
+    def _collected(self, entries: Sequence[Expr]) -> list[list[Poly]]:
+        """sum c_a entry_a = 0 as one row of constants for each monomial in t, q, q'."""
+        field, ring = self.field, self.field.ring
+        elements = [field(e) for e in entries]
+        common = ring.one
+        for element in elements:
+            below = ring.lift(element.denominator)
+            common = ring.lift(common)
+            common = common * (below / common.gcd(below))
+        groups: dict[tuple[tuple[int, int], ...], list[list[tuple[object, int]]]] = {}
+        for index, element in enumerate(elements):
+            factor = ring.lift(common) / ring.lift(element.denominator)
+            poly = ring.reduce(ring.lift(element.numerator) * factor)
+            for monomial, coefficient in ring.terms(poly):
+                moving = tuple(p for p in monomial if not self.points.constant[p[0]])
+                fixed = tuple(p for p in monomial if self.points.constant[p[0]])
+                row = groups.setdefault(moving, [[] for _ in elements])
+                row[index].append((fixed, coefficient))
+        return [[ring.build(terms) for terms in row] for row in groups.values()]  # type: ignore[arg-type]

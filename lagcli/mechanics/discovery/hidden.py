@@ -1,0 +1,221 @@
+"""First integrals of second degree in the velocities: Killing tensors with their potentials.
+
+    Q = sum_{i<=j} f_ij p_i p_j (f_ii p_i^2 / 2) + sum_j f_j p_j + S(q),    p = M q'.
+
+The multipliers dQ/dp_j do not contain S, so the same linear search finds them; S follows
+from its gradient.  Products of integrals of first degree, and the energy, are left out:
+what is kept is independent of them, linearly over the constants.
+
+References
+----------
+Eisenhart, Ann. Math. 35 (1934) 284 (Staeckel systems and Killing tensors).
+Fradkin, Am. J. Phys. 33 (1965) 207; Goldstein, Am. J. Phys. 43 (1975) 737.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations_with_replacement
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import free_of
+from lagcli.mechanics.discovery.ansatz import Kinds, quadratic, quadratic_unknowns
+from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.modular import PRIME, NoPoint, pivot_columns
+from lagcli.mechanics.discovery.relation import Relation
+from lagcli.mechanics.discovery.scaling import scaled
+from lagcli.mechanics.discovery.search import Search, Solution
+from lagcli.mechanics.discovery.slots import (
+    Equations,
+    Slot,
+    combined,
+    point_slots,
+    quadratic_slots,
+)
+from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+from lagcli.mechanics.total_derivative import boundary_term
+
+_MOST_UNKNOWNS = 480
+
+Slots = list[tuple[Slot, Expr]]
+
+
+class QuadraticIntegrals:
+    """The integrals of second degree of equations M(q) q'' = forcing without time in them."""
+
+    def __init__(
+        self, noether: Noether, equations: Equations, kinds: Kinds, clock: Clock
+    ) -> None:
+        self.noether = noether
+        self.equations = equations
+        self.clock = clock
+        self.constants = frozenset(noether.system.parameters)
+        n = len(equations.q)
+        self.pairs = quadratic_slots(equations)
+        gyroscopic = any(
+            is_zero(f.diff(v).xreplace(dict.fromkeys(equations.v, sympy.S.Zero))) is not True
+            for f in equations.forcing
+            for v in equations.v
+        )
+        self.linear = point_slots(equations)[1:] if gyroscopic else []
+        slots = len(self.pairs) + len(self.linear)
+        self.functions = quadratic(kinds, _MOST_UNKNOWNS // slots)
+        if not self.functions and n * (n + 1) // 2 <= _MOST_UNKNOWNS:
+            self.functions = [sympy.S.One]
+
+    def found(self, known: Sequence[NoetherCharge]) -> list[tuple[Slots, NoetherCharge]]:
+        """The integrals that are no combinations of products of the known ones."""
+        first, second = len(self.pairs), len(self.pairs) + len(self.linear)
+        unknowns = quadratic_unknowns(range(first), range(first, second), self.functions)
+        products = self._products(known)
+        vectors = [slot.vector for slot in (*self.pairs, *self.linear)]
+        search = Search(
+            self.equations,
+            [*self.pairs, *self.linear],
+            unknowns,
+            self.clock,
+            more=[e for v in (*vectors, *products) for e in v],
+        )
+        kernel = search.kernel()
+        kernel.reverse()  # the simplest first
+        new = self._independent(search, products, kernel)
+        charges = []
+        for solution in search.solutions(new):
+            functions = self._scaled(search, solution)
+            charge = self._charge(functions)
+            if charge is not None:
+                charges.append((functions, charge))
+        return charges
+
+    def _products(self, known: Sequence[NoetherCharge]) -> list[tuple[Expr, ...]]:
+        """The multipliers of the known integrals and of products of those of first degree."""
+        fixed = [c for c in known if self.equations.t not in c.charge.free_symbols]
+        eta = {id(c): self.noether.characteristic(c.transformation) for c in fixed}
+        linear = [c for c in fixed if c.transformation.time == 0]
+        return [
+            *(eta[id(c)] for c in fixed),
+            *(
+                tuple(a.charge * y + b.charge * x
+                      for x, y in zip(eta[id(a)], eta[id(b)], strict=True))
+                for a, b in combinations_with_replacement(linear, 2)
+            ),
+        ]  # fmt: skip
+
+    def _independent(
+        self,
+        search: Search,
+        products: Sequence[tuple[Expr, ...]],
+        kernel: Sequence[dict[int, int]],
+    ) -> list[dict[int, int]]:
+        """The vectors of the kernel that are no combinations of the products and of earlier."""
+        if not kernel:
+            return []
+        n = len(self.equations.q)
+        rows: list[list[int]] = []
+        while len(rows) < len(products) + len(kernel) + n:
+            self.clock.check()
+            point = search.points.point()
+            try:
+                columns = [search.values(p, point) for p in products]
+                columns += [self._multiplier(search, v, point) for v in kernel]
+            except NoPoint:
+                continue
+            rows += [list(row) for row in zip(*columns, strict=True)]
+        return [kernel[k - len(products)] for k in pivot_columns(rows) if k >= len(products)]
+
+    def _multiplier(
+        self, search: Search, vector: dict[int, int], point: Sequence[int]
+    ) -> list[int]:
+        total = [0] * len(self.equations.q)
+        for index, value in vector.items():
+            unknown = search.unknowns[index]
+            factor = value * search.function_value(unknown, point) % PRIME
+            for j, u in enumerate(search.values(search.slots[unknown.slot].vector, point)):
+                total[j] = (total[j] + factor * u) % PRIME
+        return total
+
+    def _scaled(self, search: Search, solution: Solution) -> Slots:
+        parts = search.combination(solution)
+        values = scaled([f for _, f in parts], self.constants)
+        return [(slot, value) for (slot, _), value in zip(parts, values, strict=True)]
+
+    # -- the charge -------------------------------------------------------------------------
+
+    def _charge(self, functions: Slots) -> NoetherCharge | None:
+        equations = self.equations
+        n = len(equations.q)
+        eta = tuple(simplify(x) for x in combined(functions, n))
+        kinetic = self._kinetic(functions)
+        slot = Slot(("whole",), eta)
+        a, b = slot.a(equations), slot.b(equations)
+        still = dict.fromkeys(equations.v, sympy.S.Zero)
+        force = [
+            simplify((b.diff(v) - equations.convected(x)).xreplace(still))
+            for v, x in zip(equations.v, a, strict=True)
+        ]
+        scalar = self._potential(force, functions)
+        if scalar is None:
+            return None
+        transformation = Transformation(eta, sympy.S.Zero)
+        momenta = self.noether.dynamics.lagrange.momenta
+        whole = kinetic + scalar
+        gauge = simplify(
+            sympy.Add(*(p * x for p, x in zip(momenta, eta, strict=True))) - whole
+        )
+        charge = self.noether.charge("", "discovered", transformation, gauge)
+        if charge.conserved is not True or charge.verified != "exact":
+            return None
+        return charge
+
+    def _kinetic(self, functions: Slots) -> Expr:
+        """sum f p_i p_j, f p_i^2/2, f p_j with p = M q'."""
+        p = [
+            sympy.Add(*(m * v for m, v in zip(row, self.equations.v, strict=True)))
+            for row in self.equations.mass
+        ]
+        terms = []
+        for slot, f in functions:
+            if slot.kind[0] == "xi":
+                terms.append(f * p[int(slot.kind[1])])
+                continue
+            i, j = int(slot.kind[1]), int(slot.kind[2])
+            terms.append(f * p[i] ** 2 / 2 if i == j else f * p[i] * p[j])
+        return sympy.Add(*terms)
+
+    def _potential(self, force: Sequence[Expr], functions: Slots) -> Expr | None:
+        """S(q) with the gradient `force`, from functions like those of L and of the tensor."""
+        q = self.equations.q
+        if all(f == 0 for f in force):
+            return sympy.S.Zero
+        candidates = self._candidates(functions)
+        vectors = [[c.diff(x) for x in q] for c in candidates]
+        try:
+            values = Relation([*vectors, [-f for f in force]], q, self.clock).of_last()
+        except (NoPoint, ZeroDivisionError):
+            values = None
+        if values is not None:
+            return sympy.Add(*(c * x for c, x in zip(candidates, values, strict=True)))
+        rate = sympy.Add(*(f * v for f, v in zip(force, self.equations.v, strict=True)))
+        return boundary_term(simplify(rate), self.noether.system)
+
+    def _candidates(self, functions: Slots) -> list[Expr]:
+        """Products of the terms of L at rest with monomials and with the functions f."""
+        q = self.equations.q
+        rest = self.noether.system.L.xreplace(dict.fromkeys(self.equations.v, sympy.S.Zero))
+        terms = {
+            t.as_independent(*q, as_Add=False)[1]
+            for t in sympy.Add.make_args(sympy.expand(rest))
+        } - {sympy.S.One}
+        monomials = [sympy.S.One, *q]
+        monomials += [x * y for i, x in enumerate(q) for y in q[: i + 1]]
+        inside = {
+            t.as_independent(*q, as_Add=False)[1]
+            for _, f in functions
+            for t in sympy.Add.make_args(sympy.expand(f))
+        }
+        made = [a * b for b in terms for a in (*monomials, *sorted(inside, key=str))]
+        made += [m for m in monomials if m != 1]
+        return sorted({m for m in made if not free_of(m, q)}, key=sympy.default_sort_key)

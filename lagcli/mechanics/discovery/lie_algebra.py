@@ -1,0 +1,147 @@
+"""The name of a Lie algebra of small dimension from its structure constants.
+
+Told apart by the dimension, the centre, the derived algebra and the signature of the
+Killing form kappa_ab = sum C_ac^d C_bd^c.
+
+References
+----------
+Fulton, Harris, *Representation Theory*, chapters 9 and 10.
+Niederer, Helv. Phys. Acta 45 (1972) 802 (the Schroedinger algebra of free motion).
+Levy-Leblond, *Group Theory and its Applications* II (1971) 221 (Galilei).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import mpmath
+from mpmath import mpf
+
+from lagcli.mechanics.discovery.brackets import Structure, Vector, rank
+
+_SMALL = mpf(10) ** -12
+_SEMISIMPLE = {
+    (3, 0, 3): "so(3)",
+    (3, 2, 1): "sl(2,R)",
+    (6, 0, 6): "so(4)",
+    (6, 3, 3): "so(3,1)",
+    (6, 4, 2): "so(2,2)",
+    (6, 2, 4): "so(3) + sl(2,R)",
+    (8, 0, 8): "su(3)",
+}
+
+
+def name_of(structure: Structure) -> str | None:
+    """The name of the algebra, None where it is none of the known ones."""
+    with mpmath.workdps(30):
+        if structure.by_energy is None:
+            return _name(structure.constants, structure.central)
+        negative = _at_energy(structure, -1)
+        positive = _at_energy(structure, 1)
+        below, above = (_name(c, structure.central) for c in (negative, positive))
+        if below is None:
+            return None
+        if above is None or above == below:
+            return f"{below} where the energy is negative"
+        return f"{below} where the energy is negative, {above} where it is positive"
+
+
+def _at_energy(structure: Structure, value: int) -> list[list[Vector]]:
+    assert structure.by_energy is not None
+    return [
+        [[x + value * y for x, y in zip(c, e, strict=True)] for c, e in zip(a, b, strict=True)]
+        for a, b in zip(structure.constants, structure.by_energy, strict=True)
+    ]
+
+
+def _name(C: list[list[Vector]], central: Sequence[Vector]) -> str | None:
+    n = len(C)
+    if n == 0:
+        return None
+    extended = any(abs(x) > _SMALL for row in central for x in row)
+    products = [C[a][b] for a in range(n) for b in range(a)]
+    derived = rank(products)
+    if derived == 0:
+        pairs = rank(list(central)) // 2 if extended else 0
+        if pairs == 0:
+            return _abelian(n)
+        rest = n - 2 * pairs
+        return f"Heisenberg h({pairs})" + (f" + {_abelian(rest)}" if rest else "")
+    whole = _whole(C, n, derived, extended=extended)
+    if whole is not None:
+        return whole
+    centre = _centre(C, central)
+    if centre and rank([*products, *centre]) == derived + len(centre):
+        quotient = _without(C, central, centre)
+        inner = _name(*quotient)
+        return None if inner is None else f"{inner} + {_abelian(len(centre))}"
+    return None
+
+
+def _abelian(n: int) -> str:
+    return "R" if n == 1 else f"R^{n}"
+
+
+def _whole(C: list[list[Vector]], n: int, derived: int, *, extended: bool) -> str | None:
+    """An algebra that is known as a whole."""
+    plus, minus = _signature(C)
+    if plus + minus == n:
+        return _SEMISIMPLE.get((n, plus, minus))
+    if n == 3 and derived == 2 and not extended:
+        return {(0, 1): "e(2)", (1, 0): "Poincare iso(1,1)"}.get((plus, minus))
+    for d in range(1, 5):
+        turns = d * (d - 1) // 2
+        if n == 3 + turns + 2 * d and (plus, minus) == (2, 1 + turns) and extended:
+            rotations = f" + so({d})" if d > 1 else ""
+            return f"Schroedinger sch({d}): sl(2,R){rotations} with Heisenberg h({d})"
+        if n == 1 + turns + 2 * d and (plus, minus) == (0, turns) and extended:
+            nilpotent = d > 1 or derived == 1
+            return f"Galilei in {d} dimension{'s' if d > 1 else ''}" if nilpotent else None
+        if d > 1 and n == turns + 2 * d + 1 and (plus, minus) == (d, turns) and not extended:
+            return f"Poincare iso({d},1)"
+        if d > 2 and n == turns + d and (plus, minus) == (0, turns) and not extended:
+            return f"e({d})"
+    if n == 3 and extended and derived == 2 and plus + minus == 1:
+        return "oscillator algebra" if minus else "oscillator algebra (hyperbolic)"
+    return None
+
+
+def _signature(C: list[list[Vector]]) -> tuple[int, int]:
+    """How many positive and negative eigenvalues the Killing form has."""
+    n = len(C)
+    form = mpmath.matrix(n, n)
+    for a in range(n):
+        for b in range(a + 1):
+            total = mpf(0)
+            for c in range(n):
+                for d in range(n):
+                    if C[a][c][d] and C[b][d][c]:
+                        total += C[a][c][d] * C[b][d][c]
+            form[a, b] = form[b, a] = total
+    values = mpmath.eigsy(form, eigvals_only=True)
+    scale = max((abs(x) for x in values), default=mpf(1)) or mpf(1)
+    return (
+        sum(1 for x in values if x > _SMALL * scale),
+        sum(1 for x in values if x < -_SMALL * scale),
+    )
+
+
+def _centre(C: list[list[Vector]], central: Sequence[Vector]) -> list[Vector]:
+    """Basis vectors that commute with all: enough for bases that are chosen sparse."""
+    n = len(C)
+    return [
+        [mpf(int(i == a)) for i in range(n)]
+        for a in range(n)
+        if all(not any(C[a][b]) for b in range(n)) and not any(central[a])
+    ]
+
+
+def _without(
+    C: list[list[Vector]], central: Sequence[Vector], centre: Sequence[Vector]
+) -> tuple[list[list[Vector]], list[Vector]]:
+    gone = {next(i for i, x in enumerate(z) if x) for z in centre}
+    kept = [i for i in range(len(C)) if i not in gone]
+    return (
+        [[[C[a][b][c] for c in kept] for b in kept] for a in kept],
+        [[central[a][b] for b in kept] for a in kept],
+    )

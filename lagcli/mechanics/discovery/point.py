@@ -1,0 +1,70 @@
+"""Point symmetries up to a boundary term: found by the linear search, proved by Noether.
+
+For applied forces F_j and dissipation the multipliers are integrating factors, and the
+boundary term takes up what the forces do: dG/dt = K + sum_j F_j eta_j.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Set as AbstractSet
+from dataclasses import replace
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra import is_zero, simplify
+from lagcli.mechanics.discovery.scaling import scaled
+from lagcli.mechanics.discovery.search import Search, Solution
+from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+from lagcli.mechanics.total_derivative import boundary_term
+
+
+def transformation_of(
+    search: Search, solution: Solution, constants: AbstractSet[Symbol]
+) -> Transformation:
+    """tau and xi_j of a solution, scaled to be readable."""
+    n = len(search.equations.q)
+    tau = sympy.S.Zero
+    xi: list[Expr] = [sympy.S.Zero] * n
+    for slot, function in search.combination(solution):
+        if slot.kind[0] == "tau":
+            tau = function
+        else:
+            xi[int(slot.kind[1])] = function
+    *changes, time = scaled((*xi, tau), constants)
+    return Transformation(tuple(changes), time)
+
+
+def charge_of(noether: Noether, transformation: Transformation) -> NoetherCharge | None:
+    """The proved charge of a transformation; None where it is not proved."""
+    if transformation.time == 1 and not any(transformation.changes):
+        charge = noether.charge("energy", "discovered", transformation, sympy.S.Zero)
+        # Q = -h by the formula; the textbook's energy is h
+        charge = replace(charge, charge=noether.energy.function)
+        return _proved(charge)
+    gauge = _gauge(noether, transformation)
+    if gauge is None:
+        return None
+    return _proved(noether.charge("", "discovered", transformation, gauge))
+
+
+def _gauge(noether: Noether, transformation: Transformation) -> Expr | None:
+    """G with dG/dt = K + sum F_j eta_j."""
+    system = noether.system
+    change = noether.change_of_action(transformation) + sympy.Add(
+        *(
+            force * eta
+            for force, eta in zip(
+                system.applied_forces, noether.characteristic(transformation), strict=True
+            )
+        )
+    )
+    if is_zero(change) is True:
+        return sympy.S.Zero
+    return boundary_term(simplify(change), system)
+
+
+def _proved(charge: NoetherCharge) -> NoetherCharge | None:
+    if charge.conserved is not True or charge.verified != "exact":
+        return None
+    return charge

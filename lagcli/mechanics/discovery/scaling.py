@@ -1,0 +1,54 @@
+"""A solution with a factor that makes it readable: no fractions, no common parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra import simplify
+
+
+def scaled(values: Sequence[Expr], constants: AbstractSet[Symbol]) -> tuple[Expr, ...]:
+    """The values without denominators and common factors, the last one positive.
+
+    Only numbers and powers of single constants are taken out, which never vanish.
+    """
+    terms = [term for v in values for term in sympy.Add.make_args(sympy.expand(v))]
+    common = _common(terms, constants)
+    result = tuple(simplify(sympy.expand(v / common)) for v in values)
+    leading = next((v for v in reversed(result) if v != 0), sympy.S.One)
+    first = sympy.Add.make_args(leading)[0]
+    sign = -1 if first.could_extract_minus_sign() and leading.could_extract_minus_sign() else 1
+    return tuple(sign * v for v in result)
+
+
+def _common(terms: Sequence[Expr], constants: AbstractSet[Symbol]) -> Expr:
+    """gcd of numbers and of powers of constants over all terms."""
+    number: Expr | None = None
+    powers: dict[Expr, Expr] | None = None
+    for term in terms:
+        if term == 0:
+            continue
+        coefficient, rest = term.as_coeff_Mul()
+        if not coefficient.is_Rational:
+            coefficient, rest = sympy.S.One, term
+        number = abs(coefficient) if number is None else sympy.gcd(number, coefficient)
+        own = {
+            base: exponent
+            for base, exponent in (f.as_base_exp() for f in sympy.Mul.make_args(rest))
+            if base in constants and exponent.is_Integer
+        }
+        if powers is None:
+            powers = own
+        else:
+            powers = {
+                base: min(powers.get(base, sympy.S.Zero), own.get(base, sympy.S.Zero))
+                for base in {*powers, *own}
+            }
+    factor = number or sympy.S.One
+    for base, exponent in (powers or {}).items():
+        factor *= base**exponent
+    return factor

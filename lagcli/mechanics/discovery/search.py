@@ -1,0 +1,264 @@
+"""The unknown functions f as combinations of given ones, and the linear system for them.
+
+The system is sampled modulo a prime at random points, random values of the parameters
+among them, until its rank stays.  The reduced echelon form gives a basis of the solutions
+in which each has the fewest unknowns; only these few are then solved for exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra.entry import Field
+from lagcli.mechanics.discovery.exact import ExactSolver
+from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.modular import (
+    PRIME,
+    Compiled,
+    ModularPoints,
+    NoPoint,
+    kernel_modulo,
+)
+from lagcli.mechanics.discovery.slots import Condition, Equations, Slot
+
+_BAD_POINTS = 50
+
+
+@dataclass(frozen=True, slots=True)
+class Unknown:
+    """The coefficient of T(t) g(q) in the function f of a slot."""
+
+    slot: int
+    time: Expr
+    space: Expr
+
+    @property
+    def function(self) -> Expr:
+        """T g."""
+        return self.time * self.space
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """Nonzero coefficients by unknown."""
+
+    terms: tuple[tuple[Unknown, Expr], ...]
+
+
+class Search:
+    """One linear system: slots, unknowns (those that may be left out first), conditions.
+
+    Parameters
+    ----------
+    equations, slots
+        What is searched.
+    unknowns
+        In the order of elimination: each solution has exactly one unknown that no other
+        has, as late in this order as possible.
+    clock
+        Raises OutOfTime.
+    """
+
+    def __init__(
+        self,
+        equations: Equations,
+        slots: Sequence[Slot],
+        unknowns: Sequence[Unknown],
+        clock: Clock,
+        more: Sequence[Expr] = (),
+    ) -> None:
+        self.equations = equations
+        self.slots = list(slots)
+        self.unknowns = list(unknowns)
+        self.clock = clock
+        self._bad = 0
+        self._reduced: list[list[int]] = []
+        self.conditions: list[list[Condition]] = []
+        for slot in self.slots:
+            clock.check()
+            self.conditions.append(slot.conditions(equations))
+        t = equations.t
+        self._time_jets = {
+            T: (T, T.diff(t), T.diff(t, 2)) for T in dict.fromkeys(u.time for u in self.unknowns)
+        }
+        self._factors = {g: self._split(g) for g in dict.fromkeys(u.space for u in self.unknowns)}
+        self._enter(more)
+
+    def _split(self, g: Expr) -> list[tuple[Expr, Expr, Expr]]:
+        """g(q) = product of h_k(q_k): h_k, h_k', h_k'' for each coordinate."""
+        jets = []
+        for x in self.equations.q:
+            _, h = g.as_independent(x, as_Add=False)
+            jets.append((h, h.diff(x), h.diff(x, 2)))
+        return jets
+
+    def _enter(self, more: Sequence[Expr]) -> None:
+        """Everything into one field."""
+        expressions = [e for c in self.conditions for condition in c for _, e in condition]
+        jets = [e for jet in self._time_jets.values() for e in jet]
+        jets += [e for jets in self._factors.values() for jet in jets for e in jet]
+        jets += self.equations.v
+        self.field = Field([*expressions, *jets, *more])
+        self._elements = {}
+        for expression in dict.fromkeys([*expressions, *jets, *more]):
+            self.clock.check()
+            self._elements[expression] = self.field(expression)
+        variables = [self.equations.t, *self.equations.q, *self.equations.v]
+        self.points = ModularPoints(self.field, variables)
+        self._exact = ExactSolver(self.points)
+        self._compiled: dict[Expr, Compiled] = {
+            e: self.points.compiled(x) for e, x in self._elements.items()
+        }
+
+    def function_value(self, unknown: Unknown, point: Sequence[int]) -> int:
+        """T g at a point."""
+        value = self._compiled[unknown.time](point)
+        for h, _, _ in self._factors[unknown.space]:
+            value = value * self._compiled[h](point) % PRIME
+        return value
+
+    # -- modulo a prime -----------------------------------------------------------------
+
+    def values(self, expressions: Sequence[Expr], point: Sequence[int]) -> list[int]:
+        """Expressions that were given to the field, at a point."""
+        return [self._compiled[e](point) for e in expressions]
+
+    def rows(self, point: Sequence[int]) -> list[list[int]]:
+        """One row for each condition at a point; columns are the unknowns."""
+        known: dict[Expr, int] = {}
+
+        def at(expression: Expr) -> int:
+            value = known.get(expression)
+            if value is None:
+                value = known[expression] = self._compiled[expression](point)
+            return value
+
+        tables = [
+            [[(jet, at(e)) for jet, e in condition if e != 0] for condition in conditions]
+            for conditions in self.conditions
+        ]
+        times = {T: [at(e) for e in jet] for T, jet in self._time_jets.items()}
+        v = [at(x) for x in self.equations.v]
+        spaces = {
+            g: _space_jets([tuple(map(at, jet)) for jet in jets], v)
+            for g, jets in self._factors.items()
+        }
+        columns = []
+        for unknown in self.unknowns:
+            T, Tt, Ttt = times[unknown.time]
+            space = spaces[unknown.space]
+            g, Dg, DDg = space[0], space[-2], space[-1]
+            jets = [T * x % PRIME for x in space[:-2]]
+            jets += [(Tt * g + T * Dg) % PRIME, (Ttt * g + 2 * Tt * Dg + T * DDg) % PRIME]
+            columns.append([sum(jets[j] * x for j, x in c) % PRIME for c in tables[unknown.slot]])
+        return [list(row) for row in zip(*columns, strict=True) if any(row)]
+
+    def _batch(self, wanted: int) -> list[list[int]]:
+        """Rows from new points, about as many as wanted (fewer where most are 0)."""
+        batch: list[list[int]] = []
+        for _ in range(wanted + 8):
+            self.clock.check()
+            try:
+                batch += self.rows(self.points.point())
+            except NoPoint:
+                self._bad += 1
+                if self._bad > _BAD_POINTS:
+                    raise
+            if len(batch) >= wanted:
+                break
+        return batch
+
+    def kernel(self) -> list[dict[int, int]]:
+        """A basis of the solutions modulo p, sparse, which more points do not break."""
+        width = len(self.unknowns)
+        rows = self._batch(width + 10)
+        while True:
+            vectors = self._kernel(rows)
+            fresh = self._batch(12)
+            broken = [
+                row for row in fresh
+                if any(sum(row[i] * x for i, x in y.items()) % PRIME for y in vectors)
+            ]  # fmt: skip
+            if not broken:
+                return vectors
+            rows = [*self._reduced, *broken, *self._batch(width // 2)]
+
+    def _kernel(self, rows: list[list[int]]) -> list[dict[int, int]]:
+        self.clock.check()
+        self._reduced, vectors = kernel_modulo(rows, len(self.unknowns))
+        return vectors
+
+    # -- exactly -------------------------------------------------------------------------
+
+    def solutions(self, vectors: Sequence[dict[int, int]] | None = None) -> list[Solution]:
+        """The solutions with exact coefficients, simplest last as the unknowns are."""
+        exact = self._exact
+        found = []
+        for vector in self.kernel() if vectors is None else vectors:
+            self.clock.check()
+            indices = sorted(vector)
+            values = exact.recognized([vector[i] for i in indices])
+            if values is None:
+                values = exact.solved([self._column(i) for i in indices])
+            if values is None:
+                continue
+            found.append(
+                Solution(
+                    tuple(
+                        (self.unknowns[i], value)
+                        for i, value in zip(indices, values, strict=True)
+                        if value != 0
+                    )
+                )
+            )
+        return found
+
+    def _column(self, index: int) -> list[Expr]:
+        """The conditions for one unknown as formulas."""
+        unknown = self.unknowns[index]
+        f, D = unknown.function, self.equations.convected
+        jets = [f, *(f.diff(x) for x in self.equations.q), D(f), D(D(f))]
+        return [
+            sympy.Add(*(jets[j] * e for j, e in condition))
+            for condition in self.conditions[unknown.slot]
+        ]
+
+    def combination(self, solution: Solution) -> list[tuple[Slot, Expr]]:
+        """The functions f of a solution, by slot."""
+        functions: dict[int, list[Expr]] = {}
+        for unknown, value in solution.terms:
+            functions.setdefault(unknown.slot, []).append(value * unknown.function)
+        return [(self.slots[s], sympy.Add(*parts)) for s, parts in sorted(functions.items())]
+
+
+def _space_jets(factors: Sequence[tuple[int, ...]], v: Sequence[int]) -> list[int]:
+    """g, its gradient, Dg and D^2 g at fixed time, from the factors of g."""
+    n = len(v)
+    partial = []
+    g = 1
+    for h, _, _ in factors:
+        g = g * h % PRIME
+    second = 0
+    for i in range(n):
+        if factors[i][1] == 0 and factors[i][2] == 0:
+            partial.append(0)
+            continue
+        rest = 1
+        for k in range(n):
+            if k != i:
+                rest = rest * factors[k][0] % PRIME
+        partial.append(rest * factors[i][1] % PRIME)
+        second += rest * factors[i][2] % PRIME * v[i] * v[i]
+        for j in range(i):
+            if factors[j][1]:
+                mixed = factors[i][1] * factors[j][1] % PRIME
+                for k in range(n):
+                    if k not in (i, j):
+                        mixed = mixed * factors[k][0] % PRIME
+                second += 2 * mixed * v[i] * v[j]
+    first = sum(x * y for x, y in zip(partial, v, strict=True))
+    return [g, *partial, first % PRIME, second % PRIME]

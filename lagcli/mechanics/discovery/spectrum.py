@@ -1,0 +1,177 @@
+"""The exponents of time that the equations suggest: those of their linear part.
+
+The terms of q''(q, q') that are linear with constant coefficients, q'' = K q + C q', have
+solutions exp(lambda t) with det(lambda^2 - C lambda - K) = 0.  For the oscillator these are
++- i omega, for a charge in a magnetic field 0 and +- i q B/m, for a damped oscillator
+-gamma/2 +- i sqrt(omega^2 - gamma^2/4).  A symmetry that is affine in q carries solutions
+into solutions, so its time dependence has the differences of the exponents.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra import is_zero, simplify
+
+_LARGEST_BLOCK = 4
+_MOST_OPERATIONS = 3000
+
+
+@dataclass(frozen=True, slots=True)
+class Exponent:
+    """lambda = growth +- i frequency; the frequency is 0 where it is real."""
+
+    growth: Expr
+    frequency: Expr
+
+    def functions(self, t: Symbol) -> list[Expr]:
+        """Real functions of time: exp(growth t) times sine and cosine."""
+        envelope = sympy.exp(self.growth * t)
+        if self.frequency == 0:
+            return [] if self.growth == 0 else [envelope]
+        return [envelope * sympy.sin(self.frequency * t), envelope * sympy.cos(self.frequency * t)]
+
+
+def exponents(
+    accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
+) -> list[Exponent]:
+    """The exponents of the linear part, none of them 0, none twice."""
+    n = len(q)
+    rows = [_linear_part(x, [*q, *v], t) for x in accelerations]
+    found: list[Exponent] = []
+    for block in _blocks(rows, n):
+        if len(block) > _LARGEST_BLOCK:
+            continue
+        lam = Symbol("lambda", real=True)
+        matrix = sympy.Matrix(
+            [
+                [
+                    (lam**2 if i == j else 0) - rows[i].get(j, 0) - lam * rows[i].get(n + j, 0)
+                    for j in block
+                ]
+                for i in block
+            ]
+        )
+        numerator = sympy.numer(sympy.together(sympy.expand(matrix.det(method="berkowitz"))))
+        try:
+            factors = sympy.factor_list(numerator, lam)[1]
+        except sympy.PolynomialError:
+            continue
+        for factor, _ in factors:
+            for exponent in _roots(factor.as_poly(lam)):
+                _keep(found, exponent)
+    return found
+
+
+def differences(found: Sequence[Exponent], most: int = 8) -> list[Exponent]:
+    """Twice each frequency, then differences and sums of two exponents: at most so many."""
+    result: list[Exponent] = []
+
+    def add(growth: Expr, frequency: Expr) -> None:
+        _keep(result, Exponent(simplify(growth), simplify(frequency)))
+
+    for each in found:
+        if each.frequency != 0:
+            add(sympy.S.Zero, 2 * each.frequency)
+        else:
+            add(2 * each.growth, sympy.S.Zero)
+    for each in found:
+        # the exponents differ from 0, the exponent of free motion, by themselves
+        add(each.growth, each.frequency)
+    for i, one in enumerate(found):
+        for other in found[:i]:
+            if len(result) >= most:
+                return result
+            add(one.growth - other.growth, one.frequency - other.frequency)
+            add(one.growth - other.growth, one.frequency + other.frequency)
+    return result[:most]
+
+
+def _keep(found: list[Exponent], new: Exponent) -> None:
+    """Add an exponent that is not 0 and that differs from the others, also as a conjugate."""
+    if is_zero(new.frequency):
+        new = Exponent(new.growth, sympy.S.Zero)
+        if is_zero(new.growth):
+            return
+    for each in found:
+        if is_zero(each.growth - new.growth) and (
+            is_zero(each.frequency - new.frequency) or is_zero(each.frequency + new.frequency)
+        ):
+            return
+    if new.frequency.could_extract_minus_sign():
+        new = Exponent(new.growth, -new.frequency)
+    found.append(new)
+
+
+def _linear_part(acceleration: Expr, variables: Sequence[Symbol], t: Symbol) -> dict[int, Expr]:
+    if sympy.count_ops(acceleration) > _MOST_OPERATIONS:
+        return {}
+    position = {x: k for k, x in enumerate(variables)}
+    part: dict[int, Expr] = {}
+    for term in sympy.Add.make_args(sympy.expand(acceleration)):
+        constant, rest = term.as_independent(*variables, as_Add=False)
+        if rest in position and t not in constant.free_symbols:
+            k = position[rest]
+            part[k] = part.get(k, sympy.S.Zero) + constant
+    return part
+
+
+def _blocks(rows: Sequence[dict[int, Expr]], n: int) -> list[list[int]]:
+    """Coordinates that are coupled with each other."""
+    label = list(range(n))
+    for i, row in enumerate(rows):
+        for k in row:
+            a, b = label[i], label[k % n]
+            label = [a if x == b else x for x in label]
+    return [[i for i in range(n) if label[i] == x] for x in dict.fromkeys(label)]
+
+
+def _roots(poly: sympy.Poly) -> list[Exponent]:
+    """Of a linear, a quadratic or an even quartic factor."""
+    zero = sympy.S.Zero
+    c = [simplify(x) for x in reversed(poly.all_coeffs())]
+    if poly.degree() == 1:
+        return [Exponent(simplify(-c[0] / c[1]), zero)]
+    if poly.degree() == 2:
+        return _quadratic(simplify(c[1] / c[2]), simplify(c[0] / c[2]))
+    if poly.degree() == 4 and is_zero(c[1]) and is_zero(c[3]):
+        return _biquadratic(simplify(c[2] / c[4]), simplify(c[0] / c[4]))
+    return []
+
+
+def _quadratic(b: Expr, c: Expr) -> list[Exponent]:
+    """lambda^2 + b lambda + c = 0."""
+    # without a word on the sign, c > b^2/4 is taken: both forms are the same functions
+    inside = simplify(c - b**2 / 4)
+    if inside.is_negative or (c.could_extract_minus_sign() and not c.is_positive):
+        root = _root(simplify(-inside))
+        return [Exponent(simplify(-b / 2 + root), sympy.S.Zero),
+                Exponent(simplify(-b / 2 - root), sympy.S.Zero)]  # fmt: skip
+    return [Exponent(simplify(-b / 2), _root(inside))]
+
+
+def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
+    """lambda^4 + b lambda^2 + c = 0: i (sqrt(b + 2s) +- sqrt(b - 2s))/2 where c = s^2."""
+    s = _root(c)
+    if s.has(sympy.Pow) and any(p.exp.is_Rational and p.exp.q > 1 for p in s.atoms(sympy.Pow)):
+        inside = simplify(sympy.sqrt(simplify(b**2 / 4 - c)))
+        squares = [simplify(b / 2 + inside), simplify(b / 2 - inside)]
+        return [Exponent(sympy.S.Zero, sympy.sqrt(x)) for x in squares]
+    one, other = _root(simplify(b + 2 * s)), _root(simplify(b - 2 * s))
+    return [
+        Exponent(sympy.S.Zero, simplify((one + other) / 2)),
+        Exponent(sympy.S.Zero, simplify((one - other) / 2)),
+    ]
+
+
+def _root(square: Expr) -> Expr:
+    """A root without a modulus: either sign serves for sine and cosine."""
+    factored = sympy.factor(square)
+    root = sympy.sqrt(factored)
+    if any(p.base.is_Add for p in root.atoms(sympy.Pow) if p.exp.is_Rational and p.exp.q == 2):
+        root = sympy.sqrt(square)  # no perfect square: not torn apart
+    return simplify(root.replace(sympy.Abs, lambda x: x))

@@ -1,0 +1,147 @@
+"""The algebra of the discovered charges: dimension, name, independence, integrability."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import sympy
+from sympy import Expr
+
+from lagcli.answers import AlgebraSection
+from lagcli.mechanics.discovery.brackets import Brackets, rank
+from lagcli.mechanics.discovery.discovery import Discovery
+from lagcli.mechanics.discovery.lie_algebra import name_of
+from lagcli.mechanics.discovery.limits import OutOfTime
+from lagcli.mechanics.states import Contradiction
+
+
+@dataclass(frozen=True, slots=True)
+class Summary:
+    """What `algebra` states; `dimension` is that of the algebra that `name` names."""
+
+    dimension: int
+    name: str | None
+    independent: int
+    in_involution: int
+    integrable: bool | None
+    notes: tuple[str, ...] = ()
+
+
+def algebra_section(discovery: Discovery) -> AlgebraSection:
+    """The statement of it."""
+    found = summary(discovery)
+    return AlgebraSection(
+        ansatz="; ".join((discovery.ansatz, *found.notes)),
+        dimension=found.dimension,
+        name=found.name,
+        independent=found.independent,
+        in_involution=found.in_involution,
+        integrable=found.integrable,
+    )
+
+
+def summary(discovery: Discovery) -> Summary:
+    """Brackets and what follows from them; counts alone where they were not worked out."""
+    count = len(discovery.charges)
+    try:
+        if discovery.dynamics.constraints.equations:
+            return _constrained(discovery)
+        return _free(discovery)
+    except (OutOfTime, Contradiction):
+        return Summary(count, None, min(1, count), min(1, count), None,
+                       ("the brackets were not worked out: out of time",))  # fmt: skip
+
+
+def _free(discovery: Discovery) -> Summary:
+    points = len(discovery.point_charges)
+    charges = [c.charge for c in discovery.charges]
+    count = len(charges)
+    if not count:
+        return Summary(0, None, 0, 0, False)
+    triples = _squares(discovery)
+    brackets = Brackets([*charges, *triples], discovery.dynamics, discovery.clock)
+    everything = list(range(count))
+    energy = next((k for k, c in enumerate(discovery.charges) if c.name == "energy"), None)
+    dimension, name, notes = points, None, []
+    structure = brackets.structure(everything)
+    if structure is None and count > points and energy is not None:
+        rest = [k for k in everything if k != energy]
+        over_energy = brackets.structure(rest, energy)
+        found = None if over_energy is None else name_of(over_energy)
+        if found is not None and all(brackets.commute(energy, k) for k in rest):
+            dimension, name = count, f"R + {found}"
+    if structure is not None:
+        dimension, name = count, name_of(structure)
+    elif name is None:
+        structure = brackets.structure(list(range(points)))
+        name = None if structure is None else name_of(structure)
+        if count > points:
+            notes.append("the integrals of second degree are not counted in the dimension")
+    t = discovery.system.t
+    autonomous = t not in discovery.system.L.free_symbols
+    fixed = [
+        k for k, c in enumerate([*charges, *triples])
+        if not autonomous or t not in c.free_symbols
+    ]  # fmt: skip
+    fixed.sort(key=lambda k: (k != energy, k < count))
+    involution = brackets.in_involution(fixed)
+    return Summary(
+        dimension,
+        name,
+        brackets.independent(everything),
+        involution,
+        involution == len(discovery.system.q),
+        tuple(notes),
+    )
+
+
+def _squares(discovery: Discovery) -> list[Expr]:
+    """L^2 of three charges of first degree that turn into each other, for involution."""
+    linear = [c.charge for c in discovery.charges if c.transformation.time == 0
+              and discovery.system.t not in c.charge.free_symbols]  # fmt: skip
+    if len(linear) < 3 or len(linear) > 8:
+        return []
+    brackets = Brackets(linear, discovery.dynamics, discovery.clock)
+    found = []
+    for triple in combinations(range(len(linear)), 3):
+        structure = brackets.structure(triple)
+        if structure is not None and name_of(structure) == "so(3)":
+            found.append(sympy.Add(*(linear[k] ** 2 for k in triple)))
+    return found
+
+
+def _constrained(discovery: Discovery) -> Summary:
+    """Counts on the constraint surface; brackets there (Dirac's) are not worked out."""
+    dynamics = discovery.dynamics
+    system = dynamics.system
+    charges = [c.charge for c in discovery.charges]
+    relations = [e.f for e in dynamics.constraints.equations if e.holonomic]
+    relations += list(dynamics.constraints.velocity_forms)
+    independent = _rank_on_surface(discovery, charges, relations)
+    involution = min(1, independent)
+    freedom = dynamics.degrees_of_freedom
+    holonomic = all(kind != "nonholonomic" for kind in dynamics.constraints.kinds.values())
+    autonomous = all(system.t not in c.free_symbols for c in charges[:1])
+    integrable = True if freedom == 1 and involution == 1 and holonomic and autonomous else None
+    return Summary(len(charges), None, independent, involution, integrable)
+
+
+def _rank_on_surface(discovery: Discovery, charges: list[Expr], relations: list[Expr]) -> int:
+    import mpmath
+
+    from lagcli.algebra.numeric import Evaluator
+
+    system = discovery.system
+    variables = (*system.q, *system.qdot)
+    evaluate = Evaluator([e.diff(x) for e in (*relations, *charges) for x in variables], 40)
+    with mpmath.workdps(40):
+        for state in discovery.dynamics.states.take(3):
+            try:
+                values = evaluate(state)
+            except (ArithmeticError, ValueError):
+                continue
+            width = len(variables)
+            rows = [values[k : k + width] for k in range(0, len(values), width)]
+            return rank(rows) - rank(rows[: len(relations)])
+    return min(1, len(charges))
