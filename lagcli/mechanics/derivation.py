@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
+from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.energy import EnergyFunction
 from lagcli.mechanics.hamiltonian import Hamiltonian
@@ -49,3 +50,8 @@ class Derivation:
     def noether(self) -> Noether:
         """Charges of the candidate and of the evident symmetries."""
         return Noether(self.dynamics, self.energy)
+
+    @cached_property
+    def discovery(self) -> Discovery:
+        """Symmetries and first integrals that nobody listed."""
+        return Discovery(self.noether)
