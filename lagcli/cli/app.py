@@ -15,6 +15,7 @@ COMMANDS = {
     "solve": "Derive and print the equations of motion, multipliers and charges.",
     "check": "Check problems against their known answers and against the mathematics.",
     "formats": "List the formats that `solve --format` knows.",
+    "cache": "Show where the answers of earlier runs are kept, or remove them.",
     "version": "Print the version.",
 }
 

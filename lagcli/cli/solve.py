@@ -50,6 +50,10 @@ Width = Annotated[
     int | None,
     typer.Option("--width", metavar="N", min=20, help="Columns.  [default: the terminal's, or 80]"),
 ]
+NoCache = Annotated[
+    bool,
+    typer.Option("--no-cache", help="Neither look up the answer nor keep it.  See: lagcli cache."),
+]
 
 
 def solve(
@@ -61,6 +65,7 @@ def solve(
     numeric: Numeric = False,
     standalone: Standalone = False,
     width: Width = None,
+    no_cache: NoCache = False,
 ) -> int:
     """Derive and print the equations of motion, multipliers and charges.
 
@@ -73,15 +78,10 @@ def solve(
       lagcli solve problems/hoop.yaml --show accelerations,multipliers -f latex
       lagcli solve problems/hoop.yaml --set R=1/2 --set "alpha=pi/6" -f json -o hoop.json
     """  # noqa: D301 - click reads the control character \b
-    from lagcli.cli.asking import asked
-    from lagcli.cli.solving import Printing, solve_files
-    from lagcli.stack import with_deep_stack
+    from lagcli.cli.printing import Printing
+    from lagcli.cli.repeating import Options, solve_or_repeat
 
-    printing = Printing(
-        format_name=format_name,
-        output=None if output is None or str(output) == "-" else output,
-        standalone=standalone,
-        width=width,
-    )
-    request = asked(format_name, show or [], settings or [], numeric=numeric)
-    return with_deep_stack(lambda: solve_files(files, request, printing))
+    to_file = None if output is None or str(output) == "-" else output
+    printing = Printing(format_name, to_file, standalone, width)
+    options = Options(tuple(show or ()), tuple(settings or ()), numeric)
+    return solve_or_repeat(files, options, printing, cached=not no_cache)

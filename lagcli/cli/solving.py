@@ -2,54 +2,37 @@
 
 from __future__ import annotations
 
-import shutil
-import sys
 from collections.abc import Sequence
-from pathlib import Path
+from typing import NamedTuple
 
 from lagcli.answers import Answers
 from lagcli.cli.asking import Asked
-from lagcli.cli.files import print_result, read_input, reason, write_output
+from lagcli.cli.files import reason
+from lagcli.cli.printing import Printing
+from lagcli.cli.sparing import keep_what_is_there, spare_tensors
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
 from lagcli.failures import describe
-from lagcli.formatters import Options
+from lagcli.formatters.registry import BUILT_IN
 from lagcli.pipeline import Request, derive, read, render, state
 from lagcli.problem import Problem
-from lagcli.record import record
 
-PIPE_WIDTH = 80
+#: A file's name, and its bytes or why there are none.
+Input = tuple[str, bytes | OSError]
 
 
-@record(kw_only=True)
-class Printing:
-    """Where to, and in which form."""
+class Outcome(NamedTuple):
+    """What is to be printed (None: nothing), and what has been told beside it.
 
-    format_name: str
-    output: Path | None
-    standalone: bool
-    width: int | None
+    `repeatable` says that the same files and options would give the same again: nothing
+    was missing on the disk, and no answer was left out that more time might have found.
+    """
 
-    def options(self, *, several: bool) -> Options:
-        """What the formatter is told of the place where its text will stand."""
-        if self.output is not None or not sys.stdout.isatty():
-            width = PIPE_WIDTH
-        else:
-            width = shutil.get_terminal_size((PIPE_WIDTH, 24)).columns
-        return Options(
-            width=self.width or width,
-            unicode=self.encoding.lower().startswith("utf"),
-            standalone=self.standalone,
-            several=several,
-        )
-
-    @property
-    def encoding(self) -> str:
-        """UTF-8, but for text on a terminal that has something else."""
-        if self.output is not None or self.format_name != "text":
-            return "utf-8"
-        return sys.stdout.encoding or "utf-8"
+    status: Status
+    text: str | None
+    said: tuple[str, ...]
+    repeatable: bool
 
 
 class Tally:
@@ -58,6 +41,8 @@ class Tally:
     def __init__(self) -> None:
         self.wrong = False  # a file or the command line
         self.missing = False  # an answer
+        self.unreadable = False  # a file
+        self.said: list[str] = []
 
     @property
     def status(self) -> Status:
@@ -67,49 +52,43 @@ class Tally:
         return Status.NOT_FOUND if self.missing else Status.WELL
 
 
-def solve_files(files: Sequence[str], asked: Asked, printing: Printing) -> Status:
-    """Answer every file that can be read, print the answers together."""
+def solve_files(
+    inputs: Sequence[Input], asked: Asked, printing: Printing, *, only_read: bool = False
+) -> Outcome:
+    """Answer every file that can be read, and format the answers together."""
     tally = Tally()
-    for mistake in asked.mistakes:
-        tell_line(f"lagcli: error: {mistake}")
-        tally.wrong = True
-    has_place = _has_place(printing.output)
-    tally.wrong = tally.wrong or not has_place
-    problems = [_read(name, asked.request, tally) for name in files]
-    if asked.mistakes or not has_place:
-        return tally.status
-    answers = [
-        answer
-        for name, problem in zip(files, problems, strict=True)
-        if problem is not None
-        if (answer := _answer(name, problem, asked.request, tally)) is not None
-    ]
-    if answers:
-        _print(answers, printing, several=len(files) > 1, tally=tally)
-    return tally.status
+    problems = [_read(name, data, asked.request, tally) for name, data in inputs]
+    text = None
+    if not only_read and any(problems):
+        _start_algebra()
+        answers = [
+            answer
+            for (name, _), problem in zip(inputs, problems, strict=True)
+            if problem is not None
+            if (answer := _answer(name, problem, asked.request, tally)) is not None
+        ]
+        if answers:
+            options = printing.options(several=len(inputs) > 1)
+            text = render(answers, printing.format_name, options)
+    lasting = not (tally.missing or tally.unreadable or only_read)
+    repeatable = lasting and printing.format_name in BUILT_IN
+    return Outcome(tally.status, text, tuple(tally.said), repeatable)
 
 
-def _has_place(output: Path | None) -> bool:
-    """Whether there is a place for what comes out; asked before any work is done."""
-    if output is None:
-        return True
-    if output.is_dir():
-        tell_line(f"{output}: error: is a directory")
-        return False
-    if not output.resolve().parent.is_dir():
-        tell_line(f"{output}: error: there is no directory '{output.parent}'")
-        return False
-    return True
+def _start_algebra() -> None:
+    spare_tensors()
+    import lagcli.mechanics.statements  # noqa: F401 - SymPy, before the collector starts
+
+    keep_what_is_there()
 
 
-def _read(name: str, request: Request, tally: Tally) -> Problem | None:
-    try:
-        found = read(name, read_input(name), request)
-    except OSError as error:
-        tell_line(f"{name}: error: {reason(error)}")
-        tally.wrong = True
+def _read(name: str, data: bytes | OSError, request: Request, tally: Tally) -> Problem | None:
+    if isinstance(data, OSError):
+        tell_line(f"{name}: error: {reason(data)}")
+        tally.wrong = tally.unreadable = True
         return None
-    tell(found.source, found.diagnostics)
+    found = read(name, data, request)
+    tally.said.append(tell(found.source, found.diagnostics))
     tally.wrong = tally.wrong or found.problem is None
     return found.problem
 
@@ -118,7 +97,7 @@ def _answer(name: str, problem: Problem, request: Request, tally: Tally) -> Answ
     try:
         answers = state(derive(problem), request)
     except ProblemError as error:
-        tell(error.source, error.diagnostics)
+        tally.said.append(tell(error.source, error.diagnostics))
         tally.wrong = True
     except Exception as error:  # noqa: BLE001 - one file's failure is not the others'
         tell_line(f"{name}: error: {describe(error)}")
@@ -127,16 +106,3 @@ def _answer(name: str, problem: Problem, request: Request, tally: Tally) -> Answ
         tally.missing = tally.missing or not answers.complete
         return answers
     return None
-
-
-def _print(answers: list[Answers], printing: Printing, *, several: bool, tally: Tally) -> None:
-    text = render(answers, printing.format_name, printing.options(several=several))
-    data = text.encode(printing.encoding, "replace")
-    if printing.output is None:
-        print_result(data)
-        return
-    try:
-        write_output(printing.output, data)
-    except OSError as error:
-        tell_line(f"{printing.output}: error: {reason(error)}")
-        tally.wrong = True

@@ -4,15 +4,25 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from lagcli.diagnostics import Diagnostic, Source, printable, render
+if TYPE_CHECKING:
+    from lagcli.diagnostics import Diagnostic, Source
 
 
-def tell(source: Source, diagnostics: Sequence[Diagnostic]) -> None:
-    """Show the mistakes (and warnings) of one file."""
+def tell(source: Source, diagnostics: Sequence[Diagnostic]) -> str:
+    """Show the mistakes (and warnings) of one file, and give the text that was shown."""
     if not diagnostics:
-        return
+        return ""
+    from lagcli.diagnostics import render
+
     text = render(source, diagnostics)
+    tell_text(text)
+    return text
+
+
+def tell_text(text: str) -> None:
+    """Show diagnostics that are a text already."""
     if sys.stderr.isatty():
         _tell_in_colour(text)
     else:
@@ -22,6 +32,8 @@ def tell(source: Source, diagnostics: Sequence[Diagnostic]) -> None:
 
 def tell_line(line: str) -> None:
     """Show one sentence that has no place in a file."""
+    from lagcli.diagnostics import printable
+
     sys.stderr.write(printable(line) + "\n")
     sys.stderr.flush()
 

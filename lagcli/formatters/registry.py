@@ -6,7 +6,6 @@ resolved without looking at what is installed: that is quick, and nobody else ca
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from importlib import import_module
 from typing import TYPE_CHECKING, cast
 
@@ -111,6 +110,8 @@ def _listed(name: str, origin: str, found: Formatter | UnknownFormatter) -> List
 
 def _unknown(name: str) -> UnknownFormatter:
     known = [*BUILT_IN, *(point.name for point in _plug_ins())]
+    from difflib import get_close_matches
+
     close = get_close_matches(name.lower(), known, n=1)
     message = f"unknown format {name!r}"
     if close:

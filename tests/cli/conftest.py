@@ -10,6 +10,12 @@ import pytest
 FILES = Path(__file__).parent / "files"
 
 
+@pytest.fixture(autouse=True)
+def _nothing_kept(monkeypatch):
+    """No test answers from what another run has kept in the home directory."""
+    monkeypatch.setenv("LAGCLI_NO_CACHE", "1")
+
+
 @pytest.fixture
 def lagcli():
     """Run `lagcli …` in a process of its own, among the files of this folder."""

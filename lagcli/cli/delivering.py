@@ -1,0 +1,40 @@
+"""A finished text to its place."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lagcli.cli.files import print_result, reason, write_output
+from lagcli.cli.telling import tell_line
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from lagcli.cli.printing import Printing
+
+
+def has_place(output: Path | None) -> bool:
+    """Whether there is a place for what comes out; asked before any work is done."""
+    if output is None:
+        return True
+    if output.is_dir():
+        tell_line(f"{output}: error: is a directory")
+        return False
+    if not output.resolve().parent.is_dir():
+        tell_line(f"{output}: error: there is no directory '{output.parent}'")
+        return False
+    return True
+
+
+def deliver(text: str, printing: Printing) -> bool:
+    """Print the text or write it to the file; whether that was possible."""
+    data = text.encode(printing.encoding, "replace")
+    if printing.output is None:
+        print_result(data)
+        return True
+    try:
+        write_output(printing.output, data)
+    except OSError as error:
+        tell_line(f"{printing.output}: error: {reason(error)}")
+        return False
+    return True

@@ -1,0 +1,104 @@
+"""A run that was made before is printed again; any other is made, and kept."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from lagcli.cache import Cache, Entry, folder, key
+from lagcli.cli.delivering import deliver, has_place
+from lagcli.cli.files import read_input
+from lagcli.cli.printing import Printing
+from lagcli.cli.status import Status
+from lagcli.cli.telling import tell_line, tell_text
+
+if TYPE_CHECKING:
+    from lagcli.cli.solving import Input, Outcome
+
+
+class Options(NamedTuple):
+    """What was asked of the files, in the words of the command line."""
+
+    show: tuple[str, ...]
+    settings: tuple[str, ...]
+    numeric: bool
+
+
+def solve_or_repeat(
+    files: Sequence[str], options: Options, printing: Printing, *, cached: bool
+) -> Status:
+    """Answer the files, from the cache where it has the answer."""
+    inputs = [_input(name) for name in files]
+    cache = _cache() if cached else None
+    place = _key(inputs, options, printing) if cache else None
+    if cache is None or place is None:
+        return _solved(inputs, options, printing)[0]
+    entry = cache.find(place)
+    if entry is not None:
+        return _repeated(entry, printing)
+    status, outcome = _solved(inputs, options, printing)
+    if outcome.repeatable:
+        said = tuple(text for text in outcome.said if text)
+        cache.keep(place, Entry(outcome.status, outcome.text, said))
+    return status
+
+
+def _input(name: str) -> Input:
+    try:
+        return name, read_input(name)
+    except OSError as error:
+        return name, error
+
+
+def _cache() -> Cache | None:
+    if os.environ.get("LAGCLI_NO_CACHE"):
+        return None
+    found = folder(os.environ)
+    return None if found is None else Cache(found)
+
+
+def _key(inputs: Sequence[Input], options: Options, printing: Printing) -> str | None:
+    """What the answer depends on; None where a file cannot be read."""
+    contents = [(name, data) for name, data in inputs if isinstance(data, bytes)]
+    if len(contents) < len(inputs):
+        return None
+    form = [printing.format_name, printing.columns, printing.encoding, printing.standalone]
+    try:
+        return key({"options": options, "form": form}, contents)
+    except (OSError, ImportError, ValueError):  # a program that cannot be told from others
+        return None
+
+
+def _repeated(entry: Entry, printing: Printing) -> Status:
+    possible = has_place(printing.output)
+    for text in entry.said:
+        tell_text(text)
+    if not possible:
+        return Status.USAGE
+    return _ended(Status(entry.status), entry.text, printing)
+
+
+def _solved(
+    inputs: Sequence[Input], options: Options, printing: Printing
+) -> tuple[Status, Outcome]:
+    from lagcli.cli.asking import asked
+    from lagcli.cli.solving import solve_files
+    from lagcli.stack import with_deep_stack
+
+    request = asked(printing.format_name, options.show, options.settings, numeric=options.numeric)
+    for mistake in request.mistakes:
+        tell_line(f"lagcli: error: {mistake}")
+    possible = has_place(printing.output) and not request.mistakes
+    outcome = with_deep_stack(
+        lambda: solve_files(inputs, request, printing, only_read=not possible)
+    )
+    if not possible:
+        return Status.USAGE, outcome
+    return _ended(outcome.status, outcome.text, printing), outcome
+
+
+def _ended(status: Status, text: str | None, printing: Printing) -> Status:
+    if text is None or deliver(text, printing):
+        return status
+    return Status.USAGE
