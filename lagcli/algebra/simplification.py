@@ -12,6 +12,7 @@ from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.leaves import Translator
 from lagcli.algebra.relations import Relations
+from lagcli.algebra.shaping.plan import OPERATION
 from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression, operation_count
@@ -107,5 +108,6 @@ def _shortest(
     if field.root_scales:
         shapers.insert(0, Shaper(field, writer, scaled=True, shorter=shorter))
     shapes = [(shaper.plan(each), shaper) for each in candidates for shaper in shapers]
-    plan, shaper = min(shapes, key=lambda pair: pair[0].score)
+    # sqrt(1 - v²/c²), where it was put in so, may cost one operation more than sqrt(c² - v²)
+    plan, shaper = min(shapes, key=lambda pair: pair[0].score - OPERATION * pair[1].scaled)
     return shaper.written(plan), shaper

@@ -105,21 +105,11 @@ class Atoms:
             square = self.field.ring.lift(scale) ** 2
             inside = self.field.element(radicand, square)
             outside = self.term(next(self.field.ring.terms(square))[0])
-        atom = self.add(self.shape(inside), self.field.to_sympy(inside))
+        atom = self.add(self.shape(inside))
         whole = multiply(((atom, 1),), outside)
         if len(terms) > 1:
             self.roots.append((radicand, whole))
         return whole
-
-    def radicand(self, poly: Poly) -> tuple[int, Term] | None:
-        """(sign, atoms) of a polynomial whose root occurs, up to its sign."""
-        for value, term in self.roots:
-            lifted = self.field.ring.lift(value)
-            if poly == lifted:
-                return 1, term
-            if poly == -lifted:
-                return -1, term
-        return None
 
     def angle_rank(self, cosine: int) -> tuple[Flat, int]:
         """Where the base argument of a cosine comes in a sum of angles."""

@@ -10,7 +10,7 @@ from lagcli.algebra.writing import Factor, Writer
 from lagcli.expression import Expression
 
 #: One operation less is worth brackets around this many operations.
-_BRACKETED = 6
+OPERATION = 6
 #: A fraction inside brackets is worth that many bracketed operations.
 _FRACTION = 3
 
@@ -31,7 +31,7 @@ class Product:
     @property
     def score(self) -> int:
         """What is to be least: a short formula, but not at the price of nested brackets."""
-        return _BRACKETED * self.cost + self.strain
+        return OPERATION * self.cost + self.strain
 
     def has_denominator(self) -> bool:
         """Whether it is written as a quotient."""
@@ -54,7 +54,7 @@ class Sum:
     @property
     def score(self) -> int:
         """As for a product."""
-        return _BRACKETED * self.cost + self.strain
+        return OPERATION * self.cost + self.strain
 
     def negated(self) -> Sum:
         """The sum with the other sign."""

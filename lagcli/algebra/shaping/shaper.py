@@ -21,6 +21,8 @@ from lagcli.expression import Expression
 _MAX_FACTORED = 1500  # terms
 _MAX_REWRITTEN = 400
 _LONG = 60  # terms of a polynomial that gets one bracketing only
+_MAX_DIVIDED = 8  # terms of a denominator that is divided through
+_FEW = 3  # terms that are also shown without factoring: c² - v²
 _EXPANSIONS = 3  # that are bracketed, the shortest ones
 
 _CIRCULAR = ("cos", "sin")
@@ -48,6 +50,7 @@ class Shaper:
     ) -> None:
         self.field = field
         self.writer = writer
+        self.scaled = scaled
         self.atoms = Atoms(field, writer, self.shape, scaled=scaled)
         self.trigonometry = Trigonometry(field, self.atoms)
         self.grouper = Grouper(self.atoms, shorter)
@@ -75,10 +78,25 @@ class Shaper:
         below = self._factors(element.denominator)
         best: Product | Sum = self._joined(above, below)
         divided = (*self._by_roots(element), *self._divided(element)) if divide else ()
-        for candidate in (*self._spread(element, below), *divided):
+        through = self._divided_through(above, element.denominator)
+        for candidate in (*self._spread(element, below), *divided, *through):
             if candidate.score < best.score:
                 best = candidate
         return best
+
+    def _divided_through(self, above: Product, denominator: Poly) -> Iterator[Product]:
+        """g*R²/(m*R² + I) as g/(m + I/R²)."""
+        if not 2 <= len(denominator) <= _MAX_DIVIDED:
+            return
+        for position, (atom, exponent) in enumerate(above.parts):
+            if not isinstance(atom, int) or exponent < 1:
+                continue
+            for terms in self._expansions(denominator):
+                quotient = {multiply(t, ((atom, -exponent),)): v for t, v in terms.items()}
+                plan = self.grouper.group(quotient, spread=True)
+                rest = [*above.parts[:position], *above.parts[position + 1 :]]
+                inverse = product(self.atoms, above.coefficient, rest)
+                yield self._joined(inverse, _as_product(self.atoms, plan))
 
     def _by_roots(self, element: Element) -> Iterator[Sum]:
         """A/r_1^3 + B/r_2^3: the parts of the numerator with different roots apart."""
@@ -163,16 +181,17 @@ class Shaper:
         """The plan of a polynomial: its factors, each in its shortest shape."""
         if len(poly) > _MAX_FACTORED:
             return _as_product(self.atoms, self.grouper.group(self.atoms.terms(poly)))
+        parts: dict[int | Sum, Exponent] = {}
+        for radicand, term in self.atoms.roots:
+            # c² - v² = (c - v)(c + v) is not to be told apart where its root occurs
+            divisor = self.field.ring.lift(radicand)
+            while poly % divisor == 0:
+                poly = poly / divisor
+                for atom, each in term:
+                    parts[atom] = parts.get(atom, 0) + each
         content, factors = self._factored(poly)
         number = Fraction(int(content))
-        parts: dict[int | Sum, Exponent] = {}
         for factor, exponent in factors:
-            root = self.atoms.radicand(factor)
-            if root is not None:
-                number *= root[0] ** int(exponent)
-                for atom, each in root[1]:
-                    parts[atom] = parts.get(atom, 0) + each * int(exponent)
-                continue
             plan = self._polynomial(factor)
             if isinstance(plan, Sum):
                 parts[plan] = parts.get(plan, 0) + int(exponent)
@@ -180,7 +199,12 @@ class Shaper:
             number *= plan.coefficient ** int(exponent)
             for part, each in plan.parts:
                 parts[part] = parts.get(part, 0) + each * int(exponent)
-        return product(self.atoms, number, [(p, e) for p, e in parts.items() if e])
+        factored = product(self.atoms, number, [(p, e) for p, e in parts.items() if e])
+        if 1 < len(poly) <= _FEW and not any(isinstance(p, int) for p in parts):
+            whole = _as_product(self.atoms, _expanded(self.atoms, self.atoms.terms(poly)))
+            if whole.cost <= factored.cost:
+                return whole
+        return factored
 
     def _factored(self, poly: Poly) -> tuple[int, list[tuple[Poly, int]]]:
         """Irreducible factors; (1 - cos)(1 + cos) is joined to sin²."""
@@ -227,12 +251,20 @@ class Shaper:
         return [*(pair for pair in factors if pair not in single), (joined, 1)]
 
     def _polynomial(self, poly: Poly) -> Product | Sum:
-        """The shortest plan of an irreducible polynomial."""
+        """The shortest plan of an irreducible polynomial, its sign left to the product."""
         best: Product | Sum | None = None
+        lowest = 0
         for terms in self._expansions(poly):
             plan = self.grouper.group(terms)
-            if best is None or plan.score < best.score:
-                best = plan
+            if isinstance(plan, Sum):
+                turned = plan.negated()
+                score = min(plan.score, turned.score)
+                if turned.score < plan.score:
+                    plan = Product(Fraction(-1), ((turned, 1),), turned.cost + 1, turned.cost)
+            else:
+                score = plan.score
+            if best is None or score < lowest:
+                best, lowest = plan, score
         assert best is not None
         return best
 
@@ -299,6 +331,10 @@ class Shaper:
             if len(other) <= len(poly):
                 poly = other
         return poly
+
+
+def _expanded(atoms: Atoms, terms: Terms) -> Sum:
+    return total([product(atoms, value, list(term)) for term, value in terms.items()])
 
 
 def _as_product(atoms: Atoms, plan: Product | Sum) -> Product:
