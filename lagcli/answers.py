@@ -58,7 +58,7 @@ ChargeSource = Literal["candidate", "cyclic", "time", "discovered"]
 class LagrangianSection:
     """L = T - V, or L as given."""
 
-    lagrangian: Expression
+    lagrangian: Expression | None
 
 
 @record(kw_only=True)
@@ -74,7 +74,7 @@ class LagrangeEquation:
 class EquationsSection:
     """One equation for each coordinate, then the constraints, each `f = 0`."""
 
-    equations: tuple[LagrangeEquation, ...]
+    equations: tuple[LagrangeEquation, ...] | None
     constraints: Mapping[str, tuple[Expression, Expression]] = field(default_factory=dict)
 
 
@@ -105,7 +105,7 @@ class Multiplier:
 
     symbol: str
     value: Expression | None
-    kind: ConstraintKind
+    kind: ConstraintKind | None
     verified: Verification | None = None
 
 
@@ -130,7 +130,7 @@ class ConstraintForcesSection:
 class MomentaSection:
     """p_q = dL/dq'."""
 
-    momenta: Mapping[str, Expression]
+    momenta: Mapping[str, Expression] | None
     cyclic: tuple[str, ...] = ()
 
 
@@ -138,7 +138,7 @@ class MomentaSection:
 class EnergySection:
     """The Jacobi function h = sum q' dL/dq' - L; `reason` is a sentence."""
 
-    function: Expression
+    function: Expression | None
     conserved: bool | None
     is_total_energy: bool | None
     reason: str

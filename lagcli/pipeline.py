@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from lagcli.answers import Answers
     from lagcli.formatters import Options
     from lagcli.mechanics.derivation import Derivation
+    from lagcli.mechanics.large_statements import LargeStatements
+    from lagcli.mechanics.statements import Statements
     from lagcli.problem import Problem
 
 
@@ -115,15 +117,24 @@ def state(derivation: Derivation, request: Request) -> Answers:
         When the derivation finds that the problem cannot be meant: contradictory
         constraints, a constraint that is not linear in the velocities.
     """
-    from lagcli.mechanics.statements import Statements
-
-    answers = Statements(derivation).answers(request.sections)
+    answers = _statements(derivation).answers(request.sections)
     if not request.numeric:
         return answers
     from lagcli.decimals import with_decimals
     from lagcli.rewriting import rewritten
 
     return replace(answers, sections=rewritten(answers.sections, with_decimals))
+
+
+def _statements(derivation: Derivation) -> Statements | LargeStatements:
+    large = derivation.large_form
+    if large is not None:
+        from lagcli.mechanics.large_statements import LargeStatements
+
+        return LargeStatements(large)
+    from lagcli.mechanics.statements import Statements
+
+    return Statements(derivation)
 
 
 def render(answers: Sequence[Answers], format_name: str, options: Options) -> str:

@@ -25,6 +25,7 @@ from lagcli.answers import (
     Equilibrium,
     FindSection,
     HamiltonianSection,
+    LagrangeEquation,
     LagrangianSection,
     MatrixFormSection,
     Mode,
@@ -86,15 +87,9 @@ def _section(name: str, section: Section) -> Object:
 def _value(section: Section) -> Value:
     match section:
         case LagrangianSection():
-            return to_grammar(section.lagrangian)
+            return _string(section.lagrangian)
         case EquationsSection():
-            return [
-                {
-                    "coordinate": each.coordinate,
-                    "equation": f"{to_grammar(each.left)} = {to_grammar(each.right)}",
-                }
-                for each in section.equations
-            ]
+            return _unless_none(section.equations, lambda each: [_equation(e) for e in each])
         case MatrixFormSection():
             return {
                 "mass_matrix": [_strings(row) for row in section.mass_matrix],
@@ -104,10 +99,10 @@ def _value(section: Section) -> Value:
                 "shared": _by_name(section.shared),
             }
         case MomentaSection():
-            return _by_name(section.momenta)
+            return _unless_none(section.momenta, _by_name)
         case EnergySection():
             return {
-                "function": to_grammar(section.function),
+                "function": _string(section.function),
                 "conserved": section.conserved,
                 "is_total_energy": section.is_total_energy,
                 "reason": section.reason,
@@ -148,6 +143,11 @@ def _value(section: Section) -> Value:
             }
         case _:
             raise TypeError(f"{type(section).__name__} has no place in the JSON")
+
+
+def _equation(equation: LagrangeEquation) -> Object:
+    sides = f"{to_grammar(equation.left)} = {to_grammar(equation.right)}"
+    return {"coordinate": equation.coordinate, "equation": sides}
 
 
 def _accelerations(section: AccelerationsSection) -> Object:

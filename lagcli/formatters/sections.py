@@ -87,7 +87,9 @@ def to_document(answers: Answers) -> Document:
 def section_blocks(section: Section, answers: Answers) -> Iterable[Block]:
     """Word the blocks of one section, without its heading."""
     match section:
-        case LagrangianSection(lagrangian=lagrangian):
+        case LagrangianSection(lagrangian=None):
+            return [_not_found()]
+        case LagrangianSection(lagrangian=Expression() as lagrangian):
             return [_equation(Label("L"), lagrangian)]
         case EquationsSection():
             return _equations(section)
@@ -135,6 +137,9 @@ def _system(answers: Answers) -> Paragraph:
 
 
 def _equations(section: EquationsSection) -> Iterator[Block]:
+    if section.equations is None:
+        yield _not_found()
+        return
     yield Equations(tuple(Row(each.left, each.right) for each in section.equations))
     if section.constraints:
         yield Paragraph(("with the constraints",))
@@ -233,13 +238,16 @@ def _forces(forces: Mapping[str, Expression]) -> Equations:
 
 
 def _momenta(section: MomentaSection) -> Iterator[Block]:
-    yield _by_name({f"p_{name}": momentum for name, momentum in section.momenta.items()})
+    if section.momenta is None:
+        yield _not_found()
+    else:
+        yield _by_name({f"p_{name}": momentum for name, momentum in section.momenta.items()})
     if section.cyclic:
         yield Paragraph(("Cyclic: ", *_listed(section.cyclic), "."))
 
 
 def _energy(section: EnergySection) -> Iterator[Block]:
-    yield _equation(Label("h"), section.function)
+    yield _not_found() if section.function is None else _equation(Label("h"), section.function)
     conserved = {True: "Conserved.", False: "Not conserved.", None: "Conservation undecided."}
     total = {
         True: " It is the total energy.",

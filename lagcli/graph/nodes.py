@@ -241,8 +241,8 @@ class Graph:
         kept.sort(key=_by_index)
         factors = tuple(kept)
         mask = 0
-        for base, _ in factors:
-            mask |= base.mask
+        for part, _ in factors:
+            mask |= part.mask
         node = self._made((Product, factors), lambda: Product(factors), mask)
         return node if number == 1 else self._sum(_NOTHING, ((node, number),))
 

@@ -23,7 +23,7 @@ class Substitution:
         self.mask = 0
         for symbol in formulas:
             self.mask |= symbol.mask
-        self._known: dict[Node, Node] = {**formulas}
+        self._known: dict[Node, Node] = {symbol: node for symbol, node in formulas.items()}  # noqa: C416
 
     def __call__(self, root: Node) -> Node:
         """The node with the formulas put in."""

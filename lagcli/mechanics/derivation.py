@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
-from lagcli.mechanics.discovery.discovery import Discovery
-from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.energy import EnergyFunction
-from lagcli.mechanics.hamiltonian import Hamiltonian
-from lagcli.mechanics.noether import Noether
-from lagcli.mechanics.system import System
 from lagcli.problem import Problem
+
+if TYPE_CHECKING:  # a large system is stated without SymPy, which these import
+    from lagcli.mechanics.discovery.discovery import Discovery
+    from lagcli.mechanics.dynamics import Dynamics
+    from lagcli.mechanics.energy import EnergyFunction
+    from lagcli.mechanics.hamiltonian import Hamiltonian
+    from lagcli.mechanics.matrix_form import MatrixForm
+    from lagcli.mechanics.noether import Noether
+    from lagcli.mechanics.system import System
 
 
 class Derivation:
@@ -27,31 +31,50 @@ class Derivation:
         self.problem = problem
 
     @cached_property
+    def large_form(self) -> MatrixForm | None:
+        """The matrix form as structure, of a system too large for simplified formulas."""
+        from lagcli.mechanics.extent import large_form
+
+        return large_form(self.problem)
+
+    @cached_property
     def system(self) -> System:
         """Coordinates, L, forces as formulas."""
+        from lagcli.mechanics.system import System
+
         return System(self.problem)
 
     @cached_property
     def dynamics(self) -> Dynamics:
         """Equations, constraints, solved motion."""
+        from lagcli.mechanics.dynamics import Dynamics
+
         return Dynamics(self.system)
 
     @cached_property
     def energy(self) -> EnergyFunction:
         """The energy function and its rate."""
+        from lagcli.mechanics.energy import EnergyFunction
+
         return EnergyFunction(self.dynamics)
 
     @cached_property
     def hamiltonian(self) -> Hamiltonian:
         """The Legendre transform and the canonical equations."""
+        from lagcli.mechanics.hamiltonian import Hamiltonian
+
         return Hamiltonian(self.dynamics, self.energy)
 
     @cached_property
     def noether(self) -> Noether:
         """Charges of the candidate and of the evident symmetries."""
+        from lagcli.mechanics.noether import Noether
+
         return Noether(self.dynamics, self.energy)
 
     @cached_property
     def discovery(self) -> Discovery:
         """Symmetries and first integrals that nobody listed."""
+        from lagcli.mechanics.discovery.discovery import Discovery
+
         return Discovery(self.noether)

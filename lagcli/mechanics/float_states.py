@@ -11,11 +11,14 @@ import math
 import random
 from collections.abc import Mapping, Sequence
 from operator import mul
+from typing import TYPE_CHECKING
 
 from lagcli.graph.values import Concrete, Floats, Program
-from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
-from lagcli.problem import Quantity
+from lagcli.problem import Problem, Quantity
 from lagcli.record import record
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.matrix_form import ConstraintRow
 
 _ATTEMPTS = 12
 _NEWTON_STEPS = 60
@@ -64,24 +67,31 @@ def least_norm(rows: Sequence[Row], right: Row) -> Independent | None:
 
 
 class FloatStates:
-    """Random states on the constraints of a matrix form.
+    """Random states on the constraints of a problem.
 
     Parameters
     ----------
-    form
-        The constraints' rows as nodes.
+    problem
+        Says which signs its quantities have.
+    rows
+        Its constraints as nodes.
     functions
         What stands for functions that are left unspecified.
     """
 
-    def __init__(self, form: MatrixForm, functions: Mapping[str, Concrete]) -> None:
-        self.form = form
-        rows = form.constraints
-        positions = [row for row in rows if row.position is not None]
+    def __init__(
+        self,
+        problem: Problem,
+        rows: Sequence[ConstraintRow],
+        functions: Mapping[str, Concrete],
+    ) -> None:
+        self.problem = problem
+        self.rows = rows
+        positions = [row for row in rows if row.holonomic]
         self._count = len(positions)
         self._positions = Program(
             [
-                *(row.position for row in positions if row.position is not None),
+                *(row.f for row in positions),
                 *(entry for row in positions for entry in row.row),
             ],
             Floats(),
@@ -93,15 +103,12 @@ class FloatStates:
             functions,
         )
 
-    def independent_constraints(self) -> tuple[int, ...]:
+    def independent_constraints(self) -> tuple[int, ...] | None:
         """Indices of the constraints that are not implied by earlier ones.
 
-        Raises
-        ------
-        NotStructural
-            When no state was found, or the rank is in doubt at all that were.
+        None when no state was found, or the rank is in doubt at all that were.
         """
-        if not self.form.constraints:
+        if not self.rows:
             return ()
         source = random.Random("lagcli")
         for _ in range(_ATTEMPTS):
@@ -112,10 +119,10 @@ class FloatStates:
                 continue
             if found is not None:
                 return found
-        raise NotStructural("the rank of the constraints is in doubt in double precision")
+        return None
 
     def _drawn(self, source: random.Random) -> dict[str, float]:
-        problem = self.form.problem
+        problem = self.problem
         state = {"t": source.uniform(0.1, 0.9)}
         for parameter in problem.parameters:
             state[parameter.name] = (
@@ -130,7 +137,7 @@ class FloatStates:
 
     def _on_positions(self, state: dict[str, float]) -> bool:
         """Newton steps of least norm onto f(q, t) = 0; whether they came there."""
-        coordinates = self.form.problem.coordinates
+        coordinates = self.problem.coordinates
         n, m = len(coordinates), self._count
         for _ in range(_NEWTON_STEPS if m else 0):
             values = self._positions(state)
@@ -152,8 +159,8 @@ class FloatStates:
 
     def _rank(self, state: dict[str, float]) -> tuple[int, ...] | None:
         """The independent rows of A; None in doubt, or where A q' + b = 0 has no solution."""
-        names = [q.name for q in self.form.problem.coordinates]
-        n, m = len(names), len(self.form.constraints)
+        names = [q.name for q in self.problem.coordinates]
+        n, m = len(names), len(self.rows)
         values = self._velocities(state)
         rows = [values[m + i * n : m + (i + 1) * n] for i in range(m)]
         right = [-drift for drift in values[:m]]

@@ -31,6 +31,8 @@ from lagcli.graph.derivative import Derivation, partial
 from lagcli.graph.nodes import Graph, Node, Symbol, split
 from lagcli.graph.reading import GraphReader
 from lagcli.graph.substitution import Substitution
+from lagcli.graph.values import Concrete
+from lagcli.mechanics.float_states import FloatStates
 from lagcli.mechanics.gathering import gathered
 from lagcli.problem import Constraint, Problem
 from lagcli.record import record
@@ -54,12 +56,18 @@ class Rate:
 
 @record
 class ConstraintRow:
-    """a . q' + b = 0 and a . q'' + bias = 0; `position` is f where no velocity is in it."""
+    """f = 0, and a . q' + b = 0, and a . q'' + bias = 0."""
 
-    position: Node | None
-    row: tuple[Node, ...]
-    drift: Node
+    f: Node
+    holonomic: bool  # written without velocities
+    row: tuple[Node, ...]  # a
+    drift: Node  # b
     bias: Node
+
+    @property
+    def position(self) -> Node | None:
+        """f where it is a condition on the positions."""
+        return self.f if self.holonomic else None
 
 
 class MatrixForm:
@@ -89,6 +97,8 @@ class MatrixForm:
         self.t = graph.symbol("t")
         self.q = tuple(graph.symbol(name) for name in names)
         self.qdot = tuple(graph.symbol(name, 1) for name in names)
+        self.qddot = tuple(graph.symbol(name, 2) for name in names)
+        self.acceleration_mask = _mask(self.qddot)
         self._velocity_mask = _mask(self.qdot)
         self.read = GraphReader(graph, names, problem.definitions)
         self._weights: dict[tuple[tuple[Node, Fraction], ...], Node] = {}
@@ -103,15 +113,42 @@ class MatrixForm:
     @cached_property
     def lagrangian(self) -> Node:
         """L = T - V with the rates of definitions and points as symbols."""
-        problem, graph = self.problem, self.graph
-        if problem.lagrangian is not None:
-            return self._with_rates(problem.lagrangian)
-        kinetic = self._kinetic_of_points
-        if problem.kinetic is not None:
-            kinetic = self._with_rates(problem.kinetic)
-        if problem.potential is None:
-            return kinetic
-        return graph.difference(kinetic, self._with_rates(problem.potential))
+        if self.problem.lagrangian is not None:
+            return self._with_rates(self.problem.lagrangian)
+        assert self.kinetic is not None
+        assert self.potential is not None
+        return self.graph.difference(self.kinetic, self.potential)
+
+    @cached_property
+    def kinetic(self) -> Node | None:
+        """T with rates as symbols; None when only L is given."""
+        if self.problem.lagrangian is not None:
+            return None
+        if self.problem.kinetic is not None:
+            return self._with_rates(self.problem.kinetic)
+        return self._kinetic_of_points
+
+    @cached_property
+    def potential(self) -> Node | None:
+        """V with rates as symbols; None when only L is given."""
+        if self.problem.lagrangian is not None:
+            return None
+        formula = self.problem.potential
+        return self.graph.zero if formula is None else self._with_rates(formula)
+
+    @cached_property
+    def written_lagrangian(self) -> Node:
+        """L in coordinates and velocities."""
+        return self.expand_rates(self.lagrangian)
+
+    @cached_property
+    def momenta(self) -> tuple[Node, ...]:
+        """p_i = L_q_i' + sum_a J_ai L_w_a."""
+        along: list[list[tuple[Node, Node]]] = [[] for _ in self.q]
+        for rate, (slope, _) in zip(self.rates, self._slopes, strict=True):
+            for i, u in rate.jacobian.items():
+                along[i].append((u, self.expand_rates(slope)))
+        return tuple(map(self._along, along))
 
     def _with_rates(self, formula: Expression) -> Node:
         return self.read(formula, rates_as_symbols=True)
@@ -153,7 +190,7 @@ class MatrixForm:
         return {i: self._by_coordinate[i](node) for i, q in enumerate(self.q) if q.mask & node.mask}
 
     @cached_property
-    def _expand_rates(self) -> Substitution:
+    def expand_rates(self) -> Substitution:
         """w_a -> r_a' written in q and q'."""
         flow = self.drift_of
         return Substitution(self.graph, {w: flow(r) for w, r in self.read.rates.items()})
@@ -210,7 +247,7 @@ class MatrixForm:
         """The sum of L_ab; the links beyond a joint give the same for many entries."""
         known = self._weights.get(terms)
         if known is None:
-            known = self._weights[terms] = self._expand_rates(self.graph.combination(terms))
+            known = self._weights[terms] = self.expand_rates(self.graph.combination(terms))
         return known
 
     @cached_property
@@ -228,11 +265,11 @@ class MatrixForm:
         """Applied forces, potential and velocity terms: what stands beside M q'', shape (n,)."""
         return tuple(
             self.graph.sum([applied, inertia])
-            for applied, inertia in zip(self.applied_forces, self._inertial, strict=True)
+            for applied, inertia in zip(self.applied_forces, self.inertial, strict=True)
         )
 
     @cached_property
-    def _inertial(self) -> tuple[Node, ...]:
+    def inertial(self) -> tuple[Node, ...]:
         """L_q_i - sum_a J_ai (d(L_a)/dt with w, q' held + sum_b L_ab c_b)."""
         graph = self.graph
         along: list[list[tuple[Node, Node]]] = [[] for _ in self.q]
@@ -245,12 +282,12 @@ class MatrixForm:
             )
             if change is not graph.zero:
                 for i, u in rate.jacobian.items():
-                    along[i].append((u, graph.scaled(self._expand_rates(change), -1)))
+                    along[i].append((u, graph.scaled(self.expand_rates(change), -1)))
         gradient = self._gradient(self.lagrangian)
         return tuple(
             graph.sum(
                 [
-                    self._expand_rates(gathered(graph, gradient.get(i, graph.zero), self._varying)),
+                    self.expand_rates(gathered(graph, gradient.get(i, graph.zero), self._varying)),
                     self._along(terms),
                 ]
             )
@@ -288,7 +325,7 @@ class MatrixForm:
             friction = partial(graph, rate.symbol)(self._dissipation)
             if friction is not graph.zero:
                 for i, u in rate.jacobian.items():
-                    along[i].append((u, graph.scaled(self._expand_rates(friction), -1)))
+                    along[i].append((u, graph.scaled(self.expand_rates(friction), -1)))
         return tuple(
             graph.sum(
                 [
@@ -298,6 +335,43 @@ class MatrixForm:
             )
             for i, q in enumerate(self.q)
         )
+
+    @cached_property
+    def entries(self) -> tuple[Node, ...]:
+        """Everything that the matrix form consists of: M, forcing, A, bias."""
+        rows = self.constraints
+        return (
+            *(entry for row in self.mass_matrix for entry in row),
+            *self.forcing,
+            *(entry for each in rows for entry in each.row),
+            *(each.bias for each in rows),
+        )
+
+    @cached_property
+    def independent(self) -> tuple[int, ...]:
+        """Indices of the constraints that earlier ones do not imply."""
+        states = FloatStates(self.problem, self.constraints, self.functions)
+        found = states.independent_constraints()
+        if found is None:
+            raise NotStructural("the rank of the constraints is in doubt in double precision")
+        return found
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Coordinates less the rank of all constraints on the velocities."""
+        return len(self.q) - len(self.independent)
+
+    @cached_property
+    def functions(self) -> dict[str, Concrete]:
+        """Smooth functions for those that the file leaves unspecified."""
+        if not self.problem.functions:
+            return {}
+        from lagcli.algebra.numeric import concrete_function
+
+        return {
+            name: concrete_function(name, len(arguments))
+            for name, arguments in self.problem.functions.items()
+        }
 
     # -- constraints ----------------------------------------------------------------------------
 
@@ -314,7 +388,7 @@ class MatrixForm:
             gradient = self._gradient(f)
             row = tuple(gradient.get(i, graph.zero) for i in range(len(self.q)))
             by_time = partial(graph, self.t)(f)
-            found = ConstraintRow(f, row, by_time, flow(flow(f)))
+            found = ConstraintRow(f, True, row, by_time, flow(flow(f)))
         else:
             row = tuple(partial(graph, v)(f) for v in self.qdot)
             if any(entry.mask & self._velocity_mask for entry in row):
@@ -329,7 +403,7 @@ class MatrixForm:
                     flow(at_rest(f)),
                 ]
             )
-            found = ConstraintRow(None, row, at_rest(f), bias)
+            found = ConstraintRow(f, False, row, at_rest(f), bias)
         if all(entry is graph.zero for entry in row):
             raise NotStructural(f"'{constraint.name}' has no coordinate in it")
         return found
