@@ -1,0 +1,212 @@
+"""Energy and Noether's charges of a large system, on its graph.
+
+The formulas are those of `energy` and `noether`; what the motion would have to be solved
+for stays undecided here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+
+from lagcli.answers import ChargeSource, Verification
+from lagcli.graph.derivative import partial
+from lagcli.graph.nodes import Node
+from lagcli.mechanics.identities import vanish
+from lagcli.mechanics.matrix_form import MatrixForm
+from lagcli.problem import Symmetry
+from lagcli.record import record
+
+_NOT_SOLVED = "the system is too large to solve the motion in formulas"
+
+
+@record
+class LargeCharge:
+    """As `NoetherCharge`, with nodes."""
+
+    name: str
+    source: ChargeSource
+    changes: Mapping[str, Node]
+    gauge: Node | None
+    charge: Node
+    conserved: bool | None
+    rate: Node | None
+    verified: Verification | None
+    broken_by: str
+
+
+class LargeCharges:
+    """Momenta, energy and charges from a matrix form."""
+
+    def __init__(self, form: MatrixForm) -> None:
+        self.form = form
+        self.graph = form.graph
+
+    def _vanishes(self, *nodes: Node) -> bool | None:
+        return vanish(nodes, self.form.functions)
+
+    @cached_property
+    def cyclic(self) -> tuple[int, ...]:
+        """Coordinates that do not occur in L."""
+        mask = self.form.written_lagrangian.mask
+        return tuple(i for i, q in enumerate(self.form.q) if not q.mask & mask)
+
+    # -- energy ---------------------------------------------------------------------------
+
+    @cached_property
+    def energy(self) -> Node:
+        """h = sum q' p - L, as T + V where it is that."""
+        form, graph = self.form, self.graph
+        if self.is_total_energy:
+            assert form.kinetic is not None
+            assert form.potential is not None
+            return form.expand_rates(graph.sum([form.kinetic, form.potential]))
+        return self._jacobi
+
+    @cached_property
+    def _jacobi(self) -> Node:
+        form, graph = self.form, self.graph
+        products = [graph.product(v, p) for v, p in zip(form.qdot, form.momenta, strict=True)]
+        return graph.difference(graph.sum(products), form.written_lagrangian)
+
+    @cached_property
+    def is_total_energy(self) -> bool | None:
+        """Whether h = T + V; None when only L is given."""
+        form, graph = self.form, self.graph
+        if form.kinetic is None or form.potential is None:
+            return None
+        total = form.expand_rates(graph.sum([form.kinetic, form.potential]))
+        return self._vanishes(graph.difference(self._jacobi, total))
+
+    @cached_property
+    def powers(self) -> dict[str, Node]:
+        """What changes h, by cause, zeros left out; a constraint by its drift."""
+        form, graph = self.form, self.graph
+        applied = zip(form.applied_forces, form.qdot, strict=True)
+        powers = {
+            "L depends explicitly on the time": partial(graph, form.t)(form.written_lagrangian),
+            "applied forces do work": graph.sum(graph.product(f, v) for f, v in applied),
+        }
+        for constraint, row in zip(form.problem.constraints, form.constraints, strict=True):
+            powers[f"the constraint '{constraint.name}' moves and does work"] = row.drift
+        return {cause: p for cause, p in powers.items() if self._vanishes(p) is not True}
+
+    @cached_property
+    def energy_conserved(self) -> bool | None:
+        """Whether dh/dt = 0 on the motion; None where that takes the solved motion."""
+        if not self.powers:
+            return True
+        return None if self.form.constraints else False
+
+    @property
+    def energy_reason(self) -> str:
+        """Why h is (not) conserved and is (not) T + V."""
+        causes = ", ".join(self.powers)
+        conserved = {
+            True: "conserved: no explicit time in L, no force that does work, no moving constraint",
+            False: f"not conserved: {causes}",
+            None: f"whether it is conserved was not decided ({causes}): {_NOT_SOLVED}",
+        }[self.energy_conserved]
+        total = {
+            True: "it equals T + V",
+            False: "it differs from T + V",
+            None: "T + V is not known, or was not compared with it",
+        }[self.is_total_energy]
+        return f"{conserved}; {total}"
+
+    # -- charges ----------------------------------------------------------------------------
+
+    @cached_property
+    def charges(self) -> tuple[LargeCharge, ...]:
+        """Candidates in the order of the file, then cyclic coordinates, then the energy."""
+        form, graph = self.form, self.graph
+        candidates = [self._candidate(symmetry) for symmetry in form.problem.symmetries]
+        cyclic = [
+            self._judged(
+                f"p_{form.q[i].name}", "cyclic", {form.q[i].name: graph.one}, graph.zero, graph.zero
+            )
+            for i in self.cyclic
+        ]
+        rate = graph.zero if self.energy_conserved else None
+        energy = LargeCharge(
+            "energy",
+            "time",
+            {"t": graph.one},
+            graph.zero,
+            self.energy,
+            self.energy_conserved,
+            rate,
+            "50 digits" if self.energy_conserved is not None else None,
+            "" if self.energy_conserved is not False else ", ".join(self.powers),
+        )
+        return (*candidates, *cyclic, energy)
+
+    def _candidate(self, symmetry: Symmetry) -> LargeCharge:
+        """K = sum [L_q Dq + p (d(Dq)/dt - q' d(Dt)/dt)] + L_t Dt + L d(Dt)/dt."""
+        form, graph, rate = self.form, self.graph, self.form.read.total_derivative
+        changes = {name: form.read(change) for name, change in symmetry.changes.items()}
+        time = graph.zero if symmetry.time is None else form.read(symmetry.time)
+        lagrangian, stretch = form.written_lagrangian, rate(time)
+        terms = [
+            graph.product(partial(graph, form.t)(lagrangian), time),
+            graph.product(lagrangian, stretch),
+        ]
+        for q, v, p in zip(form.q, form.qdot, form.momenta, strict=True):
+            change = changes.get(q.name, graph.zero)
+            along = graph.difference(rate(change), graph.product(v, stretch))
+            terms += [graph.product(partial(graph, q)(lagrangian), change), graph.product(p, along)]
+        gauge = None if symmetry.gauge is None else form.read(symmetry.gauge)
+        if symmetry.time is not None:
+            changes["t"] = time
+        return self._judged(symmetry.name, "candidate", changes, gauge, graph.sum(terms))
+
+    def _judged(
+        self,
+        name: str,
+        source: ChargeSource,
+        changes: Mapping[str, Node],
+        gauge: Node | None,
+        change: Node,
+    ) -> LargeCharge:
+        form, graph = self.form, self.graph
+        time = changes.get("t", graph.zero)
+        eta = [
+            graph.difference(changes.get(q.name, graph.zero), graph.product(v, time))
+            for q, v in zip(form.q, form.qdot, strict=True)
+        ]
+        boundary = graph.zero if gauge is None else gauge
+        charge = graph.sum(
+            [
+                *(graph.product(p, e) for p, e in zip(form.momenta, eta, strict=True)),
+                graph.product(form.written_lagrangian, time),
+                graph.scaled(boundary, -1),
+            ]
+        )
+        causes = {
+            "the Lagrangian": graph.difference(change, form.read.total_derivative(boundary)),
+            "applied forces": graph.sum(
+                graph.product(f, e) for f, e in zip(form.applied_forces, eta, strict=True)
+            ),
+        }
+        for constraint, row in zip(form.problem.constraints, form.constraints, strict=True):
+            across = [
+                graph.product(a, changes[q.name])
+                for a, q in zip(row.row, form.q, strict=True)
+                if q.name in changes
+            ]
+            causes[f"the constraint '{constraint.name}'"] = graph.sum(
+                [*across, graph.product(row.drift, time)]
+            )
+        breaking = [cause for cause, part in causes.items() if self._vanishes(part) is not True]
+        if not breaking:
+            gauge = boundary
+            conserved, rate = True, graph.zero
+        elif form.constraints or (gauge is None and "the Lagrangian" in breaking):
+            conserved, rate = None, None  # the motion, or a boundary term, may make it 0
+        else:
+            rate = graph.sum(causes[cause] for cause in breaking)
+            conserved = None if rate.mask & form.acceleration_mask else False
+            rate = rate if conserved is False else None
+        broken_by = ", ".join(breaking) if conserved is False else ""
+        how: Verification | None = None if conserved is None else "50 digits"
+        return LargeCharge(name, source, changes, gauge, charge, conserved, rate, how, broken_by)
