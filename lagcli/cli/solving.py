@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from typing import NamedTuple
 
 from lagcli.answers import Answers
@@ -60,7 +61,6 @@ def solve_files(
     problems = [_read(name, data, asked.request, tally) for name, data in inputs]
     text = None
     if not only_read and any(problems):
-        _start_algebra()
         answers = [
             answer
             for (name, _), problem in zip(inputs, problems, strict=True)
@@ -75,9 +75,12 @@ def solve_files(
     return Outcome(tally.status, text, tuple(tally.said), repeatable)
 
 
-def _start_algebra() -> None:
-    spare_tensors()
-    import lagcli.mechanics.statements  # noqa: F401 - SymPy, before the collector starts
+@cache
+def _start_algebra(*, needed: bool) -> None:
+    """SymPy is loaded before the collector starts; a large system does without it."""
+    if needed:
+        spare_tensors()
+        import lagcli.mechanics.statements  # noqa: F401
 
     keep_what_is_there()
 
@@ -95,7 +98,9 @@ def _read(name: str, data: bytes | OSError, request: Request, tally: Tally) -> P
 
 def _answer(name: str, problem: Problem, request: Request, tally: Tally) -> Answers | None:
     try:
-        answers = state(derive(problem), request)
+        derivation = derive(problem)
+        _start_algebra(needed=derivation.large_form is None)
+        answers = state(derivation, request)
     except ProblemError as error:
         tally.said.append(tell(error.source, error.diagnostics))
         tally.wrong = True
