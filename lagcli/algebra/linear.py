@@ -61,7 +61,9 @@ def solve_linear(
     A, b
         n rows of n entries; n right-hand sides, or n rows of them.
     relations
-        Used from the start: they shorten the entries.
+        Those that are solved for a symbol shorten the entries from the start.  The others
+        shorten only the result: used while eliminating, they would leave factors below
+        that vanish where det A does not, as x does in x'/x for y y' = -x x'.
     budget
         Seconds after which None is returned.
     """
@@ -70,11 +72,13 @@ def solve_linear(
     n, width = len(A), len(columns[0]) if columns else 1
     rows, field = _enter([[*row, *more] for row, more in zip(A, columns, strict=True)], relations)
     try:
-        found = _eliminate(field, rows, n, relations, monotonic() + budget)
+        found = _eliminate(field, rows, n, None, monotonic() + budget)
     except _TooLong:
         return None
     if len(found.pivots) < n:
         return LinearSolution([], None, singular=True, rank=len(found.pivots))
+    if _vanishes(field, found.determinant, relations):
+        return LinearSolution([], None, singular=True, rank=rank(A, relations))
     row_of = {column: row for row, column in found.pivots}
     values = [
         [

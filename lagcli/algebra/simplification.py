@@ -97,7 +97,9 @@ def _shortest(
     field: Field, writer: Writer, element: Element, relations: Relations | None
 ) -> tuple[Expression, Shaper]:
     """The best tree among equal elements, and the shaper that made it."""
-    candidates = [cancelled(field, element)]
+    # cancelled first: a reduced numerator may share no factor with the denominator any more
+    element = cancelled(field, element)
+    candidates = [element]
     if relations:
         candidates.extend(cancelled(field, e) for e in relations.reductions(field, element))
     candidates.sort(key=Element.size)
