@@ -1,0 +1,180 @@
+"""Elementary antiderivatives of the formulas that mechanics has, each verified.
+
+Derivatives of unspecified functions are integrated by parts until none is left; powers,
+and polynomials times exp, sin, cos, sinh, cosh of linear arguments, go term by term; the
+rest is left to SymPy's rules.
+"""
+
+from __future__ import annotations
+
+import sympy
+from sympy import Add, Expr, Mul, Pow, Symbol
+from sympy.core.function import AppliedUndef
+from sympy.simplify.fu import TR8
+
+from lagcli.algebra.build import free_of, unspecified
+from lagcli.algebra.simplification import is_zero
+
+_MOST_PARTS = 60
+
+
+def antiderivative(expression: Expr, variable: Symbol) -> Expr | None:
+    """An F with dF/dvariable = expression, or None where none was found.
+
+    Parameters of a formula are general: the integral of t^n is t^(n+1)/(n+1), that of
+    sin(a t) cos(b t) has a - b in a denominator.
+    """
+    by_parts, rest = _unspecified_by_parts(sympy.expand(expression), variable)
+    terms = [by_parts]
+    for term in Add.make_args(rest):
+        part = _term(term, variable)
+        if part is None:
+            whole = _by_rules(expression if by_parts == 0 else rest, variable)
+            if whole is None:
+                return None
+            terms = [by_parts, whole]
+            break
+        terms.append(part)
+    total = Add(*terms)
+    return total if is_zero(total.diff(variable) - expression) is True else None
+
+
+# -- unspecified functions ----------------------------------------------------------------
+
+
+def _unspecified_by_parts(expression: Expr, x: Symbol) -> tuple[Expr, Expr]:
+    """(F, rest) with expression = dF/dx + rest: the highest derivatives first.
+
+    g f_x = (g f)_x - g_x f, and f^k f_x = (f^(k+1)/(k+1))_x; what is subtracted meets the
+    other terms of a total derivative and cancels.
+    """
+    found, rest = sympy.S.Zero, expression
+    for _ in range(_MOST_PARTS):
+        choices = [
+            (_order(factor), term, factor)
+            for term in Add.make_args(rest)
+            for factor in Mul.make_args(term)
+            if isinstance(factor, AppliedUndef) and _integral_of(factor, x) is not None
+        ]
+        if not choices:
+            break
+        _, term, factor = max(choices, key=lambda choice: choice[0])
+        integral = _integral_of(factor, x)
+        assert integral is not None
+        lowered = integral.func(*integral.args) if isinstance(integral, AppliedUndef) else None
+        others = term / factor
+        k = sum(
+            b.as_base_exp()[1]
+            for b in Mul.make_args(others)
+            if lowered is not None and b.as_base_exp()[0] == lowered
+        )
+        part = others * integral / (k + 1)
+        found += part
+        rest = sympy.expand(rest - part.diff(x))
+    return found, rest
+
+
+def _order(factor: AppliedUndef) -> int:
+    return len(getattr(factor.func, "indices", ()))
+
+
+def _integral_of(factor: AppliedUndef, x: Symbol) -> Expr | None:
+    """Integral of U'(a x + b) by x: U(a x + b) / a; of a partial derivative likewise."""
+    head = factor.func
+    indices = getattr(head, "indices", ())
+    within = [i for i, a in enumerate(factor.args, start=1) if not free_of(a, [x])]
+    if len(within) != 1 or within[0] not in indices:
+        return None
+    slope = factor.args[within[0] - 1].diff(x)
+    if not free_of(slope, [x]):
+        return None
+    lowered = list(indices)
+    lowered.remove(within[0])
+    return unspecified(head.base_name, head.arity, tuple(lowered))(*factor.args) / slope
+
+
+# -- elementary functions -----------------------------------------------------------------
+
+
+def _term(term: Expr, x: Symbol) -> Expr | None:
+    constant, function = term.as_independent(x, as_Add=False)
+    if function == 1:
+        return constant * x
+    power, others = sympy.S.Zero, []
+    for factor in Mul.make_args(function):
+        base, exponent = factor.as_base_exp()
+        if base == x and free_of(exponent, [x]):
+            power += exponent
+        else:
+            others.append(factor)
+    if not others:
+        if power == -1:
+            return constant * sympy.log(x if x.is_positive else sympy.Abs(x))
+        return constant * x ** (power + 1) / (power + 1)
+    if not (power.is_Integer and power >= 0):
+        return None
+    # a product of sines and cosines is a sum of them
+    wave = sympy.expand(TR8(Mul(*others))) if _are_waves(others, x) else Mul(*others)
+    parts = [_by_parts(constant, int(power), factor, x) for factor in Add.make_args(wave)]
+    return None if any(part is None for part in parts) else Add(*parts)
+
+
+def _are_waves(factors: list[Expr], x: Symbol) -> bool:
+    bases = [factor.as_base_exp() for factor in factors]
+    return all(
+        isinstance(base, sympy.sin | sympy.cos)
+        and exponent.is_Integer
+        and exponent > 0
+        and free_of(base.args[0].diff(x), [x])
+        for base, exponent in bases
+    )
+
+
+def _by_parts(constant: Expr, power: int, factor: Expr, x: Symbol) -> Expr | None:
+    """Integral of x^n f(a x + b): repeated integration of f, tabular by parts."""
+    total, polynomial, integral, sign = sympy.S.Zero, x**power, factor, 1
+    while polynomial != 0:
+        step = _of_elementary(integral, x)
+        if step is None:
+            return None
+        integral = step
+        total += sign * polynomial * integral
+        polynomial, sign = polynomial.diff(x), -sign
+    return constant * total
+
+
+def _of_elementary(factor: Expr, x: Symbol) -> Expr | None:
+    """Integral of exp, sin, cos, sinh or cosh of an argument linear in x, with a constant."""
+    constant, function = factor.as_independent(x, as_Add=False)
+    if function == 1:
+        return factor * x
+    table = {
+        sympy.exp: sympy.exp,
+        sympy.cos: sympy.sin,
+        sympy.sin: lambda u: -sympy.cos(u),
+        sympy.cosh: sympy.sinh,
+        sympy.sinh: sympy.cosh,
+    }
+    rule = table.get(function.func)
+    if rule is None:
+        return None
+    argument = function.args[0]
+    slope = argument.diff(x)
+    if slope == 0 or not free_of(slope, [x]):
+        return None
+    return constant * rule(argument) / slope
+
+
+def _by_rules(expression: Expr, x: Symbol) -> Expr | None:
+    """SymPy's table of rules, on formulas short enough for it."""
+    from sympy.integrals.manualintegrate import manualintegrate
+
+    # a sum with radicals branches without end: 33 operations took 47 s
+    radicals = any(power.exp.is_Rational and power.exp.q > 1 for power in expression.atoms(Pow))
+    if expression.atoms(AppliedUndef) or sympy.count_ops(expression) > (20 if radicals else 100):
+        return None
+    try:
+        result = manualintegrate(expression, x)
+    except (NotImplementedError, ValueError, RecursionError):
+        return None
+    return None if result.has(sympy.Integral) or result.has(sympy.Piecewise) else result
