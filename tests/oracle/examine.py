@@ -108,9 +108,9 @@ class Examination:
         return True
 
 
-def agree(a: mpf, b: mpf) -> bool:
+def agree(a: mpf, b: mpf, near: mpf = AGREEMENT) -> bool:
     """Whether two numbers are equal, but for rounding."""
-    return bool(abs(a - b) <= AGREEMENT * (1 + abs(a) + abs(b)))
+    return bool(abs(a - b) <= near * (1 + abs(a) + abs(b)))
 
 
 def vanishes(values: Sequence[mpf]) -> bool:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from mpmath import mpf
 
+from lagcli.expression import Call, walk
+
 from .dynamics_checks import jacobian
 from .examine import Examination, agree, vanishes, with_momenta
 from .jets import real_part
@@ -64,10 +66,21 @@ def _hessian_regular(x: Examination) -> bool:
     )
 
 
+def _unspecified_momenta(x: Examination) -> bool:
+    """Whether L leaves open how it depends on the velocities."""
+    given = (x.problem.lagrangian, x.problem.kinetic, x.problem.potential)
+    return any(
+        isinstance(part, Call) and part.function in x.problem.functions and x.reference.moves(part)
+        for node in given
+        if node is not None
+        for part in walk(node)
+    )
+
+
 def _hamiltonian(x: Examination) -> None:
     """H(q, dL/dq') = h, on the constraints and off them."""
     if x.sheet["hamiltonian"] is None:
-        if _hessian_regular(x):
+        if _hessian_regular(x) and not _unspecified_momenta(x):
             x.missing("hamiltonian")
         return
     x.compare(
@@ -89,7 +102,7 @@ def _hamiltonian(x: Examination) -> None:
 def _canonical_equations(x: Examination) -> None:
     pairs = x.sheet["canonical_equations"]
     if pairs is None:
-        if _hessian_regular(x):
+        if _hessian_regular(x) and not _unspecified_momenta(x):
             x.missing("canonical_equations")
         return
     for j, name in enumerate(x.reference.names):

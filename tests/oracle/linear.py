@@ -10,7 +10,7 @@ from mpmath import mpf
 Matrix = list[list[mpf]]
 
 #: Below this, relative to the largest entry, a pivot is taken for 0 (at 40 digits).
-NEGLIGIBLE = mpf(10) ** -18
+NEGLIGIBLE = mpf(10) ** -26
 
 
 @dataclass(frozen=True)

@@ -142,15 +142,16 @@ class Reference:
     def holonomic(self, constraint: Constraint) -> bool:
         """Whether the constraint is written without velocities (also inside definitions)."""
         equation = constraint.equation
-        return not (self._moves(equation.left) or self._moves(equation.right))
+        return not (self.moves(equation.left) or self.moves(equation.right))
 
-    def _moves(self, node: Expression) -> bool:
+    def moves(self, node: Expression) -> bool:
+        """Whether velocities occur, be it inside definitions."""
         for part in walk(node):
             if isinstance(part, Name):
                 if part.primes:
                     return True
                 definition = self.problem.definitions.get(part.name)
-                if definition is not None and self._moves(definition):
+                if definition is not None and self.moves(definition):
                     return True
         return False
 
