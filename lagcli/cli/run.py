@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import atexit
-import gc
 import os
 import sys
 from collections.abc import Sequence
@@ -11,11 +10,12 @@ from contextlib import suppress
 from typing import NoReturn
 
 from lagcli.cli.status import Status
+from lagcli.sparing import collect_rarely
 
 
 def main() -> NoReturn:
     """Run the command of `sys.argv` and exit."""
-    gc.disable()  # imports make what lives to the end; `sparing.keep_what_is_there` enables it
+    collect_rarely()
     status = run(sys.argv[1:])
     if status == Status.INTERRUPTED:
         os._exit(status)  # what still computes in a thread need not be waited for

@@ -10,7 +10,6 @@ from lagcli.answers import Answers
 from lagcli.cli.asking import Asked
 from lagcli.cli.files import reason
 from lagcli.cli.printing import Printing
-from lagcli.cli.sparing import keep_what_is_there, spare_tensors
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
@@ -18,6 +17,7 @@ from lagcli.failures import describe
 from lagcli.formatters.registry import BUILT_IN
 from lagcli.pipeline import Request, derive, read, render, state
 from lagcli.problem import Problem
+from lagcli.sparing import keep_what_is_there, spare_tensors
 
 #: A file's name, and its bytes or why there are none.
 Input = tuple[str, bytes | OSError]

@@ -1,4 +1,4 @@
-"""What the process of a command line can leave out, and the process of a library cannot."""
+"""What a process that is all lagcli's own can leave out, and a library cannot."""
 
 from __future__ import annotations
 
@@ -40,12 +40,18 @@ class _Tensors(ModuleType):
         return getattr(import_module(_TENSORS), name)
 
 
-def keep_what_is_there() -> None:
-    """Start to collect garbage, but never look for it in what the start-up has made.
+def collect_rarely() -> None:
+    """Look for garbage after 200 000 new objects, not after each 700.
 
-    `lagcli.cli.run` has put the collector to rest: during imports it walks again and
-    again over classes that live to the end, a tenth of SymPy's start-up.
+    What a start-up makes, SymPy's included, is less and lives to the end; the collector
+    would walk over it again and again, a tenth of the time.
+    """
+    gc.set_threshold(200_000, 10, 10)
+
+
+def keep_what_is_there() -> None:
+    """Never look for garbage in what is there now: modules, which live to the end.
+
+    Processes that are forked then share that memory, which no collector touches.
     """
     gc.freeze()
-    gc.set_threshold(50_000, 20, 20)
-    gc.enable()
