@@ -38,9 +38,7 @@ class Kinds:
 def kinds(L: Expr, equations: Equations) -> Kinds:
     """Tell lengths from angles."""
     found = Kinds()
-    inertia = {
-        x: sympy.Tuple(*row) for x, row in zip(equations.q, equations.mass, strict=True)
-    }
+    inertia = {x: sympy.Tuple(*row) for x, row in zip(equations.q, equations.mass, strict=True)}
     inside = {s for f in L.atoms(*_CIRCULAR) for s in f.free_symbols}
     for x in equations.q:
         cyclic = free_of(L, [x])

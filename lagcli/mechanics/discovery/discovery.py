@@ -26,9 +26,10 @@ from lagcli.mechanics.discovery.ansatz import (
     point_unknowns,
     time_functions,
 )
+from lagcli.mechanics.discovery.centralizer import centralized
 from lagcli.mechanics.discovery.constrained import tangent
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
-from lagcli.mechanics.discovery.hidden_names import hidden_name
+from lagcli.mechanics.discovery.hidden_names import HiddenNames
 from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Clock, OutOfTime
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.names import Naming, distinct
@@ -135,22 +136,19 @@ class Discovery:
         slots = point_slots(self.equations)
         spaces = affine(self._kinds)
         while True:
-            unknowns = point_unknowns(
-                slots, times, spaces, time_with_space=not self._quadratic
-            )
+            unknowns = point_unknowns(slots, times, spaces, time_with_space=not self._quadratic)
             if len(unknowns) <= MOST_UNKNOWNS or len(spaces) == 1:
                 break
             spaces = spaces[: len(spaces) // 2]
         self.words.append(self._sentence(times, spaces))
         search = Search(self.equations, slots, unknowns, clock)
-        naming = Naming(
-            self.system.t, self.system.q, frozenset(self._kinds.angles)
-        )
+        naming = Naming(self.system.t, self.system.q, self._kinds)
         transformations = [
             point.transformation_of(search, solution, set(self.system.parameters))
             for solution in search.solutions()
         ]
         transformations.reverse()
+        transformations = centralized(transformations, self.system, clock)
         if constraints:
             transformations = tangent(transformations, self.dynamics, clock)
             self.words.append(
@@ -164,13 +162,15 @@ class Discovery:
                 self.stopped.append("a symmetry whose charge was not proved is left out")
                 continue
             found.append((naming.of_point(transformation.changes, transformation.time), charge))
-            self._keep_points(found)
+            self._keep_points(found, naming)
 
-    def _keep_points(self, found: Sequence[tuple[str, NoetherCharge]]) -> None:
+    def _keep_points(self, found: Sequence[tuple[str, NoetherCharge]], naming: Naming) -> None:
         found = sorted(found, key=lambda pair: _rank(pair[0]))
         names = distinct([name for name, _ in found])
         self.point_charges = tuple(
-            replace(_oriented(charge, name), name=name)
+            replace(
+                _times(charge, naming.orientation(name, charge.transformation.changes)), name=name
+            )
             for name, (_, charge) in zip(names, found, strict=True)
         )
 
@@ -190,11 +190,15 @@ class Discovery:
             self.stopped.append("there are too many coordinates for the second degree")
             return
         found = integrals.found(self.point_charges)
-        names = [hidden_name(functions, charge, self.system) for functions, charge in found]
-        names = distinct([*(c.name for c in self.point_charges), *names])
+        naming = HiddenNames(self.system, self.equations, self._kinds)
+        named = [(*naming.of(functions, charge), charge) for functions, charge in found]
+        named.sort(key=lambda each: (not each[0], each[0]))
+        names = distinct([*(c.name for c in self.point_charges), *(name for name, _, _ in named)])
         self.hidden_charges = tuple(
-            replace(charge, name=name)
-            for name, (_, charge) in zip(names[len(self.point_charges) :], found, strict=True)
+            replace(_times(charge, factor), name=name)
+            for name, (_, factor, charge) in zip(
+                names[len(self.point_charges) :], named, strict=True
+            )
         )
 
     @property
@@ -220,23 +224,27 @@ class Discovery:
         return f"{what} {space}, {powers}{timed}"
 
 
-def _rank(name: str) -> int:
+def _rank(name: str) -> tuple[int, str]:
     """Energy, momenta, angular momenta, boosts, the rest."""
     order = ("energy", "p_", "momentum", "L_", "angular", "boost", "dilation", "conformal")
     for k, start in enumerate(order):
         if name.startswith(start):
-            return k
-    return len(order) if name else len(order) + 1
+            return k, name if start == "L_" else ""
+    return (len(order) if name else len(order) + 1), ""
 
 
-def _oriented(charge: NoetherCharge, name: str) -> NoetherCharge:
-    """L_y is z p_x - x p_z."""
-    if name != "L_y":
+def _times(charge: NoetherCharge, factor: Expr) -> NoetherCharge:
+    """The charge of a constant multiple of the transformation."""
+    if factor == 1:
         return charge
-    flipped = charge.transformation
+    given = charge.transformation
     return replace(
         charge,
-        transformation=replace(flipped, changes=tuple(simplify(-c) for c in flipped.changes)),
-        gauge=None if charge.gauge is None else -charge.gauge,
-        charge=sympy.expand(-charge.charge),
+        transformation=replace(
+            given,
+            changes=tuple(simplify(factor * c) for c in given.changes),
+            time=simplify(factor * given.time),
+        ),
+        gauge=None if charge.gauge is None else sympy.expand(factor * charge.gauge),
+        charge=sympy.expand(factor * charge.charge),
     )

@@ -46,9 +46,7 @@ Slots = list[tuple[Slot, Expr]]
 class QuadraticIntegrals:
     """The integrals of second degree of equations M(q) q'' = forcing without time in them."""
 
-    def __init__(
-        self, noether: Noether, equations: Equations, kinds: Kinds, clock: Clock
-    ) -> None:
+    def __init__(self, noether: Noether, equations: Equations, kinds: Kinds, clock: Clock) -> None:
         self.noether = noether
         self.equations = equations
         self.clock = clock
@@ -162,9 +160,7 @@ class QuadraticIntegrals:
         transformation = Transformation(eta, sympy.S.Zero)
         momenta = self.noether.dynamics.lagrange.momenta
         whole = kinetic + scalar
-        gauge = simplify(
-            sympy.Add(*(p * x for p, x in zip(momenta, eta, strict=True))) - whole
-        )
+        gauge = simplify(sympy.Add(*(p * x for p, x in zip(momenta, eta, strict=True))) - whole)
         charge = self.noether.charge("", "discovered", transformation, gauge)
         if charge.conserved is not True or charge.verified != "exact":
             return None
@@ -206,8 +202,7 @@ class QuadraticIntegrals:
         q = self.equations.q
         rest = self.noether.system.L.xreplace(dict.fromkeys(self.equations.v, sympy.S.Zero))
         terms = {
-            t.as_independent(*q, as_Add=False)[1]
-            for t in sympy.Add.make_args(sympy.expand(rest))
+            t.as_independent(*q, as_Add=False)[1] for t in sympy.Add.make_args(sympy.expand(rest))
         } - {sympy.S.One}
         monomials = [sympy.S.One, *q]
         monomials += [x * y for i, x in enumerate(q) for y in q[: i + 1]]

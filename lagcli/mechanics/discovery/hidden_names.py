@@ -1,44 +1,107 @@
-"""What a textbook calls an integral of second degree in the velocities."""
+"""What a textbook calls an integral of second degree in the velocities, and its usual factor.
+
+runge_lenz   A = p x L - m k r/|r|, whose part without velocities is m r V
+fradkin_xy   p_x p_y + m k x y of an oscillator
+energy_x     p_x^2/(2 m) + V_x of one separated coordinate
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
-from sympy import Expr
+import sympy
+from sympy import Expr, Symbol
 
-from lagcli.algebra import is_zero
-from lagcli.mechanics.discovery.slots import Slot
+from lagcli.algebra import is_zero, simplify
+from lagcli.mechanics.discovery.ansatz import Kinds
+from lagcli.mechanics.discovery.slots import Equations, Slot
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
 
 
-def hidden_name(
-    functions: Sequence[tuple[Slot, Expr]], charge: NoetherCharge, system: System
-) -> str:
-    """runge_lenz_x, fradkin_xy, energy_x, or an empty text."""
-    q, v = system.q, system.qdot
-    rest = dict.fromkeys(v, 0)
-    S, V = charge.charge.xreplace(rest), -system.L.xreplace(rest)
-    if all(not (f.free_symbols & set(q)) for _, f in functions):
+class HiddenNames:
+    """Names by the shape of the Killing tensor and of the part without velocities."""
+
+    def __init__(self, system: System, equations: Equations, kinds: Kinds) -> None:
+        self.q = equations.q
+        self.mass = equations.mass
+        rest = dict.fromkeys(equations.v, sympy.S.Zero)
+        self._rest = rest
+        self.V = -system.L.xreplace(rest)
+        self.axes = list(self._axes(kinds))
+
+    def of(self, functions: Sequence[tuple[Slot, Expr]], charge: NoetherCharge) -> tuple[str, Expr]:
+        """The name, empty for none, and the factor that makes the charge the textbook's."""
+        if all(not (f.free_symbols & set(self.q)) for _, f in functions):
+            return self._constant_tensor(functions)
+        S = charge.charge.xreplace(self._rest)
+        for name, x in self.axes:
+            ratio = self._constant_ratio(S, x * self.V)
+            if ratio is not None:
+                return f"runge_lenz_{name}", sympy.S.NegativeOne if ratio < 0 else sympy.S.One
+        return "", sympy.S.One
+
+    def _constant_tensor(self, functions: Sequence[tuple[Slot, Expr]]) -> tuple[str, Expr]:
+        nothing = ("", sympy.S.One)
         if len(functions) != 1 or functions[0][0].kind[0] != "pair":
-            return ""
+            return nothing
         i, j = int(functions[0][0].kind[1]), int(functions[0][0].kind[2])
-        if (is_zero(V.diff(q[i], q[j])) is True and i == j) or i != j:
-            quadratic = all(is_zero(V.diff(q[i], x).diff(x)) is True for x in q)
-            one, other = system.names[i], system.names[j]
-            joined = f"{one}{other}" if len(one + other) == 2 else f"{one}_{other}"
-            if i != j:
-                return f"fradkin_{joined}" if quadratic else ""
-        if i == j and all(is_zero(V.diff(q[i], x)) is True for k, x in enumerate(q) if k != i):
-            return f"energy_{system.names[i]}"
-        return ""
-    for x in q:
-        # A = p x L - m k r/|r|: its potential part is x V, and V is central
-        ratio = S / (x * V) if V != 0 else V
-        if S != 0 and all(is_zero(ratio.diff(y)) is True for y in q):
-            central = all(
-                is_zero(V.diff(y) * z - V.diff(z) * y) is True
-                for k, y in enumerate(q) for z in q[:k]
-            )  # fmt: skip
-            return f"runge_lenz_{x.name}" if central and len(q) > 1 else ""
-    return ""
+        x, y = self.q[i], self.q[j]
+        mixed = [self.V.diff(x, z) for z in self.q if z != x]
+        if any(is_zero(e) is not True for e in mixed):
+            return nothing
+        if i == j:
+            inertia = self.mass[i][i]
+            diagonal = all(is_zero(m) for k, m in enumerate(self.mass[i]) if k != i)
+            constant = not (inertia.free_symbols & set(self.q))
+            factor = 1 / (inertia * functions[0][1])
+            return (f"energy_{x.name}", factor) if diagonal and constant else nothing
+        bound = all(
+            is_zero(self.V.diff(z, 2)) is False and is_zero(self.V.diff(z, 3)) is True
+            for z in (x, y)
+        )
+        short = len(x.name + y.name) == 2
+        joined = f"{x.name}{y.name}" if short else f"{x.name}_{y.name}"
+        return (f"fradkin_{joined}", sympy.S.One) if bound else nothing
+
+    def _constant_ratio(self, above: Expr, below: Expr) -> int | None:
+        """The sign of above/below where that is constant and not 0."""
+        if above == 0 or below == 0:
+            return None
+        x = next((x for x in self.q if x in below.free_symbols), None)
+        slope = above.diff(x) * below - above * below.diff(x) if x is not None else above
+        if is_zero(slope) is not True:
+            return None
+        ratio = simplify(above / below)
+        if ratio.free_symbols & set(self.q) or ratio == 0:
+            return None
+        return -1 if ratio.could_extract_minus_sign() else 1
+
+    def _axes(self, kinds: Kinds) -> Iterator[tuple[str, Expr]]:
+        """Cartesian coordinates of a central V: those given, or those of r and its angles."""
+        if is_zero(self.V) is True:
+            return
+        if len(kinds.lengths) == len(self.q):
+            if self._is_central(kinds.lengths):
+                yield from ((x.name, x) for x in self.q)
+            return
+        if len(kinds.radii) != 1 or any(y in self.V.free_symbols for y in kinds.angles):
+            return
+        [r] = kinds.radii
+        if len(self.q) == 2 and len(kinds.angles) == 1:
+            [phi] = kinds.angles
+            yield "x", r * sympy.cos(phi)
+            yield "y", r * sympy.sin(phi)
+        elif len(self.q) == 3 and len(kinds.latitudes) == 1 and len(kinds.angles) == 2:
+            [theta] = kinds.latitudes
+            [phi] = [y for y in kinds.angles if y != theta]
+            yield "x", r * sympy.sin(theta) * sympy.cos(phi)
+            yield "y", r * sympy.sin(theta) * sympy.sin(phi)
+            yield "z", r * sympy.cos(theta)
+
+    def _is_central(self, q: Sequence[Symbol]) -> bool:
+        return len(q) > 1 and all(
+            is_zero(self.V.diff(y) * z - self.V.diff(z) * y) is True
+            for k, y in enumerate(q)
+            for z in q[:k]
+        )

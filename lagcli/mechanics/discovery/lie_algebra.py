@@ -94,6 +94,8 @@ def _whole(C: list[list[Vector]], n: int, derived: int, *, extended: bool) -> st
         if n == 3 + turns + 2 * d and (plus, minus) == (2, 1 + turns) and extended:
             rotations = f" + so({d})" if d > 1 else ""
             return f"Schroedinger sch({d}): sl(2,R){rotations} with Heisenberg h({d})"
+        if d == 2 and n == 8 and (plus, minus) == (3, 1) and extended:
+            return "sl(2,R) + so(1,1) with Heisenberg h(2)"
         if n == 1 + turns + 2 * d and (plus, minus) == (0, turns) and extended:
             nilpotent = d > 1 or derived == 1
             return f"Galilei in {d} dimension{'s' if d > 1 else ''}" if nilpotent else None

@@ -19,8 +19,9 @@ from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.ring import Poly
 
-#: p = 3 mod 4 and p != 1 mod 3, 5, 7: odd roots are unique, square roots a power.
-PRIME = 2305843009213693907
+#: p = 7 mod 8 and p != 1 mod 3, 5, 7: odd roots are unique, square roots a power; the square
+#: roots of 2, 3, 5, 7 … and of 2 + sqrt(2), 5 + sqrt(5) … that linear chains have are there too.
+PRIME = 2305843009213561919
 
 _TRIES = 400
 _Terms = list[tuple[int, tuple[tuple[int, int], ...]]]

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import sympy
 from sympy import Expr, Symbol
 
+from lagcli.mechanics.discovery.ansatz import Kinds
+
 _AXES = {"xy": "z", "yz": "x", "xz": "y"}
 
 
@@ -18,7 +20,7 @@ class Naming:
 
     t: Symbol
     q: tuple[Symbol, ...]
-    angles: frozenset[Symbol]
+    kinds: Kinds
 
     def of_point(self, xi: Sequence[Expr], tau: Expr) -> str:
         """The name of a point symmetry, or an empty text."""
@@ -71,8 +73,8 @@ class Naming:
         return ""
 
     def _rotation(self, moved: Mapping[Symbol, Expr]) -> str:
-        if set(moved) & self.angles or not moved:
-            return ""
+        if set(moved) & set(self.kinds.angles) or not moved:
+            return self._rotation_of_sphere(moved)
         planes = set()
         for x, e in moved.items():
             partners = e.free_symbols & set(self.q)
@@ -92,6 +94,33 @@ class Naming:
             one, other = moved
             return f"angular_momentum_{one.name}_{other.name}"
         return ""
+
+    def _rotation_of_sphere(self, moved: Mapping[Symbol, Expr]) -> str:
+        """L_x: dtheta = -sin phi; L_y: dtheta = cos phi, for latitude and longitude."""
+        if len(self.kinds.latitudes) != 1 or len(self.kinds.angles) != 2 or len(moved) != 2:
+            return ""
+        [theta] = self.kinds.latitudes
+        [phi] = [y for y in self.kinds.angles if y != theta]
+        if set(moved) != {theta, phi}:
+            return ""
+        turn = moved[theta]
+        if turn in (sympy.sin(phi), -sympy.sin(phi)):
+            return "L_x"
+        return "L_y" if turn in (sympy.cos(phi), -sympy.cos(phi)) else ""
+
+    def orientation(self, name: str, xi: Sequence[Expr]) -> Expr:
+        """The sign that turns a charge into the textbook's: L_y = z p_x - x p_z."""
+        moved = dict(zip(self.q, xi, strict=True))
+        if name not in ("L_x", "L_y", "L_z"):
+            return sympy.S.One
+        if len(self.kinds.latitudes) == 1 and moved[self.kinds.latitudes[0]] != 0:
+            [phi] = [y for y in self.kinds.angles if y not in self.kinds.latitudes]
+            wanted = -sympy.sin(phi) if name == "L_x" else sympy.cos(phi)
+            right = moved[self.kinds.latitudes[0]] == wanted
+        else:
+            # the search leaves the last component positive: dz = x for y, dy = x for z
+            right = name != "L_y"
+        return sympy.S.One if right else sympy.S.NegativeOne
 
 
 def _bare(name: str) -> str:

@@ -37,15 +37,14 @@ def transformation_of(
 
 def charge_of(noether: Noether, transformation: Transformation) -> NoetherCharge | None:
     """The proved charge of a transformation; None where it is not proved."""
-    if transformation.time == 1 and not any(transformation.changes):
-        charge = noether.charge("energy", "discovered", transformation, sympy.S.Zero)
-        # Q = -h by the formula; the textbook's energy is h
-        charge = replace(charge, charge=noether.energy.function)
-        return _proved(charge)
     gauge = _gauge(noether, transformation)
     if gauge is None:
         return None
-    return _proved(noether.charge("", "discovered", transformation, gauge))
+    charge = _proved(noether.charge("", "discovered", transformation, gauge))
+    if charge is not None and transformation.time == 1 and not any(transformation.changes):
+        # Q = -h - G by the formula; the textbook's energy is h
+        return replace(charge, charge=noether.energy.function + gauge)
+    return charge
 
 
 def _gauge(noether: Noether, transformation: Transformation) -> Expr | None:

@@ -99,9 +99,7 @@ class Slot:
         for i in range(n):
             for k in range(i + 1):
                 inner = a[i].diff(q[k]) + a[k].diff(q[i]) + D(by_v[k][i]) - b_v[i].diff(v[k])
-                conditions.append(
-                    [(0, inner), (1 + k, a[i]), (1 + i, a[k]), (rate, by_v[k][i])]
-                )
+                conditions.append([(0, inner), (1 + k, a[i]), (1 + i, a[k]), (rate, by_v[k][i])])
         for i in range(n):
             inner = D(b_v[i]) - D(Da[i]) - b.diff(q[i])
             conditions.append(
@@ -125,8 +123,7 @@ def quadratic_slots(equations: Equations) -> list[Slot]:
     """u = p_i e_j + p_j e_i (e_i p_i for i = j), p = M q': f is K^ij of Q = K^ij p_i p_j / 2."""
     n = len(equations.q)
     p = [
-        sympy.Add(*(m * v for m, v in zip(row, equations.v, strict=True)))
-        for row in equations.mass
+        sympy.Add(*(m * v for m, v in zip(row, equations.v, strict=True))) for row in equations.mass
     ]
     slots = []
     for i in range(n):

@@ -62,21 +62,18 @@ def _free(discovery: Discovery) -> Summary:
     triples = _squares(discovery)
     brackets = Brackets([*charges, *triples], discovery.dynamics, discovery.clock)
     everything = list(range(count))
-    energy = next((k for k, c in enumerate(discovery.charges) if c.name == "energy"), None)
+    independent = brackets.independent(everything)
     dimension, name, notes = points, None, []
+    if count > points and brackets.independent(everything[:points]) == independent:
+        notes.append("the integrals of second degree are functions of the other charges")
+        everything = everything[:points]
+    energy = next((k for k, c in enumerate(discovery.charges) if c.name == "energy"), None)
     structure = brackets.structure(everything)
-    if structure is None and count > points and energy is not None:
-        rest = [k for k in everything if k != energy]
-        over_energy = brackets.structure(rest, energy)
-        found = None if over_energy is None else name_of(over_energy)
-        if found is not None and all(brackets.commute(energy, k) for k in rest):
-            dimension, name = count, f"R + {found}"
     if structure is not None:
-        dimension, name = count, name_of(structure)
-    elif name is None:
-        structure = brackets.structure(list(range(points)))
-        name = None if structure is None else name_of(structure)
-        if count > points:
+        dimension, name = len(everything), name_of(structure)
+    elif len(everything) > points:
+        dimension, name = _over_energy(brackets, everything, points, energy)
+        if name is None:
             notes.append("the integrals of second degree are not counted in the dimension")
     t = discovery.system.t
     autonomous = t not in discovery.system.L.free_symbols
@@ -89,11 +86,25 @@ def _free(discovery: Discovery) -> Summary:
     return Summary(
         dimension,
         name,
-        brackets.independent(everything),
+        independent,
         involution,
         involution == len(discovery.system.q),
         tuple(notes),
     )
+
+
+def _over_energy(
+    brackets: Brackets, everything: list[int], points: int, energy: int | None
+) -> tuple[int, str | None]:
+    """The algebra where coefficients depend on the energy (Kepler's); else of the points."""
+    if energy is not None and all(brackets.commute(energy, k) for k in everything):
+        rest = [k for k in everything if k != energy]
+        structure = brackets.structure(rest, energy)
+        name = None if structure is None else name_of(structure)
+        if name is not None:
+            return len(everything), f"R + {name}"
+    structure = brackets.structure(everything[:points])
+    return points, None if structure is None else name_of(structure)
 
 
 def _squares(discovery: Discovery) -> list[Expr]:
