@@ -37,7 +37,12 @@ FORBIDDEN_IN = {
 HARMLESS = {("re", "compile")}
 
 #: Files that may run code they have generated themselves: (path, name).
-ALLOWED: set[tuple[str, str]] = set()
+#: The numbers come from straight-line code made of numbered nodes, numbered constants and
+#: the words of that one module: no text of a file is ever in it.
+ALLOWED: set[tuple[str, str]] = {
+    ("numerics/straight_line.py", "exec"),
+    ("numerics/straight_line.py", "compile"),
+}
 
 
 def forbidden_calls(tree: ast.AST) -> list[tuple[int, str]]:

@@ -1,0 +1,104 @@
+"""`lagcli simulate`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+File = Annotated[str, typer.Argument(metavar="FILE", help="A problem; - is stdin.")]
+Until = Annotated[
+    str | None, typer.Option("--until", metavar="T", help="The end, also 2*pi.  [default: file's]")
+]
+Accuracy = Annotated[
+    str | None,
+    typer.Option(
+        "--accuracy",
+        metavar="A",
+        help="Bound on the error of every number.  [default: the file's, or 1e-9]",
+    ),
+]
+Samples = Annotated[
+    int, typer.Option("--samples", metavar="N", min=2, help="Rows, both ends included.")
+]
+Set = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="NAME=VALUE", help="Give a parameter a value."),
+]
+Show = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--show",
+        metavar="A,B,C",
+        help="Columns: any expression, energy, p_x, multipliers, rod.x (the force of a "
+        "constraint), or all of coordinates, velocities, accelerations, multipliers, "
+        "constraint_forces, momenta.",
+    ),
+]
+Format = Annotated[str, typer.Option("--format", "-f", metavar="NAME", help="table, json or csv.")]
+Output = Annotated[
+    Path | None, typer.Option("--output", "-o", metavar="PATH", help="Write to a file instead.")
+]
+Project = Annotated[
+    bool, typer.Option("--project", help="Start from the nearest state on the constraints.")
+]
+Precision = Annotated[
+    int | None,
+    typer.Option(
+        "--precision", metavar="DIGITS", min=20, max=1000, help="Go beyond doubles where needed."
+    ),
+]
+Method = Annotated[str, typer.Option("--method", metavar="NAME", help="auto, dop853 or taylor.")]
+StopWhen = Annotated[
+    str | None,
+    typer.Option("--stop-when", metavar="EXPRESSION", help="Stop where it changes its sign."),
+]
+
+
+def simulate(
+    file: File,
+    until: Until = None,
+    accuracy: Accuracy = None,
+    samples: Samples = 101,
+    settings: Set = None,
+    show: Show = None,
+    format_name: Format = "table",
+    output: Output = None,
+    project: Project = False,
+    precision: Precision = None,
+    method: Method = "auto",
+    stop_when: StopWhen = None,
+) -> int:
+    """Compute the motion to a stated accuracy, with a certificate.
+
+    The accuracy is global: it bounds the error of every printed number, relative to the
+    largest magnitude of its column, or absolute where that is below 1.  Where it cannot
+    be reached the rows end at the time until which it holds.
+
+    The exit status is 0 when the accuracy was reached, 1 when it was not, and 2 when the
+    command line or the file is wrong.
+
+    \b
+    Examples:
+      lagcli simulate problems/pendulums/plane-pendulum.yaml
+      lagcli simulate problems/central/kepler.yaml --until 100 --accuracy 1e-6 --show x,y,energy
+      lagcli simulate problems/contact/mass-sliding-off-sphere.yaml --until 5 -f json -o run.json
+    """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.simulating import Wish, simulate_file
+
+    wish = Wish(
+        file=file,
+        until=until,
+        accuracy=accuracy,
+        samples=samples,
+        settings=tuple(settings or ()),
+        show=tuple(show or ()),
+        format_name=format_name,
+        output=None if output is None or str(output) == "-" else output,
+        project=project,
+        precision=precision,
+        method=method,
+        stop_when=stop_when,
+    )
+    return simulate_file(wish)

@@ -1,0 +1,224 @@
+"""One file to one table: options read, run made, result written whole."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
+
+from lagcli.cli.files import print_result, read_input, reason, write_output
+from lagcli.cli.status import Status
+from lagcli.cli.telling import tell, tell_line
+from lagcli.decimals import value_of
+from lagcli.diagnostics import ProblemError
+from lagcli.expression import Expression
+from lagcli.pipeline import Request, read
+from lagcli.reader.suggest import did_you_mean
+from lagcli.record import record
+
+if TYPE_CHECKING:
+    from lagcli.numerics.asked import Asked, Result
+    from lagcli.problem import Problem
+
+Value = TypeVar("Value")
+
+FORMATS = ("table", "json", "csv")
+METHODS = ("auto", "dop853", "taylor")
+_USUAL_ACCURACY = 1e-9
+
+
+@record(kw_only=True)
+class Wish:
+    """The command line, as it was written."""
+
+    file: str
+    until: str | None
+    accuracy: str | None
+    samples: int
+    settings: tuple[str, ...]
+    show: tuple[str, ...]
+    format_name: str
+    output: Path | None
+    project: bool
+    precision: int | None
+    method: str
+    stop_when: str | None
+
+
+def simulate_file(wish: Wish) -> Status:
+    """Run, write, and say how it ended."""
+    if not (_known("--format", wish.format_name, FORMATS) & _has_place(wish.output)):
+        return Status.USAGE
+    try:
+        found = read(wish.file, read_input(wish.file), Request(settings=wish.settings))
+    except OSError as error:
+        tell_line(f"{wish.file}: error: {reason(error)}")
+        return Status.USAGE
+    tell(found.source, found.diagnostics)
+    if found.problem is None:
+        return Status.USAGE
+    asked = _asked(found.problem, wish)
+    if asked is None:
+        return Status.USAGE
+    return _run(found.problem, asked, wish)
+
+
+def _run(problem: Problem, asked: Asked, wish: Wish) -> Status:
+    from lagcli.numerics.refusal import Refusal
+    from lagcli.numerics.simulate import simulate
+
+    try:
+        with _progress() as progress:
+            result = simulate(problem, asked, progress)
+    except Refusal as refusal:
+        tell(problem.source, refusal.diagnostics)
+        return Status.USAGE if refusal.mistake else Status.NOT_FOUND
+    if not _written(result, wish):
+        return Status.USAGE
+    if result.refusal:
+        tell_line(f"{problem.source.name}: {result.refusal}")
+        return Status.NOT_FOUND
+    return Status.WELL
+
+
+def _written(result: Result, wish: Wish) -> bool:
+    from lagcli.numerics.writing import WRITERS
+
+    data = WRITERS[wish.format_name](result).encode()
+    if wish.output is None:
+        print_result(data)
+        return True
+    try:
+        write_output(wish.output, data)
+    except OSError as error:
+        tell_line(f"{wish.output}: error: {reason(error)}")
+        return False
+    return True
+
+
+# -- options -----------------------------------------------------------------------------------
+
+
+def _asked(problem: Problem, wish: Wish) -> Asked | None:
+    """The options as values; every mistake is told."""
+    from lagcli.numerics.asked import Asked
+    from lagcli.numerics.columns import Column
+    from lagcli.reader.columns import read_along, read_columns, read_number, usual_columns
+
+    good = True
+
+    def attempt(work: Callable[[], Value], otherwise: Value) -> Value:
+        nonlocal good
+        try:
+            return work()
+        except ProblemError as error:
+            tell(error.source, error.diagnostics)
+            good = False
+            return otherwise
+
+    def number(text: str | None, given: Expression | None, option: str) -> float | None:
+        if text is not None:
+            return attempt(lambda: read_number(text, option), None)
+        return None if given is None else float(value_of(given) or 0)
+
+    run = problem.simulation
+    until = number(wish.until, run.until, "--until")
+    accuracy = number(wish.accuracy, run.accuracy, "--accuracy")
+    if accuracy is None:
+        accuracy = _USUAL_ACCURACY
+    if good and until is None:
+        tell_line(
+            f"{wish.file}: error: when does it end? give --until T, or simulation: {{until: T}}"
+        )
+        good = False
+    if until is not None and not 0 < until < float("inf"):
+        tell_line(f"lagcli: error: --until: the end must be a time after 0, not {until:g}")
+        good = False
+    if not 0 < accuracy < 1:
+        tell_line(f"lagcli: error: --accuracy: it lies between 0 and 1, not {accuracy:g}")
+        good = False
+    method = run.method if wish.method == "auto" and run.method else wish.method
+    good = _known("--method", method, METHODS) and good
+    shown = list(wish.show)
+    columns = attempt(lambda: read_columns(problem, shown) if shown else usual_columns(problem), [])
+    text = wish.stop_when
+    stop = None if text is None else attempt(lambda: read_along(problem, text, "--stop-when"), None)
+    if not good or until is None:
+        return None
+    return Asked(
+        until=until,
+        accuracy=accuracy,
+        samples=wish.samples,
+        columns=tuple(Column(name, expression) for name, expression in columns),
+        project=wish.project,
+        stop_when=stop,
+        stop_name=wish.stop_when or "",
+        method=method,
+        digits=wish.precision,
+    )
+
+
+def _known(option: str, name: str, names: tuple[str, ...]) -> bool:
+    if name in names:
+        return True
+    advice = did_you_mean(name, names) or f"there are {', '.join(names)}"
+    tell_line(f"lagcli: error: {option}: unknown name '{name}': {advice}")
+    return False
+
+
+def _has_place(output: Path | None) -> bool:
+    """Whether there is a place for the result; asked before any work is done."""
+    if output is None:
+        return True
+    if output.is_dir():
+        tell_line(f"{output}: error: is a directory")
+        return False
+    if not output.resolve().parent.is_dir():
+        tell_line(f"{output}: error: there is no directory '{output.parent}'")
+        return False
+    return True
+
+
+@contextmanager
+def _progress() -> Iterator[Callable[[float], None] | None]:
+    """A bar on standard error, made when a run turns out to be long."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    bar = _Bar()
+    try:
+        yield bar
+    finally:
+        bar.close()
+
+
+class _Bar:
+    """Appears after a second; rich is imported only then."""
+
+    _PATIENCE = 1.0
+
+    def __init__(self) -> None:
+        from time import monotonic
+
+        self._now = monotonic
+        self._started = monotonic()
+        self._shown: object = None
+
+    def __call__(self, part: float) -> None:
+        if self._shown is None:
+            if self._now() - self._started < self._PATIENCE:
+                return
+            from rich.console import Console
+            from rich.progress import Progress
+
+            self._shown = Progress(console=Console(stderr=True), transient=True)
+            self._shown.start()
+            self._task = self._shown.add_task("integrating", total=1.0)
+        self._shown.update(self._task, completed=part)  # type: ignore[attr-defined]
+
+    def close(self) -> None:
+        """Take the bar away."""
+        if self._shown is not None:
+            self._shown.stop()  # type: ignore[attr-defined]

@@ -1,0 +1,71 @@
+"""What is asked of a run, and what comes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from lagcli.expression import Expression
+from lagcli.numerics.columns import Column
+from lagcli.numerics.events import Event
+from lagcli.record import field, record
+
+
+@record(kw_only=True)
+class Asked:
+    """A run as the user wants it.
+
+    Attributes
+    ----------
+    until, accuracy, samples
+        The span of time, the bound on the global error of every column, the rows.
+    columns : tuple of Column
+        What is shown; the first is the time.
+    project : bool
+        Take the nearest consistent initial state for one off the constraints.
+    stop_when : Expression or None
+        The run stops where it changes its sign.
+    method : str
+        `auto`, or one by its name.
+    digits : int or None
+        How many may be carried where doubles do not suffice; None leaves it at doubles,
+        and at what lies within their rounding.
+    """
+
+    until: float
+    accuracy: float
+    samples: int
+    columns: tuple[Column, ...]
+    project: bool = False
+    stop_when: Expression | None = None
+    stop_name: str = ""
+    method: str = "auto"
+    digits: int | None = None
+
+
+@record(kw_only=True)
+class Certificate:
+    """How well the numbers are known, and how that is known."""
+
+    accuracy: float
+    reached: bool
+    holds_until: float
+    global_error: Mapping[str, float]
+    estimated_by: str
+    charges: Mapping[str, float]  # the largest change of each
+    constraints: Mapping[str, tuple[float | None, float]]  # residual, of the rates
+
+
+@record(kw_only=True)
+class Result:
+    """The table, its certificate, and how it was made."""
+
+    columns: tuple[str, ...]
+    rows: tuple[tuple[float | None, ...], ...]
+    certificate: Certificate
+    method: str
+    reason: str
+    steps: int
+    evaluations: int
+    events: tuple[Event, ...] = ()
+    warnings: tuple[str, ...] = field(default=())
+    refusal: str = ""  # why not all is there; empty when it is

@@ -1,0 +1,173 @@
+"""M a = F + A^T lambda with A a + c = 0 where the rank is in question: the null-space way.
+
+The rows are scaled and eliminated with full pivoting; those whose largest entry falls
+below 1e-10 are combinations of the others.  With A a_p = -c and A Z = 0,
+
+    (Z^T M Z) w = Z^T (F - M a_p),    a = a_p + Z w,
+
+which needs M on the motions that the constraints allow and nowhere else.
+
+References
+----------
+Golub, Van Loan, *Matrix Computations*, 4th ed., sections 3.4 and 6.2.
+The tolerance: a four-bar linkage passes its singular position at 1e-10, not at 1e-13.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from lagcli.numerics.straight_line import PIVOT_TOLERANCE
+from lagcli.record import record
+
+Vector = list[float]
+Matrix = Sequence[Sequence[float]]
+
+#: A pivot of Z^T M Z smaller than this part of the largest is no mass.
+_NO_MASS = 1e-13
+
+
+class NoMass(ArithmeticError):
+    """The mass matrix is singular on the motions that the constraints allow."""
+
+
+@record
+class Held:
+    """A solution, with the rank of A and which multipliers it determines."""
+
+    accelerations: Vector
+    multipliers: Vector
+    rank: int
+    determined: tuple[bool, ...]
+
+
+def held_motion(mass: Matrix, forcing: Vector, rows: Matrix, bias: Vector) -> Held:
+    """The accelerations and the multipliers; those not determined are 0.
+
+    Raises
+    ------
+    NoMass
+        When the accelerations are not determined.
+    """
+    n = len(forcing)
+    scales = [1 / math.sqrt(abs(mass[j][j])) if mass[j][j] else 1.0 for j in range(n)]
+    lengths = [math.hypot(*(x * s for x, s in zip(row, scales, strict=True))) for row in rows]
+    work = [
+        [*(x * s / (length or 1.0) for x, s in zip(row, scales, strict=True)), -c / (length or 1.0)]
+        for row, length, c in zip(rows, lengths, bias, strict=True)
+    ]
+    pivots = _reduced(work, n)
+    free = [j for j in range(n) if j not in {column for _, column in pivots}]
+    particular = [0.0] * n
+    for i, column in pivots:
+        particular[column] = work[i][n]
+    null: list[Vector] = []
+    for j in free:
+        direction = [0.0] * n
+        direction[j] = 1.0
+        for i, column in pivots:
+            direction[column] = -work[i][j]
+        null.append(direction)
+    scaled = [[mass[i][j] * scales[i] * scales[j] for j in range(n)] for i in range(n)]
+    force = [f * s for f, s in zip(forcing, scales, strict=True)]
+    rest = [f - _dot(row, particular) for f, row in zip(force, scaled, strict=True)]
+    moved = [[_dot(row, z) for row in scaled] for z in null]
+    weights = solved([[_dot(z, m) for m in moved] for z in null], [_dot(z, rest) for z in null])
+    a = [
+        p + sum(w * z[j] for w, z in zip(weights, null, strict=True))
+        for j, p in enumerate(particular)
+    ]
+    # A^T lambda = M a - F, by the independent rows
+    pull = [_dot(row, a) - f for row, f in zip(scaled, force, strict=True)]
+    used = [i for i, _ in pivots]
+    unit = [
+        [x * s / (lengths[i] or 1.0) for x, s in zip(rows[i], scales, strict=True)] for i in used
+    ]
+    held = solved([[_dot(u, v) for v in unit] for u in unit], [_dot(u, pull) for u in unit])
+    multipliers = [0.0] * len(rows)
+    for i, value in zip(used, held, strict=True):
+        multipliers[i] = value / lengths[i]
+    return Held(
+        [x * s for x, s in zip(a, scales, strict=True)],
+        multipliers,
+        len(pivots),
+        _determined(rows, scales, lengths, used),
+    )
+
+
+def _reduced(work: list[Vector], n: int) -> list[tuple[int, int]]:
+    """Gauss-Jordan with full pivoting, in place; (row, column) of each pivot."""
+    pivots: list[tuple[int, int]] = []
+    rows = set(range(len(work)))
+    columns = set(range(n))
+    while rows and columns:
+        size, i, j = max((abs(work[i][j]), -i, -j) for i in rows for j in columns)
+        i, j = -i, -j
+        if not size > PIVOT_TOLERANCE:
+            break
+        pivots.append((i, j))
+        rows.discard(i)
+        columns.discard(j)
+        top = [x / work[i][j] for x in work[i]]
+        work[i] = top
+        for k, row in enumerate(work):
+            if k != i and row[j]:
+                factor = row[j]
+                work[k] = [x - factor * y for x, y in zip(row, top, strict=True)]
+    return pivots
+
+
+def _determined(rows: Matrix, scales: Vector, lengths: Vector, used: list[int]) -> tuple[bool, ...]:
+    """Whether a row is no combination of the others: then its multiplier is determined."""
+    if len(used) == len(rows):
+        return (True,) * len(rows)
+    determined = [i in used for i in range(len(rows))]
+    unit = [
+        [x * s / (length or 1.0) for x, s in zip(row, scales, strict=True)]
+        for row, length in zip(rows, lengths, strict=True)
+    ]
+    gram = [[_dot(unit[i], unit[k]) for k in used] for i in used]
+    for i in range(len(rows)):
+        if i not in used:
+            weights = solved(gram, [_dot(unit[k], unit[i]) for k in used])
+            for k, weight in zip(used, weights, strict=True):
+                if abs(weight) > math.sqrt(PIVOT_TOLERANCE):
+                    determined[k] = False
+    return tuple(determined)
+
+
+def solved(matrix: Matrix, right: Vector) -> Vector:
+    """x of matrix x = right, with full pivoting.
+
+    Raises
+    ------
+    NoMass
+        When the matrix is singular.
+    """
+    n = len(right)
+    work = [[*row, value] for row, value in zip(matrix, right, strict=True)]
+    largest = max((abs(x) for row in matrix for x in row), default=0.0)
+    rows, columns = set(range(n)), set(range(n))
+    x = [0.0] * n
+    order: list[tuple[int, int]] = []
+    while rows:
+        size, i, j = max((abs(work[i][j]), -i, -j) for i in rows for j in columns)
+        i, j = -i, -j
+        if not size > _NO_MASS * largest:
+            raise NoMass("the mass matrix is singular")
+        order.append((i, j))
+        rows.discard(i)
+        columns.discard(j)
+        for k in rows:
+            if work[k][j]:
+                factor = work[k][j] / work[i][j]
+                work[k] = [a - factor * b for a, b in zip(work[k], work[i], strict=True)]
+    for i, j in reversed(order):
+        done = sum(work[i][k] * x[k] for k in range(n) if k != j)
+        x[j] = (work[i][n] - done) / work[i][j]
+    return x
+
+
+def _dot(left: Sequence[float], right: Sequence[float]) -> float:
+    return sum(a * b for a, b in zip(left, right, strict=True))

@@ -1,0 +1,174 @@
+"""The equations of motion as nodes: what is integrated, held and shown.
+
+Made of the matrix form, which needs no algebra; what it cannot say without the algebra is
+a refusal.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cached_property
+
+from lagcli.expression import Expression
+from lagcli.graph.derivative import partial
+from lagcli.graph.nodes import Node, Symbol
+from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
+from lagcli.numerics.elimination import Eliminated, Factored
+from lagcli.numerics.refusal import Refusal
+from lagcli.problem import Problem
+
+_HALF = Fraction(1, 2)
+
+#: Elimination writes some n^3/6 operations out; beyond this a loop does it.
+_WRITTEN_OUT = 24
+
+
+class Equations:
+    """M, forcing, A and what is eliminated from them.
+
+    Attributes
+    ----------
+    t, q, qdot : Symbol and tuples of Symbol
+        In the order of the file; also the arguments of every function made of them.
+    holonomic : tuple of int
+        The constraints that have a position f(q, t).
+
+    Raises
+    ------
+    Refusal
+        Where the problem needs the algebra, or is not defined anywhere.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        try:
+            self.form = form = MatrixForm(problem, combine_angles=False)
+            self.mass, self.forcing = form.mass_matrix, form.forcing
+            self.constraints = form.constraints
+        except NotStructural as reason:
+            raise Refusal(f"no numbers for this problem: {reason}") from None
+        except ArithmeticError as error:
+            raise Refusal(f"the equations are not defined: {error}") from None
+        self.graph = form.graph
+        self.t, self.q, self.qdot = form.t, form.q, form.qdot
+        self.state: tuple[Symbol, ...] = (self.t, *self.q, *self.qdot)
+        self.rows = tuple(row.row for row in self.constraints)
+        self.bias = tuple(row.bias for row in self.constraints)
+        self.holonomic = tuple(
+            k for k, row in enumerate(self.constraints) if row.position is not None
+        )
+
+    @cached_property
+    def positions(self) -> list[Node]:
+        """f(q, t) of the holonomic constraints."""
+        return [row.position for row in self.constraints if row.position is not None]
+
+    @cached_property
+    def rates(self) -> list[Node]:
+        """A q' + b of all constraints."""
+        graph = self.graph
+        return [
+            graph.sum(
+                [row.drift, *(graph.product(a, v) for a, v in zip(row.row, self.qdot, strict=True))]
+            )
+            for row in self.constraints
+        ]
+
+    @cached_property
+    def sizes(self) -> list[Node]:
+        """Sum over j of |a_kj q_j| and of |a_kj q_j'|, what residuals are compared with."""
+        graph = self.graph
+        return [
+            graph.sum(
+                graph.call("abs", (graph.product(a, x),))
+                for a, x in zip(row, variables, strict=True)
+            )
+            for variables, rows in (
+                (self.q, [self.rows[k] for k in self.holonomic]),
+                (self.qdot, self.rows),
+            )
+            for row in rows
+        ]
+
+    # -- elimination -------------------------------------------------------------------------
+
+    @cached_property
+    def eliminated(self) -> Eliminated | None:
+        """With all constraints; None where it is left to numbers."""
+        return self._eliminated(self.rows)
+
+    @cached_property
+    def eliminated_positions(self) -> Eliminated | None:
+        """With the holonomic constraints."""
+        if len(self.holonomic) == len(self.rows):
+            return self.eliminated
+        return self._eliminated([self.rows[k] for k in self.holonomic])
+
+    def _eliminated(self, rows: object) -> Eliminated | None:
+        if len(self.q) > _WRITTEN_OUT or self._factored is None:
+            return None
+        try:
+            return Eliminated(self.graph, self._factored, rows)  # type: ignore[arg-type]
+        except ZeroDivisionError:
+            return None
+
+    @cached_property
+    def _factored(self) -> Factored | None:
+        try:
+            return Factored(self.graph, self.mass)
+        except ZeroDivisionError:
+            return None
+
+    # -- what is conserved -----------------------------------------------------------------------
+
+    @cached_property
+    def lagrangian(self) -> Node:
+        """L in q, q' and t."""
+        problem, graph, read = self.problem, self.graph, self.form.read
+        if problem.lagrangian is not None:
+            return read(problem.lagrangian)
+        if problem.kinetic is not None:
+            kinetic = read(problem.kinetic)
+        else:
+            kinetic = graph.combination(
+                (graph.product(read(point.mass), speed, speed), _HALF)
+                for point in problem.points
+                if point.mass is not None
+                for speed in map(read.total_derivative, map(read, point.position))
+            )
+        return graph.difference(kinetic, self._optional(problem.potential))
+
+    def _optional(self, formula: Expression | None) -> Node:
+        return self.graph.zero if formula is None else self.form.read(formula)
+
+    @cached_property
+    def momenta(self) -> list[Node]:
+        """p = dL/dq'."""
+        return [partial(self.graph, v)(self.lagrangian) for v in self.qdot]
+
+    @cached_property
+    def energy(self) -> Node:
+        """h = q' p - L, the Jacobi function."""
+        graph = self.graph
+        work = [graph.product(v, p) for v, p in zip(self.qdot, self.momenta, strict=True)]
+        return graph.sum([*work, graph.scaled(self.lagrangian, -1)])
+
+    @cached_property
+    def charges(self) -> dict[str, Node]:
+        """The energy and the momenta of ignorable coordinates, where they are conserved.
+
+        Only what is seen in the structure: L, the forces and the constraints do not name t,
+        or q_j.
+        """
+        graph = self.graph
+        zero = graph.zero
+        found: dict[str, Node] = {}
+        forces = self.form.applied_forces
+        steady = not self.lagrangian.mask & self.t.mask and all(f is zero for f in forces)
+        if steady and all(row.drift is zero for row in self.constraints):
+            found["energy"] = self.energy
+        for j, q in enumerate(self.q):
+            ignorable = not self.lagrangian.mask & q.mask and forces[j] is zero
+            if ignorable and all(row[j] is zero for row in self.rows):
+                found[f"p_{q.name}"] = self.momenta[j]
+        return found

@@ -1,0 +1,179 @@
+"""The equations of motion as functions of numbers.
+
+Where a pivot of the written-out elimination vanishes, the null-space way of `dependent`
+answers instead, at that very state and no other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
+from typing import Any
+
+from lagcli.graph.nodes import Node, Symbol
+from lagcli.numerics.arithmetic import Arithmetic, UndefinedFunction
+from lagcli.numerics.dependent import Held, held_motion
+from lagcli.numerics.equations import Equations
+from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.straight_line import Guard, straight_line
+
+Function = Callable[..., tuple[Any, ...]]
+
+
+class Motion:
+    """Every function takes t, then the coordinates, then the velocities.
+
+    Parameters
+    ----------
+    equations
+        As nodes.
+    constants
+        The value of every parameter.
+    arithmetic
+        `Doubles()` or `Balls()`.
+
+    Raises
+    ------
+    Refusal
+        When a part that depends on parameters only is not defined.
+    """
+
+    def __init__(
+        self, equations: Equations, constants: Mapping[Symbol, Any], arithmetic: Arithmetic
+    ) -> None:
+        self.equations = equations
+        self.arithmetic = arithmetic
+        self.constants = constants
+        self.n, self.m = len(equations.q), len(equations.rows)
+        self.evaluations = 0
+
+    def function(
+        self,
+        roots: Sequence[Node],
+        extra: Sequence[Symbol] = (),
+        guards: Sequence[Guard] = (),
+        otherwise: Callable[..., Any] | None = None,
+    ) -> Function:
+        """The values of any nodes; `extra` are arguments after the state."""
+        try:
+            return straight_line(
+                (*self.equations.state, *extra),
+                roots,
+                self.constants,
+                self.arithmetic,
+                guards=guards,
+                otherwise=otherwise,
+            )
+        except UndefinedFunction as error:
+            message = f"the function '{error}' is left unspecified: it has no numbers"
+            raise Refusal(message) from None
+        except (ArithmeticError, ValueError) as error:
+            message = f"with these values the equations are not defined: {error}"
+            raise Refusal(message) from None
+
+    # -- the equations -----------------------------------------------------------------------
+
+    @cached_property
+    def accelerations(self) -> Function:
+        """q'' as a tuple of n."""
+        eliminated = self.equations.eliminated
+        if eliminated is None:
+            self._need_order()
+            return lambda *state: tuple(self.held(*state).accelerations)
+        roots, _ = eliminated.motion(self.equations.forcing, self.equations.bias)
+        return self.function(
+            roots,
+            guards=eliminated.guards,
+            otherwise=lambda *state: tuple(self.held(*state).accelerations),
+        )
+
+    @cached_property
+    def accelerations_and_multipliers(self) -> Function:
+        """q'' and then the multipliers; None for one that is not determined."""
+        eliminated = self.equations.eliminated
+        if eliminated is None:
+            self._need_order()
+            return self._held_whole
+        accelerations, multipliers = eliminated.motion(self.equations.forcing, self.equations.bias)
+        return self.function(
+            [*accelerations, *multipliers],
+            guards=eliminated.guards,
+            otherwise=self._held_whole,
+        )
+
+    def _held_whole(self, *state: float) -> tuple[Any, ...]:
+        held = self.held(*state)
+        multipliers = (
+            value if known else None
+            for value, known in zip(held.multipliers, held.determined, strict=True)
+        )
+        return (*held.accelerations, *multipliers)
+
+    def held(self, *state: float) -> Held:
+        """The null-space way."""
+        n, m = self.n, self.m
+        values = self._matrices(*state)
+        mass = [values[i * n : (i + 1) * n] for i in range(n)]
+        forcing = list(values[n * n : n * n + n])
+        rest = values[n * n + n :]
+        rows = [rest[k * n : (k + 1) * n] for k in range(m)]
+        return held_motion(mass, forcing, rows, list(rest[m * n :]))
+
+    @cached_property
+    def _matrices(self) -> Function:
+        e = self.equations
+        return self.function(
+            [
+                *(entry for row in e.mass for entry in row),
+                *e.forcing,
+                *(entry for row in e.rows for entry in row),
+                *e.bias,
+            ]
+        )
+
+    def _need_order(self) -> None:
+        if not self.arithmetic.ordered:
+            raise Refusal(
+                "the mass matrix or the constraints are singular in their structure: "
+                "only double precision solves them",
+                mistake=False,
+            )
+
+    # -- the constraint surface ----------------------------------------------------------------
+
+    @cached_property
+    def position_correction(self) -> Function:
+        """(d, f): q - d is nearer to f(q, t) = 0, by the shortest way in the metric M."""
+        e = self.equations
+        return self._correction(e.eliminated_positions, e.positions, e.holonomic)
+
+    @cached_property
+    def velocity_correction(self) -> Function:
+        """(d, r): q' - d satisfies A q' + b = 0, whose left side is r."""
+        e = self.equations
+        return self._correction(e.eliminated, e.rates, tuple(range(self.m)))
+
+    def _correction(
+        self, eliminated: Any, residuals: Sequence[Node], which: Sequence[int]
+    ) -> Function:
+        plain = self.function(residuals)
+
+        def robust(*state: float) -> tuple[Any, ...]:
+            n, m = self.n, self.m
+            values, found = self._matrices(*state), plain(*state)
+            mass = [values[i * n : (i + 1) * n] for i in range(n)]
+            rest = values[n * n + n : n * n + n + m * n]
+            rows = [rest[k * n : (k + 1) * n] for k in which]
+            held = held_motion(mass, [0.0] * n, rows, [-value for value in found])
+            return (*held.accelerations, *found)
+
+        if eliminated is None:
+            self._need_order()
+            return robust
+        roots = [*eliminated.correction(residuals), *residuals]
+        return self.function(roots, guards=eliminated.guards, otherwise=robust)
+
+    @cached_property
+    def sizes(self) -> Function:
+        """What the residuals of positions and rates are compared with."""
+        return self.function(self.equations.sizes)

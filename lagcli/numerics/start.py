@@ -1,0 +1,253 @@
+"""The state at t = 0: what the file gives, what the constraints add, else 0.
+
+The positions come first, from f(q, 0) = 0, then the velocities, from A q' + b = 0, as in
+`lagcli.mechanics.initial`, here in numbers.  A state off the constraints is refused, with
+the nearest one that is on them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import factorial
+from typing import Any
+
+from lagcli.diagnostics import NOWHERE, Diagnostic, Span
+from lagcli.expression import Name
+from lagcli.graph.derivative import partial
+from lagcli.graph.nodes import Node, Symbol
+from lagcli.numerics.motion import Motion
+from lagcli.numerics.polynomial import real_roots
+from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.straight_line import straight_line
+from lagcli.numerics.surface import Surface
+from lagcli.problem import Coordinate
+
+#: A given state may miss the constraints by so much, relative to their terms.
+_ON_SURFACE = 1e-12
+_HIGHEST_DEGREE = 6
+_ROUNDS = 30
+
+
+def given_values(motion: Motion) -> dict[Symbol, Any]:
+    """What the file gives."""
+    equations = motion.equations
+    graph, read = equations.graph, equations.form.read
+    initial = equations.problem.initial
+    nodes = [read(value) for value in initial.values()]
+    try:
+        values = straight_line((), nodes, motion.constants, motion.arithmetic)()
+        finite = all(abs(value) < float("inf") for value in values)
+    except (ArithmeticError, ValueError):
+        finite = False
+    if not finite:
+        raise Refusal("the initial state is not a real number")
+    names = [graph.symbol(name.name, name.primes) for name in initial]
+    return dict(zip(names, values, strict=True))
+
+
+def initial_state(motion: Motion, *, project: bool = False) -> tuple[list[float], list[float]]:
+    """q and q' at t = 0 in doubles.
+
+    Parameters
+    ----------
+    motion
+        In doubles.
+    project
+        Take the nearest state on the constraints for one that is off.
+
+    Raises
+    ------
+    Refusal
+        When the state is off the constraints, or they leave several.
+    """
+    return _Completion(motion).state(project=project)
+
+
+def refined_state(
+    motion: Motion, surface: Surface | None, q: Sequence[float], v: Sequence[float]
+) -> tuple[list[Any], list[Any]]:
+    """The same state in the numbers of another motion: what is given anew, then projected."""
+    equations, number = motion.equations, motion.arithmetic.number
+    given = given_values(motion)
+    from fractions import Fraction
+
+    exact = [
+        given.get(symbol, number(Fraction(value)))
+        for symbol, value in zip((*equations.q, *equations.qdot), (*q, *v), strict=True)
+    ]
+    q, v = exact[: motion.n], exact[motion.n :]
+    if surface is None:
+        return q, v
+    surface.measure(0.0, q, v)
+    for _ in range(3):
+        q, v = surface.project(0.0, q, v)
+    return q, v
+
+
+class _Completion:
+    """Fills in what the file leaves out, one equation after the other."""
+
+    def __init__(self, motion: Motion) -> None:
+        self.motion = motion
+        self.equations = motion.equations
+        self.values: dict[Symbol, float] = given_values(motion)
+
+    def state(self, *, project: bool) -> tuple[list[float], list[float]]:
+        e = self.equations
+        self._check_signs()
+        self._complete(e.q, list(zip(e.holonomic, e.positions, strict=True)))
+        self._complete(e.qdot, list(enumerate(e.rates)))
+        q, v = [self.values[s] for s in e.q], [self.values[s] for s in e.qdot]
+        if not e.rows:
+            return q, v
+        surface = Surface(self.motion)
+        try:
+            surface.measure(0.0, q, v)
+            surface.note(0.0, q, v)
+            off = [k for k, r in enumerate(surface.residuals) if not r <= _ON_SURFACE]
+        except (ArithmeticError, ValueError) as error:
+            raise Refusal(
+                f"the constraints are not defined at the initial state: {error}"
+            ) from None
+        nearest = self._nearest(q, v)
+        if off and not project:
+            raise self._off(off[0], nearest)
+        if nearest is None:
+            raise self._off(off[0] if off else 0, None)
+        return nearest
+
+    def _complete(self, unknowns: Sequence[Symbol], equations: list[tuple[int, Node]]) -> None:
+        """Solve for what is left out; the first undetermined one becomes 0."""
+        left_out = [s for s in unknowns if s not in self.values]
+        while True:
+            self._propagate(left_out, equations)
+            still = [s for s in left_out if s not in self.values]
+            if not still:
+                return
+            self.values[still[0]] = 0.0
+
+    def _propagate(self, left_out: Sequence[Symbol], equations: list[tuple[int, Node]]) -> None:
+        """Use each equation that has one unknown left, until nothing new follows."""
+        progress = True
+        while progress:
+            progress = False
+            for which, node in equations:
+                unknown = [s for s in left_out if s not in self.values and s.mask & node.mask]
+                if len(unknown) == 1:
+                    value = self._solve(node, unknown[0], which)
+                    if value is not None:
+                        self.values[unknown[0]] = value
+                        progress = True
+
+    def _solve(self, node: Node, unknown: Symbol, which: int) -> float | None:
+        """The value that the equation determines; None where it leaves the value open."""
+        derivative = partial(self.equations.graph, unknown)
+        orders = [node]
+        while orders[-1].mask & unknown.mask and len(orders) <= _HIGHEST_DEGREE:
+            orders.append(derivative(orders[-1]))
+        polynomial = not orders[-1].mask & unknown.mask
+        at_zero = self._values_at(orders if polynomial else [node], unknown, which)
+        if not polynomial:
+            if abs(at_zero[0]) <= 1e-14:
+                return 0.0
+            raise self._open(unknown, which, "does not follow in closed form")
+        coefficients = [value / factorial(k) for k, value in enumerate(at_zero)]
+        if not any(coefficients[1:]):
+            return None
+        roots = [x for x in real_roots(coefficients) if _allowed(self._coordinate(unknown), x)]
+        if len(roots) > 1:
+            raise self._open(unknown, which, f"could be any of {', '.join(map(repr, roots))}")
+        return roots[0] if roots else None
+
+    def _values_at(self, nodes: Sequence[Node], unknown: Symbol, which: int) -> tuple[float, ...]:
+        """The nodes where the unknown is 0."""
+        known = {self.equations.t: 0.0, **self.values, unknown: 0.0}
+        arguments = list(known)
+        function = straight_line(arguments, nodes, self.motion.constants, self.motion.arithmetic)
+        try:
+            return function(*known.values())
+        except (ArithmeticError, ValueError):
+            raise self._open(unknown, which, "does not follow in closed form") from None
+
+    # -- mistakes ------------------------------------------------------------------------------
+
+    def _coordinate(self, symbol: Symbol) -> Coordinate | None:
+        if symbol.primes:
+            return None
+        return next(c for c in self.equations.problem.coordinates if c.name == symbol.name)
+
+    def _check_signs(self) -> None:
+        wrong = [
+            (symbol, coordinate)
+            for symbol, value in self.values.items()
+            if (coordinate := self._coordinate(symbol)) is not None
+            and not _allowed(coordinate, value)
+        ]
+        if wrong:
+            raise Refusal(
+                tuple(
+                    Diagnostic(
+                        f"'{s.name}' is {c.assume}, and its initial value is not", self._span(s)
+                    )
+                    for s, c in wrong
+                )
+            )
+
+    def _span(self, symbol: Symbol) -> Span:
+        value = self.equations.problem.initial.get(Name(symbol.name, symbol.primes))
+        return NOWHERE if value is None else value.span
+
+    def _open(self, unknown: Symbol, which: int, why: str) -> Refusal:
+        name = unknown.name + "'" * unknown.primes
+        constraint = self.equations.problem.constraints[which]
+        return Refusal(
+            (
+                Diagnostic(
+                    f"the initial value of '{name}' {why}",
+                    constraint.equation.span,
+                    f"give {name} in `initial`",
+                ),
+            )
+        )
+
+    def _off(self, residual: int, nearest: tuple[list[float], list[float]] | None) -> Refusal:
+        e = self.equations
+        count = len(e.holonomic)
+        which = e.holonomic[residual] if residual < count else residual - count
+        constraint = e.problem.constraints[which]
+        what = "satisfy" if residual < count else "move along"
+        if nearest is None:
+            hint = "no state near it does: do the constraints contradict each other?"
+        else:
+            state = zip((*e.q, *e.qdot), (*nearest[0], *nearest[1]), strict=True)
+            told = ", ".join(f"{s.name}{chr(39) * s.primes}: {value!r}" for s, value in state)
+            hint = f"--project takes the nearest state that does: {{{told}}}"
+        message = f"the initial state does not {what} the constraint '{constraint.name}'"
+        return Refusal((Diagnostic(message, constraint.equation.span, hint),))
+
+    def _nearest(self, q: list[float], v: list[float]) -> tuple[list[float], list[float]] | None:
+        """The state on the constraints, by Newton steps in the metric M."""
+        surface = Surface(self.motion)
+        try:
+            for _ in range(_ROUNDS):
+                surface.measure(0.0, q, v)
+                q, v = surface.project(0.0, q, v)
+            surface.residuals = [0.0] * len(surface.residuals)
+            surface.note(0.0, q, v)
+        except (ArithmeticError, ValueError):
+            return None
+        return (q, v) if max(surface.residuals) <= _ON_SURFACE else None
+
+
+def _allowed(coordinate: Coordinate | None, value: float) -> bool:
+    match coordinate.assume if coordinate is not None else "real":
+        case "positive":
+            return value > 0
+        case "nonnegative":
+            return value >= 0
+        case "negative":
+            return value < 0
+        case "nonzero":
+            return value != 0
+        case _:
+            return True

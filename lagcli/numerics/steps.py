@@ -1,0 +1,107 @@
+"""What every method gives: steps whose inside can be looked into, under one tolerance."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, NamedTuple, Protocol
+
+#: q, q' and the slope of q' at a time within the step
+Inside = Callable[[float], tuple[list[Any], list[Any], list[Any]]]
+
+#: A component that is nothing but rounding beside the others is left alone.
+_NOISE = 1e-10
+_HOPELESS = 1e-7
+
+
+class Step(NamedTuple):
+    """From `start` over h to `end`; q and v are the state at the end."""
+
+    start: float
+    h: float
+    end: float
+    q: list[Any]
+    v: list[Any]
+    inside: Inside
+
+
+class CannotGoOn(ArithmeticError):
+    """No step is short enough: the solution ends, or what acts on it does, at t."""
+
+    def __init__(self, t: float, q: Sequence[Any], v: Sequence[Any], reason: str) -> None:
+        super().__init__(reason)
+        self.t, self.q, self.v, self.reason = t, list(q), list(v), reason
+
+
+class Tolerance:
+    """How much a step may err in each component: a part of that component's peak.
+
+    Parameters
+    ----------
+    value
+        The part.
+    n
+        Coordinates; there are 2 n components.
+    span
+        Of time; a coordinate's peak over it is the least scale of its velocity.
+    longest
+        The longest step.
+    peaks
+        Of an earlier run; without them they are those seen so far.
+    """
+
+    def __init__(
+        self,
+        value: float,
+        n: int,
+        span: float,
+        longest: float,
+        peaks: Sequence[float] | None = None,
+    ) -> None:
+        self.value, self.n, self.span, self.longest = value, n, span, longest
+        self.known = peaks is not None
+        self.peaks = list(peaks) if peaks is not None else [0.0] * (2 * n)
+        self._floor = 0.0
+        self.scales = [1.0] * (2 * n)
+        self._rescale()
+
+    def see(self, q: Sequence[float], v: Sequence[float], change: Sequence[float]) -> None:
+        """Note a state and the state after it."""
+        higher = False
+        for j, (x, d) in enumerate(zip((*q, *v), change, strict=True)):
+            size = max(abs(x), abs(x + d))
+            if size > self.peaks[j]:
+                self.peaks[j] = size
+                higher = True
+        if higher:
+            self._rescale()
+
+    def _rescale(self) -> None:
+        """The peaks; a velocity's is at least its coordinate's over the span, and back."""
+        n, peaks = self.n, self.peaks
+        floor = self._floor * max(peaks) or 1e-300
+        for j in range(n):
+            self.scales[j] = max(peaks[j], floor, 1e-3 * self.longest * peaks[n + j])
+            self.scales[n + j] = max(peaks[n + j], floor, peaks[j] / self.span)
+
+    def hopeless(self, h: float, span: float) -> bool:
+        """Whether steps have become so short that rounding in a tiny component may be why."""
+        top = max(self.peaks)
+        tiny = any(0 < peak < _NOISE * top for peak in self.peaks)
+        return not self._floor and tiny and h < _HOPELESS * span
+
+    def raise_floor(self) -> None:
+        """Take components that are tiny beside the others for rounding."""
+        self._floor = 1e-6
+        self._rescale()
+
+
+class Method(Protocol):
+    """An integrator."""
+
+    name: str
+    evaluations: int
+
+    def steps(
+        self, q: list[Any], v: list[Any], until: float, tolerance: Tolerance
+    ) -> Iterator[Step]:
+        """Accepted steps from t = 0."""

@@ -1,0 +1,155 @@
+"""What `simulate --show` and its other options write: expressions of a read problem."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lagcli.decimals import value_of
+from lagcli.diagnostics import Diagnostic, ProblemError, Source
+from lagcli.expression import Diff, Expression, Name, Negative, Product, Sum, walk
+from lagcli.reader.expressions import read_expression
+from lagcli.reader.names import depends_on_time, derivative_order, name_mistakes
+from lagcli.reader.positions import Excerpt
+from lagcli.reader.scope import NUMBERS, QUESTION, Definition, Role, Scope
+from lagcli.reader.text import Mistake
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from lagcli.problem import Constraint, Problem
+
+#: A column's name and its expression; None is the time.
+Shown = tuple[str, Expression | None]
+
+#: Words that stand for several columns.
+GROUPS = (
+    "coordinates", "velocities", "accelerations", "multipliers", "constraint_forces", "momenta",
+)  # fmt: skip
+_ENERGY = "energy"
+
+
+def read_columns(problem: Problem, words: list[str]) -> list[Shown]:
+    """The columns of `--show a,b,c`, the time first.
+
+    Raises
+    ------
+    ProblemError
+        At the first column that is no expression of the problem.
+    """
+    scope = scope_of(problem)
+    shown: dict[str, Expression | None] = {"t": None}
+    for word in (piece for text in words for piece in _split(text)):
+        shown.update(_columns(problem, scope, word))
+    return list(shown.items())
+
+
+def usual_columns(problem: Problem) -> list[Shown]:
+    """t, the coordinates and the velocities."""
+    names = [Name(c.name, primes) for primes in (0, 1) for c in problem.coordinates]
+    return [("t", None), *((str(name), name) for name in names)]
+
+
+def read_along(problem: Problem, text: str, option: str) -> Expression:
+    """An expression along the motion, such as that of `--stop-when`."""
+    return _read(text, option, scope_of(problem), QUESTION)
+
+
+def read_number(text: str, option: str) -> float:
+    """A number, also written as `2*pi`.
+
+    Raises
+    ------
+    ProblemError
+        When it is none.
+    """
+    expression = _read(text, option, Scope(), NUMBERS)
+    try:
+        value = value_of(expression)
+        return float(value) if value is not None else float("nan")
+    except (ArithmeticError, ValueError):
+        message = f"{option} {text}: this is not a real number"
+        raise ProblemError(Source(option, text), (Diagnostic(message),)) from None
+
+
+def scope_of(problem: Problem) -> Scope:
+    """The names of a problem that has been read, and `energy` where it is free."""
+    scope = Scope(arity={name: len(arguments) for name, arguments in problem.functions.items()})
+    scope.kinds.update({c.name: "coordinate" for c in problem.coordinates})
+    scope.kinds.update({p.name: "parameter" for p in problem.parameters})
+    scope.kinds.update(dict.fromkeys(problem.functions, "function"))
+    scope.kinds.update({c.multiplier: "multiplier" for c in problem.constraints})
+    scope.kinds.update(dict.fromkeys(problem.definitions, "definition"))
+    for place, (name, formula) in enumerate(problem.definitions.items()):
+        scope.definitions[name] = Definition(
+            place, derivative_order(formula, scope), depends_on_time(formula, scope)
+        )
+    scope.kinds.setdefault(_ENERGY, "multiplier")
+    return scope
+
+
+def _columns(problem: Problem, scope: Scope, word: str) -> Iterator[Shown]:
+    """What one word of `--show` stands for."""
+    if word in GROUPS and word not in scope.kinds:
+        yield from _group(problem, word)
+        return
+    for constraint in problem.constraints:
+        for name, force in _forces(problem, constraint):
+            if word == name:
+                yield name, force
+                return
+    expression = _read(word, "--show", scope, QUESTION)
+    yield word, None if expression == Name("t") else expression
+
+
+def _group(problem: Problem, word: str) -> Iterator[Shown]:
+    orders = {"coordinates": 0, "velocities": 1, "accelerations": 2}
+    match word:
+        case "multipliers":
+            yield from ((c.multiplier, Name(c.multiplier)) for c in problem.constraints)
+        case "constraint_forces":
+            for constraint in problem.constraints:
+                yield from _forces(problem, constraint)
+        case "momenta":
+            yield from ((f"p_{c.name}", Name(f"p_{c.name}")) for c in problem.coordinates)
+        case _:
+            for coordinate in problem.coordinates:
+                name = Name(coordinate.name, orders[word])
+                yield str(name), name
+
+
+def _forces(problem: Problem, constraint: Constraint) -> Iterator[tuple[str, Expression]]:
+    """`rod.x`: lambda df/dq, or lambda df/dq' of a velocity constraint."""
+    left, right = constraint.equation.left, constraint.equation.right
+    f = Sum((left, Negative(right)))
+    scope = scope_of(problem)
+    primes = max(derivative_order(f, scope), 0)
+    for coordinate in problem.coordinates:
+        slope = Diff(f, Name(coordinate.name, primes))
+        yield f"{constraint.name}.{coordinate.name}", Product((Name(constraint.multiplier), slope))
+
+
+def _split(text: str) -> list[str]:
+    """The pieces between the commas that stand in no parentheses."""
+    pieces, depth = [""], 0
+    for character in text:
+        depth += (character == "(") - (character == ")")
+        if character == "," and depth <= 0:
+            pieces.append("")
+        else:
+            pieces[-1] += character
+    return [piece.strip() for piece in pieces]
+
+
+def _read(text: str, option: str, scope: Scope, role: Role) -> Expression:
+    source = Source(f"{option} {text}", text)
+    try:
+        expression = read_expression(Excerpt.whole(source))
+    except Mistake as error:
+        raise ProblemError(source, (error.diagnostic,)) from None
+    mistakes = tuple(name_mistakes(expression, scope, role, option))
+    if mistakes:
+        raise ProblemError(source, mistakes)
+    shown = {node.name for node in walk(expression) if isinstance(node, Name) and node.primes}
+    if _ENERGY in shown and scope.kinds[_ENERGY] == "multiplier":
+        raise ProblemError(source, (Diagnostic("the energy has no primes", expression.span),))
+    return expression
