@@ -26,18 +26,19 @@ def spare_tensors() -> None:
 class _Tensors(ModuleType):
     """In the place of SymPy's module; gives way to it at the first use of anything else."""
 
-    class TensExpr:
-        """No object is one."""
-
-    class TensAdd:
-        """Made only of terms that are tensors."""
+    def __init__(self, name: str) -> None:
+        super().__init__(name)
+        self.TensExpr = type("TensExpr", (), {})  # no object is one
+        self.TensAdd = type("TensAdd", (), {})  # so none of these is made
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):  # the import system asks for these
             raise AttributeError(name)
         if sys.modules.get(_TENSORS) is self:
             del sys.modules[_TENSORS]
-        return getattr(import_module(_TENSORS), name)
+        real = import_module(_TENSORS)
+        self.__dict__.update(real.__dict__)  # for whoever holds this one
+        return getattr(real, name)
 
 
 def collect_rarely() -> None:
