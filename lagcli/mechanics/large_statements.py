@@ -216,11 +216,13 @@ class LargeStatements:
         )
 
     def _charges(self) -> ChargesSection:
-        return ChargesSection(charges=tuple(map(self._charge, self.charges.charges)))
+        charges = self.charges.charges
+        undecided = [f"'{charge.name}'" for charge in charges if charge.conserved is None]
+        if undecided:
+            self._missing(f"whether conserved: {', '.join(undecided)}")
+        return ChargesSection(charges=tuple(map(self._charge, charges)))
 
     def _charge(self, charge: LargeCharge) -> Charge:
-        if charge.conserved is None:
-            self._missing(f"whether '{charge.name}' is conserved")
         what = f"the charge '{charge.name}'"
         shown = self._written(what, [charge.charge])
         rate = None if charge.rate is None else self._written(f"the rate of {what}", [charge.rate])

@@ -192,6 +192,9 @@ class MatrixForm:
     @cached_property
     def expand_rates(self) -> Substitution:
         """w_a -> r_a' written in q and q'."""
+        # what makes the rates known must have been read
+        formulas = self.lagrangian, self._dissipation
+        assert all(formulas)
         flow = self.drift_of
         return Substitution(self.graph, {w: flow(r) for w, r in self.read.rates.items()})
 
