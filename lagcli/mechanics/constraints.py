@@ -120,9 +120,7 @@ class Constraints:
     def velocity_forms(self) -> tuple[Expr, ...]:
         """A q' + b, which vanish on the motion."""
         return tuple(
-            sympy.Add(
-                *(a * v for a, v in zip(e.row, self.system.qdot, strict=True)), e.drift
-            )
+            sympy.Add(*(a * v for a, v in zip(e.row, self.system.qdot, strict=True)), e.drift)
             for e in self.equations
         )
 

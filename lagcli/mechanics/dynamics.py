@@ -100,9 +100,7 @@ class Dynamics:
     def redundant(self) -> tuple[str, ...]:
         """The constraints that earlier ones imply."""
         kept = set(self.independent_constraints)
-        return tuple(
-            e.name for i, e in enumerate(self.constraints.equations) if i not in kept
-        )
+        return tuple(e.name for i, e in enumerate(self.constraints.equations) if i not in kept)
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -130,9 +128,9 @@ class Dynamics:
             return None
         rows = [self.constraints.equations[k] for k in kept]
         zero = sympy.S.Zero
-        matrix = [
-            [*self.lagrange.mass_matrix[i], *(-e.row[i] for e in rows)] for i in range(n)
-        ] + [[*e.row, *([zero] * m)] for e in rows]
+        matrix = [[*self.lagrange.mass_matrix[i], *(-e.row[i] for e in rows)] for i in range(n)] + [
+            [*e.row, *([zero] * m)] for e in rows
+        ]
         right = [*self.lagrange.forcing, *(-e.bias for e in rows)]
         solution = solve_linear(matrix, right, self.constraints.relations)
         if solution is None or solution.singular:
@@ -145,9 +143,7 @@ class Dynamics:
         if verified is None:
             return None
         undetermined = self._undetermined
-        multipliers = tuple(
-            None if k in undetermined else value for k, value in enumerate(chosen)
-        )
+        multipliers = tuple(None if k in undetermined else value for k, value in enumerate(chosen))
         return Motion(accelerations, multipliers, tuple(chosen), verified)
 
     @cached_property

@@ -122,9 +122,11 @@ class EnergyFunction:
             return "not conserved: " + ", ".join(power.cause for power in self.powers)
         if not self.powers:
             return "conserved: no explicit time in L, no force that does work, no moving constraint"
-        return "conserved: on the motion the powers cancel (" + ", ".join(
-            power.cause for power in self.powers
-        ) + ")"
+        return (
+            "conserved: on the motion the powers cancel ("
+            + ", ".join(power.cause for power in self.powers)
+            + ")"
+        )
 
     @property
     def _why_total(self) -> str:

@@ -34,9 +34,7 @@ _TRIES = 12
 class LevelSet:
     """Relations along the motion from one initial state (constraints only, without one)."""
 
-    def __init__(
-        self, dynamics: Dynamics, noether: Noether, initial: InitialState | None
-    ) -> None:
+    def __init__(self, dynamics: Dynamics, noether: Noether, initial: InitialState | None) -> None:
         self.dynamics = dynamics
         self.noether = noether
         self.system = dynamics.system

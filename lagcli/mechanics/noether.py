@@ -277,4 +277,3 @@ class Noether:
 
 def _dot(a: tuple[Expr, ...], b: tuple[Expr, ...]) -> Expr:
     return sympy.Add(*(x * y for x, y in zip(a, b, strict=True)))
-

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Symbol
+from sympy import Symbol
 
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.constraints import Constraints
@@ -83,9 +83,7 @@ class RandomStates:
         self.constraints = constraints
         self._positions = [e for e in constraints.equations if e.holonomic]
         self._f = Evaluator([e.f for e in self._positions], DIGITS + _GUARD)
-        self._f_rows = Evaluator(
-            [a for e in self._positions for a in e.row], DIGITS + _GUARD
-        )
+        self._f_rows = Evaluator([a for e in self._positions for a in e.row], DIGITS + _GUARD)
         self._a_rows = Evaluator(
             [x for e in constraints.equations for x in (*e.row, e.drift)], DIGITS + _GUARD
         )
@@ -243,5 +241,3 @@ def _has_assumed_sign(symbol: Symbol, value: mpf) -> bool:
 
 def _is_real(value: object) -> bool:
     return isinstance(value, mpf) and bool(mpmath.isfinite(value))
-
-

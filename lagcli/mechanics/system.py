@@ -140,8 +140,8 @@ class System:
     @cached_property
     def V(self) -> Expr | None:
         """The potential energy, which may depend on velocities and t; 0 when absent."""
-        return None if self.problem.lagrangian is not None else self._optional(
-            self.problem.potential
+        return (
+            None if self.problem.lagrangian is not None else self._optional(self.problem.potential)
         )
 
     @cached_property
