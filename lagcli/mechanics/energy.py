@@ -29,9 +29,10 @@ from lagcli.record import record
 
 @record
 class Power:
-    """One contribution to dh/dt and what it is due to."""
+    """One contribution to dh/dt, what it is due to, and what that does in a sentence."""
 
     cause: str
+    deed: str
     value: Expr
 
 
@@ -57,11 +58,15 @@ class EnergyFunction:
         forces = sympy.Add(*(f * v for f, v in zip(system.forces, system.qdot, strict=True)))
         drag = sympy.Add(*(v * system.D.diff(v) for v in system.qdot))
         causes = [
-            Power("L depends explicitly on the time", -system.L.diff(system.t)),
-            Power("the applied forces do work", forces),
-            Power("the dissipation takes energy", -drag),
+            Power("the time in L", "L depends explicitly on the time", -system.L.diff(system.t)),
+            Power("the applied forces", "the applied forces do work", forces),
+            Power("the dissipation", "the dissipation takes energy", -drag),
             *(
-                Power(f"the constraint '{e.name}' moves and does work", -e.multiplier * e.drift)
+                Power(
+                    f"the moving constraint '{e.name}'",
+                    f"the constraint '{e.name}' moves and does work",
+                    -e.multiplier * e.drift,
+                )
                 for e in self.dynamics.constraints.equations
             ),
         ]
@@ -119,7 +124,7 @@ class EnergyFunction:
         if self.conserved is None:
             return "whether it is conserved was not decided"
         if not self.conserved:
-            return "not conserved: " + ", ".join(power.cause for power in self.powers)
+            return "not conserved: " + ", ".join(power.deed for power in self.powers)
         if not self.powers:
             return "conserved: no explicit time in L, no force that does work, no moving constraint"
         return (
