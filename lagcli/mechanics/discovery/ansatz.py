@@ -18,7 +18,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.search import Unknown
 from lagcli.mechanics.discovery.slots import Equations, Slot
-from lagcli.mechanics.discovery.spectrum import Exponent, differences, exponents
+from lagcli.mechanics.discovery.spectrum import Exponent, differences, exponents, sums
 
 _CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 _MOST_FUNCTIONS = 60
@@ -86,7 +86,8 @@ def time_functions(
     own = list(found)
     if not potential:
         # integrating factors solve the adjoint equation, whose exponents are the negatives
-        own += [Exponent(-e.growth, e.frequency) for e in found]
+        own = [Exponent(-e.growth, e.frequency) for e in found]
+        between = [*sums(own), *between]
     powers = [sympy.S.One, t, t**2]
     others = [*powers, *_functions(between, t)]
     translations = [*powers, t**3, *_functions(own, t), *_functions(between, t)]

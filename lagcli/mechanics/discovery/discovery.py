@@ -115,7 +115,8 @@ class Discovery:
         return kinds(self.system.L, self.equations)
 
     @cached_property
-    def _potential(self) -> bool:
+    def canonical(self) -> bool:
+        """Whether no forces act beside those of L."""
         return all(is_zero(f) is True for f in self.system.applied_forces)
 
     @cached_property
@@ -131,7 +132,7 @@ class Discovery:
         times = time_functions(
             self.equations,
             None if motion is None else motion.accelerations,
-            potential=self._potential,
+            potential=self.canonical,
         )
         slots = point_slots(self.equations)
         spaces = affine(self._kinds)
@@ -157,7 +158,7 @@ class Discovery:
         found = []
         for transformation in transformations:
             clock.check()
-            charge = point.charge_of(self.noether, transformation)
+            charge = point.charge_of(self.noether, transformation, clock)
             if charge is None or is_zero(charge.charge) is True:
                 self.stopped.append("a symmetry whose charge was not proved is left out")
                 continue
@@ -177,7 +178,7 @@ class Discovery:
     def _hidden(self) -> None:
         if self.dynamics.constraints.equations:
             return
-        if len(self.system.q) < 2 or not self._quadratic or not self._potential:
+        if len(self.system.q) < 2 or not self._quadratic or not self.canonical:
             return
         if self.system.t in self.equations_symbols:
             return
@@ -210,7 +211,7 @@ class Discovery:
         )
 
     def _sentence(self, times: TimeFunctions, spaces: Sequence[Expr]) -> str:
-        what = "point transformations" if self._potential else "integrating factors"
+        what = "point transformations" if self.canonical else "integrating factors"
         shapes = []
         if any(set(s.free_symbols) & set(self._kinds.lengths) for s in spaces) or (
             not self._kinds.angles

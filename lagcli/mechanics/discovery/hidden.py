@@ -20,7 +20,7 @@ from itertools import combinations_with_replacement
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import is_zero, simplify
+from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.ansatz import Kinds, quadratic, quadratic_unknowns
 from lagcli.mechanics.discovery.limits import Clock
@@ -144,42 +144,60 @@ class QuadraticIntegrals:
 
     def _charge(self, functions: Slots) -> NoetherCharge | None:
         equations = self.equations
-        n = len(equations.q)
-        eta = tuple(simplify(x) for x in combined(functions, n))
-        kinetic = self._kinetic(functions)
+        eta = combined(functions, len(equations.q))
         slot = Slot(("whole",), eta)
         a, b = slot.a(equations), slot.b(equations)
         still = dict.fromkeys(equations.v, sympy.S.Zero)
         force = [
-            simplify((b.diff(v) - equations.convected(x)).xreplace(still))
+            expanded((b.diff(v) - equations.convected(x)).xreplace(still))
             for v, x in zip(equations.v, a, strict=True)
         ]
         scalar = self._potential(force, functions)
         if scalar is None:
             return None
-        transformation = Transformation(eta, sympy.S.Zero)
-        momenta = self.noether.dynamics.lagrange.momenta
-        whole = kinetic + scalar
-        gauge = simplify(sympy.Add(*(p * x for p, x in zip(momenta, eta, strict=True))) - whole)
-        charge = self.noether.charge("", "discovered", transformation, gauge)
-        if charge.conserved is not True or charge.verified != "exact":
+        second, first = self._kinetic(functions)
+        whole = second + first + scalar
+        if not self._is_conserved(whole, eta):
             return None
-        return charge
+        # p = M q' + A: sum p_j eta_j = 2 (second degree) + (first degree) + A . eta
+        shift = sympy.Add(
+            *(
+                p.xreplace(still) * x
+                for p, x in zip(self.noether.dynamics.lagrange.momenta, eta, strict=True)
+            )
+        )
+        return NoetherCharge(
+            "",
+            "discovered",
+            Transformation(eta, sympy.S.Zero),
+            second - scalar + shift,
+            whole,
+            conserved=True,
+            rate=sympy.S.Zero,
+            verified="exact",
+            broken_by="",
+        )
 
-    def _kinetic(self, functions: Slots) -> Expr:
-        """sum f p_i p_j, f p_i^2/2, f p_j with p = M q'."""
+    def _is_conserved(self, charge: Expr, eta: Sequence[Expr]) -> bool:
+        """Whether dQ/dt = sum eta_j (d/dt dL/dq_j' - dL/dq_j) identically: then 0 on the motion."""
+        left = self.noether.dynamics.lagrange.left_sides
+        along = sympy.Add(*(x * e for x, e in zip(eta, left, strict=True)))
+        return is_zero(self.noether.system.total_derivative(charge) - along) is True
+
+    def _kinetic(self, functions: Slots) -> tuple[Expr, Expr]:
+        """sum f p_i p_j and f p_i^2/2, and sum f p_j, with p = M q'."""
         p = [
             sympy.Add(*(m * v for m, v in zip(row, self.equations.v, strict=True)))
             for row in self.equations.mass
         ]
-        terms = []
+        second, first = [], []
         for slot, f in functions:
             if slot.kind[0] == "xi":
-                terms.append(f * p[int(slot.kind[1])])
+                first.append(f * p[int(slot.kind[1])])
                 continue
             i, j = int(slot.kind[1]), int(slot.kind[2])
-            terms.append(f * p[i] ** 2 / 2 if i == j else f * p[i] * p[j])
-        return sympy.Add(*terms)
+            second.append(f * p[i] ** 2 / 2 if i == j else f * p[i] * p[j])
+        return sympy.Add(*second), sympy.Add(*first)
 
     def _potential(self, force: Sequence[Expr], functions: Slots) -> Expr | None:
         """S(q) with the gradient `force`, from functions like those of L and of the tensor."""
@@ -213,4 +231,15 @@ class QuadraticIntegrals:
         }
         made = [a * b for b in terms for a in (*monomials, *sorted(inside, key=str))]
         made += [m for m in monomials if m != 1]
-        return sorted({m for m in made if not free_of(m, q)}, key=sympy.default_sort_key)
+        return sorted({m for m in made if not free_of(m, q)}, key=_length)
+
+
+def _length(expression: Expr) -> tuple[int, str]:
+    """Shorter ones first: they are the ones that are used where several would do."""
+    return sympy.count_ops(expression), str(expression)
+
+
+def expanded(expression: Expr) -> Expr:
+    """One fraction of expanded polynomials: quicker to have than the shortest shape."""
+    field = Field([expression])
+    return field.to_sympy(field(expression))

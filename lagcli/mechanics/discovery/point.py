@@ -12,11 +12,11 @@ from dataclasses import replace
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import is_zero, simplify
+from lagcli.mechanics.discovery.boundary import gauge_of
+from lagcli.mechanics.discovery.limits import Clock
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.search import Search, Solution
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
-from lagcli.mechanics.total_derivative import boundary_term
 
 
 def transformation_of(
@@ -35,9 +35,11 @@ def transformation_of(
     return Transformation(tuple(changes), time)
 
 
-def charge_of(noether: Noether, transformation: Transformation) -> NoetherCharge | None:
+def charge_of(
+    noether: Noether, transformation: Transformation, clock: Clock
+) -> NoetherCharge | None:
     """The proved charge of a transformation; None where it is not proved."""
-    gauge = _gauge(noether, transformation)
+    gauge = _gauge(noether, transformation, clock)
     if gauge is None:
         return None
     charge = _proved(noether.charge("", "discovered", transformation, gauge))
@@ -47,7 +49,7 @@ def charge_of(noether: Noether, transformation: Transformation) -> NoetherCharge
     return charge
 
 
-def _gauge(noether: Noether, transformation: Transformation) -> Expr | None:
+def _gauge(noether: Noether, transformation: Transformation, clock: Clock) -> Expr | None:
     """G with dG/dt = K + sum F_j eta_j."""
     system = noether.system
     change = noether.change_of_action(transformation) + sympy.Add(
@@ -58,9 +60,7 @@ def _gauge(noether: Noether, transformation: Transformation) -> Expr | None:
             )
         )
     )
-    if is_zero(change) is True:
-        return sympy.S.Zero
-    return boundary_term(simplify(change), system)
+    return gauge_of(change, system, clock)
 
 
 def _proved(charge: NoetherCharge) -> NoetherCharge | None:

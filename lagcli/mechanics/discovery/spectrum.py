@@ -91,6 +91,17 @@ def differences(found: Sequence[Exponent], most: int = 8) -> list[Exponent]:
     return result[:most]
 
 
+def sums(found: Sequence[Exponent], most: int = 6) -> list[Exponent]:
+    """Of two exponents, equal ones too: the time dependence of products of two integrals."""
+    result: list[Exponent] = []
+    for i, one in enumerate(found):
+        for other in found[: i + 1]:
+            growth = simplify(one.growth + other.growth)
+            for frequency in (one.frequency - other.frequency, one.frequency + other.frequency):
+                _keep(result, Exponent(growth, simplify(frequency)))
+    return result[:most]
+
+
 def _keep(found: list[Exponent], new: Exponent) -> None:
     """Add an exponent that is not 0 and that differs from the others, also as a conjugate."""
     if is_zero(new.frequency):

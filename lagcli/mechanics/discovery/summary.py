@@ -62,6 +62,10 @@ def _free(discovery: Discovery) -> Summary:
     triples = _squares(discovery)
     brackets = Brackets([*charges, *triples], discovery.dynamics, discovery.clock)
     everything = list(range(count))
+    if not discovery.canonical:
+        # with other forces than those of L the motion is no canonical flow
+        return Summary(points, None, brackets.independent(everything), 0, None,
+                       ("brackets mean nothing for forces beside L",))  # fmt: skip
     independent = brackets.independent(everything)
     dimension, name, notes = points, None, []
     if count > points and brackets.independent(everything[:points]) == independent:

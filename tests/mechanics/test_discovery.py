@@ -1,0 +1,100 @@
+"""Systems whose symmetry algebras are known, and every discovered charge on a trajectory."""
+
+import time
+from pathlib import Path
+
+import mpmath
+import pytest
+from mpmath import mpf
+
+from lagcli.algebra.numeric import Evaluator
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.discovery.summary import summary
+from lagcli.pipeline import load
+
+from .trajectory import DIGITS, trajectory
+
+LIBRARY = Path(__file__).parents[2] / "problems"
+
+# file -> number of point symmetries, names that are there, algebra, integrable
+KNOWN = {
+    "symmetry/free-particle": (5, "energy p_x boost_x dilation conformal", "sch(1)", True),
+    "discovery/free-particle-plane": (8, "energy p_x p_y L_z boost_x boost_y", "sch(2)", True),
+    "symmetry/free-particle-space": (12, "L_x L_y L_z boost_z conformal", "sch(3)", True),
+    "discovery/three-free-particles": (12, "p_x1 boost_x3 dilation", "sch(3)", True),
+    "discovery/oscillator-five-symmetries": (5, "energy conformal_sin", "sch(1)", True),
+    "particles/isotropic-oscillator": (8, "energy L_z fradkin_xy energy_x", "sch(2)", True),
+    "particles/kepler-runge-lenz": (2, "energy L_z runge_lenz_x runge_lenz_y", "so(3)", True),
+    "canonical/central-force-polar": (2, "energy p_phi runge_lenz_x", "so(3)", True),
+    "discovery/kepler-space": (4, "L_x L_y L_z runge_lenz_x runge_lenz_z", "so(4)", True),
+    "particles/inverse-square-potential": (3, "energy dilation conformal", "sl(2,R)", True),
+    "discovery/calogero-moser": (5, "energy momentum boost dilation conformal", "sl(2,R)", True),
+    "particles/charge-in-uniform-magnetic-field": (8, "energy p_x p_y L_z", "sch(2)", True),
+    "discovery/uniform-magnetic-field-space": (8, "energy p_x p_y p_z L_z boost_z", None, True),
+    "rigid/heavy-symmetric-top": (3, "energy p_phi p_psi", "R^3", True),
+    "driven/caldirola-kanai-oscillator": (5, "conformal_sin", "sch(1)", True),
+    "discovery/bateman-oscillator": (8, "energy", "Heisenberg h(2)", True),
+    "particles/anisotropic-oscillator": (5, "energy energy_x", None, True),
+    "discovery/oscillator-equal-frequencies": (8, "energy L_z fradkin_xy", "sch(2)", True),
+    "particles/oscillator-one-to-two": (5, "energy energy_x charge_1", None, True),
+    "discovery/oscillator-three-to-two": (5, "energy energy_x", None, True),
+    "classics/spherical-pendulum": (2, "energy p_phi", "R^2", True),
+    "classics/spherical-pendulum-cartesian": (2, "energy L_z", None, None),
+    "central/central-potential-cartesian": (4, "energy L_x L_y L_z", "so(3)", True),
+    "canonical/particle-spherical": (4, "energy L_x L_y p_phi", "so(3)", True),
+    "central/two-bodies": (7, "energy momentum_x L_z boost_y", "Galilei", True),
+    "discovery/relativistic-free-particle": (10, "boost_x boost_z L_y", "iso(3,1)", True),
+    "relativity/lorentz-group-plane": (6, "boost_x L_z p_x", "iso(2,1)", True),
+    "discovery/toda-lattice": (3, "energy momentum boost", "Galilei", False),
+    "particles/henon-heiles": (1, "energy", "R", False),
+    "oscillations/damped-oscillator": (5, "translation_x_cos", None, None),
+}
+
+
+def derived(name):
+    return Derivation(load(LIBRARY / f"{name}.yaml"))
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_known_algebras_are_found_in_ten_seconds(name):
+    count, names, algebra, integrable = KNOWN[name]
+    derivation = derived(name)
+    begun = time.process_time()
+    discovery = derivation.discovery
+    found = summary(discovery)
+    assert time.process_time() - begun < 10
+    assert not discovery.stopped
+    assert len(discovery.point_charges) == count
+    assert set(names.split()) <= {charge.name for charge in discovery.charges}
+    assert (algebra or "") in (found.name or "")
+    assert found.integrable is integrable
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_discovered_charges_stay_to_twenty_digits(name):
+    stays(derived(name))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "path", sorted(LIBRARY.rglob("*.yaml")), ids=lambda path: path.relative_to(LIBRARY).as_posix()
+)
+def test_no_library_problem_gets_a_false_charge_or_takes_long(path):
+    derivation = Derivation(load(path))
+    begun = time.process_time()
+    summary(derivation.discovery)
+    assert time.process_time() - begun < 30
+    stays(derivation)
+
+
+def stays(derivation):
+    charges = derivation.discovery.charges
+    if not charges or derivation.dynamics.motion is None:
+        return
+    assert all(c.conserved is True and c.verified == "exact" for c in charges)
+    values = Evaluator([c.charge for c in charges], DIGITS)
+    with mpmath.workdps(DIGITS):
+        first, *later = map(values, trajectory(derivation.dynamics))
+        for each in later:
+            for charge, start, now in zip(charges, first, each, strict=True):
+                assert abs(now - start) < mpf(10) ** -20 * (1 + abs(start)), charge.name
