@@ -11,14 +11,11 @@ import math
 import random
 from collections.abc import Mapping, Sequence
 from operator import mul
-from typing import TYPE_CHECKING
 
 from lagcli.graph.values import Concrete, Floats, Program
+from lagcli.mechanics.rates import ConstraintRow
 from lagcli.problem import Problem, Quantity
 from lagcli.record import record
-
-if TYPE_CHECKING:
-    from lagcli.mechanics.matrix_form import ConstraintRow
 
 _ATTEMPTS = 12
 _NEWTON_STEPS = 60

@@ -34,8 +34,8 @@ from lagcli.graph.substitution import Substitution
 from lagcli.graph.values import Concrete
 from lagcli.mechanics.float_states import FloatStates
 from lagcli.mechanics.gathering import gathered
+from lagcli.mechanics.rates import ConstraintRow, Rate
 from lagcli.problem import Constraint, Problem
-from lagcli.record import record
 
 #: (u, v) -> the terms of the sum that stands before u * v
 Weights = dict[tuple[Node, Node], list[tuple[Node, Fraction]]]
@@ -43,31 +43,6 @@ Weights = dict[tuple[Node, Node], list[tuple[Node, Fraction]]]
 
 class NotStructural(Exception):
     """The problem needs the algebra: what is wrong with it, or what it means, is told there."""
-
-
-@record
-class Rate:
-    """A velocity w in L: that of a point or definition, or q' itself."""
-
-    symbol: Symbol
-    jacobian: dict[int, Node]  # i -> dw/dq_i'
-    bias: Node  # dw/dt with q'' = 0
-
-
-@record
-class ConstraintRow:
-    """f = 0, and a . q' + b = 0, and a . q'' + bias = 0."""
-
-    f: Node
-    holonomic: bool  # written without velocities
-    row: tuple[Node, ...]  # a
-    drift: Node  # b
-    bias: Node
-
-    @property
-    def position(self) -> Node | None:
-        """f where it is a condition on the positions."""
-        return self.f if self.holonomic else None
 
 
 class MatrixForm:
