@@ -23,6 +23,7 @@ $(READY): pyproject.toml
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV) || { \
 		rm -rf $(VENV); echo "no venv: on Debian, apt-get install python3-venv" >&2; exit 1; }
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@$(BIN)/python -m compileall -q lagcli # Python may not be allowed to keep bytecode (PYTHONDONTWRITEBYTECODE)
 	@touch $@
 
 .PHONY: solve
@@ -55,6 +56,7 @@ library: $(READY) ## every problem of the library against its known answers
 
 .PHONY: bench
 bench: $(READY) ## whole-process times as ratios, kept in .bench/
+	@$(BIN)/python -m compileall -q lagcli
 	$(BIN)/python tests/bench/bench.py $(ARGS)
 
 .PHONY: format

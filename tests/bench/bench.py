@@ -98,6 +98,20 @@ def startup_rows(clock: Clock) -> list[Row]:
     ]
 
 
+def completion_row(clock: Clock) -> Row:
+    """What the shell waits for at a tab, against `import typer`."""
+    asked = {"_LAGCLI_COMPLETE": "complete_bash", "COMP_WORDS": "lagcli so", "COMP_CWORD": "1"}
+    command = ["env", *(f"{name}={value}" for name, value in asked.items()), *LAGCLI]
+    return clock.row("completion of 'lagcli so'", command, "import typer", IMPORT_TYPER, 2.0)
+
+
+def check_row() -> Row:
+    """The whole library, start-up included: seconds for each problem."""
+    count = len(list((ROOT / "problems").rglob("*.yaml")))
+    seconds = _seconds([*LAGCLI, "check", "problems/", "--jobs", "2"])
+    return Row("check problems/, for each", seconds / count, "one second", 1.0, 0.25)
+
+
 def solve_rows(clock: Clock) -> list[Row]:
     """Each problem, all of its usual sections, against `import sympy`; then from the cache."""
     cold = [
@@ -158,7 +172,7 @@ def main() -> None:
     parser.add_argument("--against", type=Path, help="an earlier .bench/*.json")
     arguments = parser.parse_args()
     clock = Clock(arguments.runs)
-    rows = [*startup_rows(clock), *solve_rows(clock)]
+    rows = [*startup_rows(clock), completion_row(clock), *solve_rows(clock), check_row()]
     if not arguments.quick:
         rows += naive_rows(Clock(1))
     earlier = json.loads(arguments.against.read_text()) if arguments.against else {"rows": []}
