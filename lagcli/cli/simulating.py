@@ -142,7 +142,9 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
     method = run.method if wish.method == "auto" and run.method else wish.method
     good = _known("--method", method, METHODS) and good
     shown = list(wish.show)
-    columns = attempt(lambda: read_columns(problem, shown) if shown else usual_columns(problem), [])
+    columns = usual_columns(problem)
+    if shown:
+        columns = attempt(lambda: read_columns(problem, shown), columns)
     text = wish.stop_when
     stop = None if text is None else attempt(lambda: read_along(problem, text, "--stop-when"), None)
     if not good or until is None:

@@ -34,13 +34,14 @@ _PROBES = 1000
 _DEFECT = 3.0
 _CHARGES = 10.0
 _LONGEST = (200.0, 2000.0, 20000.0)  # parts of the span
+_SERIES = 10.0
 #: Where the longest step binds both runs their steps must still differ, or so would nothing.
 _FINER_STEPS = 1.37
 
 #: (tolerance, longest step, peaks of the run before, probes every so many steps) -> run
 Runner = Callable[[float, float, "Sequence[float] | None", int], Run]
-#: The columns of a run, row by row; those of the charges last.
-Tabulate = Callable[[Run], list[list[Any]]]
+#: The columns at a state, those of the charges last.
+Row = Callable[[float, "Sequence[Any]", "Sequence[Any]"], list[Any]]
 
 
 @record
@@ -63,8 +64,8 @@ class Controller:
 
     Parameters
     ----------
-    runner, tabulate
-        Make a run, and its columns.
+    runner, tabulate_one
+        Make a run, and the columns at a state.
     accuracy
         A.
     finest
@@ -73,21 +74,25 @@ class Controller:
         Of time.
     charges
         How many columns at the end of a row are conserved.
+    shortest_step
+        Whether steps are held short; a series knows by itself what lies within its step.
     """
 
     def __init__(
         self,
         runner: Runner,
-        tabulate: Tabulate,
+        tabulate_one: Row,
         *,
         accuracy: float,
         finest: float,
         span: float,
         charges: int,
+        shortest_step: bool = True,
     ) -> None:
-        self.runner, self.tabulate = runner, tabulate
+        self.runner, self.tabulate_one = runner, tabulate_one
         self.accuracy, self.finest, self.span = accuracy, finest, span
         self.charges = charges
+        self._longest = _LONGEST if shortest_step else (_SERIES,)
         self.runs = self.evaluations = 0
         self._finer = 0
 
@@ -104,25 +109,28 @@ class Controller:
                 missed = self._missed(fine, fine_rows)
                 if not missed:
                     return found
-                if level + 1 < len(_LONGEST):  # something narrow: look again with short steps
+                if level + 1 < len(self._longest):  # something narrow: look again with short steps
                     level += 1
                     self._finer = 0
                     coarse, rows = self._run(tolerance, level, fine)
                     continue
                 return _refused(found, missed)
-            if finer <= self.finest:
+            if finer <= self.finest or _both_stop(coarse, fine, found.good_rows, self.accuracy):
                 return found
             tolerance, coarse, rows = finer, fine, fine_rows
 
     def _run(self, tolerance: float, level: int, before: Run | None) -> tuple[Run, list[list[Any]]]:
         every = 0 if before is None else max(1, int(2 * before.steps / _PROBES))
         peaks = None if before is None or before.stop is not None else before.peaks
-        longest = self.span / (_LONGEST[level] * _FINER_STEPS**self._finer)
+        longest = self.span / (self._longest[level] * _FINER_STEPS**self._finer)
         run = self.runner(tolerance, longest, peaks, every)
         self._finer += 1
         self.runs += 1
         self.evaluations += run.evaluations
-        return run, self.tabulate(run)
+        rows = [
+            self.tabulate_one(t, q, v) for t, (q, v) in zip(run.times, run.states, strict=True)
+        ]
+        return run, rows
 
     def _compared(
         self,
@@ -136,7 +144,7 @@ class Controller:
         accuracy = self.accuracy
         scales = [
             max(1.0, *(abs(float(row[j])) for row in fine_rows if row[j] is not None), 1.0)
-            for j in range(len(fine_rows[0]))
+            for j in range(len(fine_rows[0]) - self.charges)
         ]
         errors = [0.0] * len(scales)
         good = 0
@@ -145,7 +153,7 @@ class Controller:
         for place, (row, fine_row) in enumerate(both):
             now = [
                 0.0 if a is None or b is None else 2 * abs(float(a - b)) / scale
-                for a, b, scale in zip(row, fine_row, scales, strict=True)
+                for a, b, scale in zip(row, fine_row, scales, strict=False)  # without charges
             ]
             if good == place and max(now) <= accuracy:
                 good += 1
@@ -165,9 +173,32 @@ class Controller:
         for j in range(len(rows[0]) - self.charges, len(rows[0])):
             values = [float(row[j]) for row in rows]
             scale = max(1.0, *map(abs, values))
-            if max(abs(x - values[0]) for x in values) > _CHARGES * self.accuracy * scale:
+            drift, place = max((abs(x - values[0]), k) for k, x in enumerate(values))
+            bound = _CHARGES * self.accuracy * scale
+            if drift > bound and drift > _CHARGES * self._felt(fine, place, j, values[place]):
                 return "a conserved charge drifts"
         return ""
+
+    def _felt(self, fine: Run, place: int, column: int, value: float) -> float:
+        """How much a charge changes when each component errs by what is allowed."""
+        q, v = fine.states[place]
+        state, n, total = [*q, *v], len(q), 0.0
+        for k, peak in enumerate(fine.peaks):
+            moved = list(state)
+            moved[k] += self.accuracy * max(1.0, peak)
+            other = self.tabulate_one(fine.times[place], moved[:n], moved[n:])[column]
+            if other is None:
+                return float("inf")
+            total += abs(float(other) - value)
+        return total
+
+
+def _both_stop(coarse: Run, fine: Run, good: int, accuracy: float) -> bool:
+    """Whether the motion itself ends, at a time that both runs know."""
+    if coarse.stop is None or fine.stop is None:
+        return False
+    together = abs(coarse.stop.t - fine.stop.t) <= accuracy * max(1.0, fine.stop.t)
+    return together and good >= min(len(coarse.times), len(fine.times))
 
 
 def _why(coarse: Run, fine: Run, good: int, count: int) -> str:

@@ -8,6 +8,7 @@ from lagcli.numerics.accuracy import Outcome
 from lagcli.numerics.asked import Certificate, Result
 from lagcli.numerics.events import Event
 from lagcli.numerics.motion import Motion
+from lagcli.numerics.refusal import told
 from lagcli.numerics.steps import CannotGoOn
 
 if TYPE_CHECKING:
@@ -114,7 +115,7 @@ def _refusal(simulation: Simulation, motion: Motion, outcome: Outcome, holds_unt
 
 def _why_stopped(motion: Motion, stop: CannotGoOn) -> str:
     """What ends the motion."""
-    if stop.reason.startswith("it takes"):
+    if stop.reason.startswith(("it takes", "a force")):
         return stop.reason
     names = [q.name for q in motion.equations.q]
     try:
@@ -122,7 +123,7 @@ def _why_stopped(motion: Motion, stop: CannotGoOn) -> str:
         j = max(range(len(names)), key=lambda k: abs(float(rates[k])))
         grows = f"{names[j]}'' grows without bound there"
     except (ArithmeticError, ValueError) as error:
-        return f"the accelerations are not defined there ({error})"
+        return f"the accelerations are not defined there: {told(error)}"
     return f"{grows} ({stop.reason})" if stop.reason else grows
 
 

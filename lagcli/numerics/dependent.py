@@ -155,7 +155,7 @@ def solved(matrix: Matrix, right: Vector) -> Vector:
         size, i, j = max((abs(work[i][j]), -i, -j) for i in rows for j in columns)
         i, j = -i, -j
         if not size > _NO_MASS * largest:
-            raise NoMass("the mass matrix is singular")
+            raise NoMass("the mass matrix is singular along motions that are allowed")
         order.append((i, j))
         rows.discard(i)
         columns.discard(j)

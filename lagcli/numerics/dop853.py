@@ -19,7 +19,9 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+from lagcli.numerics.kinks import Kinks
 from lagcli.numerics.motion import Motion
+from lagcli.numerics.refusal import told
 from lagcli.numerics.steps import CannotGoOn, Step, Tolerance
 from lagcli.numerics.straight_line import run_generated
 from lagcli.numerics.surface import Surface
@@ -68,6 +70,8 @@ class Dop853:
             Where the step becomes shorter than rounding, with the reason.
         """
         t, n = 0.0, self.n
+        motion, kinks = self.motion, Kinks(self.motion)
+        motion.set_signs(t, q, v)
         rate = self._rate(t, q, v)
         h = self._first(q, v, rate, until, tolerance)
         lost = [0.0] * (2 * n)  # what rounding takes from the sums (Kahan)
@@ -88,7 +92,7 @@ class Dop853:
                     else:
                         next_rate = end
             except (ArithmeticError, ValueError) as failure:
-                error, reason = math.inf, str(failure)
+                error, reason = math.inf, told(failure)
             self.evaluations += 12
             if not error <= 1:
                 self.rejected += 1
@@ -100,11 +104,23 @@ class Dop853:
                 if tolerance.hopeless(h, until):
                     tolerance.raise_floor()
                 continue
-            start, previous = t, (q, v, rate)
+            previous = (q, v, rate)
+            inside = self._inside(t, h, previous, change, end, stages)
+            if motion.kinks:
+                shorter = kinks.first(t, h, end_q, end_v, inside)
+                if shorter is not None:  # the step is made again, up to the kink
+                    h = shorter
+                    if kinks.stuck(t + h, until):
+                        raise CannotGoOn(t, q, v, kinks.why())
+                    continue
+            start = t
             t = until if last else t + h
             q, v, rate = end_q, end_v, next_rate
             lost = left
-            yield Step(start, h, t, q, v, self._inside(start, h, previous, change, end, stages))
+            yield Step(start, h, t, q, v, inside)
+            if kinks.reached is not None:
+                kinks.pass_through()
+                rate = self._rate(t, q, v)
             factor = _SAFETY * error ** (-1 / ORDER) if error else _GROW
             h = min(h * min(grow, max(_SHRINK, factor)), tolerance.longest)
             grow = _GROW

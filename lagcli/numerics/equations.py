@@ -11,7 +11,7 @@ from functools import cached_property
 
 from lagcli.expression import Expression
 from lagcli.graph.derivative import partial
-from lagcli.graph.nodes import Node, Symbol
+from lagcli.graph.nodes import Call, Node, Symbol, ancestry
 from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
 from lagcli.numerics.elimination import Eliminated, Factored
 from lagcli.numerics.refusal import Refusal
@@ -89,6 +89,20 @@ class Equations:
             )
             for row in rows
         ]
+
+    @cached_property
+    def kinks(self) -> list[Node]:
+        """What stands in abs and sign: where it passes 0 the equations are not smooth."""
+        mask = 0
+        for symbol in self.state:
+            mask |= symbol.mask
+        dynamics = [*(entry for row in self.mass for entry in row), *self.forcing]
+        dynamics += [*(entry for row in self.rows for entry in row), *self.bias]
+        found: dict[Node, None] = {}
+        for node in ancestry(dynamics):
+            if isinstance(node, Call) and node.function in {"abs", "sign"} and node.mask & mask:
+                found[node.arguments[0]] = None
+        return list(found)
 
     # -- elimination -------------------------------------------------------------------------
 

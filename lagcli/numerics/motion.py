@@ -14,10 +14,13 @@ from lagcli.graph.nodes import Node, Symbol
 from lagcli.numerics.arithmetic import Arithmetic, UndefinedFunction
 from lagcli.numerics.dependent import Held, held_motion
 from lagcli.numerics.equations import Equations
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.refusal import Refusal, told
 from lagcli.numerics.straight_line import Guard, straight_line
 
 Function = Callable[..., tuple[Any, ...]]
+
+#: A time in which a sign shows itself.
+_AFTER = 1e-6
 
 
 class Motion:
@@ -45,7 +48,10 @@ class Motion:
         self.arithmetic = arithmetic
         self.constants = constants
         self.n, self.m = len(equations.q), len(equations.rows)
-        self.evaluations = 0
+        self.kinks = equations.kinks if arithmetic.ordered else []
+        #: of each kink's argument, as the dynamics is to take it
+        self.signs = [1.0] * len(self.kinks)
+        self._frozen = ({node: k for k, node in enumerate(self.kinks)}, self.signs)
 
     def function(
         self,
@@ -53,6 +59,8 @@ class Motion:
         extra: Sequence[Symbol] = (),
         guards: Sequence[Guard] = (),
         otherwise: Callable[..., Any] | None = None,
+        *,
+        frozen: bool = False,
     ) -> Function:
         """The values of any nodes; `extra` are arguments after the state."""
         try:
@@ -63,12 +71,13 @@ class Motion:
                 self.arithmetic,
                 guards=guards,
                 otherwise=otherwise,
+                frozen=self._frozen if frozen else None,
             )
         except UndefinedFunction as error:
             message = f"the function '{error}' is left unspecified: it has no numbers"
             raise Refusal(message) from None
         except (ArithmeticError, ValueError) as error:
-            message = f"with these values the equations are not defined: {error}"
+            message = f"with these values the equations are not defined: {told(error)}"
             raise Refusal(message) from None
 
     # -- the equations -----------------------------------------------------------------------
@@ -85,6 +94,7 @@ class Motion:
             roots,
             guards=eliminated.guards,
             otherwise=lambda *state: tuple(self.held(*state).accelerations),
+            frozen=True,
         )
 
     @cached_property
@@ -99,6 +109,7 @@ class Motion:
             [*accelerations, *multipliers],
             guards=eliminated.guards,
             otherwise=self._held_whole,
+            frozen=True,
         )
 
     def _held_whole(self, *state: float) -> tuple[Any, ...]:
@@ -128,8 +139,27 @@ class Motion:
                 *e.forcing,
                 *(entry for row in e.rows for entry in row),
                 *e.bias,
-            ]
+            ],
+            frozen=True,
         )
+
+    @cached_property
+    def kink_arguments(self) -> Function:
+        """What stands in abs and sign in the equations of motion."""
+        return self.function(self.kinks)
+
+    def set_signs(self, t: float, q: Sequence[float], v: Sequence[float]) -> None:
+        """Take the signs of the kinks' arguments here, or just after where they are 0."""
+        found = self.kink_arguments(t, *q, *v)
+        self.signs[:] = [float((x > 0) - (x < 0)) for x in found]
+        if 0 not in self.signs:
+            return
+        a, h = self.accelerations(t, *q, *v), _AFTER * (1 + abs(t))
+        later_q = [x + h * (u + h * b / 2) for x, u, b in zip(q, v, a, strict=True)]
+        later_v = [u + h * b for u, b in zip(v, a, strict=True)]
+        after = self.kink_arguments(t + h, *later_q, *later_v)
+        for k, x in enumerate(after):
+            self.signs[k] = self.signs[k] or (1.0 if x >= 0 else -1.0)
 
     def _need_order(self) -> None:
         if not self.arithmetic.ordered:

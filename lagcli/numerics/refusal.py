@@ -23,3 +23,16 @@ class Refusal(Exception):
         super().__init__("; ".join(diagnostic.message for diagnostic in message))
         self.diagnostics = message
         self.mistake = mistake
+
+
+def told(error: BaseException) -> str:
+    """What went wrong in a formula, in words."""
+    match error:
+        case ZeroDivisionError():
+            return "something is divided by zero"
+        case OverflowError():
+            return "a number grows beyond all bounds"
+        case ValueError():
+            return "a root or a logarithm has no real value"
+        case _:
+            return str(error)

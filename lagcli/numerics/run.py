@@ -55,6 +55,7 @@ class Run:
         self.steps = 0
         self.defect = 0.0
         self._probes = 0
+        self.step_limit = STEP_LIMIT
 
     @property
     def peaks(self) -> list[float]:
@@ -102,8 +103,8 @@ class Run:
                     self._probe(step)
                 if progress is not None and self.steps % 64 == 0:
                     progress(step.end / times[-1])
-                if self.steps >= STEP_LIMIT:
-                    reason = f"it takes more than {STEP_LIMIT:,} steps"
+                if self.steps >= self.step_limit:
+                    reason = f"it takes more than {self.step_limit:,} steps"
                     self.stop = CannotGoOn(step.end, step.q, step.v, reason)
                     break
         except CannotGoOn as stop:

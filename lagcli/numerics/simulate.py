@@ -8,7 +8,7 @@ from typing import Any
 
 from lagcli.expression import Expression
 from lagcli.graph.nodes import Node
-from lagcli.numerics.accuracy import Controller, Outcome
+from lagcli.numerics.accuracy import Controller, Outcome, Row
 from lagcli.numerics.arithmetic import Doubles
 from lagcli.numerics.asked import Asked, Result
 from lagcli.numerics.certificate import result_of
@@ -18,7 +18,7 @@ from lagcli.numerics.dop853 import Dop853, generated_step
 from lagcli.numerics.equations import Equations
 from lagcli.numerics.events import Condition
 from lagcli.numerics.motion import Motion
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.refusal import Refusal, told
 from lagcli.numerics.run import Run
 from lagcli.numerics.start import initial_state
 from lagcli.numerics.steps import Tolerance
@@ -30,7 +30,7 @@ FINEST_DOUBLE = 1e-16
 #: The intervals at which two runs are compared are at least so many.
 _COMPARED = 100
 #: Doubles that miss the accuracy, and are this good, miss it by their rounding.
-_ROUNDING_REACH = 1e-8
+_ROUNDING_REACH = 1e-5
 
 Progress = Callable[[float], None]
 
@@ -91,7 +91,8 @@ class Simulation:
         return graph.difference(*sides)
 
     @property
-    def _all_nodes(self) -> list[Node]:
+    def all_nodes(self) -> list[Node]:
+        """Everything that is given a number: its parameters need values."""
         e = self.equations
         initial = [e.form.read(value) for value in self.problem.initial.values()]
         return [
@@ -113,7 +114,7 @@ class Simulation:
     def result(self) -> Result:
         """The table."""
         arithmetic = Doubles()
-        constants = constants_of(self.equations, self._all_nodes, arithmetic)
+        constants = constants_of(self.equations, self.all_nodes, arithmetic)
         motion = Motion(self.equations, constants, arithmetic)
         q, v = initial_state(motion, project=self.asked.project)
         self._check_start(motion, q, v)
@@ -135,7 +136,7 @@ class Simulation:
             return self.asked.digits
         stopped = outcome.run.stop is not None
         close = max(outcome.errors) <= _ROUNDING_REACH
-        return 30 if close and not stopped and not self.equations.rows else None
+        return 30 if close and not stopped else None
 
     def _doubles(self, motion: Motion, q: list[float], v: list[float]) -> Outcome:
         asked = self.asked
@@ -177,7 +178,7 @@ class Simulation:
                 return
             reason = "they are not finite"
         except (ArithmeticError, ValueError) as error:
-            reason = str(error)
+            reason = told(error)
         raise Refusal(f"at t = 0 the accelerations are not determined: {reason}", mistake=False)
 
     # -- for any numbers --------------------------------------------------------------------------
@@ -216,8 +217,8 @@ class Simulation:
 
         return margin
 
-    def tabulator(self, motion: Motion) -> Callable[[Run], list[list[Any]]]:
-        """The columns and then the charges of every row of a run."""
+    def tabulator(self, motion: Motion) -> Row:
+        """The columns and then the charges at a state."""
         nodes = [*self.nodes, *self.charges.values()]
         values = Values(motion, self.reading, nodes)
         single: list[Values] = []
@@ -233,7 +234,7 @@ class Simulation:
                 single.extend(Values(motion, self.reading, [node]) for node in nodes)
             return [_one(each, t, q, v) for each in single]
 
-        return lambda run: [row(t, q, v) for t, (q, v) in zip(run.times, run.states, strict=True)]
+        return row
 
 
 def _one(values: Values, t: float, q: Sequence[Any], v: Sequence[Any]) -> Any:

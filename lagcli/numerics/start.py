@@ -8,6 +8,7 @@ the nearest one that is on them.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from math import factorial
 from typing import Any
 
@@ -17,7 +18,7 @@ from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node, Symbol
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.polynomial import real_roots
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.refusal import Refusal, told
 from lagcli.numerics.straight_line import straight_line
 from lagcli.numerics.surface import Surface
 from lagcli.problem import Coordinate
@@ -64,12 +65,16 @@ def initial_state(motion: Motion, *, project: bool = False) -> tuple[list[float]
 
 
 def refined_state(
-    motion: Motion, surface: Surface | None, q: Sequence[float], v: Sequence[float]
+    motion: Motion,
+    surface: Surface | None,
+    q: Sequence[float],
+    v: Sequence[float],
+    *,
+    anew: bool,
 ) -> tuple[list[Any], list[Any]]:
-    """The same state in the numbers of another motion: what is given anew, then projected."""
+    """The same state in the numbers of another motion, what the file gives worked out anew."""
     equations, number = motion.equations, motion.arithmetic.number
-    given = given_values(motion)
-    from fractions import Fraction
+    given = given_values(motion) if anew else {}
 
     exact = [
         given.get(symbol, number(Fraction(value)))
@@ -107,7 +112,7 @@ class _Completion:
             off = [k for k, r in enumerate(surface.residuals) if not r <= _ON_SURFACE]
         except (ArithmeticError, ValueError) as error:
             raise Refusal(
-                f"the constraints are not defined at the initial state: {error}"
+                f"the constraints are not defined at the initial state: {told(error)}"
             ) from None
         nearest = self._nearest(q, v)
         if off and not project:

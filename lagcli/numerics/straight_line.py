@@ -18,6 +18,9 @@ from lagcli.numerics.arithmetic import Arithmetic, UndefinedFunction
 #: A pivot is compared with the entry that it stands for: (pivot, entry).
 Guard = tuple[Node, Node]
 
+#: The arguments with their places in a list of signs, and that list.
+Frozen = tuple[Mapping[Node, int], list[float]]
+
 #: A pivot that has lost so much is taken for dependent: see `elimination`.
 PIVOT_TOLERANCE = 1e-10
 _NESTED_CHARACTERS = 400
@@ -39,6 +42,7 @@ def straight_line(
     *,
     guards: Sequence[Guard] = (),
     otherwise: Callable[..., Any] | None = None,
+    frozen: Frozen | None = None,
 ) -> Callable[..., tuple[Any, ...]]:
     """A function of the arguments that gives the values of the roots.
 
@@ -57,6 +61,8 @@ def straight_line(
         looked at.
     otherwise
         Called with the same arguments where a pivot vanishes.
+    frozen
+        Arguments of abs and sign whose sign is given and not looked at.
 
     Raises
     ------
@@ -65,14 +71,17 @@ def straight_line(
     UndefinedFunction
         When a function has no formula.
     """
-    watched = [pair for pair in guards if pair[0] is not pair[1]] if arithmetic.ordered else []
-    text = _Text(arguments, [*roots, *(n for pair in watched for n in pair)], constants, arithmetic)
+    watched = list(guards) if arithmetic.ordered else []
+    nodes = [*roots, *(node for pair in watched for node in pair)]
+    text = _Text(arguments, nodes, constants, arithmetic, frozen)
     names = ", ".join(f"n{symbol.index}" for symbol in arguments)
     inner = [f"    def generated({names}):"]
     inner += [f"        {line}" for line in text.body]
     if watched and otherwise is not None:
         small = " and ".join(
             f"absolute({text.at(pivot)}) > {PIVOT_TOLERANCE!r}*absolute({text.at(entry)})"
+            if pivot is not entry
+            else text.at(pivot)
             for pivot, entry in watched
         )
         inner += [f"        if not ({small}):", f"            return otherwise({names})"]
@@ -95,7 +104,9 @@ class _Text:
         roots: Sequence[Node],
         constants: Mapping[Symbol, Any],
         arithmetic: Arithmetic,
+        frozen: Frozen | None,
     ) -> None:
+        self._places, signs = frozen or ({}, [])
         self._arithmetic = arithmetic
         self._constants = constants
         self._varying = 0
@@ -103,7 +114,7 @@ class _Text:
             self._varying |= symbol.mask
         self._arguments = set(arguments)
         self._written: dict[Node, str] = {}
-        self.given: dict[str, Any] = {}
+        self.given: dict[str, Any] = {"signs": signs} if self._places else {}
         self.prologue: list[str] = []
         self.body: list[str] = []
         nodes = ancestry(roots)
@@ -171,6 +182,9 @@ class _Text:
                 return self._product(node)
             case Call(function="^", arguments=(base, exponent)):
                 return f"{self._function('power')}({self.at(base)}, {self.at(exponent)})"
+            case Call(function="abs" | "sign" as function, arguments=(x,)) if x in self._places:
+                sign = f"signs[{self._places[x]}]"
+                return sign if function == "sign" else f"{sign}*{self.at(x)}"
             case Call(function=function, arguments=arguments, indices=indices):
                 if indices:
                     raise UndefinedFunction(function)

@@ -1,0 +1,79 @@
+"""Where abs and sign change their branch: the step ends there and the next one begins anew.
+
+Within a step the sign is kept as it was at the beginning, so what is integrated is smooth
+and keeps its order; the place where the argument passes 0 is found on the dense output.
+
+References
+----------
+Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., section II.6
+(event location and discontinuous equations).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lagcli.numerics.motion import Motion
+from lagcli.numerics.steps import Inside
+
+_PLACES = (0.25, 0.5, 0.75)
+_HALVINGS = 60
+#: Branches that change again and again within this part of the span: something sticks.
+_AT_ONCE = 1e-9
+_AGAIN = 8
+
+
+class Kinks:
+    """The arguments of abs and sign along one run."""
+
+    def __init__(self, motion: Motion) -> None:
+        self.motion = motion
+        self.reached: int | None = None  # the one at which the next step ends
+        self._times: list[float] = []
+
+    def first(
+        self, t: float, h: float, q: Sequence[float], v: Sequence[float], inside: Inside
+    ) -> float | None:
+        """How far to the first change of branch within a step; None without one."""
+        if self.reached is not None:  # this step was made to end at it
+            return None
+
+        def wrong(x: float) -> list[int]:
+            state = (q, v) if x == 1 else inside(t + x * h)[:2]
+            found = self.motion.kink_arguments(t + x * h, *state[0], *state[1])
+            return [k for k, s in enumerate(self.motion.signs) if found[k] * s < 0]
+
+        before = 0.0
+        for x in (*_PLACES, 1.0):
+            if wrong(x):
+                break
+            before = x
+        else:
+            return None
+        good, bad = before, x
+        for _ in range(_HALVINGS):
+            middle = (good + bad) / 2
+            if not good < middle < bad:
+                break
+            if wrong(middle):
+                bad = middle
+            else:
+                good = middle
+        self.reached = wrong(bad)[0]
+        return bad * h
+
+    def stuck(self, t: float, span: float) -> bool:
+        """Whether branches have changed again and again at one time."""
+        self._times.append(t)
+        recent = self._times[-_AGAIN:]
+        return len(recent) == _AGAIN and recent[-1] - recent[0] < _AT_ONCE * span
+
+    def pass_through(self) -> None:
+        """Change the branch that has been reached."""
+        assert self.reached is not None
+        self.motion.signs[self.reached] *= -1
+        self.reached = None
+
+    def why(self) -> str:
+        """What holds the motion at a kink."""
+        return "a force that jumps holds it there (it sticks), which is not modelled"

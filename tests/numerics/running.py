@@ -1,0 +1,43 @@
+"""A problem as text, run as the command line runs it."""
+
+from pathlib import Path
+
+from lagcli.numerics.asked import Asked
+from lagcli.numerics.columns import Column
+from lagcli.numerics.simulate import simulate
+from lagcli.pipeline import Request, read
+from lagcli.reader.columns import read_along, read_columns, usual_columns
+
+ROOT = Path(__file__).parents[2]
+
+
+def problem_of(text, *settings):
+    found = read("test.yaml", text.encode(), Request(settings=settings))
+    assert found.problem is not None, found.diagnostics
+    return found.problem
+
+
+def simulated(text, until, accuracy=1e-9, show=None, samples=2, settings=(), stop=None, **asked):
+    problem = problem_of(text, *settings)
+    shown = usual_columns(problem) if show is None else read_columns(problem, [show])
+    return simulate(
+        problem,
+        Asked(
+            until=until,
+            accuracy=accuracy,
+            samples=samples,
+            columns=tuple(Column(*each) for each in shown),
+            stop_when=None if stop is None else read_along(problem, stop, "--stop-when"),
+            stop_name=stop or "",
+            **asked,
+        ),
+    )
+
+
+def column(result, name):
+    place = result.columns.index(name)
+    return [row[place] for row in result.rows]
+
+
+def last(result, name):
+    return column(result, name)[-1]
