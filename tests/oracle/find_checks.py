@@ -18,8 +18,8 @@ from .linear import least_step
 from .reference import Scalar, by_time, gradient
 from .states import random_moments, reals, with_motion
 
-STARTS = 5
-PARAMETER_SETS = 12
+STARTS = 4
+PARAMETER_SETS = 8
 STEPS = 12
 #: At a turning point the velocity is only the root of what is left of the energy.
 SETTLED = mpf(10) ** -24
@@ -71,7 +71,7 @@ def _settle(
 ) -> Moment:
     """Newton's shortest steps in the free components until the functions vanish."""
     columns = [(level, i) for level, indices in free.items() for i in sorted(indices)]
-    for _ in range(60):
+    for _ in range(50):
         residual = reals([f(moment) for f in functions])
         if all(abs(r) < SETTLED for r in residual):
             return moment
@@ -150,7 +150,7 @@ def _reached(x: Examination, moment: Moment, extra: Sequence[Scalar] = ()) -> li
             found.append(_settle(there, functions, free, at_any_time=bool(extra)))
         except (OutsideDomain, ZeroDivisionError):
             continue
-        if len(found) == 4:
+        if len(found) == 2:
             break
     return found
 

@@ -63,7 +63,7 @@ def _proportional(x: Examination, entry: dict[str, Any], truth: Scalar) -> bool:
 
 def _neighbours(moment: Moment) -> list[Moment]:
     """States with the same parameters and other velocities."""
-    return [moment, moment.shifted(1, {j: mpf(j + 1) / 3 for j in range(len(moment.chain[0]))})]
+    return [moment, moment.shifted(1, {j: mpf(j + 1) / 64 for j in range(len(moment.chain[0]))})]
 
 
 def _transformation(

@@ -30,4 +30,4 @@ def test_every_printed_claim_holds(path: Path) -> None:
     problem = load(path)
     asked = [name for name in SECTIONS if name != "find" or problem.find]
     sheet = json.loads(json.dumps(to_object(solve(problem, asked))))
-    assert [str(finding) for finding in examine(problem, sheet)] == []
+    assert [str(finding) for finding in examine(problem, sheet, count=2)] == []
