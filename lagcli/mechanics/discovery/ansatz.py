@@ -8,20 +8,26 @@ functions, or not at all while its inertia depends on other coordinates.
 
 from __future__ import annotations
 
+import random
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import product
+from math import isqrt
 
+import mpmath
 import sympy
+from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra.build import free_of
+from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery.search import Unknown
 from lagcli.mechanics.discovery.slots import Equations, Slot
 from lagcli.mechanics.discovery.spectrum import Exponent, differences, exponents, sums
 
 _CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 _MOST_FUNCTIONS = 60
+_FEW = 8  # functions of the coordinates that all powers of t multiply
 
 
 @dataclass(slots=True)
@@ -51,11 +57,31 @@ def kinds(L: Expr, equations: Equations) -> Kinds:
         x for x in found.lengths
         if any(x in inertia[y].free_symbols for y in found.angles)
     ]  # fmt: skip
-    found.latitudes = [
-        x for x in found.angles
-        if any(x in inertia[y].free_symbols for y in found.angles if y != x)
-    ]  # fmt: skip
+    found.latitudes = [x for x in found.angles if _in_determinant(x, equations)]
     return found
+
+
+def _in_determinant(x: Symbol, equations: Equations) -> bool:
+    """Whether det M changes with the angle: there its chart has poles, as at theta = 0."""
+    if not any(x in m.free_symbols for row in equations.mass for m in row):
+        return False
+    entries = Evaluator([m for row in equations.mass for m in row], 20)
+    symbols = {s for row in equations.mass for m in row for s in m.free_symbols}
+    source = random.Random("lagcli determinant")
+    point = {s: mpf(source.randint(3000, 13000)) / 10007 for s in symbols}
+    with mpmath.workdps(20):
+        values = []
+        for at in (mpf(2) / 7, mpf(11) / 9):
+            try:
+                values.append(mpmath.det(_square(entries({**point, x: at}))))
+            except (ArithmeticError, ValueError):
+                return True
+        return bool(abs(values[0] - values[1]) > mpf(10) ** -12 * (1 + abs(values[0])))
+
+
+def _square(entries: Sequence[mpf]) -> mpmath.matrix:
+    n = isqrt(len(entries))
+    return mpmath.matrix([list(entries[k * n : (k + 1) * n]) for k in range(n)])
 
 
 def _outside(L: Expr, x: Symbol) -> bool:
@@ -86,7 +112,7 @@ def time_functions(
     own = list(found)
     if not potential:
         # integrating factors solve the adjoint equation, whose exponents are the negatives
-        own = [Exponent(-e.growth, e.frequency) for e in found]
+        own = [Exponent(-e.growth, e.frequency, e.repeated) for e in found]
         between = [*sums(own), *between]
     powers = [sympy.S.One, t, t**2]
     others = [*powers, *_functions(between, t)]
@@ -146,6 +172,9 @@ def _angle(x: Symbol, found: Kinds) -> list[Expr]:
 
 def _second(x: Symbol, found: Kinds) -> list[Expr]:
     s, c = sympy.sin(x), sympy.cos(x)
+    if len(found.angles) == 1 and x not in found.cyclic:
+        # parabolic coordinates of a plane: r (1 + cos phi) and r (1 - cos phi)
+        return [s * c, s**2, sympy.sin(x / 2), sympy.cos(x / 2)]
     return [s * c, s**2, *([c / s**2, s**-2] if x in found.latitudes else [])]
 
 
@@ -181,17 +210,22 @@ def point_unknowns(
     for k, slot in enumerate(slots):
         alone = slot.kind[0] == "tau" and not time_with_space
         for g in [sympy.S.One] if alone else spaces:
-            unknowns += [Unknown(k, T, g) for T in _times(times, slot, g)]
+            unknowns += [
+                Unknown(k, T, g) for T in _times(times, slot, g, all_powers=len(spaces) <= _FEW)
+            ]
     return _ordered(unknowns)
 
 
-def _times(times: TimeFunctions, slot: Slot, g: Expr) -> list[Expr]:
-    """t^2 only where it can be: dxi/dq + (dxi/dq)^T is of the degree of dtau/dt."""
-    if slot.kind[0] == "xi":
-        if g == 1:
-            return list(times.translations)
-        return [T for T in times.others if not (T.is_Pow and T.exp == 2)]
-    return list(times.others)
+def _times(times: TimeFunctions, slot: Slot, g: Expr, *, all_powers: bool) -> list[Expr]:
+    """t^2 only where it can be or where it costs little.
+
+    dxi/dq + (dxi/dq)^T is of the degree of dtau/dt; beyond it are rotations of frames.
+    """
+    if slot.kind[0] == "xi" and g == 1:
+        return list(times.translations)
+    if slot.kind[0] == "tau" or all_powers:
+        return list(times.others)
+    return [T for T in times.others if not (T.is_Pow and T.exp == 2)]
 
 
 def quadratic_unknowns(

@@ -19,7 +19,6 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import mpmath
 from mpmath import mpf
@@ -33,8 +32,13 @@ _DIGITS = 40
 _SMALL = mpf(10) ** -20
 _CHECKS = 2
 _TRIES = 60
+_PATIENCE = 6  # states that fail before other parameters are tried
 
 Vector = list[mpf]
+
+
+class NoState(Exception):
+    """No state was found at which all charges have real values."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,12 +87,12 @@ class Brackets:
     def _states(self) -> Iterator[Sample]:
         system = self.dynamics.system
         source = random.Random("lagcli brackets")
-        with mpmath.workdps(_DIGITS):
-            base = dict(self.dynamics.states.take(1)[0])
         bad = 0
         while bad < _TRIES:
             self.clock.check()
             with mpmath.workdps(_DIGITS):
+                # the same parameters for all states; others where charges are not real
+                base = self.dynamics.states.take(1 + bad // _PATIENCE)[-1]
                 state = dict(base)
                 for x in (*system.q, *system.qdot):
                     value = mpf(source.randint(2000, 13000)) / 10007
@@ -100,6 +104,7 @@ class Brackets:
                     values = self._evaluate(state)
                     if not all(isinstance(x, mpf) and mpmath.isfinite(x) for x in values):
                         bad += 1
+                        self._samples.clear()
                         continue
                     sample = self._sample(values)
                 except (ArithmeticError, ValueError):
@@ -127,11 +132,17 @@ class Brackets:
         return Sample(values[:count], by_q, by_p)
 
     def samples(self, count: int) -> list[Sample]:
-        """That many states; fewer where the formulas have no real values."""
+        """That many states.
+
+        Raises
+        ------
+        NoState
+            Where the formulas have no real values.
+        """
         while len(self._samples) < count:
             sample = next(self._source, None)
             if sample is None:
-                break
+                raise NoState
             self._samples.append(sample)
         return self._samples[:count]
 
@@ -181,8 +192,6 @@ class Brackets:
         count = len(chosen)
         width = count + 1 + (0 if energy is None else count)
         samples = self.samples(width + _CHECKS)
-        if len(samples) < width + _CHECKS:
-            return None
 
         def row(sample: Sample) -> Vector:
             values = [sample.values[a] for a in chosen]
@@ -212,14 +221,6 @@ class Brackets:
                         second[a][b] = [sign * x for x in c[count + 1 :]]
         return Structure(constants, central, None if energy is None else second)
 
-    @cached_property
-    def linearly_independent(self) -> bool:
-        """Whether no combination of the charges is constant."""
-        count = len(self.charges)
-        with mpmath.workdps(_DIGITS):
-            rows = [[*s.values, mpf(1)] for s in self.samples(count + 1)]
-            return rank(rows) == count + 1
-
 
 def rank(rows: Sequence[Vector]) -> int:
     """The rank by elimination with pivots."""
@@ -243,8 +244,3 @@ def rank(rows: Sequence[Vector]) -> int:
         left = [[x - row[c] / pivot[c] * y for x, y in zip(row, pivot, strict=True)]
                 for row in left]  # fmt: skip
     return result
-
-
-def kernel_dimension(rows: Sequence[Vector], width: int) -> int:
-    """The dimension of the vectors that all rows annihilate."""
-    return width - rank(rows)

@@ -30,14 +30,16 @@ from lagcli.mechanics.discovery.centralizer import centralized
 from lagcli.mechanics.discovery.constrained import tangent
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
-from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Clock, OutOfTime
+from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, SECONDS, Clock, OutOfTime
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.names import Naming, distinct
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.slots import Equations, point_slots
+from lagcli.mechanics.discovery.special import special_values
 from lagcli.mechanics.noether import Noether, NoetherCharge
 
 _MOST_COORDINATES = 9
+_QUICK = 2.0  # seconds of a search that is worth repeating at special parameters
 
 
 class Discovery:
@@ -70,7 +72,7 @@ class Discovery:
     @property
     def ansatz(self) -> str:
         """What was searched and what was not, as a sentence without its full stop."""
-        return "; ".join((*self.words, *self.stopped))
+        return "; ".join(dict.fromkeys((*self.words, *self.stopped)))
 
     # -- the two searches -------------------------------------------------------------------
 
@@ -125,24 +127,30 @@ class Discovery:
         v = self.system.qdot
         return all(free_of(m, v) for row in self.equations.mass for m in row)
 
-    def _points(self) -> None:
-        clock = self.clock.part(0.7)
-        constraints = self.dynamics.constraints.equations
-        motion = None if constraints else self.dynamics.motion
-        times = time_functions(
-            self.equations,
-            None if motion is None else motion.accelerations,
-            potential=self.canonical,
-        )
-        slots = point_slots(self.equations)
+    @cached_property
+    def _accelerations(self) -> tuple[Expr, ...] | None:
+        motion = None if self.dynamics.constraints.equations else self.dynamics.motion
+        return None if motion is None else motion.accelerations
+
+    def _search(
+        self, equations: Equations, accelerations: Sequence[Expr] | None, clock: Clock
+    ) -> tuple[Search, str]:
+        """The linear system for the point symmetries, and what its ansatz is in words."""
+        times = time_functions(equations, accelerations, potential=self.canonical)
+        slots = point_slots(equations)
         spaces = affine(self._kinds)
         while True:
             unknowns = point_unknowns(slots, times, spaces, time_with_space=not self._quadratic)
             if len(unknowns) <= MOST_UNKNOWNS or len(spaces) == 1:
                 break
             spaces = spaces[: len(spaces) // 2]
-        self.words.append(self._sentence(times, spaces))
-        search = Search(self.equations, slots, unknowns, clock)
+        return Search(equations, slots, unknowns, clock), self._sentence(times, spaces)
+
+    def _points(self) -> None:
+        clock = self.clock.part(0.7)
+        constraints = self.dynamics.constraints.equations
+        search, words = self._search(self.equations, self._accelerations, clock)
+        self.words.append(words)
         naming = Naming(self.system.t, self.system.q, self._kinds)
         transformations = [
             point.transformation_of(search, solution, set(self.system.parameters))
@@ -164,6 +172,25 @@ class Discovery:
                 continue
             found.append((naming.of_point(transformation.changes, transformation.time), charge))
             self._keep_points(found, naming)
+        if not constraints:
+            self._special(len(transformations))
+
+    def _special(self, dimension: int) -> None:
+        """Look at special values of the parameters while there is ample time."""
+        used = SECONDS - self.clock.left
+        if used > _QUICK:
+            return
+        clock = self.clock.part(0.3)
+        found = special_values(
+            self.system.parameters,
+            self.equations,
+            self._accelerations,
+            dimension,
+            lambda equations, moved: len(self._search(equations, moved, clock)[0].kernel()),
+            clock,
+        )
+        if found:
+            self.words.append(f"there are more point symmetries for {', '.join(found)}")
 
     def _keep_points(self, found: Sequence[tuple[str, NoetherCharge]], naming: Naming) -> None:
         found = sorted(found, key=lambda pair: _rank(pair[0]))

@@ -231,6 +231,11 @@ class QuadraticIntegrals:
         }
         made = [a * b for b in terms for a in (*monomials, *sorted(inside, key=str))]
         made += [m for m in monomials if m != 1]
+        turns = {
+            sympy.Mul(*(x for x in sympy.Mul.make_args(f) if x.has(sympy.sin, sympy.cos)))
+            for f in inside
+        } - {sympy.S.One}
+        made += [a * b * x for b in terms for a in monomials[: 1 + len(q)] for x in turns]
         return sorted({m for m in made if not free_of(m, q)}, key=_length)
 
 

@@ -88,19 +88,19 @@ def _whole(C: list[list[Vector]], n: int, derived: int, *, extended: bool) -> st
     if plus + minus == n:
         return _SEMISIMPLE.get((n, plus, minus))
     if n == 3 and derived == 2 and not extended:
-        return {(0, 1): "e(2)", (1, 0): "Poincare iso(1,1)"}.get((plus, minus))
+        return {(0, 1): "e(2)", (1, 0): "Poincaré iso(1,1)"}.get((plus, minus))
     for d in range(1, 5):
         turns = d * (d - 1) // 2
         if n == 3 + turns + 2 * d and (plus, minus) == (2, 1 + turns) and extended:
             rotations = f" + so({d})" if d > 1 else ""
-            return f"Schroedinger sch({d}): sl(2,R){rotations} with Heisenberg h({d})"
+            return f"Schrödinger sch({d}): sl(2,R){rotations} with Heisenberg h({d})"
         if d == 2 and n == 8 and (plus, minus) == (3, 1) and extended:
             return "sl(2,R) + so(1,1) with Heisenberg h(2)"
         if n == 1 + turns + 2 * d and (plus, minus) == (0, turns) and extended:
             nilpotent = d > 1 or derived == 1
             return f"Galilei in {d} dimension{'s' if d > 1 else ''}" if nilpotent else None
         if d > 1 and n == turns + 2 * d + 1 and (plus, minus) == (d, turns) and not extended:
-            return f"Poincare iso({d},1)"
+            return f"Poincaré iso({d},1)"
         if d > 2 and n == turns + d and (plus, minus) == (0, turns) and not extended:
             return f"e({d})"
     if n == 3 and extended and derived == 2 and plus + minus == 1:

@@ -39,7 +39,7 @@ def _common(terms: Sequence[Expr], constants: AbstractSet[Symbol]) -> Expr:
         own = {
             base: exponent
             for base, exponent in (f.as_base_exp() for f in sympy.Mul.make_args(rest))
-            if base in constants and exponent.is_Integer
+            if exponent.is_Integer and base.free_symbols and base.free_symbols <= constants
         }
         if powers is None:
             powers = own

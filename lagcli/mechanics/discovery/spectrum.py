@@ -27,13 +27,17 @@ class Exponent:
 
     growth: Expr
     frequency: Expr
+    repeated: bool = False  # then t times the functions is a solution too
 
     def functions(self, t: Symbol) -> list[Expr]:
         """Real functions of time: exp(growth t) times sine and cosine."""
         envelope = sympy.exp(self.growth * t)
         if self.frequency == 0:
-            return [] if self.growth == 0 else [envelope]
-        return [envelope * sympy.sin(self.frequency * t), envelope * sympy.cos(self.frequency * t)]
+            plain = [] if self.growth == 0 else [envelope]
+        else:
+            angle = self.frequency * t
+            plain = [envelope * sympy.sin(angle), envelope * sympy.cos(angle)]
+        return [*plain, *(t * f for f in plain)] if self.repeated else plain
 
 
 def exponents(
@@ -61,9 +65,10 @@ def exponents(
             factors = sympy.factor_list(numerator, lam)[1]
         except sympy.PolynomialError:
             continue
-        for factor, _ in factors:
+        for factor, multiplicity in factors:
             for exponent in _roots(factor.as_poly(lam)):
-                _keep(found, exponent)
+                repeated = multiplicity > 1
+                _keep(found, Exponent(exponent.growth, exponent.frequency, repeated))
     return found
 
 
@@ -105,7 +110,7 @@ def sums(found: Sequence[Exponent], most: int = 6) -> list[Exponent]:
 def _keep(found: list[Exponent], new: Exponent) -> None:
     """Add an exponent that is not 0 and that differs from the others, also as a conjugate."""
     if is_zero(new.frequency):
-        new = Exponent(new.growth, sympy.S.Zero)
+        new = Exponent(new.growth, sympy.S.Zero, new.repeated)
         if is_zero(new.growth):
             return
     for each in found:
@@ -114,7 +119,7 @@ def _keep(found: list[Exponent], new: Exponent) -> None:
         ):
             return
     if new.frequency.could_extract_minus_sign():
-        new = Exponent(new.growth, -new.frequency)
+        new = Exponent(new.growth, -new.frequency, new.repeated)
     found.append(new)
 
 

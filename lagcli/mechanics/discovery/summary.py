@@ -9,7 +9,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.answers import AlgebraSection
-from lagcli.mechanics.discovery.brackets import Brackets, rank
+from lagcli.mechanics.discovery.brackets import Brackets, NoState, rank
 from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.lie_algebra import name_of
 from lagcli.mechanics.discovery.limits import OutOfTime
@@ -48,9 +48,12 @@ def summary(discovery: Discovery) -> Summary:
         if discovery.dynamics.constraints.equations:
             return _constrained(discovery)
         return _free(discovery)
-    except (OutOfTime, Contradiction):
-        return Summary(count, None, min(1, count), min(1, count), None,
-                       ("the brackets were not worked out: out of time",))  # fmt: skip
+    except OutOfTime:
+        why = "the brackets were not worked out: out of time"
+    except (NoState, Contradiction):
+        why = "the brackets were not worked out: no state was found to do it at"
+    known = min(1, count)
+    return Summary(len(discovery.point_charges), None, known, known, None, (why,))
 
 
 def _free(discovery: Discovery) -> Summary:

@@ -1,0 +1,75 @@
+"""The boundary term of a point symmetry: G(t, q) with dG/dt = K, by undetermined coefficients.
+
+K is linear in the velocities, K = G,t + sum G,q_i q_i'.  Each term of G,q_i suggests that
+term times q_i; each term of G,t suggests the finitely many functions that its derivatives
+by t are made of (t^n, exp, sin, cos of linear arguments are closed under d/dt).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import free_of
+from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.modular import NoPoint
+from lagcli.mechanics.discovery.relation import Relation
+from lagcli.mechanics.system import System
+from lagcli.mechanics.total_derivative import boundary_term
+
+_MOST_CANDIDATES = 120
+_OF_TIME = (sympy.exp, sympy.sin, sympy.cos, sympy.sinh, sympy.cosh)
+
+
+def gauge_of(change: Expr, system: System, clock: Clock) -> Expr | None:
+    """G with dG/dt = change, or None where none was found."""
+    if is_zero(change) is True:
+        return sympy.S.Zero
+    t, q, v = system.t, system.q, system.qdot
+    still = dict.fromkeys(v, sympy.S.Zero)
+    by_q = [sympy.expand(change.diff(x).xreplace(still)) for x in v]
+    by_t = sympy.expand(change.xreplace(still))
+    candidates = _candidates(by_t, by_q, t, q)
+    if 0 < len(candidates) <= _MOST_CANDIDATES:
+        vectors = [[c.diff(x) for x in (t, *q)] for c in candidates]
+        try:
+            values = Relation([*vectors, [-by_t, *(-x for x in by_q)]], [t, *q], clock).of_last()
+        except (NoPoint, ZeroDivisionError):
+            values = None
+        if values is not None:
+            terms = [c * x for c, x in zip(candidates, values, strict=True)]
+            return simplify(sympy.Add(*terms))
+    if any(not free_of(f, [t]) for f in change.atoms(*_OF_TIME)):
+        return None
+    return boundary_term(simplify(change), system)
+
+
+def _candidates(by_t: Expr, by_q: Sequence[Expr], t: Symbol, q: Sequence[Symbol]) -> list[Expr]:
+    found: dict[Expr, None] = {}
+    for x, slope in zip(q, by_q, strict=True):
+        found.update(dict.fromkeys(x * term for term in _functions(slope, t, q)))
+    left = list(_functions(by_t, t, q))
+    seen: set[Expr] = set()
+    while left and len(seen) <= _MOST_CANDIDATES:
+        term = left.pop()
+        if term in seen:
+            continue
+        seen.add(term)
+        left += _functions(sympy.expand(term.diff(t)), t, q)
+        if not term.has(*_OF_TIME) or free_of(term, [t]):
+            seen.add(t * term)
+    found.update(dict.fromkeys(sorted(seen, key=sympy.default_sort_key)))
+    found.pop(sympy.S.One, None)
+    return list(found)
+
+
+def _functions(expression: Expr, t: Symbol, q: Iterable[Symbol]) -> list[Expr]:
+    """The terms without their constant factors."""
+    return [
+        term.as_independent(t, *q, as_Add=False)[1]
+        for term in sympy.Add.make_args(expression)
+        if term != 0
+    ]
