@@ -1,7 +1,7 @@
 """M a = F + A^T lambda with A a + c = 0 where the rank is in question: the null-space way.
 
 The rows are scaled and eliminated with full pivoting; those whose largest entry falls
-below 1e-10 are combinations of the others.  With A a_p = -c and A Z = 0,
+below 1e-5, which is 1e-10 in A M^-1 A^T, are combinations of the others.  With A a_p = -c and A Z = 0,
 
     (Z^T M Z) w = Z^T (F - M a_p),    a = a_p + Z w,
 
@@ -24,8 +24,12 @@ from lagcli.record import record
 Vector = list[float]
 Matrix = Sequence[Sequence[float]]
 
+#: What is left of a dependent row, as a part of its length.
+_DEPENDENT = math.sqrt(PIVOT_TOLERANCE)
 #: A pivot of Z^T M Z smaller than this part of the largest is no mass.
 _NO_MASS = 1e-13
+#: A row takes no part in a combination with a smaller weight than this.
+_WEIGHTLESS = 1e-5
 
 
 class NoMass(ArithmeticError):
@@ -78,13 +82,15 @@ def held_motion(mass: Matrix, forcing: Vector, rows: Matrix, bias: Vector) -> He
         p + sum(w * z[j] for w, z in zip(weights, null, strict=True))
         for j, p in enumerate(particular)
     ]
-    # A^T lambda = M a - F, by the independent rows
+    # A^T lambda = M a - F, in the columns of the pivots: no square of a small pivot appears
     pull = [_dot(row, a) - f for row, f in zip(scaled, force, strict=True)]
-    used = [i for i, _ in pivots]
+    used, columns = [i for i, _ in pivots], [j for _, j in pivots]
     unit = [
-        [x * s / (lengths[i] or 1.0) for x, s in zip(rows[i], scales, strict=True)] for i in used
+        [x * s / (length or 1.0) for x, s in zip(row, scales, strict=True)]
+        for row, length in zip(rows, lengths, strict=True)
     ]
-    held = solved([[_dot(u, v) for v in unit] for u in unit], [_dot(u, pull) for u in unit])
+    block = [[unit[i][j] for i in used] for j in columns]
+    held = solved(block, [pull[j] for j in columns], least=0.0)
     multipliers = [0.0] * len(rows)
     for i, value in zip(used, held, strict=True):
         multipliers[i] = value / lengths[i]
@@ -92,7 +98,7 @@ def held_motion(mass: Matrix, forcing: Vector, rows: Matrix, bias: Vector) -> He
         [x * s for x, s in zip(a, scales, strict=True)],
         multipliers,
         len(pivots),
-        _determined(rows, scales, lengths, used),
+        _determined(unit, block, used, columns),
     )
 
 
@@ -104,7 +110,7 @@ def _reduced(work: list[Vector], n: int) -> list[tuple[int, int]]:
     while rows and columns:
         size, i, j = max((abs(work[i][j]), -i, -j) for i in rows for j in columns)
         i, j = -i, -j
-        if not size > PIVOT_TOLERANCE:
+        if not size > _DEPENDENT:
             break
         pivots.append((i, j))
         rows.discard(i)
@@ -118,27 +124,22 @@ def _reduced(work: list[Vector], n: int) -> list[tuple[int, int]]:
     return pivots
 
 
-def _determined(rows: Matrix, scales: Vector, lengths: Vector, used: list[int]) -> tuple[bool, ...]:
+def _determined(
+    unit: Matrix, block: Matrix, used: list[int], columns: list[int]
+) -> tuple[bool, ...]:
     """Whether a row is no combination of the others: then its multiplier is determined."""
-    if len(used) == len(rows):
-        return (True,) * len(rows)
-    determined = [i in used for i in range(len(rows))]
-    unit = [
-        [x * s / (length or 1.0) for x, s in zip(row, scales, strict=True)]
-        for row, length in zip(rows, lengths, strict=True)
-    ]
-    gram = [[_dot(unit[i], unit[k]) for k in used] for i in used]
-    for i in range(len(rows)):
+    determined = [i in used for i in range(len(unit))]
+    for i, row in enumerate(unit):
         if i not in used:
-            weights = solved(gram, [_dot(unit[k], unit[i]) for k in used])
+            weights = solved(block, [row[j] for j in columns], least=0.0)
             for k, weight in zip(used, weights, strict=True):
-                if abs(weight) > math.sqrt(PIVOT_TOLERANCE):
+                if abs(weight) > _WEIGHTLESS:
                     determined[k] = False
     return tuple(determined)
 
 
-def solved(matrix: Matrix, right: Vector) -> Vector:
-    """x of matrix x = right, with full pivoting.
+def solved(matrix: Matrix, right: Vector, least: float = _NO_MASS) -> Vector:
+    """x of matrix x = right, with full pivoting; `least` is that of a pivot beside the largest.
 
     Raises
     ------
@@ -154,7 +155,7 @@ def solved(matrix: Matrix, right: Vector) -> Vector:
     while rows:
         size, i, j = max((abs(work[i][j]), -i, -j) for i in rows for j in columns)
         i, j = -i, -j
-        if not size > _NO_MASS * largest:
+        if not size > least * largest:
             raise NoMass("the mass matrix is singular along motions that are allowed")
         order.append((i, j))
         rows.discard(i)

@@ -46,9 +46,7 @@ def precise_outcome(
         conditions = simulation.conditions(motion, exact_q, exact_v)
         limit = _UNASKED if asked.digits is None else _ASKED
 
-        def runner(
-            tolerance: float, longest: float, peaks: Sequence[float] | None, _: int
-        ) -> Run:
+        def runner(tolerance: float, longest: float, peaks: Sequence[float] | None, _: int) -> Run:
             on = Surface(motion, rounding) if equations.rows else None
             bound = Tolerance(tolerance, motion.n, asked.until, longest, peaks)
             run = Run(motion, Taylor(motion, on), on, bound, conditions)

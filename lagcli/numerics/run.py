@@ -13,7 +13,7 @@ from lagcli.numerics.surface import Surface
 Vector = list[Any]
 
 #: Steps of one run: beyond this the answer would take minutes.
-STEP_LIMIT = 1_000_000
+STEP_LIMIT = 200_000
 #: Weyl's sequence of the golden ratio: places as even as can be, the same in every run.
 _GOLDEN = 0.6180339887498949
 

@@ -20,13 +20,13 @@ from lagcli.numerics.events import Condition
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import Refusal, told
 from lagcli.numerics.run import Run
-from lagcli.numerics.start import initial_state
+from lagcli.numerics.start import initial_state, rounded_components
 from lagcli.numerics.steps import Tolerance
 from lagcli.numerics.surface import Surface
 from lagcli.problem import Problem
 
-#: Local tolerances below this are lost in the rounding of doubles.
-FINEST_DOUBLE = 1e-16
+#: Local tolerances below this change nothing: an estimate is rounded at h |rate| 1e-16.
+FINEST_DOUBLE = 1e-18
 #: The intervals at which two runs are compared are at least so many.
 _COMPARED = 100
 #: Doubles that miss the accuracy, and are this good, miss it by their rounding.
@@ -143,6 +143,14 @@ class Simulation:
         conditions = self.conditions(motion, q, v)
         tabulate = self.tabulator(motion)
         generated = generated_step(motion.n, motion.accelerations)
+        # every other run begins at the next double: what the initial values are rounded by
+        # must not matter either
+        rounded = rounded_components(motion, q, v)
+        moved = [
+            math.nextafter(x, math.inf) if inexact else x
+            for x, inexact in zip((*q, *v), rounded, strict=True)
+        ]
+        nudged = (moved[: motion.n], moved[motion.n :])
         total = 2  # runs that progress is told of
 
         def runner(
@@ -157,7 +165,8 @@ class Simulation:
                 if self.progress is not None:
                     self.progress((done + part) / max(total, done + 1))
 
-            run.go(q, v, self.times, probe_every=every, progress=told)
+            state = (q, v) if self.finished % 2 else nudged
+            run.go(*state, self.times, probe_every=every, progress=told)
             self.finished += 1
             return run
 

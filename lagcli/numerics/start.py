@@ -15,7 +15,7 @@ from typing import Any
 from lagcli.diagnostics import NOWHERE, Diagnostic, Span
 from lagcli.expression import Name
 from lagcli.graph.derivative import partial
-from lagcli.graph.nodes import Node, Symbol
+from lagcli.graph.nodes import Constant, Node, Symbol
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.polynomial import real_roots
 from lagcli.numerics.refusal import Refusal, told
@@ -87,6 +87,19 @@ def refined_state(
     for _ in range(3):
         q, v = surface.project(0.0, q, v)
     return q, v
+
+
+def rounded_components(motion: Motion, q: Sequence[float], v: Sequence[float]) -> list[bool]:
+    """Which components of the initial state are not exactly the doubles that stand for them."""
+    equations = motion.equations
+    graph, read = equations.graph, equations.form.read
+    exact: dict[Symbol, bool] = {}
+    for name, formula in equations.problem.initial.items():
+        node = read(formula)
+        known = isinstance(node, Constant) and Fraction(float(node.value)) == node.value
+        exact[graph.symbol(name.name, name.primes)] = known
+    symbols = zip((*equations.q, *equations.qdot), (*q, *v), strict=True)
+    return [bool(value) and not exact.get(symbol, False) for symbol, value in symbols]
 
 
 class _Completion:

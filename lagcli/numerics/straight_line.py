@@ -75,8 +75,7 @@ def straight_line(
     nodes = [*roots, *(node for pair in watched for node in pair)]
     text = _Text(arguments, nodes, constants, arithmetic, frozen)
     names = ", ".join(f"n{symbol.index}" for symbol in arguments)
-    inner = [f"    def generated({names}):"]
-    inner += [f"        {line}" for line in text.body]
+    body = list(text.body)
     if watched and otherwise is not None:
         small = " and ".join(
             f"absolute({text.at(pivot)}) > {PIVOT_TOLERANCE!r}*absolute({text.at(entry)})"
@@ -84,12 +83,15 @@ def straight_line(
             else text.at(pivot)
             for pivot, entry in watched
         )
-        inner += [f"        if not ({small}):", f"            return otherwise({names})"]
-    values = "".join(f"{text.at(root)}, " for root in roots)
-    inner += [f"        return ({values})"]
+        body += [f"if not ({small}):", f"    return otherwise({names})"]
+    body += [f"return ({''.join(f'{text.at(root)}, ' for root in roots)})"]
+    if watched and otherwise is not None:  # a pivot that is 0 has already been divided by
+        rescue = ["except divided:", f"    return otherwise({names})"]
+        body = ["try:", *(f"    {line}" for line in body), *rescue]
+    inner = [f"    def generated({names}):", *(f"        {line}" for line in body)]
     head = f"def make({', '.join(text.given)}):"
     lines = [head, *(f"    {line}" for line in text.prologue), *inner, "    return generated"]
-    space = {"absolute": abs, "otherwise": otherwise}
+    space = {"absolute": abs, "otherwise": otherwise, "divided": ZeroDivisionError}
     make = run_generated(lines, "make", space)
     made: Callable[..., tuple[Any, ...]] = make(**text.given)
     return made

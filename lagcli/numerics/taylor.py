@@ -103,7 +103,7 @@ class Taylor:
                 self.evaluations += 1
                 for c, a in zip(x, found, strict=True):
                     for k in range(len(c) - 2, known):
-                        value = (a[k] if isinstance(a, series) else a if k == 0 else 0)
+                        value = a[k] if isinstance(a, series) else a if k == 0 else 0
                         c.append(self._ball(value).mid() / ((k + 1) * (k + 2)))
                     if not c[-1].is_finite():
                         raise CannotGoOn(t, q, v, "something is not defined")

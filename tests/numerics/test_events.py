@@ -1,0 +1,69 @@
+"""Contacts that are lost, strings that go slack, `--stop-when`, grazing."""
+
+import math
+
+import pytest
+
+from .running import column, last, simulated
+
+HEMISPHERE = """
+coordinates: [r, th]
+T: (r'^2 + r^2*th'^2)/2
+V: r*cos(th)
+constraints: {surface: {equation: r = 1, multiplier: N, holds_while: N >= 0}}
+initial: {r: 1, th: %s}
+"""
+
+
+def test_a_hemisphere_is_left_at_48_degrees():
+    """From rest at th0: cos(th) = 2 cos(th0)/3; 48.189685104221 degrees from the top."""
+    result = simulated(HEMISPHERE % "1e-8", 40, 1e-9, show="th,N")
+    assert result.events[0].what == "contact lost"
+    assert math.degrees(last(result, "th")) == pytest.approx(48.189685104221, abs=1e-7)
+    assert last(result, "N") == pytest.approx(0, abs=1e-9)
+    assert result.certificate.holds_until == result.events[0].t
+
+
+def test_a_string_goes_slack():
+    """v0^2 = 4 g l: cos(th) = -2/3, th = 2.300523983022."""
+    text = """
+coordinates: [x, y]
+T: (x'^2 + y'^2)/2
+V: y
+constraints: {string: {equation: x^2 + y^2 = 1, holds_while: lambda_string <= 0}}
+initial: {x: 0, y: -1, x': 2}
+"""
+    result = simulated(text, 10, 1e-9, show="atan2(x, -y)")
+    assert result.rows[-1][1] == pytest.approx(2.300523983022, abs=1e-9)
+
+
+def test_contact_that_does_not_even_begin():
+    text = "{coordinates: [y], L: y'^2/2 + y, constraints: {floor: {equation: y = 0, holds_while: lambda_floor >= 0}}}"
+    result = simulated(text, 1)
+    assert result.events[0].t == 0
+    assert len(result.rows) == 1
+
+
+def test_stop_when_changes_sign():
+    result = simulated("{coordinates: [x], L: x'^2/2 - x^2/2, initial: {x: 1}}", 10, stop="x - 1/2", samples=11)
+    assert result.events[0].t == pytest.approx(math.pi / 3, abs=1e-9)
+    assert column(result, "t") == pytest.approx([0, 1, math.pi / 3])
+
+
+def test_stop_when_begins_at_zero():
+    """x' = 0 at the beginning; the next zero is half a period later."""
+    result = simulated("{coordinates: [x], L: x'^2/2 - x^2/2, initial: {x: 1}}", 10, stop="x'")
+    assert result.events[0].t == pytest.approx(math.pi, abs=1e-9)
+
+
+@pytest.mark.parametrize("depth", [1e-3, 1e-6])
+def test_a_root_that_almost_grazes(depth):
+    """x = sin(t) dips below -1 + depth for a moment only."""
+    text = "{coordinates: [x], L: x'^2/2 - x^2/2, initial: {x: 0, x': 1}}"
+    result = simulated(text, 20, 1e-9, stop=f"x + 1 - {depth}")
+    assert result.events[0].t == pytest.approx(math.pi + math.asin(1 - depth), abs=1e-5)
+
+
+def test_no_event_where_it_does_not_reach():
+    text = "{coordinates: [x], L: x'^2/2 - x^2/2, initial: {x: 0, x': 1}}"
+    assert simulated(text, 20, 1e-9, stop="x + 1 + 1e-6").events == ()
