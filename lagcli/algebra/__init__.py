@@ -4,6 +4,7 @@ from lagcli.algebra.entry import Field
 from lagcli.algebra.leaves import to_expression
 from lagcli.algebra.linear import LinearSolution, left_nullspace, nullspace, rank, solve_linear
 from lagcli.algebra.relations import Relations
+from lagcli.algebra.shapes import Shapes
 from lagcli.algebra.simplification import is_zero, shape, simplify
 from lagcli.algebra.terms import terms
 
@@ -11,6 +12,7 @@ __all__ = [
     "Field",
     "LinearSolution",
     "Relations",
+    "Shapes",
     "is_zero",
     "left_nullspace",
     "nullspace",

@@ -34,6 +34,12 @@ class Ideal:
     def __init__(self, field: Field, polys: Sequence[Poly], generators: Sequence[int]) -> None:
         self.field = field
         self._ranked = list(generators)
+        #: The generators that occur in the polynomials, a cosine with its sine.
+        self.inside: set[int] = set()
+        for poly in polys:
+            for number in field.ring.used(poly):
+                partner = field.generators[number].partner
+                self.inside.update((number, partner) if partner >= 0 else (number,))
         self._open()
         rules = [rule for _, rule in field.ring.rules.values()]
         self.basis = _completed([self._inside(p) for p in [*polys, *rules]])

@@ -16,7 +16,9 @@ from lagcli.algebra.build import as_expr
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.relations import Relations
-from lagcli.algebra.simplification import readable
+from lagcli.algebra.shapes import Shapes
+from lagcli.algebra.simplification import Readable
+from lagcli.algebra.writing import Writer
 
 Matrix = Sequence[Sequence[Expr]]
 _Rows = list[dict[int, Element]]
@@ -31,7 +33,7 @@ class LinearSolution:
     values
         x, simplified; rows of values when b has several columns.  Empty when singular.
     determinant
-        det A, simplified; None when singular.
+        det A, simplified (without `shapes`); None when singular.
     singular
         Whether det A = 0.
     rank
@@ -53,6 +55,7 @@ def solve_linear(
     b: Sequence[Expr] | Matrix,
     relations: Relations | None = None,
     budget: float = 20.0,
+    shapes: Shapes | None = None,
 ) -> LinearSolution | None:
     """Solve A x = b exactly.
 
@@ -66,7 +69,11 @@ def solve_linear(
         that vanish where det A does not, as x does in x'/x for y y' = -x x'.
     budget
         Seconds after which None is returned.
+    shapes
+        Where the values are to be written as they were found here; then its relations count.
     """
+    if shapes is not None:
+        relations = shapes.relations
     several = bool(b) and isinstance(b[0], (list, tuple))
     columns: list[list[Expr]] = [list(row) if several else [row] for row in b]
     n, width = len(A), len(columns[0]) if columns else 1
@@ -80,16 +87,22 @@ def solve_linear(
     if _vanishes(field, found.determinant, relations):
         return LinearSolution([], None, singular=True, rank=rank(A, relations))
     row_of = {column: row for row, column in found.pivots}
+    readable = Readable(field, Writer(() if shapes is None else shapes.order), relations)
+
+    def simplified(element: Element) -> Expr:
+        value, tree = readable.pair(element)
+        if shapes is not None:
+            shapes.keep(value, tree)
+        return value
+
+    zero = field.rational(0)
     values = [
-        [
-            readable(field, rows[row_of[k]].get(n + j, field.rational(0)), relations)
-            for j in range(width)
-        ]
-        for k in range(n)
+        [simplified(rows[row_of[k]].get(n + j, zero)) for j in range(width)] for k in range(n)
     ]
-    determinant = readable(field, found.determinant, relations)
+    determinant = found.determinant
+    det = readable.pair(determinant)[0] if shapes is None else field.to_sympy(determinant)
     flat: list[Expr] | list[list[Expr]] = values if several else [v[0] for v in values]
-    return LinearSolution(flat, determinant, singular=False, rank=n)
+    return LinearSolution(flat, det, singular=False, rank=n)
 
 
 def rank(A: Matrix, relations: Relations | None = None) -> int:
@@ -106,6 +119,7 @@ def nullspace(A: Matrix, relations: Relations | None = None) -> list[list[Expr]]
     pivots = _eliminate(field, rows, width, relations).pivots
     bound = {column: row for row, column in pivots}
     vectors = []
+    readable = Readable(field, Writer(), relations)
     for free in range(width):
         if free in bound:
             continue
@@ -114,7 +128,7 @@ def nullspace(A: Matrix, relations: Relations | None = None) -> list[list[Expr]]
         for column, row in bound.items():
             if free in rows[row]:
                 vector[column] = -rows[row][free]
-        vectors.append([readable(field, x, relations) for x in vector])
+        vectors.append([readable.pair(x)[0] for x in vector])
     return vectors
 
 

@@ -129,6 +129,9 @@ def _factor_names(node: Expression) -> Iterator[Name]:
     match node:
         case Name():
             yield node
+        case Power(base=Sum(terms=terms)):  # (x + a)² + y²
+            for term in terms:
+                yield from _factor_names(term)
         case Negative(operand=inner) | Quotient(numerator=inner) | Power(base=inner):
             yield from _factor_names(inner)
         case Product(factors=factors):

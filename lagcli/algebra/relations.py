@@ -6,17 +6,16 @@ denominators are then taken modulo the ideal of the relations (a Gröbner basis 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import islice, permutations
+from collections.abc import Collection, Container, Sequence
+from functools import cached_property
 
 from sympy import Expr, Symbol
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.ideal import Ideal
-from lagcli.algebra.ring import Poly
+from lagcli.algebra.ring import Monomial, Poly
 
-_ORDERS = 2  # monomial orders that are tried
 _IDEALS = 6  # ideals in all
 _READ = 3  # reductions that are shaped
 
@@ -31,6 +30,9 @@ class Relations:
     eliminate
         Symbols to solve for, the most welcome first.  By default the primed symbols and
         those that occur with a prime too: coordinates and their velocities.
+    moving
+        Symbols whose value changes, so that nothing is divided by what depends on them.
+        Where they are not told, nothing is divided by a function of anything.
 
     Attributes
     ----------
@@ -41,13 +43,19 @@ class Relations:
         The other relations, solutions substituted.
     """
 
-    def __init__(self, expressions: Sequence[Expr], eliminate: Sequence[Symbol] = ()) -> None:
+    def __init__(
+        self,
+        expressions: Sequence[Expr],
+        eliminate: Sequence[Symbol] = (),
+        moving: Collection[Symbol] = (),
+    ) -> None:
         self.solved: dict[Symbol, Expr] = {}
         self.remaining: list[Expr] = []
         symbols = sorted({s for e in expressions for s in e.free_symbols}, key=lambda s: s.name)
         #: Without a preference the name that comes last is solved for.
         self._direction = 1 if eliminate else -1
         self._welcome = list(eliminate) or _dynamic(symbols) or symbols
+        self._moving = frozenset(moving)
         self._ideals: dict[int, tuple[Field, list[Ideal]]] = {}
         for expression in expressions:
             self._add(expression)
@@ -88,7 +96,6 @@ class Relations:
         best: tuple[tuple[int, ...], Symbol, Element] | None = None
         ring = field.ring
         used = ring.used(poly)
-        welcome = set(self._welcome)
         hidden = {
             s for g in used if field.generators[g].kind != "symbol"
             for s in field.generators[g].expression.free_symbols
@@ -98,10 +105,7 @@ class Relations:
             if number not in used or symbol in hidden or ring.degree(poly, number) != 1:
                 continue
             slope = ring.derivative(poly, number)
-            generators = [field.generators[g] for g in ring.used(slope)]
-            if any(g.expression.free_symbols & welcome for g in generators):
-                continue
-            if len(slope) > 1 and not all(g.nonnegative for g in generators):
+            if not self._divides(field, slope):
                 continue
             value = field.element(slope * ring.generator(number) - ring.lift(poly), slope)
             sign = int(symbol.is_positive is True and _negative(value))
@@ -111,25 +115,71 @@ class Relations:
                 best = (cost, symbol, value)
         return None if best is None else (best[1], field.to_sympy(best[2]))
 
-    def reductions(self, field: Field, element: Element) -> list[Element]:
-        """Equal elements on the relations: numerator, denominator or both modulo an ideal.
+    def _divides(self, field: Field, slope: Poly) -> bool:
+        """Whether a relation may be divided by this: it is 0 nowhere."""
+        generators = [field.generators[g] for g in field.ring.used(slope)]
+        varying = {*self._welcome, *self._moving}
+        for each in generators:
+            symbols = each.expression.free_symbols
+            if symbols & varying:
+                return False
+            if symbols and each.kind != "symbol" and not self._moving:
+                return False
+        return len(slope) == 1 or all(g.nonnegative for g in generators)
 
-        The shortest few of them.
+    @cached_property
+    def generic(self) -> Relations:
+        """The same relations solved for anything, parameters too, that has a slope at all.
+
+        For the decision whether a formula is 0, which generic points make: with d for
+        l1 cos a + l2 cos b it is a question about rational functions.
+        """
+        if not self.remaining:
+            return self
+        symbols = {s for e in self.remaining for s in e.free_symbols} - {*self._welcome}
+        return _Generic(self.remaining, [*self._welcome, *sorted(symbols, key=lambda s: s.name)])
+
+    def reductions(self, field: Field, element: Element) -> list[Element]:
+        """Equal elements on the relations: numerator and denominator modulo an ideal.
+
+        The denominator is 0 on the relations only where that of the element is.  The
+        shortest few of them.
         """
         found: list[Element] = []
         for ideal in self._ideals_in(field):
             below = ideal.remainder(element.denominator)
             if below.is_zero():
                 continue
-            candidates = [ideal.remainder(element.numerator) / below]
-            if not element.is_polynomial():
-                candidates.append(field.polynomial(element.numerator) / below)
-            for each in map(field.lifted, candidates):
-                new = (each.numerator, each.denominator)
-                if all(new != (x.numerator, x.denominator) for x in map(field.lifted, found)):
-                    found.append(each)
+            each = field.lifted(ideal.remainder(element.numerator) / below)
+            new = (each.numerator, each.denominator)
+            if all(new != (x.numerator, x.denominator) for x in map(field.lifted, found)):
+                found.append(each)
         found.sort(key=Element.size)
         return found[:_READ]
+
+    def modulo(self, field: Field, poly: Poly) -> list[Element]:
+        """The remainders by each ideal that are no longer, shortest first."""
+        found = [ideal.remainder(poly) for ideal in self._ideals_in(field) if ideal.touches(poly)]
+        found = [each for each in found if len(each.numerator) <= len(poly)]
+        return sorted(found, key=Element.size)[:_READ]
+
+    def shared_out(self, field: Field, poly: Poly) -> Poly:
+        """An equal polynomial: each coefficient by its remainder where that is shorter.
+
+        Coefficients of the monomials in what a relation does not have in it: so
+        (x² + y²)*x'² + y*z'² becomes l²*x'² + y*z'², and no variable is preferred.
+        """
+        ring = field.ring
+        for ideal in sorted(self._ideals_in(field), key=lambda ideal: len(ideal.inside)):
+            total = ring.zero
+            for outside, inner in _by_outside(field, poly, ideal.inside):
+                if len(inner) > 1 and ideal.touches(inner):
+                    rest = ideal.remainder(inner)
+                    if rest.denominator == 1 and len(rest.numerator) < len(inner):
+                        inner = ring.lift(rest.numerator)
+                total = total + inner * ring.build([(outside, 1)])
+            poly = total
+        return ring.reduce(poly)
 
     def shortest(self, field: Field, element: Element) -> Element:
         """An equal element of at most half the size, where there is one."""
@@ -150,7 +200,11 @@ class Relations:
 
     def contain(self, field: Field, poly: Poly) -> bool:
         """Whether the polynomial is found to lie in the ideal of the relations."""
-        return any(ideal.remainder(poly).is_zero() for ideal in self._ideals_in(field)[:1])
+        for ideal in self._ideals_in(field)[:1]:
+            # coefficient by coefficient of what the relations do not have in them
+            parts = _by_outside(field, poly, ideal.inside)
+            return all(ideal.remainder(inner).is_zero() for _, inner in parts)
+        return False
 
     def _ideals_in(self, field: Field) -> list[Ideal]:
         if not self.remaining:
@@ -172,12 +226,29 @@ class Relations:
         ideals: list[Ideal] = []
         for subset in subsets:
             within = [n for n in squares or variables if any(ring.degree(p, n) for p in subset)]
-            for first in islice(permutations(within), _ORDERS):
+            orders = [within, within[::-1]] if len(within) > 1 else [within]
+            for first in orders:
                 if len(ideals) < _IDEALS:
                     rest = [n for n in reversed(variables) if n not in first]
                     ideals.append(Ideal(field, subset, [*rest, *first]))
         self._ideals = {id(field): (field, ideals)}
         return ideals
+
+
+class _Generic(Relations):
+    """Relations solved by division by anything that is not identically 0."""
+
+    def _divides(self, _field: Field, _slope: Poly) -> bool:
+        return True
+
+
+def _by_outside(field: Field, poly: Poly, inside: Container[int]) -> list[tuple[Monomial, Poly]]:
+    """The coefficients, polynomials in some generators, of the monomials in the others."""
+    groups: dict[Monomial, list[tuple[Monomial, int]]] = {}
+    for monomial, value in field.ring.terms(poly):
+        outside = tuple(p for p in monomial if p[0] not in inside)
+        groups.setdefault(outside, []).append((tuple(p for p in monomial if p[0] in inside), value))
+    return [(outside, field.ring.build(terms)) for outside, terms in groups.items()]
 
 
 def _dynamic(symbols: Sequence[Symbol]) -> list[Symbol]:

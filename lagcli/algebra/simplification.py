@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from functools import partial
 
 from sympy import Expr
@@ -10,8 +11,9 @@ from sympy import Expr
 from lagcli.algebra.cancellation import cancelled
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
-from lagcli.algebra.leaves import Translator
+from lagcli.algebra.leaves import Translator, to_expression
 from lagcli.algebra.relations import Relations
+from lagcli.algebra.ring import Monomial, Poly
 from lagcli.algebra.shaping.plan import OPERATION
 from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.writing import Writer
@@ -19,6 +21,7 @@ from lagcli.expression import Expression, operation_count
 
 _LONG = 60  # terms of an element of which ...
 _OF_LONG = 2  # ... no more than these equal forms are shaped
+_EQUAL = 4  # numerators that are shaped
 
 
 def shape(
@@ -36,6 +39,22 @@ def shape(
     relations
         What may be used to shorten it.
     """
+    expression, tree = shaped(expression, order, relations)
+    return to_expression(expression, order) if tree is None else tree
+
+
+def simplify(expression: Expr, relations: Relations | None = None) -> Expr:
+    """The shortest readable shape as a SymPy expression; see `shape`."""
+    return shaped(expression, (), relations)[0]
+
+
+def shaped(
+    expression: Expr, order: Sequence[str], relations: Relations | None
+) -> tuple[Expr, Expression | None]:
+    """The shortest readable shape, as a SymPy expression and as a tree; see `shape`.
+
+    The tree is None where the expression has no normal form and stays as it is.
+    """
     if relations:
         expression = relations.substitute(expression)
     writer = Writer(order)
@@ -43,32 +62,15 @@ def shape(
     try:
         element = field(expression)
     except ZeroDivisionError:
-        return Translator(writer).tree(expression)
-    tree, _ = _shortest(field, writer, element, relations)
-    given = Translator(writer).tree(expression)
-    return given if operation_count(given) < operation_count(tree) else tree
-
-
-def simplify(expression: Expr, relations: Relations | None = None) -> Expr:
-    """The shortest readable shape as a SymPy expression; see `shape`."""
-    if relations:
-        expression = relations.substitute(expression)
-    field = Field([expression])
+        return expression, None
+    tree, shaper = Readable(field, writer, relations).shortest(element)
     try:
-        element = field(expression)
-    except ZeroDivisionError:
-        return expression
-    tree, shaper = _shortest(field, Writer(), element, relations)
-    given = Translator(shaper.writer).count(expression)
-    if given is not None and given < operation_count(tree):
-        return expression
-    return shaper.to_sympy(tree)
-
-
-def readable(field: Field, element: Element, relations: Relations | None = None) -> Expr:
-    """The shortest readable shape of an element of the field."""
-    tree, shaper = _shortest(field, Writer(), element, relations)
-    return shaper.to_sympy(tree)
+        given = Translator(writer).tree(expression)
+    except TypeError:
+        return shaper.to_sympy(tree), tree
+    if operation_count(given) < operation_count(tree):
+        return expression, given
+    return shaper.to_sympy(tree), tree
 
 
 def is_zero(expression: Expr, relations: Relations | None = None) -> bool | None:
@@ -89,27 +91,123 @@ def is_zero(expression: Expr, relations: Relations | None = None) -> bool | None
     if element.is_zero():
         return True
     if relations and relations.remaining:
-        return True if relations.contain(field, element.numerator) else None
+        generic = relations.generic
+        above = field.polynomial_to_sympy(element.numerator)
+        if not generic.remaining:
+            return is_zero(above, generic)
+        if relations.contain(field, element.numerator):
+            return True
+        return True if generic.solved and is_zero(above, generic) else None
     return None if field.doubtful else False
 
 
-def _shortest(
-    field: Field, writer: Writer, element: Element, relations: Relations | None
-) -> tuple[Expression, Shaper]:
-    """The best tree among equal elements, and the shaper that made it."""
-    # cancelled first: a reduced numerator may share no factor with the denominator any more
-    element = cancelled(field, element)
-    candidates = [element]
-    if relations:
-        candidates.extend(cancelled(field, e) for e in relations.reductions(field, element))
-    candidates.sort(key=Element.size)
-    if candidates[0].size() > _LONG:
-        del candidates[_OF_LONG:]
-    shorter = partial(relations.shorter, field) if relations and relations.remaining else None
-    shapers = [Shaper(field, writer, shorter=shorter)]
-    if field.root_scales:
-        shapers.insert(0, Shaper(field, writer, scaled=True, shorter=shorter))
-    shapes = [(shaper.plan(each), shaper) for each in candidates for shaper in shapers]
-    # sqrt(1 - v²/c²), where it was put in so, may cost one operation more than sqrt(c² - v²)
-    plan, shaper = min(shapes, key=lambda pair: pair[0].score - OPERATION * pair[1].scaled)
-    return shaper.written(plan), shaper
+class Readable:
+    """The readable shapes of the elements of one field.
+
+    Parameters
+    ----------
+    relations
+        What may be used to shorten them.  An answer's denominator vanishes where they hold
+        only where that of the element does.
+    """
+
+    def __init__(self, field: Field, writer: Writer, relations: Relations | None) -> None:
+        self.field = field
+        self.relations = relations if relations and relations.remaining else None
+        shorter = partial(self.relations.shorter, field) if self.relations else None
+        self._denominators: dict[tuple[tuple[Monomial, int], ...], Element] = {}
+        self._shapers = [Shaper(field, writer, shorter=shorter)]
+        if field.root_scales:
+            self._shapers.insert(0, Shaper(field, writer, scaled=True, shorter=shorter))
+
+    def shortest(self, element: Element) -> tuple[Expression, Shaper]:
+        """The best tree among equal elements, and the shaper that made it."""
+        # cancelled first: a reduced numerator may share no factor with the denominator any more
+        element = cancelled(self.field, element)
+        candidates = self._equal(element)
+        for shaper in self._shapers:
+            shaper.grouper.renew()
+        shapes = [(shaper.plan(each), shaper) for each in candidates for shaper in self._shapers]
+        for parts in self._divided(element):
+            shapes += [(shaper.together(parts), shaper) for shaper in self._shapers]
+        # sqrt(1 - v²/c²), where it was put in so, may cost one operation more than sqrt(c² - v²)
+        plan, shaper = min(shapes, key=lambda pair: pair[0].score - OPERATION * pair[1].scaled)
+        return shaper.written(plan), shaper
+
+    def pair(self, element: Element) -> tuple[Expr, Expression]:
+        """The best shape as a SymPy expression and as a tree."""
+        tree, shaper = self.shortest(element)
+        return shaper.to_sympy(tree), tree
+
+    def _equal(self, element: Element) -> list[Element]:
+        """Equal elements on the relations, above the denominator that shows least."""
+        relations, field = self.relations, self.field
+        if relations is None:
+            return [element]
+        above = self._alike(element.numerator)
+        least = field.lifted(self._denominator(element.denominator))
+        found = [cancelled(field, field.lifted(each) / least) for each in above]
+        # reduced together they may have a factor in common that neither shows
+        divided = [cancelled(field, each) for each in relations.reductions(field, element)]
+        degree = min(each.denominator.total_degree() for each in found)
+        found += [each for each in divided if each.denominator.total_degree() < degree]
+        found.sort(key=Element.size)
+        return found[: _OF_LONG if found[0].size() > _LONG else _EQUAL]
+
+    def _denominator(self, poly: Poly) -> Element:
+        """The equal of a denominator that shows least."""
+        key = tuple(self.field.ring.terms(poly))
+        known = self._denominators.get(key)
+        if known is None:
+            shaper = self._shapers[-1]
+            below = [each for each in self._alike(poly) if not each.is_zero()]
+            known = min(below, key=lambda each: shaper.plan(each).score)
+            self._denominators[key] = known
+        return known
+
+    def _divided(self, element: Element) -> Iterator[tuple[Element, Element]]:
+        """N/D = Q + R/D before the relations are used, which hide it."""
+        if self.relations is None or element.is_polynomial():
+            return
+        field = self.field
+        element = field.lifted(element)
+        quotient = _commonest_ratio(field, element)
+        if quotient is None:
+            return
+        rest = element.numerator - quotient * element.denominator
+        if rest == 0 or len(rest) + 1 >= len(element.numerator):
+            return
+        for each in self._equal(field.element(rest, element.denominator)):
+            yield field.polynomial(quotient), each
+
+    def _alike(self, poly: Poly) -> list[Element]:
+        """Polynomials that are equal on the relations, distinct."""
+        assert self.relations is not None
+        field = self.field
+        found: list[Element] = []
+        for each in (
+            field.polynomial(poly),
+            field.polynomial(self.relations.shared_out(field, poly)),
+            *self.relations.modulo(field, poly),
+        ):
+            if all(each.numerator != x.numerator or each.denominator != x.denominator
+                   for x in map(field.lifted, found)):  # fmt: skip
+                found.append(each)
+        return found
+
+
+def _commonest_ratio(field: Field, element: Element) -> Poly | None:
+    """The term by which most of the denominator's terms are found in the numerator."""
+    below = [(dict(m), v) for m, v in field.ring.terms(element.denominator)]
+    count: Counter[tuple[Monomial, int]] = Counter()
+    for monomial, value in field.ring.terms(element.numerator):
+        exponents = dict(monomial)
+        for divisor, number in below:
+            if value % number or any(exponents.get(g, 0) < e for g, e in divisor.items()):
+                continue
+            ratio = tuple((g, e - divisor.get(g, 0)) for g, e in monomial if e > divisor.get(g, 0))
+            count[ratio, value // number] += 1
+    if not count:
+        return None
+    found, times = count.most_common(1)[0]
+    return field.ring.build([found]) if 2 * times > len(below) else None

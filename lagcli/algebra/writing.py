@@ -46,6 +46,8 @@ class Writer:
         coefficient, pairs = _flattened(coefficient, factors)
         pairs = self._joined_exponentials(_tangents(_merged(pairs)))
         coefficient, pairs = self._joined_roots(coefficient, pairs)
+        if coefficient < 0:
+            coefficient, pairs = self._turned(coefficient, pairs)
         above = self._factors(pairs, 1)
         below = self._factors(pairs, -1)
         size = abs(coefficient)
@@ -115,6 +117,17 @@ class Writer:
             return coefficient, [*rest, (radicand.denominator, -half)]
         return coefficient, [*rest, (radicand, half)]
 
+    def _turned(self, coefficient: Fraction, pairs: list[Factor]) -> tuple[Fraction, list[Factor]]:
+        """m*(x'' - a - b) for -m*(-x'' + a + b): no minus before a bracket that has one first."""
+        for position, (base, exponent) in enumerate(pairs):
+            if not isinstance(base, Sum) or exponent != 1:
+                continue
+            negatives = sum(isinstance(term, Negative) for term in base.terms)
+            if isinstance(base.terms[0], Negative) and len(base.terms) <= 2 * negatives + 1:
+                turned = self.negative_sum(base)
+                return -coefficient, [*pairs[:position], (turned, exponent), *pairs[position + 1 :]]
+        return coefficient, pairs
+
     def power(self, base: Expression, exponent: Fraction) -> Expression:
         """base^exponent for a positive rational exponent."""
         if exponent == 1:
@@ -153,12 +166,14 @@ class Writer:
                 return operand
             case Number(value=value) if value == 0:
                 return node
-            case Sum(terms=terms):
-                return self.sum(
-                    [t.operand if isinstance(t, Negative) else Negative(t) for t in terms]
-                )
+            case Sum():
+                return self.negative_sum(node)
             case _:
                 return Negative(node)
+
+    def negative_sum(self, node: Sum) -> Expression:
+        """The sum of the terms with their signs changed."""
+        return self.sum([t.operand if isinstance(t, Negative) else Negative(t) for t in node.terms])
 
 
 def _product(factors: list[Expression]) -> Expression:
@@ -175,9 +190,7 @@ def _merged(pairs: Iterable[Factor]) -> list[Factor]:
     return [(base, exponent) for base, exponent in exponents.items() if exponent]
 
 
-def _flattened(
-    coefficient: Fraction, factors: Iterable[Factor]
-) -> tuple[Fraction, list[Factor]]:
+def _flattened(coefficient: Fraction, factors: Iterable[Factor]) -> tuple[Fraction, list[Factor]]:
     """Signs, numbers, products, quotients and powers out of the factors."""
     result: list[Factor] = []
     stack = list(factors)

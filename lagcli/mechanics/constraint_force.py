@@ -38,7 +38,7 @@ def forces_on_points(dynamics: Dynamics) -> dict[str, dict[str, tuple[Expr, ...]
     ):
         if force is None:
             continue
-        solution = solve_linear(transposed, list(force), dynamics.constraints.relations)
+        solution = solve_linear(transposed, list(force), shapes=dynamics.shapes)
         if solution is None or solution.singular:
             return {}
         by_point = {p.name: [sympy.S.Zero] * len(p.position) for p in system.particles}

@@ -130,7 +130,8 @@ class Constraints:
         if not self.equations:
             return None
         positions = [e.f for e in self.equations if e.holonomic]
-        return Relations([*positions, *self.velocity_forms])
+        moving = (*self.system.q, *self.system.qdot, self.system.t)
+        return Relations([*positions, *self.velocity_forms], moving=moving)
 
     # -- integrability ----------------------------------------------------------------
 

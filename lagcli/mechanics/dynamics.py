@@ -15,7 +15,7 @@ from functools import cached_property
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import is_zero, left_nullspace, nullspace, simplify, solve_linear
+from lagcli.algebra import Shapes, is_zero, left_nullspace, nullspace, solve_linear
 from lagcli.answers import Verification
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.constraints import Constraints
@@ -117,6 +117,11 @@ class Dynamics:
             if any(is_zero(vector[i]) is not True for vector in kernel)
         )
 
+    @cached_property
+    def shapes(self) -> Shapes:
+        """The readable forms on the constraint surface."""
+        return Shapes(self.system.order, self.constraints.relations)
+
     # -- solution -------------------------------------------------------------------------
 
     @cached_property
@@ -132,7 +137,7 @@ class Dynamics:
             [*e.row, *([zero] * m)] for e in rows
         ]
         right = [*self.lagrange.forcing, *(-e.bias for e in rows)]
-        solution = solve_linear(matrix, right, self.constraints.relations)
+        solution = solve_linear(matrix, right, shapes=self.shapes)
         if solution is None or solution.singular:
             return None
         accelerations = tuple(solution.values[:n])
@@ -187,7 +192,9 @@ class Dynamics:
         if self.motion is None:
             return (None,) * len(self.constraints)
         return tuple(
-            None if value is None else tuple(value * a for a in equation.row)
+            None
+            if value is None
+            else tuple(self.shapes.combination([value], [a]) for a in equation.row)
             for equation, value in zip(
                 self.constraints.equations, self.motion.multipliers, strict=True
             )
@@ -198,15 +205,9 @@ class Dynamics:
         """sum_k lambda_k a_kj, unique also where single multipliers are not."""
         if self.motion is None:
             return None
+        equations = self.constraints.equations
         return tuple(
-            sympy.Add(
-                *(
-                    value * e.row[j]
-                    for e, value in zip(
-                        self.constraints.equations, self.motion.independent, strict=True
-                    )
-                )
-            )
+            self.shapes.combination(self.motion.independent, [e.row[j] for e in equations])
             for j in range(len(self.system.q))
         )
 
@@ -244,4 +245,4 @@ class Dynamics:
 
     def simplified(self, expression: Expr) -> Expr:
         """The readable form on the constraint surface."""
-        return simplify(expression, self.constraints.relations)
+        return self.shapes.simplify(expression)

@@ -133,7 +133,7 @@ class Statements:
 
     def _on_surface(self, expression: Expr) -> Expression:
         """Readable, with the constraints used."""
-        return shape(expression, self.system.order, self.dynamics.constraints.relations)
+        return self.dynamics.shapes.shape(expression)
 
     def _by_coordinate(self, values: Sequence[Expr]) -> dict[str, Expression]:
         return {

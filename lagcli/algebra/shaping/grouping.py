@@ -22,7 +22,7 @@ _MAX_FACTORED = 400  # terms
 _MAX_PLAIN = 10  # terms that may be left without any bracket
 _MAX_SHORTENED = 12  # terms
 _SHORTENINGS = 100  # attempts
-_EFFORT = 900  # splits that are tried in all; then the most promising one only
+_EFFORT = 400  # splits that are tried in all; then the most promising one only
 
 
 Integers: TypeAlias = dict[Term, int]
@@ -38,6 +38,10 @@ class Grouper:
         self._memo: dict[tuple[frozenset[tuple[Term, int]], bool], Product | Sum] = {}
         self._left = _EFFORT
         self._effort = 0
+
+    def renew(self) -> None:
+        """The full effort for another formula."""
+        self._left, self._shortenings = _EFFORT, _SHORTENINGS
 
     def group(self, terms: Terms, *, spread: bool = False) -> Product | Sum:
         """The plan of a sum.

@@ -13,6 +13,8 @@ from lagcli.expression import Expression
 OPERATION = 6
 #: A fraction inside brackets is worth that many bracketed operations.
 _FRACTION = 3
+#: One inside a denominator more than an operation: a/(b + c/d) is a*d/(b*d + c).
+_FRACTION_BELOW = 9
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +99,8 @@ def product(
         if isinstance(part, Sum):
             cost += part.cost
             strain += part.cost + part.strain
-            strain += _FRACTION * any(t.has_denominator() for t in part.terms)
+            if any(t.has_denominator() for t in part.terms):
+                strain += _FRACTION if exponent > 0 else _FRACTION_BELOW
         else:
             cost += atoms.costs[part]
         if size != 1:

@@ -51,6 +51,7 @@ class Shaper:
         self.field = field
         self.writer = writer
         self.scaled = scaled
+        self._known: dict[tuple[tuple[tuple[Monomial, int], ...], int], Product] = {}
         self.atoms = Atoms(field, writer, self.shape, scaled=scaled)
         self.trigonometry = Trigonometry(field, self.atoms)
         self.grouper = Grouper(self.atoms, shorter)
@@ -107,12 +108,12 @@ class Shaper:
             groups.setdefault(roots, []).append((monomial, coefficient))
         if len(groups) < 2 or element.is_polynomial():
             return
-        yield self._together(
+        yield self.together(
             self.field.element(self.field.ring.build(terms), element.denominator)
             for terms in groups.values()
         )
 
-    def _together(self, elements: Iterable[Element]) -> Sum:
+    def together(self, elements: Iterable[Element]) -> Sum:
         """The sum of the plans of each."""
         parts: list[Product] = []
         for each in elements:
@@ -133,7 +134,7 @@ class Shaper:
             if quotient == 0 or rest == 0 or len(quotient) + len(rest) >= len(element.numerator):
                 continue
             field = self.field
-            yield self._together(
+            yield self.together(
                 (
                     field.element(quotient, element.denominator / divisor),
                     field.element(rest, element.denominator),
@@ -179,6 +180,13 @@ class Shaper:
 
     def _factors(self, poly: Poly) -> Product:
         """The plan of a polynomial: its factors, each in its shortest shape."""
+        key = tuple(self.field.ring.terms(poly)), len(self.atoms.roots)
+        known = self._known.get(key)
+        if known is None:
+            known = self._known[key] = self._of_factors(poly)
+        return known
+
+    def _of_factors(self, poly: Poly) -> Product:
         if len(poly) > _MAX_FACTORED:
             return _as_product(self.atoms, self.grouper.group(self.atoms.terms(poly)))
         parts: dict[int | Sum, Exponent] = {}
