@@ -39,6 +39,8 @@ from lagcli.mechanics.discovery.special import special_values
 from lagcli.mechanics.noether import Noether, NoetherCharge
 
 _MOST_COORDINATES = 9
+_MOST_FOR_TENSORS = 6
+_FEW_TERMS = 3
 _QUICK = 2.0  # seconds of a search that is worth repeating at special parameters
 
 
@@ -109,8 +111,11 @@ class Discovery:
         )
 
     def _short(self, expression: Expr) -> Expr:
+        """Shorter where sines and cosines may cancel; sums of pair forces stay as they are."""
         self.clock.check()
-        return simplify(expression)
+        angular = any(not free_of(f, self.system.q) for f in expression.atoms(sympy.sin, sympy.cos))
+        few = len(sympy.Add.make_args(expression)) <= _FEW_TERMS
+        return simplify(expression) if angular or few else expression
 
     @cached_property
     def _kinds(self) -> Kinds:
@@ -129,7 +134,13 @@ class Discovery:
 
     @cached_property
     def _accelerations(self) -> tuple[Expr, ...] | None:
-        motion = None if self.dynamics.constraints.equations else self.dynamics.motion
+        """q'' for its linear part; None where there are constraints."""
+        if self.dynamics.constraints.equations:
+            return None
+        mass, forcing = self.equations.mass, self.equations.forcing
+        if all(m == 0 for i, row in enumerate(mass) for j, m in enumerate(row) if i != j):
+            return tuple(f / row[i] for i, (f, row) in enumerate(zip(forcing, mass, strict=True)))
+        motion = self.dynamics.motion
         return None if motion is None else motion.accelerations
 
     def _search(
@@ -208,6 +219,9 @@ class Discovery:
         if len(self.system.q) < 2 or not self._quadratic or not self.canonical:
             return
         if self.system.t in self.equations_symbols:
+            return
+        if len(self.system.q) > _MOST_FOR_TENSORS:
+            self.words.append("no integrals of second degree, for so many coordinates")
             return
         self.words.append(
             "first integrals of second degree in the velocities without explicit time, "

@@ -13,17 +13,11 @@ from dataclasses import dataclass
 import sympy
 from sympy import Expr
 
-from lagcli.algebra.entry import Field
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Clock
-from lagcli.mechanics.discovery.modular import (
-    PRIME,
-    Compiled,
-    ModularPoints,
-    NoPoint,
-    kernel_modulo,
-)
+from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo
 from lagcli.mechanics.discovery.slots import Condition, Equations, Slot
+from lagcli.mechanics.discovery.tree import Memo, Tree
 
 _BAD_POINTS = 50
 
@@ -102,40 +96,32 @@ class Search:
         jets = [e for jet in self._time_jets.values() for e in jet]
         jets += [e for jets in self._factors.values() for jet in jets for e in jet]
         jets += self.equations.v
-        self.field = Field([*expressions, *jets, *more])
-        self._elements = {}
-        for expression in dict.fromkeys([*expressions, *jets, *more]):
-            self.clock.check()
-            self._elements[expression] = self.field(expression)
         variables = [self.equations.t, *self.equations.q, *self.equations.v]
-        self.points = ModularPoints(self.field, variables)
+        self.tree = Tree([*expressions, *jets, *more], variables, self.clock)
+        self.points = self.tree.points
         self._exact = ExactSolver(self.points)
-        self._compiled: dict[Expr, Compiled] = {
-            e: self.points.compiled(x) for e, x in self._elements.items()
-        }
 
     def function_value(self, unknown: Unknown, point: Sequence[int]) -> int:
         """T g at a point."""
-        value = self._compiled[unknown.time](point)
+        memo: Memo = {}
+        value = self.tree.value(unknown.time, point, memo)
         for h, _, _ in self._factors[unknown.space]:
-            value = value * self._compiled[h](point) % PRIME
+            value = value * self.tree.value(h, point, memo) % PRIME
         return value
 
     # -- modulo a prime -----------------------------------------------------------------
 
     def values(self, expressions: Sequence[Expr], point: Sequence[int]) -> list[int]:
         """Expressions that were given to the field, at a point."""
-        return [self._compiled[e](point) for e in expressions]
+        memo: Memo = {}
+        return [self.tree.value(e, point, memo) for e in expressions]
 
     def rows(self, point: Sequence[int]) -> list[list[int]]:
         """One row for each condition at a point; columns are the unknowns."""
-        known: dict[Expr, int] = {}
+        memo: Memo = {}
 
         def at(expression: Expr) -> int:
-            value = known.get(expression)
-            if value is None:
-                value = known[expression] = self._compiled[expression](point)
-            return value
+            return self.tree.value(expression, point, memo)
 
         tables = [
             [[(jet, at(e)) for jet, e in condition if e != 0] for condition in conditions]

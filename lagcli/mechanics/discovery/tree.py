@@ -1,0 +1,89 @@
+"""Values of SymPy expressions modulo a prime, node by node: nothing is expanded.
+
+Sums, products and integer powers are evaluated as they stand; symbols, roots and functions
+are elements of a field, whose rules their values obey.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from sympy import Expr, Symbol
+
+from lagcli.algebra.entry import Field
+from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, NoPoint
+
+Memo = dict[Expr, int]
+
+
+class Tree:
+    """Expressions with a field for their leaves.
+
+    Parameters
+    ----------
+    expressions
+        Whatever is to be evaluated.
+    variables
+        The symbols that change from point to point.
+    """
+
+    def __init__(
+        self, expressions: Iterable[Expr], variables: Sequence[Symbol], clock: Clock
+    ) -> None:
+        leaves = _leaves(expressions)
+        self.field = Field(leaves)
+        elements = {}
+        for leaf in leaves:
+            clock.check()
+            elements[leaf] = self.field(leaf)
+        self.points = ModularPoints(self.field, variables)
+        self._leaves = {leaf: self.points.compiled(x) for leaf, x in elements.items()}
+
+    def value(self, expression: Expr, point: Sequence[int], memo: Memo) -> int:
+        """The value at a point; `memo` keeps parts for other expressions at the same point.
+
+        Raises
+        ------
+        NoPoint
+            Where a denominator vanishes.
+        """
+        known = memo.get(expression)
+        if known is not None:
+            return known
+        if expression.is_Add:
+            result = sum(self.value(a, point, memo) for a in expression.args)
+        elif expression.is_Mul:
+            result = 1
+            for factor in expression.args:
+                result = result * self.value(factor, point, memo) % PRIME
+        elif expression.is_Pow and expression.exp.is_Integer:
+            base, exponent = self.value(expression.base, point, memo), int(expression.exp)
+            if base == 0 and exponent < 0:
+                raise NoPoint
+            result = pow(base, exponent, PRIME)
+        elif expression.is_Rational:
+            result = int(expression.p) * pow(int(expression.q), -1, PRIME)
+        else:
+            result = self._leaves[expression](point)
+        memo[expression] = result = result % PRIME
+        return result
+
+
+def _leaves(expressions: Iterable[Expr]) -> list[Expr]:
+    """What is neither sum nor product nor integer power nor number, in a fixed order."""
+    found: dict[Expr, None] = {}
+    seen: set[Expr] = set()
+    stack = list(expressions)
+    while stack:
+        node = stack.pop()
+        if node in seen:
+            continue
+        seen.add(node)
+        if node.is_Add or node.is_Mul:
+            stack.extend(node.args)
+        elif node.is_Pow and node.exp.is_Integer:
+            stack.append(node.base)
+        elif not node.is_Rational:
+            found[node] = None
+    return sorted(found, key=str)
