@@ -1,31 +1,21 @@
-"""Large systems, whole process: the time of `--show matrix_form`, against bars.
+"""Large systems, whole process: `--show matrix_form` of chains, and rigid bodies in full."""
 
-    python tests/bench/scaling.py [--quick]
+from __future__ import annotations
 
-CPU seconds of the process and its peak memory; the chain of ten against SymPy's
-LagrangesMethod forming the same matrices (`chain_by_sympy.py`).
-"""
-
-import argparse
-import json
-import resource
-import subprocess
 import sys
 import tempfile
-import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT))
+from tests.bench.measure import HERE, LAGCLI, ROOT, Cost, Row, cost
+from tests.mechanics.chains import cartesian, chain, closed
 
-from tests.mechanics.chains import cartesian, chain, closed  # noqa: E402
-
-LAGCLI = str(Path(sys.executable).with_name("lagcli"))
-NAIVE = str(Path(__file__).with_name("chain_by_sympy.py"))
+MIB = 2048
+HEAVY_TOP = ROOT / "problems/rigid/heavy-symmetric-top.yaml"
 
 #: what, text, bar in seconds
-ROWS = (
-    ("chain 10, points", lambda: chain(10, "points"), 2),
+CHAINS: tuple[tuple[str, Callable[[], str], float | None], ...] = (
+    ("chain 10, points", lambda: chain(10, "points"), None),
     ("chain 50, points", lambda: chain(50, "points"), 15),
     ("chain 50, definitions", lambda: chain(50, "definitions"), 15),
     ("chain 50, T of definitions", lambda: chain(50, "kinetic"), 15),
@@ -36,40 +26,55 @@ ROWS = (
     ("chain 100, definitions", lambda: chain(100, "definitions"), 90),
 )
 
+#: A top on a pivot with a second one on a ball joint at its end, both in Euler angles.
+TWO_BODIES = """\
+coordinates: [phi1, theta1, psi1, phi2, theta2, psi2]
+parameters: [A1, C1, A2, C2, m1, m2, a1, a2, l, g]
+definitions:
+  x1: sin(theta1)*sin(phi1)
+  y1: -sin(theta1)*cos(phi1)
+  z1: cos(theta1)
+  x2: l*x1 + a2*sin(theta2)*sin(phi2)
+  y2: l*y1 - a2*sin(theta2)*cos(phi2)
+  z2: l*z1 + a2*cos(theta2)
+T: >-
+  A1*(theta1'^2 + phi1'^2*sin(theta1)^2)/2 + C1*(psi1' + phi1'*cos(theta1))^2/2
+  + A2*(theta2'^2 + phi2'^2*sin(theta2)^2)/2 + C2*(psi2' + phi2'*cos(theta2))^2/2
+  + m2*(x2'^2 + y2'^2 + z2'^2)/2
+V: m1*g*a1*z1 + m2*g*z2
+"""
 
-def measured(command):
-    """CPU seconds, seconds and peak MiB of a process and what it starts."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    start = time.perf_counter()
-    subprocess.run(command, stdout=subprocess.DEVNULL, check=True)
-    seconds = time.perf_counter() - start
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return {"cpu": round(cpu, 3), "seconds": round(seconds, 3), "peak_mib": after.ru_maxrss // 1024}
 
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="without n = 100 and LagrangesMethod")
-    quick = parser.parse_args().quick
-    rows, holds = {}, True
+def rows(quick: bool) -> Iterator[Row]:
+    """CPU seconds of the whole process; quick: without n = 100 and LagrangesMethod."""
+    costs = {}
     with tempfile.TemporaryDirectory() as folder:
-        for what, text, bar in ROWS:
-            if quick and " 100" in what:
-                continue
-            path = Path(folder, "system.yaml")
-            path.write_text(text())
-            command = [LAGCLI, "solve", "--no-cache", str(path), "--show", "matrix_form"]
-            rows[what] = measured([*command, "-f", "json"]) | {"bar": bar}
-            holds = holds and rows[what]["seconds"] <= bar and rows[what]["peak_mib"] < 2048
-    if not quick:
-        naive = measured([sys.executable, NAIVE, "10"])
-        ratio = naive["cpu"] / rows["chain 10, points"]["cpu"]
-        rows["LagrangesMethod, chain 10"] = naive | {"ratio": round(ratio, 1), "bar": 30}
-        holds = holds and ratio >= 30
-    print(json.dumps(rows, indent=2))
-    return 0 if holds else 1
+        path = Path(folder, "system.yaml")
+        for what, text, bar in CHAINS:
+            if not (quick and " 100" in what):
+                path.write_text(text())
+                costs[what] = cost([*_solve(path), "--show", "matrix_form"], limit=300)
+                yield _row(what, costs[what], bar)
+        peak = max(used.peak_mib for used in costs.values())
+        yield Row("chains, peak memory", peak, "MiB", MIB)
+        if not quick:
+            other = cost([sys.executable, str(HERE / "chain_by_sympy.py"), "10"]).cpu
+            gain = other / costs[CHAINS[0][0]].cpu
+            note = f"{other:.1f} s CPU there"
+            yield Row("chain 10, gain over LagrangesMethod", gain, "x", 30, True, note)
+        yield _row("heavy top, usual sections", cost(_solve(HEAVY_TOP), limit=120), 5)
+        path.write_text(TWO_BODIES)
+        for what, *options in (("matrix form", "--show", "matrix_form"), ("usual sections",)):
+            used = cost([*_solve(path), *options], limit=120)
+            yield _row(f"two joined bodies, {what}", used, 5)
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def _row(what: str, used: Cost, bar: float | None) -> Row:
+    """CPU seconds, unless it was no answer (status 1: some of the sections were not found)."""
+    if used.status in {0, 1}:
+        return Row(what, used.cpu, "s", bar, note=f"{used.peak_mib} MiB")
+    return Row(what, None, "s", bar, note=used.mistakes.strip().rpartition("error: ")[2] or "late")
+
+
+def _solve(path: Path) -> list[str]:
+    return [*LAGCLI, "solve", "--no-cache", str(path), "-f", "json"]
