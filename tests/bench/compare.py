@@ -16,7 +16,7 @@ def compare(first: Path, second: Path) -> None:
         if row["what"] in before:
             _row(before[row["what"]], row)
     problems = old.get("library", {}), new.get("library", {})
-    for file in problems[0].keys() & problems[1].keys():
+    for file in sorted(problems[0].keys() & problems[1].keys()):
         _problem(file, problems[0][file], problems[1][file])
 
 

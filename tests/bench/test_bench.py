@@ -1,0 +1,80 @@
+"""The bench's own logic; nothing here looks at a clock."""
+
+import json
+
+from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.system import System
+from lagcli.pipeline import read
+from tests.bench import library
+from tests.bench.compare import compare
+from tests.bench.formulas import expanded
+from tests.bench.measure import Row
+
+
+def problem(cpu, lagcli_cpu, *, fails=None, late=False, formula=None):
+    return {
+        "cpu": cpu, "lagcli_cpu": lagcli_cpu, "fails": fails, "late": late, "agrees": True,
+        "simplify": [], "formulas": {"x": formula or {}},
+    }  # fmt: skip
+
+
+def operations(mine, simplify):
+    forms = {"lagcli": "a", "simplify": "b"}
+    return forms | {"lagcli_operations": mine, "simplify_operations": simplify}
+
+
+def test_bars():
+    assert Row("", 1.0, "x", 1).holds
+    assert not Row("", 1.1, "x", 1).holds
+    assert Row("", 1.1, "x", 1, at_least=True).holds
+    assert not Row("", None, "x", 1).holds
+    assert Row("", None, "x").holds
+
+
+def test_what_sympy_cannot_do_is_not_counted():
+    problems = {
+        "problems/a.yaml": problem(1, 2),
+        "problems/b.yaml": problem(6, 2, late=True),
+        "problems/c.yaml": problem(0.1, 2, fails="singular"),
+    }
+    least, median, different, slower = library.speed_rows(problems)
+    assert (least.value, median.value, different.value) == (0.5, 1.75, 0)
+    assert (slower.what.strip(), slower.value) == ("a.yaml", 0.5)
+
+
+def test_longer_formulas_are_named():
+    problems = {
+        "problems/a.yaml": problem(1, 1, formula=operations(3, 3)),
+        "problems/b.yaml": problem(1, 1, formula=operations(4, 3)),
+    }
+    [row] = library.operation_rows(problems)
+    assert (row.value, row.holds) == (50, False)
+    [told] = library.exceptions(problems)
+    assert told.startswith("4 > 3 problems/b.yaml x")
+
+
+def test_definitions_of_the_textbook_form_are_written_out():
+    text = (
+        b"coordinates: [x]\ndefinitions:\n  s: x + 1\nT: s'^2/2\n"
+        b"expect: {accelerations: {x: 2*s*s'}}\n"
+    )
+    found = read("x.yaml", text).problem
+    node = expanded(found.expect.accelerations["x"], found.definitions, System(found))
+    assert to_grammar(node) == "2*(x + 1)*x'"
+
+
+def test_two_runs_side_by_side(tmp_path, capsys):
+    paths = []
+    for name, value, count in (("old", 1.0, 5), ("new", 3.0, 4)):
+        kept = {
+            "version": name,
+            "rows": [Row("solve", value, "x", 2).kept()],
+            "library": {"problems/a.yaml": problem(1, value, formula=operations(count, 3))},
+        }
+        paths.append(tmp_path / f"{name}.json")
+        paths[-1].write_text(json.dumps(kept))
+    compare(*paths)
+    told = capsys.readouterr().out
+    assert "1.00 →     3.00 x                now MISSED" in told
+    assert "problems/a.yaml: 3.00 times the time" in told
+    assert "x: 5 → 4 operations" in told
