@@ -119,9 +119,10 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
             return otherwise
 
     def number(text: str | None, given: Expression | None, option: str) -> float | None:
+        formula = given
         if text is not None:
-            return attempt(lambda: read_number(text, option), None)
-        return None if given is None else float(value_of(given) or 0)
+            formula = attempt(lambda: read_number(text, option), None)
+        return None if formula is None else _value(formula)
 
     run = problem.simulation
     until = number(wish.until, run.until, "--until")
@@ -160,6 +161,14 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
         method=method,
         digits=wish.precision,
     )
+
+
+def _value(formula: Expression) -> float:
+    """A number; nan, which no option takes, where it is none."""
+    try:
+        return float(value_of(formula) or 0)
+    except (ArithmeticError, ValueError):
+        return float("nan")
 
 
 def _known(option: str, name: str, names: tuple[str, ...]) -> bool:

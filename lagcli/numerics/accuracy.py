@@ -130,7 +130,7 @@ class Controller:
 
     def _tightened(self, tolerance: float, finer: float, bound: float) -> float:
         """The coarser tolerance of the next pair: the global error is in proportion to it."""
-        if bound > _SATURATED:
+        if not 0 < bound <= _SATURATED:
             return finer
         needed = _MARGIN * tolerance * self.accuracy / bound
         return finer if needed > finer / _NEXT else max(needed, self.finest * BETWEEN)

@@ -1,7 +1,8 @@
-"""M a = F + A^T lambda with A a + c = 0 where the rank is in question: the null-space way.
+"""M a = F + A^T lambda, A a + c = 0 where the rank is in question: the null-space way.
 
 The rows are scaled and eliminated with full pivoting; those whose largest entry falls
-below 1e-5, which is 1e-10 in A M^-1 A^T, are combinations of the others.  With A a_p = -c and A Z = 0,
+below 1e-5, which is 1e-10 in A M^-1 A^T, are combinations of the others.  With
+A a_p = -c and A Z = 0,
 
     (Z^T M Z) w = Z^T (F - M a_p),    a = a_p + Z w,
 

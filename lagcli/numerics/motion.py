@@ -77,6 +77,8 @@ class Motion:
             message = f"the function '{error}' is left unspecified: it has no numbers"
             raise Refusal(message) from None
         except (ArithmeticError, ValueError) as error:
+            if otherwise is not None and isinstance(error, ZeroDivisionError):
+                return otherwise  # a pivot is 0 at every state
             message = f"with these values the equations are not defined: {told(error)}"
             raise Refusal(message) from None
 

@@ -48,7 +48,7 @@ def precise_outcome(
 
         def runner(tolerance: float, longest: float, peaks: Sequence[float] | None, _: int) -> Run:
             on = Surface(motion, rounding) if equations.rows else None
-            bound = Tolerance(tolerance, motion.n, asked.until, longest, peaks)
+            bound = Tolerance(tolerance, motion.n, asked.until, longest, peaks, math.sqrt(rounding))
             run = Run(motion, Taylor(motion, on), on, bound, conditions)
             run.step_limit = limit
             return run.go(exact_q, exact_v, simulation.times, progress=simulation.progress)

@@ -32,6 +32,8 @@ _COMPARED = 100
 #: Doubles that miss the accuracy, and are this good, miss it by their rounding.
 _ROUNDING_REACH = 1e-5
 
+_DIGITS = 30
+
 Progress = Callable[[float], None]
 
 
@@ -130,13 +132,15 @@ class Simulation:
 
     def _beyond(self, outcome: Outcome) -> int | None:
         """How many digits to go on with, where doubles do not reach the accuracy."""
+        if self.asked.method == "taylor":
+            return self.asked.digits or _DIGITS
         if outcome.reached or self.asked.method == "dop853":
             return None
         if self.asked.digits is not None:
             return self.asked.digits
         stopped = outcome.run.stop is not None
         close = max(outcome.errors) <= _ROUNDING_REACH
-        return 30 if close and not stopped else None
+        return _DIGITS if close and not stopped else None
 
     def _doubles(self, motion: Motion, q: list[float], v: list[float]) -> Outcome:
         asked = self.asked

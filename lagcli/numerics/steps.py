@@ -47,6 +47,8 @@ class Tolerance:
         The longest step.
     peaks
         Of an earlier run; without them they are those seen so far.
+    floor
+        A component smaller than this part of the largest is taken for rounding.
     """
 
     def __init__(
@@ -56,11 +58,12 @@ class Tolerance:
         span: float,
         longest: float,
         peaks: Sequence[float] | None = None,
+        floor: float = 0.0,
     ) -> None:
         self.value, self.n, self.span, self.longest = value, n, span, longest
         self.known = peaks is not None
         self.peaks = list(peaks) if peaks is not None else [0.0] * (2 * n)
-        self._floor = 0.0
+        self._floor = floor
         self.scales = [1.0] * (2 * n)
         self._rescale()
 

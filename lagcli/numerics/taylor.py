@@ -30,6 +30,7 @@ from lagcli.numerics.surface import Surface
 _LOWEST = 8
 _LOOKED_AT = 4  # coefficients, for the length of the step
 _SAFETY = 0.9
+_FIRST = 1e-3  # of the longest step
 _SHORTEST = 4e-16
 
 
@@ -73,7 +74,7 @@ class Taylor:
         t, order = 0.0, order_for(tolerance.value)
         while t < until:
             series = self._coefficients(t, q, v, order)
-            tolerance.see([float(x) for x in q], [float(x) for x in v], [0.0] * (2 * self.n))
+            self._see(series, tolerance)
             h = min(self._length(series, tolerance), tolerance.longest)
             if not h > _SHORTEST * max(t, 1e-3 * until):
                 raise CannotGoOn(t, q, v, "")
@@ -110,6 +111,14 @@ class Taylor:
         finally:
             context.cap = usual
         return x
+
+    def _see(self, series: list[list[Any]], tolerance: Tolerance) -> None:
+        """Tell the scales where it is and, for what begins at 0, where it goes at first."""
+        h = _FIRST * tolerance.longest
+        low = [[float(x) for x in c[:4]] for c in series]
+        change = [c[1] * h + c[2] * h * h for c in low]
+        change += [2 * c[2] * h + 3 * c[3] * h * h for c in low]
+        tolerance.see([c[0] for c in low], [c[1] for c in low], change)
 
     def _length(self, series: list[list[Any]], tolerance: Tolerance) -> float:
         """The step after which the last terms are the tolerance times the scale."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lagcli.decimals import value_of
 from lagcli.diagnostics import Diagnostic, ProblemError, Source
 from lagcli.expression import Diff, Expression, Name, Negative, Product, Sum, walk
 from lagcli.reader.expressions import read_expression
@@ -54,21 +53,9 @@ def read_along(problem: Problem, text: str, option: str) -> Expression:
     return _read(text, option, scope_of(problem), QUESTION)
 
 
-def read_number(text: str, option: str) -> float:
-    """A number, also written as `2*pi`.
-
-    Raises
-    ------
-    ProblemError
-        When it is none.
-    """
-    expression = _read(text, option, Scope(), NUMBERS)
-    try:
-        value = value_of(expression)
-        return float(value) if value is not None else float("nan")
-    except (ArithmeticError, ValueError):
-        message = f"{option} {text}: this is not a real number"
-        raise ProblemError(Source(option, text), (Diagnostic(message),)) from None
+def read_number(text: str, option: str) -> Expression:
+    """An expression without names, such as `2*pi`."""
+    return _read(text, option, Scope(), NUMBERS)
 
 
 def scope_of(problem: Problem) -> Scope:

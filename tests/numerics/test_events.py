@@ -45,7 +45,9 @@ def test_contact_that_does_not_even_begin():
 
 
 def test_stop_when_changes_sign():
-    result = simulated("{coordinates: [x], L: x'^2/2 - x^2/2, initial: {x: 1}}", 10, stop="x - 1/2", samples=11)
+    result = simulated(
+        "{coordinates: [x], L: x'^2/2 - x^2/2, initial: {x: 1}}", 10, stop="x - 1/2", samples=11
+    )
     assert result.events[0].t == pytest.approx(math.pi / 3, abs=1e-9)
     assert column(result, "t") == pytest.approx([0, 1, math.pi / 3])
 

@@ -2,6 +2,7 @@
 
 import mpmath
 import pytest
+
 from .running import column, last, simulated
 
 OSCILLATOR = """
@@ -49,7 +50,9 @@ def test_kepler_by_his_equation(accuracy, e):
     for t, x, vy in zip(*(column(result, name) for name in ("t", "x", "y'")), strict=True):
         t = mpmath.mpf(t)
         start = t + e * mpmath.sin(t)
-        E = mpmath.findroot(lambda E, t=t: E - e * mpmath.sin(E) - t, (start - 1, start + 1), solver="anderson")
+        E = mpmath.findroot(
+            lambda E, t=t: E - e * mpmath.sin(E) - t, (start - 1, start + 1), solver="anderson"
+        )
         assert abs(x - (mpmath.cos(E) - e)) <= accuracy * 1.9
         exact = mpmath.sqrt(1 - e**2) * mpmath.cos(E) / (1 - e * mpmath.cos(E))
         assert abs(vy - exact) <= accuracy * scale

@@ -4,6 +4,7 @@ import math
 
 import mpmath
 import pytest
+
 from lagcli.numerics.refusal import Refusal
 
 from .running import column, last, simulated
@@ -39,7 +40,9 @@ def test_pi_as_a_decimal_falls_with_more_digits_and_is_refused_in_doubles():
     assert fallen.certificate.reached
     with mpmath.workdps(30):
         d = mpmath.pi - mpmath.mpf("3.141592653589793")
-        assert column(fallen, "th")[30] == pytest.approx(float(mpmath.pi - d * mpmath.cosh(30)), abs=1e-6)
+        assert column(fallen, "th")[30] == pytest.approx(
+            float(mpmath.pi - d * mpmath.cosh(30)), abs=1e-6
+        )
     assert abs(last(fallen, "th") - math.pi) > 1
 
 
@@ -129,7 +132,9 @@ def test_a_narrow_impulse_from_rest_is_found(width):
 
 
 def test_zero_gravity_gives_more_charges():
-    text = "{coordinates: [x, y], parameters: {g: 0}, L: (x'^2+y'^2)/2 - g*y, initial: {x': 1, y': 2}}"
+    text = (
+        "{coordinates: [x, y], parameters: {g: 0}, L: (x'^2+y'^2)/2 - g*y, initial: {x': 1, y': 2}}"
+    )
     result = simulated(text, 100)
     assert result.rows[-1][1:] == pytest.approx((100, 200, 1, 2))
     assert result.certificate.charges["energy"] <= 1e-12

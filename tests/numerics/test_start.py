@@ -3,6 +3,7 @@
 import math
 
 import pytest
+
 from lagcli.numerics.refusal import Refusal
 
 from .running import simulated

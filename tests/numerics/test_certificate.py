@@ -1,0 +1,73 @@
+"""The certificate holds: the true error is at most what was asked for, or it is refused."""
+
+import pytest
+
+from lagcli.pipeline import load
+
+from .running import ROOT, simulated
+
+SPAN = 4.0
+
+
+def runnable(path):
+    problem = load(path)
+    return (
+        bool(problem.initial)
+        and not problem.functions
+        and all(p.value is not None for p in problem.parameters)
+    )
+
+
+LIBRARY = [p for p in sorted((ROOT / "problems").rglob("*.yaml")) if runnable(p)]
+
+
+@pytest.mark.parametrize("path", LIBRARY, ids=lambda p: p.stem)
+def test_the_true_error_is_at_most_the_one_asked_for(path):
+    """Against power series with 30 digits, a method that has nothing in common but the equations."""
+    text = path.read_text("utf-8")
+    true = simulated(text, SPAN, 1e-14, samples=9, digits=30)
+    assert true.certificate.reached
+    for accuracy in (1e-3, 1e-6, 1e-9):
+        result = simulated(text, SPAN, accuracy, samples=9)
+        assert result.certificate.reached
+        assert len(result.rows) == len(true.rows)
+        for j in range(1, len(result.columns)):
+            pairs = [(row[j], other[j]) for row, other in zip(result.rows, true.rows, strict=True)]
+            scale = max(1.0, *(abs(b) for _, b in pairs))
+            assert max(abs(a - b) for a, b in pairs) <= accuracy * scale
+        for residuals in result.certificate.constraints.values():
+            assert max(x or 0 for x in residuals) <= 1e-12
+
+
+DOUBLE = """
+coordinates: [a, b]
+L: a'^2 + b'^2/2 + a'*b'*cos(a - b) + 2*cos(a) + cos(b)
+initial: {a: 3, b: 3}
+"""
+
+
+def test_chaos_is_refused_past_its_horizon_and_right_before():
+    result = simulated(DOUBLE, 80, 1e-6, samples=81)
+    assert not result.certificate.reached
+    until = result.certificate.holds_until
+    assert 5 < until < 75
+    assert result.rows[-1][0] <= until
+    assert "it holds until" in result.refusal
+    true = simulated(DOUBLE, 15, 1e-9, digits=40, method="taylor")
+    assert result.rows[15] == pytest.approx(true.rows[-1], abs=1e-6 * 20)
+
+
+def test_more_digits_go_further():
+    refused = simulated(DOUBLE, 40, 1e-9)
+    further = simulated(DOUBLE, 40, 1e-9, digits=40)
+    if refused.certificate.reached:
+        pytest.skip("doubles suffice here")
+    assert further.certificate.reached
+    assert further.method == "taylor"
+
+
+def test_the_certificate_says_how_it_was_estimated():
+    held = simulated(DOUBLE, 5).certificate
+    assert "two runs with local tolerances" in held.estimated_by
+    assert held.charges["energy"] < 1e-9
+    assert set(held.global_error) == {"a", "b", "a'", "b'"}

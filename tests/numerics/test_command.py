@@ -1,0 +1,124 @@
+"""`lagcli simulate` as a process: the forms of its output, its status, its imports."""
+
+import csv
+import io
+import json
+import subprocess
+import sys
+
+import pytest
+
+from .running import ROOT
+
+PENDULUM = str(ROOT / "problems/pendulums/pendulum-cartesian.yaml")
+
+
+def run(*arguments, stdin=None):
+    done = subprocess.run(
+        [sys.executable, "-m", "lagcli", "simulate", *arguments],
+        capture_output=True, text=True, input=stdin, check=False, cwd=ROOT,
+    )  # fmt: skip
+    assert "Traceback" not in done.stderr
+    return done
+
+
+def test_json_is_the_contract():
+    show = "x,x',lambda_rod,rod.x,energy"
+    done = run(PENDULUM, "--until", "2", "--samples", "5", "--show", show, "-f", "json")
+    assert done.returncode == 0
+    document = json.loads(done.stdout)
+    assert list(document) == [
+        "schema", "columns", "rows", "certificate", "method", "events", "model", "warnings",
+    ]  # fmt: skip
+    assert document["columns"] == ["t", *show.split(",")]
+    assert [row[0] for row in document["rows"]] == [0.0, 0.5, 1.0, 1.5, 2.0]
+    held = document["certificate"]
+    assert held["reached"] is True
+    assert held["holds_until"] == 2.0
+    assert set(held["constraints"]["rod"]) == {"residual", "rate_residual"}
+    assert set(document["method"]) == {"name", "reason", "steps", "evaluations"}
+
+
+def test_csv_holds_every_digit():
+    done = run(PENDULUM, "--until", "1", "--samples", "3", "-f", "csv", "--show", "x,atan2(y, x)")
+    header, *rows = csv.reader(io.StringIO(done.stdout))
+    assert header == ["t", "x", "atan2(y, x)"]
+    assert len(rows) == 3
+    assert len(rows[-1][1]) > 12
+
+
+def test_the_same_input_gives_the_same_bytes():
+    assert run(PENDULUM, "--samples", "3").stdout == run(PENDULUM, "--samples", "3").stdout
+
+
+def test_written_whole_to_a_file(tmp_path):
+    path = tmp_path / "run.json"
+    assert run(PENDULUM, "--until", "1", "-f", "json", "-o", str(path)).returncode == 0
+    assert len(json.loads(path.read_text())["rows"]) == 101
+
+
+def test_groups_of_columns():
+    done = run(PENDULUM, "--until", "1", "--samples", "2", "-f", "csv", "--show",
+               "accelerations,multipliers,constraint_forces,momenta")  # fmt: skip
+    assert done.stdout.splitlines()[0] == "t,x'',y'',lambda_rod,rod.x,rod.y,p_x,p_y"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (["--until", "-1"], "--until"),
+        (["--until", "x"], "unknown name 'x'"),
+        (["--accuracy", "0"], "--accuracy"),
+        (["--show", "tetha"], "unknown name 'tetha'"),
+        (["--show", "x +"], "error"),
+        (["--format", "jsn"], "json"),
+        (["--method", "euler"], "--method"),
+        (["--set", "q=1"], "no parameter 'q'"),
+        (["--set", "m=-1"], "'m' is positive"),
+        (["--set", "g=1/0"], "divi"),
+        (["--output", "/nowhere/at/all"], "no directory"),
+        (["--stop-when", "zz"], "unknown name 'zz'"),
+    ],
+)
+def test_mistakes_of_the_command_line(arguments, word):
+    done = run(PENDULUM, *arguments)
+    assert done.returncode == 2
+    assert word in done.stderr
+    assert done.stdout == ""
+
+
+def test_missing_values_are_named_with_their_places():
+    done = run(
+        "-", "--until", "1", stdin="coordinates: [x]\nparameters: [k, m]\nL: m*x'^2/2 - k*x^2\n"
+    )
+    assert done.returncode == 2
+    assert "-:2:14: error: the parameter 'k' has no value" in done.stderr
+    assert "the parameter 'm' has no value" in done.stderr
+
+
+def test_an_accuracy_that_is_not_reached_is_status_1():
+    done = run(
+        "-",
+        "--until",
+        "2",
+        "-f",
+        "json",
+        stdin="{coordinates: [r], L: r'^2/2 + 1/r, initial: {r: 1}}",
+    )
+    assert done.returncode == 1
+    document = json.loads(done.stdout)
+    assert document["certificate"]["reached"] is False
+    assert document["certificate"]["holds_until"] == document["rows"][-1][0] == 1.1
+    assert "stops at t = 1.11072073454" in done.stderr
+
+
+def test_a_pendulum_needs_no_algebra():
+    code = (
+        "import sys; from lagcli.cli.run import run; run(sys.argv[1:]);"
+        "print([m for m in ('sympy', 'numpy', 'scipy', 'mpmath', 'flint', 'rich') if m in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, "simulate", PENDULUM, "--samples", "2"],
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert done.stdout.splitlines()[-1] == "[]"

@@ -1,0 +1,108 @@
+"""The order of each method, and that the generated functions are the equations of motion."""
+
+import math
+from fractions import Fraction
+
+import pytest
+
+from lagcli.numerics.arithmetic import Doubles
+from lagcli.numerics.constants import constants_of
+from lagcli.numerics.dop853 import Dop853
+from lagcli.numerics.equations import Equations
+from lagcli.numerics.motion import Motion
+from lagcli.numerics.steps import Tolerance
+from lagcli.numerics.tableau_853 import DENSE, ERROR_3, ERROR_5, NODES, STAGES
+from tests.oracle.reference import Reference
+from tests.oracle.states import random_states
+
+from .running import ROOT, problem_of
+
+
+def motion_of(text):
+    equations = Equations(problem_of(text))
+    nodes = [*(x for row in equations.mass for x in row), *equations.forcing]
+    return Motion(equations, constants_of(equations, nodes, Doubles()), Doubles())
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_the_rows_of_the_tableau_sum_to_the_nodes(stage):
+    assert math.fsum(STAGES[stage].values()) == pytest.approx(NODES[stage], abs=1e-14)
+
+
+@pytest.mark.parametrize("power", range(8))
+def test_the_weights_integrate_polynomials_of_degree_7(power):
+    total = math.fsum(b * NODES[k] ** power for k, b in STAGES[13].items())
+    assert total == pytest.approx(1 / (power + 1), abs=1e-14)
+
+
+def test_the_embedded_weights_are_differences():
+    for row in (ERROR_5, ERROR_3, *DENSE):
+        assert set(row) <= set(range(1, 17))
+    assert math.fsum(ERROR_5.values()) == pytest.approx(0, abs=1e-14)
+
+
+def test_dop853_has_order_8_and_its_dense_output_7():
+    """Halving the step of x'' = -x, x(0) = 1 divides the error by 2^8, within the step by 2^8 (local)."""
+    motion = motion_of("{coordinates: [x], L: x'^2/2 - x^4/4, initial: {x: 1}}")
+
+    def errors(count):
+        h = 2.0 / count
+        tolerance = Tolerance(1e10, 1, 2.0, h)  # the longest step is always taken
+        method, inside = Dop853(motion, None), []
+        q = v = None
+        fine = {}
+        for step in method.steps([1.0], [0.0], 2.0, tolerance):
+            q, v = step.q, step.v
+            inside.append((step.start + 0.3 * step.h, step.inside(step.start + 0.3 * step.h)[0][0]))
+        return q[0], v[0], inside, fine
+
+    exact = errors(256)
+    first, second = errors(8), errors(16)
+    ratio = abs(first[0] - exact[0]) / abs(second[0] - exact[0])
+    assert 7.2 < math.log2(ratio) < 9.3
+
+
+def test_taylor_takes_the_order_of_its_tolerance():
+    from lagcli.numerics.taylor import order_for
+
+    assert order_for(1e-16) == 20
+    assert order_for(1e-30) == 36
+
+
+LIBRARY = sorted((ROOT / "problems").rglob("*.yaml"))
+
+
+@pytest.mark.parametrize("path", LIBRARY, ids=lambda p: p.stem)
+def test_accelerations_are_those_of_the_definitions(path):
+    """Against jets and a numeric KKT system that share no code with the graph."""
+    problem = problem_of(path.read_text("utf-8"))
+    if problem.functions:
+        pytest.skip("functions left unspecified")
+    reference = Reference(problem)
+    try:
+        states = random_states(reference, 2)
+    except AssertionError:
+        pytest.skip("no state found")
+    equations = Equations(problem)
+    for state in states:
+        if not state.regular:
+            continue
+        moment = state.moment
+        constants = {
+            equations.graph.symbol(name): float(value) for name, value in moment.extra.items()
+        }
+        motion = Motion(equations, constants, Doubles())
+        t, q, v = float(moment.t), *([float(x) for x in row] for row in moment.chain[:2])
+        motion.set_signs(t, q, v)
+        expected = [float(a) for a in state.accelerations]
+        assert list(motion.accelerations(t, *q, *v)) == pytest.approx(expected, rel=1e-8, abs=1e-8)
+        found = motion.accelerations_and_multipliers(t, *q, *v)[motion.n :]
+        for k, value in enumerate(found):
+            if state.motion.determined(motion.n + k):
+                assert value == pytest.approx(float(state.multipliers[k]), rel=1e-8, abs=1e-8)
+            else:
+                assert value is None
+
+
+def test_numbers_are_exact_until_they_are_doubles():
+    assert Doubles().number(Fraction(1, 3)) == 1 / 3
