@@ -52,11 +52,10 @@ class LevelSet:
         """Q - Q(initial), those without explicit time first."""
         if self.initial is None:
             return ()
-        quantities = [*self._integrals_of_constraints(), *self.noether.conserved_quantities()]
-        laws = [
-            quantity - simplify(self.initial.at(quantity, self.system.t)) for quantity in quantities
-        ]
-        laws = [law for law in laws if law.is_finite is not False and is_zero(law) is not True]
+        laws = self._since_start(
+            [*self._integrals_of_constraints(), *self.noether.conserved_quantities()]
+        )
+        laws += self._since_start(self._integrals_of_laws(laws))
         return tuple(sorted(laws, key=lambda law: not free_of(law, [self.system.t])))
 
     def _integrals_of_constraints(self) -> list[Expr]:
@@ -70,6 +69,26 @@ class LevelSet:
             if not equation.holonomic
         ]
         return [F for F in found if F is not None]
+
+    def _integrals_of_laws(self, laws: Sequence[Expr]) -> list[Expr]:
+        """F(q) with dF/dt = Q - Q(initial): the centre of mass that stays where it is."""
+        velocities = self.system.qdot
+        linear = [
+            law
+            for law in laws
+            if not free_of(law, velocities)
+            and all(free_of(law.diff(v), velocities) for v in velocities)
+        ]
+        found = [boundary_term(law, self.system) for law in linear]
+        return [F for F in found if F is not None and free_of(F, [self.system.t])]
+
+    def _since_start(self, quantities: Sequence[Expr]) -> list[Expr]:
+        """Q - Q(initial), where that says something."""
+        assert self.initial is not None
+        laws = [
+            quantity - simplify(self.initial.at(quantity, self.system.t)) for quantity in quantities
+        ]
+        return [law for law in laws if law.is_finite is not False and is_zero(law) is not True]
 
     @cached_property
     def relations(self) -> tuple[Expr, ...]:

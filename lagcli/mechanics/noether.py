@@ -34,6 +34,7 @@ from lagcli.answers import ChargeSource, Verification
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.energy import EnergyFunction
 from lagcli.mechanics.total_derivative import boundary_term
+from lagcli.mechanics.translations import constant_nullspace
 from lagcli.problem import Symmetry
 from lagcli.record import record
 
@@ -270,9 +271,45 @@ class Noether:
             return False
         return is_zero(candidate.charge - factor * evident.charge) is True
 
+    # -- all that is conserved -------------------------------------------------------------
+
+    @cached_property
+    def joint_translations(self) -> tuple[NoetherCharge, ...]:
+        """Charges of translations of several coordinates, of which none alone is a symmetry.
+
+        sum_j c_j (dL/dq_j, Q_j - dD/dq_j', a_kj) = 0 with constant c: the total momentum
+        of block and wedge, of masses that attract each other.
+        """
+        system, zero = self.system, sympy.S.Zero
+        alone = {c.transformation.changes for c in self._cyclic_charges() if c.conserved}
+        unit = [tuple(map(sympy.S, row)) for row in sympy.eye(len(system.q)).tolist()]
+        moved = [j for j, changes in enumerate(unit) if changes not in alone]
+        if len(moved) < 2:
+            return ()
+        work = [
+            self.dynamics.lagrange.lagrangian_forces,
+            tuple(Q - system.D.diff(v) for Q, v in zip(system.forces, system.qdot, strict=True)),
+            *(equation.row for equation in self.dynamics.constraints.equations),
+        ]
+        rows = [[row[j] for j in moved] for row in work]
+        found = []
+        for vector in constant_nullspace(rows, (*system.q, *system.qdot, system.t)):
+            changes = dict(zip(moved, vector, strict=True))
+            transformation = Transformation(
+                tuple(changes.get(j, zero) for j in range(len(unit))), zero
+            )
+            found.append(self._judged("", "cyclic", transformation, zero, zero))
+        return tuple(charge for charge in found if charge.conserved)
+
     def conserved_quantities(self) -> tuple[Expr, ...]:
         """Functions of q, q', t that are constant along the motion."""
-        return tuple(charge.charge for charge in self.charges if charge.conserved)
+        evident = [charge for charge in self.charges if charge.conserved]
+        joint = [
+            charge
+            for charge in self.joint_translations
+            if not any(self._same_charge(charge, other) for other in evident)
+        ]
+        return tuple(charge.charge for charge in (*evident, *joint))
 
 
 def _dot(a: tuple[Expr, ...], b: tuple[Expr, ...]) -> Expr:

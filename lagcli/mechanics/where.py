@@ -48,7 +48,7 @@ class Where:
         elif self.unknown in self.system.qdot:
             roots = self._velocity()
         else:
-            roots = self._with_coordinates([])
+            roots = self._parameter()
         if roots is None:
             return self._answer(None, [self.along.why_not])
         return self._answer(roots, [*self.notes, *self.along.notes])
@@ -173,6 +173,27 @@ class Where:
                     found = self._roots(relation, v)
                     return None if found is None else self._sorted(list(found.values))
         return self._with_coordinates([v])
+
+    def _parameter(self) -> list[Expr] | None:
+        """A value for the whole motion, else for the start, else one for each place."""
+        formula = self.along.rewritten(self.equation, [])
+        if formula is None or self.unknown not in formula.free_symbols:
+            at_start = self._at_start()
+            if at_start:
+                self.notes = ["in the initial state"]
+                return at_start
+        return self._with_coordinates([])
+
+    def _at_start(self) -> list[Expr] | None:
+        """The roots of the equation in the initial state."""
+        equation = self.along.on_motion(self.equation)
+        if equation is None or self.along.initial is None:
+            return None
+        equation = simplify(self.along.initially(equation))
+        if self.unknown not in equation.free_symbols:
+            return None
+        found = self._roots(equation, self.unknown)
+        return None if found is None else self._sorted(list(found.values))
 
     def _with_coordinates(self, keep: list[Symbol]) -> list[Expr] | None:
         """The roots with as few coordinates in them as there must be."""
