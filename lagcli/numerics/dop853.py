@@ -101,9 +101,10 @@ class Dop853:
                 grow = 1.0
                 if h <= _SHORTEST * max(t, 1e-3 * until):
                     raise CannotGoOn(t, q, v, reason)
-                if tolerance.hopeless(h, until):
-                    tolerance.raise_floor()
+                if error < math.inf:
+                    tolerance.rejected(five)
                 continue
+            tolerance.accepted()
             previous = (q, v, rate)
             inside = self._inside(t, h, previous, change, end, stages)
             if motion.kinks:

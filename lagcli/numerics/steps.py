@@ -10,7 +10,8 @@ Inside = Callable[[float], tuple[list[Any], list[Any], list[Any]]]
 
 #: A component that is nothing but rounding beside the others is left alone.
 _NOISE = 1e-10
-_HOPELESS = 1e-7
+_FAILURES = 20
+_LEAST_FLOOR, _ROUNDING = 1e-6, 1e-16
 
 
 class Step(NamedTuple):
@@ -64,6 +65,7 @@ class Tolerance:
         self.known = peaks is not None
         self.peaks = list(peaks) if peaks is not None else [0.0] * (2 * n)
         self._floor = floor
+        self._failures = 0
         self.scales = [1.0] * (2 * n)
         self._rescale()
 
@@ -86,16 +88,20 @@ class Tolerance:
             self.scales[j] = max(peaks[j], floor, 1e-3 * self.longest * peaks[n + j])
             self.scales[n + j] = max(peaks[n + j], floor, peaks[j] / self.span)
 
-    def hopeless(self, h: float, span: float) -> bool:
-        """Whether steps have become so short that rounding in a tiny component may be why."""
+    def rejected(self, errors: Sequence[float]) -> None:
+        """Note which component a step failed by; one that is rounding fails again and again."""
         top = max(self.peaks)
-        tiny = any(0 < peak < _NOISE * top for peak in self.peaks)
-        return not self._floor and tiny and h < _HOPELESS * span
+        ratios = [abs(x) / scale for x, scale in zip(errors, self.scales, strict=True)]
+        if self.peaks[ratios.index(max(ratios))] < _NOISE * top:
+            self._failures += 2
+            if self._failures >= _FAILURES:
+                self._floor = max(_LEAST_FLOOR, min(1.0, _ROUNDING / self.value))
+                self._failures = 0
+                self._rescale()
 
-    def raise_floor(self) -> None:
-        """Take components that are tiny beside the others for rounding."""
-        self._floor = 1e-6
-        self._rescale()
+    def accepted(self) -> None:
+        """A step has succeeded: a component that is resolved fails now and then only."""
+        self._failures = max(0, self._failures - 1)
 
 
 class Method(Protocol):
