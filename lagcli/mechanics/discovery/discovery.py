@@ -167,6 +167,10 @@ class Discovery:
             point.transformation_of(search, solution, set(self.system.parameters))
             for solution in search.solutions()
         ]
+        if search.unsolved:
+            self.stopped.append(
+                f"{search.unsolved} more symmetries are there, whose coefficients were not solved"
+            )
         transformations.reverse()
         transformations = centralized(transformations, self.system, clock)
         if constraints:

@@ -14,6 +14,7 @@ from lagcli.algebra.ring import Poly
 from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, small_fraction
 
 _TOGETHER = 3  # parameters in one recognized monomial
+_MOST_OPERATIONS = 30000
 _POWERS = (-2, -1, 1, 2)
 
 
@@ -24,6 +25,7 @@ class ExactSolver:
         self.points = points
         self.field = points.field
         self._monomials: list[tuple[int, Expr]] | None = None
+        self._signed: dict[int, Expr] = {}
 
     # -- by recognition -------------------------------------------------------------------
 
@@ -44,6 +46,19 @@ class ExactSolver:
             fraction = small_fraction(value * inverse % PRIME, 128)
             if fraction is not None:
                 return Rational(fraction.numerator, fraction.denominator) * expression
+        return self._two_monomials(value)
+
+    def _two_monomials(self, value: int) -> Expr | None:
+        """A sum or difference of two monomials, as (m1 - m2)/m3."""
+        if not self._signed:
+            for inverse, expression in [(1, sympy.S.One), *self._constant_monomials()]:
+                plain = pow(inverse, -1, PRIME)
+                self._signed[plain] = expression
+                self._signed[PRIME - plain] = -expression
+        for plain, expression in self._signed.items():
+            other = self._signed.get((value - plain) % PRIME)
+            if other is not None:
+                return expression + other
         return None
 
     def _constant_monomials(self) -> list[tuple[int, Expr]]:
@@ -73,6 +88,8 @@ class ExactSolver:
     def solved(self, columns: Sequence[Sequence[Expr]]) -> list[Expr] | None:
         """The one combination of the columns that vanishes identically in t, q, q'."""
         width = len(columns)
+        if sum(sympy.count_ops(e) for column in columns for e in column) > _MOST_OPERATIONS:
+            return None
         rows: list[list[Poly]] = []
         rank = 0
         for entries in zip(*columns, strict=True):

@@ -70,6 +70,7 @@ class Search:
         self.unknowns = list(unknowns)
         self.clock = clock
         self._bad = 0
+        self.unsolved = 0  # solutions that are there, without exact coefficients
         self._reduced: list[list[int]] = []
         self.conditions: list[list[Condition]] = []
         for slot in self.slots:
@@ -191,6 +192,7 @@ class Search:
             if values is None:
                 values = exact.solved([self._column(i) for i in indices])
             if values is None:
+                self.unsolved += 1
                 continue
             found.append(
                 Solution(
