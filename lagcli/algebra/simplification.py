@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import partial
 
 from sympy import Expr
 
 from lagcli.algebra.cancellation import cancelled
+from lagcli.algebra.division import commonest_ratio
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.leaves import Translator, to_expression
@@ -21,7 +21,7 @@ from lagcli.expression import Expression, operation_count
 
 _LONG = 60  # terms of an element of which ...
 _OF_LONG = 2  # ... no more than these equal forms are shaped
-_EQUAL = 4  # numerators that are shaped
+_EQUAL = 3  # numerators that are shaped
 
 
 def shape(
@@ -171,7 +171,7 @@ class Readable:
             return
         field = self.field
         element = field.lifted(element)
-        quotient = _commonest_ratio(field, element)
+        quotient = commonest_ratio(field.ring, element.numerator, element.denominator)
         if quotient is None:
             return
         rest = element.numerator - quotient * element.denominator
@@ -188,6 +188,7 @@ class Readable:
         for each in (
             field.polynomial(poly),
             field.polynomial(self.relations.shared_out(field, poly)),
+            self._by_factors(poly),
             *self.relations.modulo(field, poly),
         ):
             if all(each.numerator != x.numerator or each.denominator != x.denominator
@@ -195,19 +196,14 @@ class Readable:
                 found.append(each)
         return found
 
-
-def _commonest_ratio(field: Field, element: Element) -> Poly | None:
-    """The term by which most of the denominator's terms are found in the numerator."""
-    below = [(dict(m), v) for m, v in field.ring.terms(element.denominator)]
-    count: Counter[tuple[Monomial, int]] = Counter()
-    for monomial, value in field.ring.terms(element.numerator):
-        exponents = dict(monomial)
-        for divisor, number in below:
-            if value % number or any(exponents.get(g, 0) < e for g, e in divisor.items()):
-                continue
-            ratio = tuple((g, e - divisor.get(g, 0)) for g, e in monomial if e > divisor.get(g, 0))
-            count[ratio, value // number] += 1
-    if not count:
-        return None
-    found, times = count.most_common(1)[0]
-    return field.ring.build([found]) if 2 * times > len(below) else None
+    def _by_factors(self, poly: Poly) -> Element:
+        """Each factor by its shortest equal."""
+        assert self.relations is not None
+        field = self.field
+        content, factors = field.ring.lift(poly).factor()
+        result = field.rational(int(content))
+        for factor, exponent in factors:
+            equal = [field.polynomial(self.relations.shared_out(field, factor))]
+            equal += self.relations.modulo(field, factor)
+            result = result * min(equal, key=Element.size) ** int(exponent)
+        return result

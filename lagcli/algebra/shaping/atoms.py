@@ -26,6 +26,7 @@ from lagcli.expression import (
     Name,
     Negative,
     Number,
+    PartialCall,
     Power,
     Product,
     Quotient,
@@ -89,8 +90,25 @@ class Atoms:
                 tree = self._translator.tree(generator.expression)
             except TypeError:  # nothing that the grammar can say, such as a Piecewise
                 tree = Name(f"#{number}")
+            if generator.kind == "opaque" and isinstance(tree, (Call, PartialCall)):
+                tree = self._with_short_arguments(tree, generator.expression)
             return ((self.add(tree, generator.expression), 1),)
         return tuple((a, _exact(Fraction(e) / generator.index)) for a, e in self._inside(number))
+
+    def _with_short_arguments(
+        self, tree: Call | PartialCall, expression: Expr
+    ) -> Call | PartialCall:
+        """U'(d) with the shortest shape of d."""
+        arguments = []
+        for given, argument in zip(tree.arguments, expression.args, strict=True):
+            try:
+                shaped = self.shape(self.field(argument))
+            except ZeroDivisionError:
+                shaped = given
+            arguments.append(min(given, shaped, key=operation_count))
+        if isinstance(tree, PartialCall):
+            return PartialCall(tree.function, tree.indices, tuple(arguments))
+        return Call(tree.function, tuple(arguments), tree.primes)
 
     def _inside(self, number: int) -> Term:
         """The radicand of a root in atoms: a monomial, f, or d² (f/d²)."""

@@ -21,7 +21,7 @@ from lagcli.algebra.shaping.plan import Product, Sum, product, total
 _MAX_FACTORED = 400  # terms
 _MAX_PLAIN = 10  # terms that may be left without any bracket
 _MAX_SHORTENED = 12  # terms
-_SHORTENINGS = 100  # attempts
+_SHORTENINGS = 20  # attempts
 _EFFORT = 400  # splits that are tried in all; then the most promising one only
 
 

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from sympy import Expr
 
+from lagcli.algebra.division import commonest_ratio
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.ring import Monomial, Poly
@@ -130,16 +131,23 @@ class Shaper:
             divisor = factor**exponent
             if len(factor) < 2:
                 continue
-            quotient, rest = divmod(element.numerator, divisor)
-            if quotient == 0 or rest == 0 or len(quotient) + len(rest) >= len(element.numerator):
-                continue
-            field = self.field
-            yield self.together(
-                (
-                    field.element(quotient, element.denominator / divisor),
-                    field.element(rest, element.denominator),
+            for quotient, rest in self._quotients(element.numerator, divisor):
+                yield self.together(
+                    (
+                        self.field.element(quotient, element.denominator / divisor),
+                        self.field.element(rest, element.denominator),
+                    )
                 )
-            )
+
+    def _quotients(self, numerator: Poly, divisor: Poly) -> Iterator[tuple[Poly, Poly]]:
+        """Q and R with N = Q D + R, neither 0 and together shorter than N."""
+        found = [divmod(numerator, divisor)]
+        ratio = commonest_ratio(self.field.ring, numerator, divisor)
+        if ratio is not None and ratio != found[0][0]:
+            found.append((ratio, numerator - ratio * divisor))
+        for quotient, rest in found:
+            if quotient != 0 and rest != 0 and len(quotient) + len(rest) < len(numerator):
+                yield quotient, rest
 
     def _joined(self, above: Product, below: Product) -> Product:
         inverse = [(p, -e) for p, e in below.parts]
