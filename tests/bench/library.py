@@ -56,20 +56,21 @@ def measured(
 def _problem(file: str, cap: float) -> dict[str, Any]:
     found = _naive(file, cap)
     lagcli = _lagcli(file, cap)
-    if found["cpu"] < SHORT and not found["fails"] and not found.get("lost"):
+    if found["cpu"] < SHORT and not found["fails"]:
         found["cpu"] = min(found["cpu"], _naive(file, cap, "--only-time")["cpu"])
     if lagcli.cpu < SHORT:
         lagcli = min(lagcli, _lagcli(file, cap), key=lambda run: run.cpu)
-    late = lagcli.status not in {0, 1}
-    return found | {"lagcli_cpu": lagcli.cpu, "lagcli_wall": lagcli.wall, "lagcli_late": late}
+    times = {"lagcli_cpu": lagcli.cpu, "lagcli_wall": lagcli.wall}
+    return found | times | {"lagcli_fails": not lagcli.answered}
 
 
 def _naive(file: str, cap: float, *options: str) -> dict[str, Any]:
     command = [sys.executable, str(HERE / "naive.py"), file, "--cap", f"{cap:g}", *options]
     run = cost(command, limit=int(3 * cap) + 60)
-    if run.status:  # the comparison, off the clock, had no end
-        return {"late": True, "fails": None, "simplify": [], "cpu": cap, "lost": True}
-    return json.loads(run.out)
+    lines = run.out.splitlines()
+    if not lines:
+        raise SystemExit(f"{' '.join(command)}: {run.mistakes}")
+    return json.loads(lines[-1])  # only the times, where the comparison has no end
 
 
 def _lagcli(file: str, cap: float) -> Cost:
@@ -78,13 +79,21 @@ def _lagcli(file: str, cap: float) -> Cost:
 
 
 def gain(found: dict[str, Any]) -> float | None:
-    """How many times faster lagcli is (at least, where SymPy was late); None: SymPy fails."""
-    return None if found["fails"] else found["cpu"] / found["lagcli_cpu"]
+    """How many times faster lagcli is: at least, where SymPy was late; 0 where it has no answer.
+
+    None: there is nothing to compare with, since SymPy fails, or both have no answer.
+    """
+    printed = any("lagcli" in formula for formula in found.get("formulas", {}).values())
+    if found["fails"] or not (printed or not found["late"]):
+        return None
+    return found["cpu"] / found["lagcli_cpu"] if printed and not found["lagcli_fails"] else 0.0
 
 
 def _told(found: dict[str, Any]) -> str:
     if found["fails"]:
         return f"SymPy fails ({found['fails'].split(':')[0]}); lagcli {found['lagcli_cpu']:.2f} s"
+    if gain(found) is None:
+        return "no answer here or there"
     least = "at least " if found["late"] else ""
     equal = {True: "equal", None: "not compared"}.get(found.get("agrees"), "DIFFERENT")
     return f"{least}{gain(found):.2f} x ({found['lagcli_cpu']:.2f} s), {equal}"

@@ -30,6 +30,11 @@ class Cost:
     out: bytes
     mistakes: str
 
+    @property
+    def answered(self) -> bool:
+        """Whether lagcli came to its end; status 1 alone says that something was not found."""
+        return self.status in {0, 1} and "error: " not in self.mistakes
+
 
 def cost(command: Sequence[str], good: Sequence[int] = (0,), limit: int | None = None) -> Cost:
     """Run a command to its end.

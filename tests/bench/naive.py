@@ -130,13 +130,13 @@ def main():
         if fails([x for x in simplified if x is not None]):
             found["fails"] = "a division by zero"
     found["cpu"] = time.process_time() - reading
+    print(json.dumps(found), flush=True)
     if not arguments.only_time:
         from tests.bench.formulas import compared
 
         if found["fails"]:
             solution, simplified = None, []
-        found |= compared(problem, script, solution, simplified)
-    print(json.dumps(found))
+        print(json.dumps(found | compared(problem, script, solution, simplified)))
 
 
 if __name__ == "__main__":

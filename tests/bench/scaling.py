@@ -70,8 +70,8 @@ def rows(quick: bool) -> Iterator[Row]:
 
 
 def _row(what: str, used: Cost, bar: float | None) -> Row:
-    """CPU seconds, unless it was no answer (status 1: some of the sections were not found)."""
-    if used.status in {0, 1}:
+    """CPU seconds, unless there was no answer."""
+    if used.answered:
         return Row(what, used.cpu, "s", bar, note=f"{used.peak_mib} MiB")
     return Row(what, None, "s", bar, note=used.mistakes.strip().rpartition("error: ")[2] or "late")
 

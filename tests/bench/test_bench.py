@@ -14,7 +14,7 @@ from tests.bench.measure import Row
 def problem(cpu, lagcli_cpu, *, fails=None, late=False, formula=None):
     return {
         "cpu": cpu, "lagcli_cpu": lagcli_cpu, "fails": fails, "late": late, "agrees": True,
-        "simplify": [], "formulas": {"x": formula or {}},
+        "lagcli_fails": False, "simplify": [], "formulas": {"x": formula or operations(1, 1)},
     }  # fmt: skip
 
 
@@ -36,6 +36,7 @@ def test_what_sympy_cannot_do_is_not_counted():
         "problems/a.yaml": problem(1, 2),
         "problems/b.yaml": problem(6, 2, late=True),
         "problems/c.yaml": problem(0.1, 2, fails="singular"),
+        "problems/d.yaml": problem(9, 2, late=True, formula={"simplify": "a"}),
     }
     least, median, different, slower = library.speed_rows(problems)
     assert (least.value, median.value, different.value) == (0.5, 1.75, 0)
