@@ -6,7 +6,7 @@ import random
 
 import mpmath
 from mpmath import mpf
-from sympy import Symbol
+from sympy import Expr, Symbol
 
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.system import System
@@ -33,6 +33,18 @@ def parameter_values(system: System) -> dict[Symbol, mpf]:
                 [values[symbol]] = Evaluator([formula], DIGITS)(values)
                 progress = True
     return values
+
+
+def exact_values(system: System) -> dict[Symbol, Expr]:
+    """The values of the file as exact numbers, by parameter; those without one left out."""
+    formulas = {
+        symbol: system.build(parameter.value)
+        for symbol, parameter in zip(system.parameters, system.problem.parameters, strict=True)
+        if parameter.value is not None
+    }
+    for _ in formulas:
+        formulas = {symbol: formula.xreplace(formulas) for symbol, formula in formulas.items()}
+    return {symbol: value for symbol, value in formulas.items() if not value.free_symbols}
 
 
 def admissible_values(system: System, count: int) -> list[dict[Symbol, mpf]]:

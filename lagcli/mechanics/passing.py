@@ -11,12 +11,13 @@ from contextlib import suppress
 from functools import cached_property
 from time import process_time
 
+import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.along_the_motion import AlongTheMotion
-from lagcli.mechanics.parameter_values import admissible_values
+from lagcli.mechanics.parameter_values import admissible_values, parameter_values
 from lagcli.mechanics.reach import DIGITS, LineOfMotion, Reach, real_value
 from lagcli.record import record
 
@@ -68,7 +69,19 @@ class Passing:
                 self._undecided.append(f"whether contact '{constraint.name}' lasts was not decided")
             else:
                 margins.append(formula)
-        return tuple(margins)
+        return (*margins, *self._assumed())
+
+    def _assumed(self) -> list[Expr]:
+        """x >= 0 of each other coordinate that has a sign by assumption and is a function of u."""
+        relations, remove = self.along.attempts([self.u], with_time=False)[0]
+        found = []
+        for x in self.system.q:
+            if x is self.u or not relations or not (x.is_nonnegative or x.is_nonpositive):
+                continue
+            left = self.along.eliminated(x, relations, remove)
+            if left.complete and not left.expression.is_nonnegative:
+                found.append(left.expression if x.is_nonnegative else -left.expression)
+        return found
 
     @cached_property
     def _draws(self) -> list[dict[Symbol, mpf]]:
@@ -88,7 +101,8 @@ class Passing:
     def passed(self, passages: Sequence[Passage], *, angle: bool) -> list[Passage] | None:
         """Those that the motion comes to; None where that was not decided."""
         self.notes = []
-        kept = []
+        kept: list[Passage] = []
+        partly: list[tuple[Passage, str]] = []
         decided = len(self._draws) == 1
         for passage in passages:
             draws = self._informative(passage)
@@ -107,7 +121,12 @@ class Passing:
             elif times and len(self._draws) > 1:
                 self.notes.append(f"no motion was found that comes to {_text(passage)}")
             if any(times) and not (all(times) and draws == list(range(len(draws)))):
-                self.notes.append("for some values of the parameters only")
+                first = draws[times.index(True)]
+                partly.append((passage, self._example(first, passage, angle=angle)))
+        apart = len({example for _, example in partly}) > 1 or len(partly) < len(kept)
+        for passage, example in partly:
+            which = _text(passage) + " " if apart else ""
+            self.notes.append(f"{which}for some values of the parameters only, such as {example}")
         self.notes += self._undecided
         if passages and not kept:
             if not decided:
@@ -162,24 +181,46 @@ class Passing:
 
     def _passes(self, index: int, passage: Passage, *, angle: bool) -> bool:
         reach = self._reach(index, angle=angle)
-        if reach is None:
-            return False
-        place = real_value(passage.place, reach.values)
-        if place is None:
-            return False
-        signs = reach.signs(place)
-        if passage.velocity is None or not signs:
-            return bool(signs)
-        velocity = real_value(passage.velocity, {**reach.values, self.u: place})
-        if velocity is None:
-            return False
-        return abs(velocity) < _SMALL or (1 if velocity > 0 else -1) in signs
+        return reach is not None and _passed(reach, passage, self.u)
+
+    def _example(self, index: int, passage: Passage, *, angle: bool) -> str:
+        """Values with which the motion comes there: 1 or of two digits where these do."""
+        values, line = dict(self._draws[index]), self._line(angle=angle)
+        given = parameter_values(self.system)
+        shown = [p for p in values if p not in given]
+        for p in shown:
+            for simple in (mpf(-1 if p.is_negative else 1), mpf(mpmath.nstr(values[p], 2))):
+                if line is None or process_time() > self.along.deadline:
+                    break
+                with suppress(ArithmeticError, ValueError, TypeError):
+                    near = [{**values, p: simple * (1 + mpf(k) / 16)} for k in (0, 1, -1)]
+                    if all(_passed(Reach(line, each), passage, self.u) for each in near):
+                        values[p] = simple
+                        break
+        others = [p for p in shown if values[p] != 1]
+        if not others:
+            return "1 for all of them"
+        text = ", ".join(f"{p} = {mpmath.nstr(values[p], 6)}" for p in others)
+        return text if len(others) == len(shown) else f"{text} and 1 for the others"
+
+
+def _passed(reach: Reach, passage: Passage, u: Symbol) -> bool:
+    place = real_value(passage.place, reach.values)
+    if place is None:
+        return False
+    signs = reach.signs(place)
+    if passage.velocity is None or not signs:
+        return bool(signs)
+    velocity = real_value(passage.velocity, {**reach.values, u: place})
+    if velocity is None:
+        return False
+    return abs(velocity) < _SMALL or (1 if velocity > 0 else -1) in signs
 
 
 def _text(passage: Passage) -> str:
     """The place, and the velocity where it counts, in the words of the grammar."""
     text = str(passage.place)
-    if passage.velocity is not None:
+    if passage.velocity is not None and passage.velocity != 0:
         text += f" with the velocity {passage.velocity}"
     return text.replace("**", "^")
 

@@ -16,7 +16,7 @@ from lagcli.algebra.equations import Roots, is_decimal, solve_for
 from lagcli.algebra.numeric import Evaluator
 from lagcli.answers import Solutions
 from lagcli.mechanics.along_the_motion import AlongTheMotion
-from lagcli.mechanics.parameter_values import admissible_values
+from lagcli.mechanics.parameter_values import admissible_values, exact_values
 from lagcli.mechanics.passing import Passage, Passing, admissible
 from lagcli.mechanics.reach import real_value
 from lagcli.problem import Where as WhereQuestion
@@ -89,11 +89,19 @@ class Where:
 
     def _places(self, passing: Passing) -> tuple[Roots, Expr, Expr | None] | None:
         """Roots u of the equation, the equation in u alone, and u' where it speaks of u'."""
+        line = self._in_one(passing)
+        if line is None:
+            return None
+        equation, velocity = line
+        found = self._roots(equation, passing.u)
+        return None if found is None else (found, equation, velocity)
+
+    def _in_one(self, passing: Passing) -> tuple[Expr, Expr | None] | None:
+        """The equation in the one coordinate u, and u' where it speaks of u'."""
         u, rate = passing.u, passing.rate
         equation = self.along.rewritten(self.equation, [u])
         if equation is not None:
-            found = self._roots(equation, u)
-            return None if found is None else (found, equation, None)
+            return equation, None
         both = self.along.rewritten(self.equation, [u, rate])
         square = passing.square
         if both is None or square is None:
@@ -104,9 +112,7 @@ class Where:
             return None
         # A + B u' = 0 with u'^2 = w:  A^2 = B^2 w
         a, b = split
-        equation = simplify(a**2 - b**2 * square)
-        found = self._roots(equation, u)
-        return None if found is None else (found, equation, simplify(-a / b))
+        return simplify(a**2 - b**2 * square), simplify(-a / b)
 
     def _departing(self, roots: list[Expr], equation: Expr, square: Expr) -> list[Expr]:
         """From rest at an equilibrium: mirror images are told once."""
@@ -200,6 +206,9 @@ class Where:
         q = self.system.q
         for others in ((), *((x,) for x in q), q):
             formula = self.along.rewritten(self.equation, [*keep, *others])
+            if formula is None and len(others) == 1 and not keep:
+                line = self._in_one(self._passing(others[0]))
+                formula = None if line is None else line[0]
             if formula is not None and self.unknown in formula.free_symbols:
                 found = self._roots(formula, self.unknown)
                 return None if found is None else self._sorted(list(found.values))
@@ -219,6 +228,9 @@ class Where:
             self.notes.append(self.along.why_not)
             return Roots((), angle=False) if holds is False else None
         found = solve_for(equation, unknown)
+        if found is None and (given := self._with_values(equation)) is not None:
+            self.notes.append("for the values of the file")
+            equation, found = given, solve_for(given, unknown)
         if found is None:
             self.along.why_not = f"no closed form was found for {unknown}"
             return None
@@ -232,6 +244,14 @@ class Where:
                 return None
             kept.append(root)
         return Roots(tuple(kept), found.angle)
+
+    def _with_values(self, equation: Expr) -> Expr | None:
+        """The equation with the values of the file; None where it does not give all of them."""
+        values = exact_values(self.system)
+        if not equation.free_symbols & set(self.system.parameters) <= values.keys():
+            return None
+        put = simplify(equation.xreplace(values))
+        return None if put == equation else put
 
     def _satisfies(self, equation: Expr, unknown: Symbol, root: Expr) -> bool | None:
         """Substitution at 50 digits, wherever the root is real and admissible.
