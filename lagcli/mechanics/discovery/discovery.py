@@ -12,11 +12,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 
+import mpmath
 import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery import point
 from lagcli.mechanics.discovery.ansatz import (
     Kinds,
@@ -26,6 +28,7 @@ from lagcli.mechanics.discovery.ansatz import (
     point_unknowns,
     time_functions,
 )
+from lagcli.mechanics.discovery.brackets import rank
 from lagcli.mechanics.discovery.centralizer import centralized
 from lagcli.mechanics.discovery.constrained import tangent
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
@@ -39,6 +42,7 @@ from lagcli.mechanics.discovery.special import special_values
 from lagcli.mechanics.noether import Noether, NoetherCharge
 
 _MOST_COORDINATES = 9
+_DIGITS = 40
 _MOST_FOR_TENSORS = 6
 _FEW_TERMS = 3
 _QUICK = 2.0  # seconds of a search that is worth repeating at special parameters
@@ -76,6 +80,22 @@ class Discovery:
         """What was searched and what was not, as a sentence without its full stop."""
         return "; ".join(dict.fromkeys((*self.words, *self.stopped)))
 
+    @property
+    def _singular(self) -> bool:
+        """Whether M has no inverse, by its rank at a random state."""
+        mass = self.dynamics.lagrange.mass_matrix
+        n = len(mass)
+        evaluate = Evaluator([m for row in mass for m in row], _DIGITS)
+        for state in self.dynamics.states.take(3):
+            try:
+                entries = evaluate(state)
+            except (ArithmeticError, ValueError):
+                continue
+            with mpmath.workdps(_DIGITS):
+                if rank([entries[k * n : (k + 1) * n] for k in range(n)]) == n:
+                    return False
+        return True
+
     # -- the two searches -------------------------------------------------------------------
 
     def _run(self) -> None:
@@ -84,7 +104,7 @@ class Discovery:
             self.words.append("nothing")
             self.stopped.append(f"more than {_MOST_COORDINATES} coordinates are not searched")
             return
-        if self.dynamics.degenerate and not self.dynamics.constraints.equations:
+        if not self.dynamics.constraints.equations and self._singular:
             self.words.append("nothing")
             self.stopped.append("the Lagrangian is singular")
             return
@@ -140,6 +160,8 @@ class Discovery:
         mass, forcing = self.equations.mass, self.equations.forcing
         if all(m == 0 for i, row in enumerate(mass) for j, m in enumerate(row) if i != j):
             return tuple(f / row[i] for i, (f, row) in enumerate(zip(forcing, mass, strict=True)))
+        if any(not free_of(m, self.system.q) for row in mass for m in row):
+            return None  # its inverse times the forcing has no linear terms of use
         motion = self.dynamics.motion
         return None if motion is None else motion.accelerations
 
