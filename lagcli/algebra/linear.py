@@ -46,6 +46,10 @@ class LinearSolution:
     rank: int
 
 
+_READ = 3000  # terms of a value; the triple pendulum has 255, that of four links 15 000
+_COMPUTED = 30_000  # terms of an entry on the way
+
+
 class _TooLong(Exception):
     pass
 
@@ -68,7 +72,7 @@ def solve_linear(
         shorten only the result: used while eliminating, they would leave factors below
         that vanish where det A does not, as x does in x'/x for y y' = -x x'.
     budget
-        Seconds after which None is returned.
+        Seconds after which None is returned; it is also where a value is too long to be read.
     shapes
         Where the values are to be written as they were found here; then its relations count.
     """
@@ -87,6 +91,8 @@ def solve_linear(
     if _vanishes(field, found.determinant, relations):
         return LinearSolution([], None, singular=True, rank=rank(A, relations))
     row_of = {column: row for row, column in found.pivots}
+    if any(x.size() > _READ for row in rows for x in row.values()):
+        return None
     readable = Readable(field, Writer(() if shapes is None else shapes.order), relations)
 
     def simplified(element: Element) -> Expr:
@@ -198,6 +204,8 @@ def _eliminate(
                 if monotonic() > deadline:
                     raise _TooLong
                 y = row[j] + factor * x if j in row else factor * x
+                if y.size() > _COMPUTED:
+                    raise _TooLong
                 if _vanishes(field, y, relations):
                     row.pop(j, None)
                 else:
