@@ -95,7 +95,7 @@ def with_decimals(node: Expression) -> Expression:
 def number(value: Constant) -> Expression:
     """A number of at most `DIGITS` significant digits, with a `Negative` for its sign."""
     exact = Fraction(value)
-    if exact.denominator == 1:
+    if exact.denominator == 1 and abs(exact) < 10**DIGITS:
         rounded = exact
     else:
         rounded = Fraction(_ROUNDING.divide(Decimal(exact.numerator), Decimal(exact.denominator)))

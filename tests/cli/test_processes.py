@@ -55,8 +55,13 @@ def test_a_reader_that_leaves_is_no_error(lagcli):
 def test_an_interrupt_ends_with_130_and_without_a_traceback(tmp_path):
     pipe = tmp_path / "pipe.yaml"  # nobody ever writes to it: lagcli waits
     os.mkfifo(pipe)
+    # a build in the background ignores interrupts, and its children inherit that
+    listening = (
+        "import runpy, signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+        "runpy.run_module('lagcli', run_name='__main__', alter_sys=True)"
+    )
     running = subprocess.Popen(
-        [sys.executable, "-m", "lagcli", "solve", str(pipe)], stderr=subprocess.PIPE
+        [sys.executable, "-c", listening, "solve", str(pipe)], stderr=subprocess.PIPE
     )
     time.sleep(1.5)
     running.send_signal(signal.SIGINT)

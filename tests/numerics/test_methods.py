@@ -69,20 +69,19 @@ def test_taylor_takes_the_order_of_its_tolerance():
     assert order_for(1e-30) == 36
 
 
-LIBRARY = sorted((ROOT / "problems").rglob("*.yaml"))
+#: Problems with nothing unspecified: the others have no numbers.
+LIBRARY = [
+    path
+    for path in sorted((ROOT / "problems").rglob("*.yaml"))
+    if not problem_of(path.read_text("utf-8")).functions
+]
 
 
 @pytest.mark.parametrize("path", LIBRARY, ids=lambda p: p.stem)
 def test_accelerations_are_those_of_the_definitions(path):
     """Against jets and a numeric KKT system that share no code with the graph."""
     problem = problem_of(path.read_text("utf-8"))
-    if problem.functions:
-        pytest.skip("functions left unspecified")
-    reference = Reference(problem)
-    try:
-        states = random_states(reference, 2)
-    except AssertionError:
-        pytest.skip("no state found")
+    states = random_states(Reference(problem), 2)
     equations = Equations(problem)
     for state in states:
         if not state.regular:
