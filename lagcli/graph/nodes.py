@@ -287,7 +287,9 @@ class Graph:
         if isinstance(first, Constant) and not first.value and function in _AT_ZERO:
             return self.constant(_AT_ZERO[function])
         if isinstance(first, Sum) and function in _PARITY and _is_negative(first):
-            positive = self.call(function, (self.scaled(first, -1),))
+            # term by term: -1 * (b - a) would itself begin with a minus
+            opposite = self.combination((term, -factor) for term, factor in first.terms)
+            positive = self.call(function, (opposite,))
             return self.scaled(positive, _PARITY[function])
         mask = 0
         for argument in arguments:

@@ -16,6 +16,7 @@ import sympy
 from lagcli.algebra.numeric import Evaluator
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json import to_object
+from lagcli.graph.nodes import Graph
 from lagcli.graph.reading import GraphReader
 from lagcli.graph.values import Floats, Program
 from lagcli.mechanics.derivation import Derivation
@@ -268,3 +269,12 @@ def test_matrix_form_of_a_large_system_needs_no_sympy(tmp_path):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert json.loads(done.stdout)["degrees_of_freedom"] == 12
+
+
+def test_a_sign_moves_out_of_a_difference_within_a_difference():
+    """sin(-(b - a)) = sin(a - b), however the minus came there."""
+    graph = Graph()
+    a, b = graph.symbol("a"), graph.symbol("b")
+    turned = graph.scaled(graph.difference(b, a), -1)
+    assert graph.call("sin", (turned,)) is graph.call("sin", (graph.difference(a, b),))
+    assert graph.call("cos", (turned,)) is graph.call("cos", (graph.difference(b, a),))
