@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
+from lagcli.cli.delivering import has_place
 from lagcli.cli.files import print_result, read_input, reason, write_output
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
@@ -49,7 +50,7 @@ class Wish:
 
 def simulate_file(wish: Wish) -> Status:
     """Run, write, and say how it ended."""
-    if not (_known("--format", wish.format_name, FORMATS) & _has_place(wish.output)):
+    if not (_known("--format", wish.format_name, FORMATS) & has_place(wish.output)):
         return Status.USAGE
     try:
         found = read(wish.file, read_input(wish.file), Request(settings=wish.settings))
@@ -177,19 +178,6 @@ def _known(option: str, name: str, names: tuple[str, ...]) -> bool:
     advice = did_you_mean(name, names) or f"there are {', '.join(names)}"
     tell_line(f"lagcli: error: {option}: unknown name '{name}': {advice}")
     return False
-
-
-def _has_place(output: Path | None) -> bool:
-    """Whether there is a place for the result; asked before any work is done."""
-    if output is None:
-        return True
-    if output.is_dir():
-        tell_line(f"{output}: error: is a directory")
-        return False
-    if not output.resolve().parent.is_dir():
-        tell_line(f"{output}: error: there is no directory '{output.parent}'")
-        return False
-    return True
 
 
 @contextmanager
