@@ -9,10 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from lagcli.answers import (
-    DEFAULT_SECTIONS,
-    SECTIONS,
     AccelerationsSection,
-    Answers,
     CanonicalSection,
     Charge,
     ChargesSection,
@@ -38,6 +35,7 @@ from lagcli.graph.nodes import Node
 from lagcli.graph.sharing import operations, with_shared_parts, written_out
 from lagcli.mechanics.large_charges import LargeCharge, LargeCharges
 from lagcli.mechanics.matrix_form import MatrixForm
+from lagcli.mechanics.stating import Stating
 from lagcli.problem import Where
 
 #: A section whose formulas show more operations than this is not written out.
@@ -46,18 +44,20 @@ WRITTEN_OPERATIONS = 100_000
 _WHY = "the system is too large for formulas"
 
 
-class LargeStatements:
-    """The sections of one large system; warnings gather as they are made."""
+class LargeStatements(Stating):
+    """The sections of one large system."""
 
     def __init__(self, form: MatrixForm) -> None:
+        super().__init__(form.problem, _WHY)
         self.form = form
-        self.problem = form.problem
         self.charges = LargeCharges(form)
-        self.warnings: list[str] = []
-        self.complete = True
         names = (*self.problem.parameters, *self.problem.coordinates)
         self.order = tuple(quantity.name for quantity in names)
-        self._sections: Mapping[str, Callable[[], Section]] = {
+
+    @property
+    def makers(self) -> Mapping[str, Callable[[], Section]]:
+        """What makes each section, by its name."""
+        return {
             "lagrangian": self._lagrangian,
             "equations": self._equations,
             "matrix_form": self._matrix_form,
@@ -74,39 +74,10 @@ class LargeStatements:
             "modes": self._modes,
         }
 
-    def answers(self, sections: Sequence[str] | None) -> Answers:
-        """The asked sections, in their fixed order."""
-        problem = self.problem
-        asked = self._usual() if sections is None else sections
-        made: dict[str, Section] = {}
-        for name in SECTIONS:
-            if name in asked and name in self._sections:
-                made[name] = self._sections[name]()
-            elif name in asked:
-                self._missing(f"the section '{name}'")
-        quantities = (*problem.coordinates, *problem.parameters)
-        return Answers(
-            title=problem.title,
-            coordinates=tuple(q.name for q in problem.coordinates),
-            parameters=tuple(p.name for p in problem.parameters),
-            degrees_of_freedom=self.form.degrees_of_freedom,
-            sections=made,
-            symbols={q.name: q.symbol for q in quantities if q.symbol is not None},
-            multipliers={c.multiplier: c.name for c in problem.constraints},
-            warnings=tuple(dict.fromkeys(self.warnings)),
-            complete=self.complete,
-        )
-
-    def _usual(self) -> list[str]:
-        problem = self.problem
-        idle = set() if problem.constraints else {"multipliers", "constraint_forces"}
-        if not problem.find:
-            idle.add("find")
-        return [name for name in DEFAULT_SECTIONS if name not in idle]
-
-    def _missing(self, what: str, why: str = _WHY) -> None:
-        self.complete = False
-        self.warnings.append(f"{what} could not be found: {why}")
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Coordinates less the rank of all constraints on the velocities."""
+        return self.form.degrees_of_freedom
 
     def _written(self, what: str, nodes: Sequence[Node]) -> tuple[Expression, ...] | None:
         """The nodes written out; None with a warning where that would be too long."""
@@ -242,27 +213,16 @@ class LargeStatements:
 
     # -- what is not found ----------------------------------------------------------------------
 
-    def _unsolved(self) -> None:
-        self.complete = False
-        self.warnings.append(
-            "the accelerations and multipliers were not solved in closed form: "
-            f"{_WHY}; --show matrix_form gives the system for a numerical solution"
-        )
-
     def _accelerations(self) -> AccelerationsSection:
-        self._unsolved()
+        self._unsolved(_WHY)
         return AccelerationsSection(accelerations=None)
 
     def _multipliers(self) -> MultipliersSection:
-        self._unsolved()
+        self._unsolved(_WHY)
         form, kept = self.form, set(self.form.independent)
         constraints = self.problem.constraints
         redundant = tuple(c.name for k, c in enumerate(constraints) if k not in kept)
-        if redundant:
-            self.warnings.append(
-                f"redundant: {', '.join(redundant)} (implied by the other constraints); "
-                "the accelerations and the total constraint force are unique all the same"
-            )
+        self._note_redundant(redundant)
         return MultipliersSection(
             multipliers={
                 c.name: Multiplier(
@@ -275,7 +235,7 @@ class LargeStatements:
 
     def _constraint_forces(self) -> ConstraintForcesSection:
         if self.problem.constraints:
-            self._unsolved()
+            self._unsolved(_WHY)
         return ConstraintForcesSection(
             forces={c.name: None for c in self.problem.constraints}, total=None
         )

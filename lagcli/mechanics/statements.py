@@ -9,8 +9,6 @@ from sympy import Expr
 
 from lagcli.algebra import shape, terms
 from lagcli.answers import (
-    DEFAULT_SECTIONS,
-    SECTIONS,
     AccelerationsSection,
     AlgebraSection,
     Answers,
@@ -38,6 +36,7 @@ from lagcli.expression import ZERO, Expression
 from lagcli.mechanics.constraint_force import forces_on_points
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.noether import NoetherCharge
+from lagcli.mechanics.stating import Stating
 from lagcli.problem import Problem
 
 NUMERIC_CHECK = "50 digits"
@@ -61,19 +60,22 @@ def answers(problem: Problem, sections: Sequence[str] | None = None) -> Answers:
     return Statements(Derivation(problem)).answers(sections)
 
 
-class Statements:
-    """The sections of one derivation; warnings gather as they are made."""
+class Statements(Stating):
+    """The sections of one derivation."""
 
     def __init__(self, derivation: Derivation) -> None:
+        super().__init__(derivation.problem, "it is not stated for such a problem")
         self.derivation = derivation
         self.system = derivation.system
         self.dynamics = derivation.dynamics
-        self.warnings: list[str] = []
-        self.complete = True
         system = self.system
         fast = (*system.qdot, *system.qddot, *system.multipliers)
         self._leading = frozenset(symbol.name for symbol in fast)
-        self._sections: Mapping[str, Callable[[], Section]] = {
+
+    @property
+    def makers(self) -> Mapping[str, Callable[[], Section]]:
+        """What makes each section, by its name."""
+        return {
             "lagrangian": self._lagrangian,
             "equations": self._equations,
             "matrix_form": self._matrix_form,
@@ -92,34 +94,10 @@ class Statements:
             "modes": self._modes,
         }
 
-    def answers(self, sections: Sequence[str] | None) -> Answers:
-        """The asked sections, in their fixed order."""
-        problem = self.derivation.problem
-        asked = self._usual() if sections is None else sections
-        made: dict[str, Section] = {}
-        for name in SECTIONS:
-            if name in asked and name in self._sections:
-                made[name] = self._sections[name]()
-        quantities = (*problem.coordinates, *problem.parameters)
-        return Answers(
-            title=problem.title,
-            coordinates=self.system.names,
-            parameters=tuple(p.name for p in problem.parameters),
-            degrees_of_freedom=self.dynamics.degrees_of_freedom,
-            sections=made,
-            symbols={q.name: q.symbol for q in quantities if q.symbol is not None},
-            multipliers={c.multiplier: c.name for c in problem.constraints},
-            warnings=tuple(dict.fromkeys(self.warnings)),
-            complete=self.complete,
-        )
-
-    def _usual(self) -> list[str]:
-        """The default sections, without those that have nothing to say here."""
-        problem = self.derivation.problem
-        idle = set() if problem.constraints else {"multipliers", "constraint_forces"}
-        if not problem.find:
-            idle.add("find")
-        return [name for name in DEFAULT_SECTIONS if name not in idle]
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Coordinates less the rank of all constraints on the velocities."""
+        return self.dynamics.degrees_of_freedom
 
     # -- shapes ---------------------------------------------------------------------------
 
@@ -196,20 +174,17 @@ class Statements:
             accelerations=self._by_coordinate(motion.accelerations), verified=motion.verified
         )
 
-    def _unsolved(self) -> None:
-        self.complete = False
+    def _unsolved(self, why: str = "") -> None:
         degenerate = [self.system.names[i] for i in self.dynamics.degenerate]
-        if degenerate:
-            self.warnings.append(
-                "the Lagrangian is singular: the Hessian of L by the velocities has no inverse "
-                f"along {', '.join(degenerate)}, so the equations do not determine the "
-                "accelerations"
-            )
-        else:
-            self.warnings.append(
-                "the accelerations and multipliers were not solved in closed form; "
-                "--show matrix_form gives the system for a numerical solution"
-            )
+        if not degenerate:
+            super()._unsolved(why)
+            return
+        self.complete = False
+        self.warnings.append(
+            "the Lagrangian is singular: the Hessian of L by the velocities has no inverse "
+            f"along {', '.join(degenerate)}, so the equations do not determine the "
+            "accelerations"
+        )
 
     def _note_check(self, what: str, verified: str | None) -> None:
         if verified == NUMERIC_CHECK:
@@ -225,11 +200,7 @@ class Statements:
         equations = dynamics.constraints.equations
         values = (None,) * len(equations) if motion is None else motion.multipliers
         redundant = dynamics.redundant
-        if redundant:
-            self.warnings.append(
-                f"redundant: {', '.join(redundant)} (implied by the other constraints); "
-                "the accelerations and the total constraint force are unique all the same"
-            )
+        self._note_redundant(redundant)
         return MultipliersSection(
             multipliers={
                 equation.name: Multiplier(
@@ -306,10 +277,6 @@ class Statements:
                 for name, (q, p) in zip(self.system.names, pairs, strict=True)
             }
         )
-
-    def _missing(self, what: str, why: str) -> None:
-        self.complete = False
-        self.warnings.append(f"{what} could not be found: {why}")
 
     def _charges(self) -> ChargesSection:
         return ChargesSection(charges=tuple(map(self._charge, self.derivation.noether.charges)))

@@ -1,0 +1,87 @@
+"""What every statement of a problem shares: which sections, in what order, and what is missing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from lagcli.answers import DEFAULT_SECTIONS, SECTIONS, Answers, Section
+from lagcli.problem import Problem
+
+
+class Stating:
+    """The sections of one problem; warnings gather as they are made.
+
+    A subclass gives the maker of each section that it can state.
+
+    Parameters
+    ----------
+    problem
+        What is stated.
+    why_missing
+        Why an answer is missing, where nothing more special is known.
+    """
+
+    def __init__(self, problem: Problem, why_missing: str) -> None:
+        self.problem = problem
+        self.warnings: list[str] = []
+        self.complete = True
+        self._why_missing = why_missing
+
+    @property
+    def makers(self) -> Mapping[str, Callable[[], Section]]:
+        """What makes each section, by its name."""
+        raise NotImplementedError
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Coordinates less the rank of all constraints on the velocities."""
+        raise NotImplementedError
+
+    def answers(self, sections: Sequence[str] | None) -> Answers:
+        """The asked sections (the usual ones for None), in their fixed order."""
+        problem, makers = self.problem, self.makers
+        asked = self._usual() if sections is None else sections
+        made: dict[str, Section] = {}
+        for name in SECTIONS:
+            if name in asked and name in makers:
+                made[name] = makers[name]()
+            elif name in asked:
+                self._missing(f"the section '{name}'")
+        quantities = (*problem.coordinates, *problem.parameters)
+        return Answers(
+            title=problem.title,
+            coordinates=tuple(q.name for q in problem.coordinates),
+            parameters=tuple(p.name for p in problem.parameters),
+            degrees_of_freedom=self.degrees_of_freedom,
+            sections=made,
+            symbols={q.name: q.symbol for q in quantities if q.symbol is not None},
+            multipliers={c.multiplier: c.name for c in problem.constraints},
+            warnings=tuple(dict.fromkeys(self.warnings)),
+            complete=self.complete,
+        )
+
+    def _usual(self) -> list[str]:
+        """The default sections, without those that have nothing to say here."""
+        idle = set() if self.problem.constraints else {"multipliers", "constraint_forces"}
+        if not self.problem.find:
+            idle.add("find")
+        return [name for name in DEFAULT_SECTIONS if name not in idle]
+
+    def _missing(self, what: str, why: str = "") -> None:
+        self.complete = False
+        self.warnings.append(f"{what} could not be found: {why or self._why_missing}")
+
+    def _unsolved(self, why: str = "") -> None:
+        self.complete = False
+        reason = f": {why}" if why else ""
+        self.warnings.append(
+            f"the accelerations and multipliers were not solved in closed form{reason}; "
+            "--show matrix_form gives the system for a numerical solution"
+        )
+
+    def _note_redundant(self, names: Sequence[str]) -> None:
+        if names:
+            self.warnings.append(
+                f"redundant: {', '.join(names)} (implied by the other constraints); "
+                "the accelerations and the total constraint force are unique all the same"
+            )
