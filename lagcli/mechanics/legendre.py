@@ -14,7 +14,7 @@ Landau, Lifshitz, *The Classical Theory of Fields*, 4th ed., sections 9 and 16.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -81,14 +81,23 @@ class LegendreTransform:
     def in_phase_space(self, expression: Expr) -> Expr:
         """An expression in q, q', t as one in q, p, t; the momenta must have been inverted."""
         assert self._inverse is not None
+        return self.with_momenta(expression, self._inverse)
+
+    def with_momenta(self, expression: Expr, inverses: Sequence[tuple[Block, Inverse]]) -> Expr:
+        """An expression with the velocities of some blocks replaced by their momenta."""
         flow: dict[Expr, Expr] = {}
         roots: dict[Expr, Expr] = {}
-        for block, inverse in self._inverse:
+        for block, inverse in inverses:
             flow.update(zip((self.system.qdot[j] for j in block), inverse.velocities, strict=True))
             if inverse.auxiliary is not None:
                 expression = inverse.auxiliary.put_into(expression)
                 roots[inverse.auxiliary.symbol] = inverse.auxiliary.root
         return simplify(simplify(expression.xreplace(flow)).xreplace(roots))
+
+    def inverse_of(self, block: Block) -> Inverse | None:
+        """The velocities of a block by its momenta and the other velocities."""
+        candidates = self._inverses(block)
+        return next((x for x in candidates if self._inverts(block, x.explicit)), None)
 
     @cached_property
     def _inverse(self) -> list[tuple[Block, Inverse]] | None:
@@ -96,8 +105,7 @@ class LegendreTransform:
             return None
         found = []
         for block in self._blocks:
-            candidates = self._inverses(block)
-            inverse = next((x for x in candidates if self._inverts(block, x.explicit)), None)
+            inverse = self.inverse_of(block)
             if inverse is None:
                 return None
             found.append((block, inverse))
