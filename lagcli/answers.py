@@ -31,6 +31,7 @@ SECTIONS = (
     "find",
     "equilibria",
     "modes",
+    "reduction",
     "model",
 )
 
@@ -267,6 +268,67 @@ class ModesSection:
     modes: tuple[Mode, ...] | None
 
 
+@record
+class Above:
+    """`left > right`, the condition for what it stands beside."""
+
+    left: Expression
+    right: Expression
+
+
+@record(kw_only=True)
+class PeriodSeries:
+    """T about one minimum of U_eff.
+
+    `amplitude` is the name in `period` of half the distance of the turning points, empty
+    where the period is that of small oscillations alone; `order` is its highest power.
+    A minimum that is not solved for is where `root_of` vanishes, `at` is empty then.
+    """
+
+    at: Mapping[str, Expression]
+    amplitude: str
+    period: Expression
+    order: int = 0
+    root_of: Expression | None = None
+    where: tuple[Above, ...] = ()
+
+
+@record(kw_only=True)
+class OneFreedom:
+    """The one remaining coordinate: E = `energy`, dt = `rate` dq, T = 2 int `rate` dq.
+
+    `turning_points` are the roots of U_eff = E, None where that has no closed solution.
+    """
+
+    coordinate: str
+    constant: str
+    energy: Expression
+    turning_points: tuple[Expression, ...] | None
+    rate: Expression
+    periods: tuple[PeriodSeries, ...]
+    reason: str = ""
+
+
+@record(kw_only=True)
+class ReductionSection:
+    """R = L - sum p q' without the cyclic coordinates; R is None with a `reason`.
+
+    `momenta` are those of the cyclic coordinates, `reconstruction` their velocities.
+    R = T_2 + sum `gyroscopic` q' - `effective_potential` where it is quadratic in q'.
+    """
+
+    momenta: Mapping[str, Expression]
+    routhian: Expression | None
+    equations: tuple[LagrangeEquation, ...] = ()
+    constraints: Mapping[str, tuple[Expression, Expression]] = field(default_factory=dict)
+    reconstruction: Mapping[str, Expression] = field(default_factory=dict)
+    effective_potential: Expression | None = None
+    gyroscopic: Mapping[str, Expression] = field(default_factory=dict)
+    gyroscopic_forces: bool = False
+    one_freedom: OneFreedom | None = None
+    reason: str = ""
+
+
 @record(kw_only=True)
 class ModelSection:
     """What a run keeps and drops, and why (by coordinate or parameter)."""
@@ -293,6 +355,7 @@ Section = (
     | FindSection
     | EquilibriaSection
     | ModesSection
+    | ReductionSection
     | ModelSection
 )
 

@@ -117,6 +117,17 @@ NOT_CONSERVED = "not conserved"
 
 
 @record(kw_only=True)
+class ExpectReduction:
+    """What is known of the Routhian, and of the one degree of freedom that is left."""
+
+    routhian: Expression | None = None
+    effective_potential: Expression | None = None
+    reconstruction: Mapping[str, Expression] = field(default_factory=dict)
+    turning_points: tuple[Expression, ...] | None = None
+    period: Expression | None = None  # about one of the minima
+
+
+@record(kw_only=True)
 class Expect:
     """The known answers, as the file gives them; None or empty: nothing expected."""
 
@@ -131,6 +142,7 @@ class Expect:
     charges: Mapping[str, Expression | Literal["not conserved"]] = field(default_factory=dict)
     modes: tuple[Expression, ...] | None = None  # angular frequencies
     find: Mapping[str, tuple[Expression, ...]] = field(default_factory=dict)
+    reduction: ExpectReduction | None = None
     trajectory: Mapping[str, Expression] = field(default_factory=dict)  # coordinate -> q(t)
     spans: Mapping[tuple[str, ...], Span] = field(default_factory=dict, compare=False)
     #: place of each expectation: ("accelerations", "x"), ("equations", "0"), …

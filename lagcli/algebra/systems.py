@@ -192,6 +192,19 @@ class _Solver:
         self.found.solutions.append(SystemSolution(ordered, positive))
 
 
+def factors_of(expression: Expr) -> list[tuple[Expr, int]]:
+    """The irreducible factors with their exponents, negative ones from the denominator."""
+    field = Field([expression])
+    element = field(expression)
+    found: list[tuple[Expr, int]] = []
+    for poly, side in ((element.numerator, 1), (element.denominator, -1)):
+        content, factors = field.ring.lift(poly).factor()
+        if int(content) != 1:
+            found.append((sympy.Integer(int(content)), side))
+        found += [(field.polynomial_to_sympy(f), side * int(k)) for f, k in factors]
+    return found
+
+
 def _substituted(expression: Expr, unknown: Symbol, root: Expr) -> Expr:
     """The root put in, sines of multiples expanded first so that sin(acos(k)) is radical."""
     if unknown not in expression.free_symbols:

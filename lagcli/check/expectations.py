@@ -23,6 +23,7 @@ from lagcli.answers import (
 from lagcli.check.comparison import Comparison
 from lagcli.check.findings import Finding, Outcome
 from lagcli.check.following import follows
+from lagcli.check.reductions import Reductions
 from lagcli.diagnostics import NOWHERE, Span
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
@@ -58,6 +59,8 @@ class Expectations:
         yield from self._charges()
         yield from self._modes()
         yield from self._find()
+        for path, verdict, expected, found in Reductions(self.derivation, self.answers).findings():
+            yield self._judge(path, verdict, expected, found)
 
     # -- one comparison --------------------------------------------------------------------
 
@@ -266,6 +269,7 @@ _SECTIONS: Mapping[str, Callable[[Expect], object]] = {
     "charges": lambda expect: expect.charges,
     "find": lambda expect: expect.find,
     "modes": lambda expect: expect.modes is not None,
+    "reduction": lambda expect: expect.reduction is not None,
 }
 
 

@@ -31,7 +31,25 @@ class Label:
     change: bool = False
 
 
-Formula = Expression | Label
+@record
+class Integral:
+    """An integral without bounds, times a whole number.
+
+    Attributes
+    ----------
+    integrand : Expression
+    variable : str
+        The coordinate that is integrated over.
+    times : int
+        What stands before the sign when it is not 1.
+    """
+
+    integrand: Expression
+    variable: str
+    times: int = 1
+
+
+Formula = Expression | Label | Integral
 
 
 @record

@@ -101,11 +101,11 @@ def equilibrium_blocks(section: EquilibriaSection) -> Iterator[Block]:
     elif not section.equilibria:
         yield Paragraph(("There is none.",))
     for equilibrium in section.equilibria or ():
-        yield from _state(equilibrium.at)
+        yield from state_blocks(equilibrium.at)
         yield Paragraph(_stability(equilibrium))
 
 
-def _state(at: Mapping[str, Expression], before: str = "") -> Iterator[Block]:
+def state_blocks(at: Mapping[str, Expression], before: str = "") -> Iterator[Block]:
     """A state: on one line where its values are short, else as equations."""
     if all(operation_count(value) <= _SHORT for value in at.values()):
         parts: list[str | Formula] = [before]
@@ -144,7 +144,9 @@ def mode_blocks(section: ModesSection) -> Iterator[Block]:
     for mode in section.modes or ():
         if mode.at != about:
             about = mode.at
-            yield from _state(mode.at, "Angular frequencies and shapes about the equilibrium ")
+            yield from state_blocks(
+                mode.at, "Angular frequencies and shapes about the equilibrium "
+            )
         yield Equations(tuple(_mode(mode)))
 
 

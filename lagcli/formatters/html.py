@@ -13,6 +13,7 @@ from lagcli.formatters.document import (
     Equations,
     Formula,
     Heading,
+    Integral,
     Label,
     Matrix,
     Paragraph,
@@ -140,4 +141,8 @@ def _matrix(matrix: Matrix, printer: MathmlPrinter) -> str:
 
 
 def _show(formula: Formula, printer: MathmlPrinter) -> str:
-    return printer.label(formula) if isinstance(formula, Label) else printer.show(formula)
+    if isinstance(formula, Label):
+        return printer.label(formula)
+    if isinstance(formula, Integral):
+        return printer.integral(formula)
+    return printer.show(formula)

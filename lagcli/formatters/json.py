@@ -12,6 +12,7 @@ from typing import TypeVar
 
 from lagcli.answers import (
     SECTIONS,
+    Above,
     AccelerationsSection,
     AlgebraSection,
     Answers,
@@ -33,6 +34,9 @@ from lagcli.answers import (
     ModesSection,
     MomentaSection,
     MultipliersSection,
+    OneFreedom,
+    PeriodSeries,
+    ReductionSection,
     Rewritten,
     Section,
     Solutions,
@@ -134,6 +138,8 @@ def _value(section: Section) -> Value:
             return _unless_none(section.equilibria, lambda each: [_equilibrium(e) for e in each])
         case ModesSection():
             return _unless_none(section.modes, lambda each: [_mode(m) for m in each])
+        case ReductionSection():
+            return _unless_none(section.routhian, lambda _: _reduction(section))
         case ModelSection():
             return {
                 "kept": section.kept,
@@ -217,6 +223,45 @@ def _mode(mode: Mode) -> Object:
         result["frequency_squared"] = _string(mode.frequency_squared)
     shape = _unless_none(mode.shape, _by_name)
     return result | {"shape": shape, "multiplicity": mode.multiplicity}
+
+
+def _reduction(section: ReductionSection) -> Object:
+    return {
+        "momenta": _by_name(section.momenta),
+        "routhian": _string(section.routhian),
+        "equations": [_equation(each) for each in section.equations],
+        "reconstruction": _by_name(section.reconstruction),
+        "effective_potential": _string(section.effective_potential),
+        "gyroscopic": _by_name(section.gyroscopic),
+        "one_freedom": _unless_none(section.one_freedom, _one_freedom),
+    }
+
+
+def _one_freedom(motion: OneFreedom) -> Object:
+    return {
+        "coordinate": motion.coordinate,
+        "constant": motion.constant,
+        "energy": to_grammar(motion.energy),
+        "turning_points": _unless_none(motion.turning_points, _strings),
+        "rate": to_grammar(motion.rate),
+        "periods": [_period(each) for each in motion.periods],
+    }
+
+
+def _period(period: PeriodSeries) -> Object:
+    place: Object = {"at": _by_name(period.at)}
+    if period.root_of is not None:
+        place = {"root_of": to_grammar(period.root_of)}
+    return place | {
+        "amplitude": period.amplitude or None,
+        "order": period.order,
+        "period": to_grammar(period.period),
+        "where": [_above(each) for each in period.where],
+    }
+
+
+def _above(condition: Above) -> str:
+    return f"{to_grammar(condition.left)} > {to_grammar(condition.right)}"
 
 
 def _unless_none(value: _Some | None, shown: Callable[[_Some], Value]) -> Value:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
-from lagcli.formatters.document import Equations, Formula, Label, Matrix, Row
+from lagcli.formatters.document import Equations, Formula, Integral, Label, Matrix, Row
 from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.latex_width import QUAD, RELATION, TEXT_WIDTH, text_width
 from lagcli.formatters.layout import RELATION as RELATION_RANK
 from lagcli.formatters.layout import Layout, Piece, break_lines, joined, width_of
+from lagcli.formatters.precedence import Level
 from lagcli.record import record
 
 #: A wider left side stands on lines of its own, in points.
@@ -45,7 +46,17 @@ class LatexDisplay:
         if isinstance(formula, Label):
             text, width = self.printer.names.label(formula)
             return (Piece(text, width),)
+        if isinstance(formula, Integral):
+            return self._integral(formula)
         return self.printer.show(formula).pieces
+
+    def _integral(self, integral: Integral) -> Layout:
+        before = f"{integral.times} " if integral.times != 1 else ""
+        name = self.printer.names.name(integral.variable)
+        width = self.printer.names.width(integral.variable)
+        inner = self.printer.at(integral.integrand, Level.PRODUCT).pieces
+        sign = Piece(rf"{before}\int ", 14.0 + 5.0 * len(before))
+        return (sign, *inner, Piece(rf"\,\mathrm{{d}}{name}", 8.0 + width))
 
     def equations(self, block: Equations) -> Iterator[list[str]]:
         """Set the displays of a block: rows with narrow left sides share one."""

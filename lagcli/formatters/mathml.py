@@ -18,7 +18,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
 )
-from lagcli.formatters.document import Label
+from lagcli.formatters.document import Integral, Label
 from lagcli.formatters.greek import BY_NAME
 from lagcli.formatters.naming import name_parts
 from lagcli.formatters.numbers import decimal_parts, digit_groups
@@ -146,6 +146,13 @@ class MathmlPrinter(Printer[str]):
             return letter
         index = "<mo>,</mo>".join(mathml_name(name) for name in label.index)
         return f"<msub>{letter}<mrow>{index}</mrow></msub>"
+
+    def integral(self, integral: Integral) -> str:
+        """Show an integral without bounds."""
+        before = f"<mn>{integral.times}</mn>" if integral.times != 1 else ""
+        inner = self.at(integral.integrand, Level.PRODUCT)
+        variable = f"<mi mathvariant='normal'>d</mi>{mathml_name(integral.variable)}"
+        return f"<mrow>{before}<mo>∫</mo>{inner}<mspace width='0.2em'/>{variable}</mrow>"
 
 
 def mathml_name(name: str, primes: int = 0) -> str:

@@ -23,6 +23,7 @@ from lagcli.answers import (
     ModesSection,
     MomentaSection,
     MultipliersSection,
+    ReductionSection,
     Section,
     Verification,
 )
@@ -44,6 +45,7 @@ from lagcli.formatters.findings import (
     find_blocks,
     mode_blocks,
 )
+from lagcli.formatters.reductions import reduction_blocks
 
 _HEADINGS = {
     "lagrangian": "Lagrangian",
@@ -62,6 +64,7 @@ _HEADINGS = {
     "find": "Questions",
     "equilibria": "Equilibria",
     "modes": "Normal modes",
+    "reduction": "Reduction",
     "model": "Model",
 }
 
@@ -121,6 +124,8 @@ def section_blocks(section: Section, answers: Answers) -> Iterable[Block]:
             return equilibrium_blocks(section)
         case ModesSection():
             return mode_blocks(section)
+        case ReductionSection():
+            return reduction_blocks(section)
         case ModelSection():
             return _model(section)
         case _:

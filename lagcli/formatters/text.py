@@ -12,6 +12,7 @@ from lagcli.formatters.document import (
     Equations,
     Formula,
     Heading,
+    Integral,
     Label,
     Matrix,
     Paragraph,
@@ -112,6 +113,8 @@ class _TextPage:
     def formula(self, formula: Formula) -> Layout:
         if isinstance(formula, Label):
             return self.printer.label(formula)
+        if isinstance(formula, Integral):
+            return self.printer.integral(formula)
         return self.printer.show(formula)
 
     def equations(self, rows: Sequence[Row], width: int) -> Iterator[str]:

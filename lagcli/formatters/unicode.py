@@ -15,7 +15,7 @@ from lagcli.expression import (
     Power,
     Product,
 )
-from lagcli.formatters.document import Label
+from lagcli.formatters.document import Integral, Label
 from lagcli.formatters.grammar import GrammarPrinter, text
 from lagcli.formatters.greek import BY_NAME, romanized
 from lagcli.formatters.layout import PRODUCT, Layout, Piece, joined
@@ -123,6 +123,12 @@ class UnicodePrinter(GrammarPrinter):
             return text(letter + (f"[{', '.join(names)}]" if names else ""))
         return text("_".join([letter, *names]))
 
+    def integral(self, integral: Integral) -> Layout:
+        """Show an integral: `2 ∫ f(x) dx`."""
+        before = f"{integral.times} " if integral.times != 1 else ""
+        inner = self.at(integral.integrand, Level.PRODUCT)
+        return (*text(before + "∫ "), *inner, *text(" d" + self.spelled(integral.variable, 0)))
+
 
 class AsciiPrinter(GrammarPrinter):
     """The notation of the problem format with every letter in ASCII."""
@@ -139,6 +145,14 @@ class AsciiPrinter(GrammarPrinter):
         if label.matrix:
             return text(letter + (f"[{', '.join(names)}]" if names else ""))
         return text("_".join([letter, *names]))
+
+    def integral(self, integral: Integral) -> Layout:
+        """Show an integral: `2*integral(f(x), x)`."""
+        before = f"{integral.times}*" if integral.times != 1 else ""
+        inner = self.show(integral.integrand)
+        variable = romanized(integral.variable)
+        opening = Piece("integral(", 9, nesting=1)
+        return (*text(before), opening, *inner, Piece(f", {variable})", 3 + len(variable), -1))
 
 
 def unicode_name(name: str, primes: int = 0) -> str:

@@ -29,6 +29,7 @@ from lagcli.answers import (
     MomentaSection,
     Multiplier,
     MultipliersSection,
+    ReductionSection,
     Section,
     Solutions,
 )
@@ -92,6 +93,7 @@ class Statements(Stating):
             "find": self._find,
             "equilibria": self._equilibria,
             "modes": self._modes,
+            "reduction": self._reduction,
         }
 
     @property
@@ -342,4 +344,12 @@ class Statements(Stating):
         section = modes(self.dynamics)
         if section.modes is None:
             self._missing("the normal modes", "there is no equilibrium to expand about")
+        return section
+
+    def _reduction(self) -> ReductionSection:
+        from lagcli.mechanics.reduction.statement import reduction
+
+        section, missing = reduction(self.derivation)
+        for what, why in missing:
+            self._missing(what, why)
         return section

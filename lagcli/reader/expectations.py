@@ -4,8 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from lagcli.problem import NOT_CONSERVED, Constraint, Expect, Question, Symmetry
+from lagcli.problem import (
+    NOT_CONSERVED,
+    Constraint,
+    Expect,
+    ExpectReduction,
+    Question,
+    Symmetry,
+)
 from lagcli.reader.dynamics import read_by_coordinate
+from lagcli.reader.expected_reduction import read_reduction
 from lagcli.reader.nodes import Node, Scalar, Sequence
 from lagcli.reader.scope import CONSTANTS, EQUATION, MOTION, PHASE_SPACE, STATE, Role
 from lagcli.reader.suggest import did_you_mean
@@ -18,6 +26,7 @@ if TYPE_CHECKING:
 _KEYS = (
     "degrees_of_freedom", "equations", "accelerations", "multipliers", "constraint_forces",
     "momenta", "hamiltonian", "energy", "charges", "modes", "find", "trajectory",
+    "reduction",
 )  # fmt: skip
 
 #: An answer holds what is left when accelerations and multipliers have been eliminated.
@@ -125,6 +134,9 @@ class ExpectReader:
                 self.sections.expression(item, what, _ANSWER) for item in items
             )
         return found
+
+    def _reduction(self, node: Node) -> ExpectReduction:
+        return read_reduction(self.sections, node, self.spans)
 
     def _by_coordinate(
         self, node: Node, section: str, what: str, role: Role = _ANSWER

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from lagcli.answers import (
+    Above,
     AccelerationsSection,
     AlgebraSection,
     Answers,
@@ -28,6 +29,9 @@ from lagcli.answers import (
     MomentaSection,
     Multiplier,
     MultipliersSection,
+    OneFreedom,
+    PeriodSeries,
+    ReductionSection,
     Rewritten,
     Solutions,
 )
@@ -223,6 +227,32 @@ HOOP = Answers(
                 ),
             )
         ),
+        "reduction": ReductionSection(
+            momenta={"x": times(M, Name("x", 1))},
+            routhian=minus_half,
+            equations=(LagrangeEquation(coordinate="theta", left=dtheta, right=ZERO),),
+            reconstruction={"x": Quotient(Name("p_x"), M)},
+            effective_potential=minus_half,
+            gyroscopic={"theta": x},
+            gyroscopic_forces=True,
+            one_freedom=OneFreedom(
+                coordinate="theta",
+                constant="E",
+                energy=minus_half,
+                turning_points=(theta, Negative(theta)),
+                rate=Call("sqrt", (Quotient(ell, g),)),
+                periods=(
+                    PeriodSeries(
+                        at={"theta": ZERO},
+                        amplitude="a",
+                        period=times(TWO, Name("pi"), plus(ONE, square(Name("a")))),
+                        order=2,
+                        where=(Above(g, ZERO),),
+                    ),
+                    PeriodSeries(at={}, amplitude="", period=ONE, root_of=minus_half),
+                ),
+            ),
+        ),
         "model": ModelSection(
             kept=("x",),
             eliminated={"theta": Quotient(x, R)},
@@ -292,5 +322,8 @@ HOSTILE = Answers(
         "canonical_equations": CanonicalSection(equations=None, reason="no Hamiltonian"),
         "equilibria": EquilibriaSection(equilibria=None),
         "modes": ModesSection(modes=None),
+        "reduction": ReductionSection(
+            momenta={"phase": long_sum}, routhian=None, reason="x_1 & 100% <undecided>"
+        ),
     },
 )

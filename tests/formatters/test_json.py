@@ -55,7 +55,7 @@ def test_what_is_not_found_is_null():
     assert HOSTILE_JSON["multipliers"]["rod_1"]["value"] is None
     assert HOSTILE_JSON["constraint_forces"] == {"rod_1": None}
     assert HOSTILE_JSON["total_constraint_force"] is None
-    for key in ("hamiltonian", "canonical_equations", "equilibria", "modes"):
+    for key in ("hamiltonian", "canonical_equations", "equilibria", "modes", "reduction"):
         assert HOSTILE_JSON[key] is None
 
 

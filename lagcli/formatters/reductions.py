@@ -1,0 +1,125 @@
+"""The wording of the reduction by cyclic coordinates and of one degree of freedom."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from lagcli.answers import Above, OneFreedom, PeriodSeries, ReductionSection
+from lagcli.expression import ZERO, Name
+from lagcli.formatters.document import (
+    Block,
+    Equations,
+    Formula,
+    Heading,
+    Integral,
+    Label,
+    Paragraph,
+    Row,
+)
+from lagcli.formatters.findings import state_blocks
+
+_POTENTIAL = Label("U", ("eff",))
+
+
+def reduction_blocks(section: ReductionSection) -> Iterator[Block]:
+    """Say the Routhian, what it is made of, and the motion that is left."""
+    if section.momenta:
+        yield Paragraph(("Constant, since the coordinates are cyclic:",))
+        yield Equations(
+            tuple(Row(Name(f"p_{name}"), value) for name, value in section.momenta.items())
+        )
+    else:
+        yield Paragraph(("No coordinate is cyclic: the Routhian is the Lagrangian.",))
+    if section.routhian is None:
+        yield Paragraph((f"Not found: {section.reason}.",))
+        return
+    if section.momenta:
+        yield Paragraph(("The Routhian, the Lagrangian less the sum of p q' of these:",))
+    rows = [Row(Label("R"), section.routhian)]
+    if section.effective_potential is not None:
+        rows.append(Row(_POTENTIAL, section.effective_potential))
+    yield Equations(tuple(rows))
+    yield from _gyroscopic(section)
+    if section.equations:
+        yield Paragraph(("Its equations of motion:",))
+        yield Equations(tuple(Row(each.left, each.right) for each in section.equations))
+    if section.constraints:
+        yield Paragraph(("with the constraints",))
+        yield Equations(
+            tuple(Row(left, right, name) for name, (left, right) in section.constraints.items())
+        )
+    if section.reconstruction:
+        yield Paragraph(("The cyclic coordinates follow from",))
+        yield Equations(
+            tuple(Row(Name(name, 1), value) for name, value in section.reconstruction.items())
+        )
+    if section.one_freedom is not None:
+        yield Heading("One degree of freedom", 2)
+        yield from _one_freedom(section.one_freedom)
+
+
+def _gyroscopic(section: ReductionSection) -> Iterator[Block]:
+    if not section.gyroscopic:
+        return
+    effect = (
+        "gyroscopic forces"
+        if section.gyroscopic_forces
+        else "no force, since their sum is a total derivative"
+    )
+    yield Paragraph((f"The terms linear in the velocities give {effect}; their factors are",))
+    yield Equations(
+        tuple(Row(Label("g", (name,)), value) for name, value in section.gyroscopic.items())
+    )
+
+
+def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
+    constant, q = Name(motion.constant), Name(motion.coordinate)
+    yield Equations((Row(constant, motion.energy, "conserved"),))
+    if motion.turning_points is None:
+        yield Paragraph(("It turns where ", _POTENTIAL, " = ", constant, "."))
+    elif motion.turning_points:
+        yield Paragraph(("Turning points, where these are real:",))
+        yield Equations(tuple(Row(q, value) for value in motion.turning_points))
+    else:
+        yield Paragraph(("It turns nowhere.",))
+    yield Paragraph(("Time, and period between two turning points:",))
+    yield Equations(
+        (
+            Row(Name("t"), Integral(motion.rate, motion.coordinate)),
+            Row(Label("T"), Integral(motion.rate, motion.coordinate, times=2)),
+        )
+    )
+    for period in motion.periods:
+        yield from _period(period, motion.coordinate)
+    if motion.reason:
+        yield Paragraph((f"{motion.reason[0].upper()}{motion.reason[1:]}.",))
+
+
+def _period(period: PeriodSeries, coordinate: str) -> Iterator[Block]:
+    if period.root_of is not None:
+        yield Paragraph(
+            (
+                "Small oscillations about a ",
+                Name(coordinate),
+                " with",
+            )
+        )
+        yield Equations((Row(ZERO, period.root_of),))
+    elif period.amplitude:
+        yield from state_blocks(period.at, "Oscillations about ")
+        yield Paragraph((Name(period.amplitude), " is half the distance of the turning points:"))
+    else:
+        yield from state_blocks(period.at, "Small oscillations about ")
+    yield Equations(
+        (Row(Label("T"), period.period, f"to order {period.order}" if period.order else ""),)
+    )
+    if period.where:
+        yield Paragraph(("where ", *conditions(period.where), "."))
+
+
+def conditions(where: Sequence[Above]) -> list[str | Formula]:
+    """Inequalities within a sentence."""
+    parts: list[str | Formula] = []
+    for position, each in enumerate(where):
+        parts += [" and " if position else "", each.left, " > ", each.right]
+    return parts

@@ -1,0 +1,1 @@
+"""Reduction by cyclic coordinates, steady motions, and separation of the action."""

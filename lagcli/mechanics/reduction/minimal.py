@@ -1,0 +1,92 @@
+"""The same motion in fewer coordinates: holonomic constraints that are solved are put in.
+
+With q_i = f_i(q, t) for the coordinates that the constraints give, the Lagrangian of the
+others is L with q_i and q_i' = df_i/dt put in, and their forces are
+Q_j + sum_i Q_i df_i/dq_j.
+
+References
+----------
+Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., section 1.4.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import shape, simplify
+from lagcli.algebra.build import free_of
+from lagcli.mechanics.derivation import Derivation
+from lagcli.problem import Constraint, Parameter, Problem
+
+
+def minimal(derivation: Derivation) -> Derivation:
+    """The derivation itself, or that of the problem without the coordinates that are solved."""
+    system, constraints = derivation.system, derivation.dynamics.constraints
+    relations = constraints.relations
+    if relations is None or relations.remaining:
+        return derivation
+    if not all(equation.holonomic for equation in constraints.equations):
+        return derivation
+    solved = {q: relations.solved[q] for q in system.q if q in relations.solved}
+    if len(solved) != len(derivation.dynamics.independent_constraints):
+        return derivation
+    while not all(free_of(value, solved) for value in solved.values()):
+        solved = {q: value.xreplace(solved) for q, value in solved.items()}
+    if any(q.is_positive and value.is_positive is not True for q, value in solved.items()):
+        return derivation
+    flow = dict(zip(system.q, system.qdot, strict=True))
+    put_in: dict[Expr, Expr] = {
+        **solved,
+        **{flow[q]: system.total_derivative(value) for q, value in solved.items()},
+    }
+    kept = [j for j, q in enumerate(system.q) if q not in solved]
+    forces = [
+        sympy.Add(
+            system.applied_forces[j],
+            *(
+                system.applied_forces[i] * solved[q].diff(system.q[j])
+                for i, q in enumerate(system.q)
+                if q in solved
+            ),
+        ).xreplace(put_in)
+        for j in kept
+    ]
+    return with_lagrangian(
+        derivation, kept, simplify(system.L.xreplace(put_in)), forces, derivation.problem.parameters
+    )
+
+
+def with_lagrangian(
+    derivation: Derivation,
+    kept: list[int],
+    lagrangian: Expr,
+    forces: list[Expr],
+    parameters: tuple[Parameter, ...],
+    constraints: tuple[Constraint, ...] = (),
+) -> Derivation:
+    """The derivation of another Lagrangian for some of the coordinates.
+
+    Its parameters have no values: what holds for all of them is tested anywhere.
+    """
+    old = derivation.problem
+    names = [derivation.system.names[j] for j in kept]
+    order = (*derivation.system.order, *(p.name for p in parameters))
+    problem = Problem(
+        source=old.source,
+        title=old.title,
+        coordinates=tuple(c for c in old.coordinates if c.name in names),
+        parameters=tuple(replace(p, value=None) for p in parameters),
+        functions=old.functions,
+        lagrangian=shape(lagrangian, order),
+        forces={
+            name: shape(force, order)
+            for name, force in zip(names, forces, strict=True)
+            if force != 0
+        },
+        constraints=constraints,
+        initial={name: value for name, value in old.initial.items() if name.name in names},
+    )
+    return Derivation(problem)

@@ -1,0 +1,119 @@
+"""One degree of freedom: energy, turning points, time and period as integrals.
+
+With E = M(q) q'^2/2 + U_eff(q) constant,
+
+    t = integral of dq sqrt(M / (2 (E - U_eff))),    T = 2 x that between the turning points,
+
+which are the roots of U_eff(q) = E.
+
+References
+----------
+Landau, Lifshitz, *Mechanics*, 3rd ed., section 11.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import sympy
+from mpmath import mpf
+from sympy import Expr, Symbol
+
+from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import free_of, symbol
+from lagcli.algebra.equations import solve_for
+from lagcli.algebra.numeric import Evaluator
+from lagcli.mechanics.equilibria import at
+from lagcli.mechanics.parameter_values import DIGITS, admissible_values
+from lagcli.mechanics.reduction.routh import Routh
+
+_ZERO = mpf(10) ** -(DIGITS - 15)
+_TRIED = 24
+
+
+#: What the constant energy is called: the first name that the problem does not use.
+ENERGY = ("E", "h", "E_0", "h_0")
+
+
+class OneFreedom:
+    """The remaining coordinate q of a reduction with M(q), U_eff(q) and the constant E."""
+
+    def __init__(self, routh: Routh) -> None:
+        assert routh.reduced is not None
+        self.system = routh.reduced.system
+        self.dynamics = routh.reduced.dynamics
+        self.q: Symbol = self.system.q[0]
+        self.mass: Expr = simplify(self.dynamics.lagrange.mass_matrix[0][0])
+        self.potential: Expr = routh.effective_potential
+        self.E: Symbol = symbol(free_name(routh, ENERGY))
+
+    @cached_property
+    def why_not_conserved(self) -> str:
+        """Why E is no constant of the motion; empty where it is one."""
+        system = self.system
+        if is_zero(system.L.diff(system.t)) is not True:
+            return "R depends explicitly on the time"
+        if is_zero(system.applied_forces[0]) is not True:
+            return "a force without a potential acts"
+        return ""
+
+    @property
+    def energy(self) -> Expr:
+        """M q'^2/2 + U_eff."""
+        return self.mass * self.system.qdot[0] ** 2 / 2 + self.potential
+
+    @cached_property
+    def rate(self) -> Expr:
+        """dt/dq where the coordinate grows: sqrt(M/(2 (E - U_eff)))."""
+        return sympy.sqrt(self.mass / (2 * (self.E - self.potential)))
+
+    @cached_property
+    def turning_points(self) -> tuple[Expr, ...] | None:
+        """The roots of U_eff = E, each by substitution; None without a closed form."""
+        excess = self.potential - self.E
+        if free_of(self.potential, [self.q]):
+            return ()
+        found = solve_for(excess, self.q)
+        if found is None:
+            return None
+        roots = [simplify(root) for root in found.values]
+        roots = [root for root in roots if not self._excluded(root)]
+        return tuple(roots) if all(self._is_root(root, excess) for root in roots) else None
+
+    def _excluded(self, root: Expr) -> bool:
+        """Whether the assumptions on the coordinate rule the value out."""
+        if self.q.is_nonnegative and root.is_negative:
+            return True
+        return bool(self.q.is_nonzero and root.is_zero)
+
+    def _is_root(self, root: Expr, excess: Expr) -> bool:
+        """Exactly, or at 60 digits at admissible parameters where the root is real."""
+        residual = at(excess, {self.q: root})
+        if is_zero(residual) is True:
+            return True
+        evaluate = Evaluator([residual, root], DIGITS)
+        tested = 0
+        for values in admissible_values(self.system, _TRIED):
+            try:
+                rest, place = evaluate({**values, self.E: mpf(7) / 11})
+            except (ArithmeticError, ValueError):
+                continue
+            if isinstance(place, mpf):
+                tested += 1
+                if abs(rest) > _ZERO:
+                    return False
+        return tested > 0
+
+
+def free_name(routh: Routh, choices: tuple[str, ...]) -> str:
+    """The first name that the problem does not use."""
+    assert routh.reduced is not None
+    used = {*routh.reduced.system.order, *routh.full.system.order}
+    used |= {*routh.full.problem.functions, *routh.full.problem.definitions}
+    for choice in choices:
+        if choice not in used:
+            return choice
+    number = 1
+    while f"{choices[0]}_{number}" in used:
+        number += 1
+    return f"{choices[0]}_{number}"

@@ -1,0 +1,253 @@
+"""The period of one degree of freedom as a series in the amplitude.
+
+About a minimum q0 let U = U0 + u z^2/2 with z(x) a series in x = q - q0.  With
+z = Z sin s the period is the integral of sqrt(M/u) dx/dz over s from 0 to 2 pi, so
+
+    sqrt(M/M0) dx/dz = sum f_k z^k,     T = 2 pi sqrt(M0/u) (1 + f_2 Z^2/2 + 3 f_4 Z^4/8 + …),
+
+and the amplitude a, half the distance between the turning points, is the odd part of
+x(z) at Z.  The series is compared with the integral itself by quadrature.
+
+References
+----------
+Landau, Lifshitz, *Mechanics*, 3rd ed., section 11 (problem 1 for the pendulum) and 28.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+
+import mpmath
+import sympy
+from mpmath import mpf
+from sympy import Expr, Rational, S, Symbol
+
+from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.signs import sign
+from lagcli.mechanics.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.parameter_values import admissible_values
+from lagcli.mechanics.reduction.one_freedom import OneFreedom
+from lagcli.record import record
+
+#: T/T0 is given to this order in the amplitude.
+ORDER = 4
+_WORKING = 140
+_AMPLITUDE = mpf(10) ** -8
+_NODES = 12
+_MARGIN = mpf(10) ** 7  # for the next coefficient
+_READABLE = 45  # operations of a coefficient
+_WORKABLE = 150  # operations of all Taylor coefficients together
+_TRIED = 48
+
+Series = list[Expr]
+
+
+@record
+class PeriodSeries:
+    """T = 2 pi root (1 + sum of coefficients[k] a^(k + 1)) about one equilibrium.
+
+    `point` None: about every place at which the derivative of U_eff vanishes.
+    """
+
+    point: RestPoint | None
+    root: Expr
+    coefficients: tuple[Expr, ...]
+    where: tuple[Expr, ...]
+
+
+class Periods:
+    """The series about every minimum of U_eff.
+
+    Attributes
+    ----------
+    reason
+        Why there is none, in a sentence; empty otherwise.
+    failed
+        Whether one was found and is not the integral.
+    """
+
+    def __init__(self, motion: OneFreedom) -> None:
+        self.motion = motion
+        self.reason = ""
+        self.failed = False
+
+    @cached_property
+    def series(self) -> tuple[PeriodSeries, ...]:
+        """One series for each equilibrium that is a minimum, or may be one."""
+        rest = RestPoints(self.motion.dynamics)
+        points = rest.points
+        if points is None:
+            return self._anywhere()
+        found = []
+        for point in points:
+            if point.free:
+                continue
+            try:
+                series = self._about(point)
+            except ZeroDivisionError:
+                continue
+            if series is not None:
+                found.append(series)
+        if not found and not rest.complete:
+            return self._anywhere()
+        if found and not rest.complete:
+            self.reason = "there may be other minima of U_eff, which were not found"
+        elif not found and not self.reason:
+            self.reason = "U_eff has no minimum at which its second derivative is positive"
+        return tuple(found)
+
+    def _anywhere(self) -> tuple[PeriodSeries, ...]:
+        """2 pi sqrt(M/U'') at a place that is given by U' = 0 only."""
+        motion = self.motion
+        curvature = simplify(motion.potential.diff(motion.q, 2))
+        if sign(curvature) in (0, -1):
+            return ()
+        return (PeriodSeries(None, _root(motion.mass, curvature), (), ()),)
+
+    def _about(self, point: RestPoint) -> PeriodSeries | None:
+        motion = self.motion
+        q, [place] = motion.q, [*point.values.values()]
+        slopes = [at(motion.potential.diff(q, k), {q: place}) for k in range(2, ORDER + 3)]
+        curvature = slopes[0]
+        known = sign(curvature, point.positive)
+        if known in (0, -1):
+            return None
+        masses = [at(motion.mass.diff(q, k), {q: place}) for k in range(ORDER + 1)]
+        if is_zero(masses[0]) is not False or sign(masses[0], point.positive) == -1:
+            return None
+        # U = U0 + u x²/2 (1 + α_1 x + …),   M = M0 (1 + β_1 x + …)
+        alpha = [
+            simplify(2 * s / (sympy.factorial(k + 2) * curvature)) for k, s in enumerate(slopes)
+        ]
+        beta = [simplify(m / (sympy.factorial(k) * masses[0])) for k, m in enumerate(masses)]
+        coefficients = _readable(alpha, beta)
+        root = _root(masses[0], curvature)
+        where = (*point.positive, *(() if known == 1 else (curvature,)))
+        series = PeriodSeries(point, root, coefficients, where)
+        if self._agrees(series):
+            return series
+        self.reason, self.failed = "a series did not agree with its integral", True
+        return None
+
+    # -- the integral itself ----------------------------------------------------------------------
+
+    def _agrees(self, series: PeriodSeries) -> bool:
+        """Whether the series is the integral at an amplitude of 1e-8, to 40 digits."""
+        for values in admissible_values(self.motion.system, _TRIED):
+            with mpmath.workdps(_WORKING):
+                try:
+                    off = abs(self._ratio(series, values) - 1)
+                except (ArithmeticError, ValueError, TypeError):
+                    continue  # no real motion there
+                # the next coefficient times the next even power of a
+                return bool(off < _MARGIN * _AMPLITUDE ** (len(series.coefficients) + 2))
+        return False
+
+    def _ratio(self, series: PeriodSeries, values: Mapping[Symbol, mpf]) -> mpf:
+        motion = self.motion
+        assert series.point is not None
+        [place] = series.point.values.values()
+        evaluate = Evaluator([place, series.root, *series.coefficients, *series.where], _WORKING)
+        middle, root, *others = evaluate(values)
+        n = len(series.coefficients)
+        if not all(isinstance(x, mpf) for x in (middle, root, *others)):
+            raise ValueError
+        if min([*others[n:], mpf(1)]) <= mpf(10) ** -6:
+            raise ValueError
+        a = _AMPLITUDE
+        stated = (
+            2 * mpmath.pi * root * (1 + sum(c * a ** (k + 1) for k, c in enumerate(others[:n])))
+        )
+        functions = Evaluator([motion.potential, motion.mass], _WORKING)
+
+        def both(q: mpf) -> list[mpf]:
+            return functions({**values, motion.q: q})
+
+        def tilt(m: mpf) -> mpf:
+            return both(m + a)[0] - both(m - a)[0]
+
+        middle = mpmath.findroot(
+            tilt, (middle, middle + a * a), solver="secant", tol=mpf(10) ** -200, verify=False
+        )
+        energy = (both(middle + a)[0] + both(middle - a)[0]) / 2
+        total = mpf(0)
+        for k in range(_NODES):
+            s = (mpf(k) + mpf(1) / 2) * mpmath.pi / _NODES - mpmath.pi / 2
+            potential, mass = both(middle + a * mpmath.sin(s))
+            total += mpmath.sqrt(mass / (2 * (energy - potential))) * a * mpmath.cos(s)
+        return 2 * total * mpmath.pi / _NODES / stated
+
+
+def _root(mass: Expr, curvature: Expr) -> Expr:
+    """sqrt(M/U''), the shorter way round."""
+    first = simplify(sympy.sqrt(simplify(mass / curvature)))
+    second = 1 / simplify(sympy.sqrt(simplify(curvature / mass)))
+    return second if sympy.count_ops(second) < sympy.count_ops(first) else first
+
+
+def _readable(alpha: Sequence[Expr], beta: Sequence[Expr]) -> tuple[Expr, ...]:
+    """The coefficients to the highest order at which they can still be read."""
+    found: tuple[Expr, ...] = ()
+    for order in range(2, ORDER + 1, 2):
+        taylor = (*alpha[: order + 1], *beta[: order + 1])
+        if sum(int(sympy.count_ops(c)) for c in taylor) > _WORKABLE:
+            break
+        coefficients = tuple(map(simplify, ratio_series(alpha, beta, order)))
+        if max(int(sympy.count_ops(c)) for c in coefficients) > _READABLE:
+            break
+        found = coefficients
+    return found
+
+
+def ratio_series(alpha: Sequence[Expr], beta: Sequence[Expr], n: int = ORDER) -> list[Expr]:
+    """The coefficients of a, a^2, …, a^n in T/T0, from those of U and M in x."""
+    root_U = _power(list(alpha[: n + 1]), Rational(1, 2))
+    root_M = _power(list(beta[: n + 1]), Rational(1, 2))
+    z = [S.Zero, *root_U]  # z = x sqrt(1 + α_1 x + …), known to x^(n+1)
+    x = _inverse(z)
+    slope = [(k + 1) * x[k + 1] for k in range(n + 1)]
+    along = _product(_composed(root_M, x, n), slope, n)
+    # mean of sin^(2k): binomial(2k, k)/4^k
+    T = [S.Zero] * (n + 1)
+    for k in range(0, n + 1, 2):
+        T[k] = along[k] * sympy.binomial(k, k // 2) / 2**k
+    odd = [c if k % 2 else S.Zero for k, c in enumerate(x)]
+    return _composed(T, _inverse(odd), n)[1:]
+
+
+def _product(a: Series, b: Series, n: int) -> Series:
+    return [
+        sympy.Add(*(a[i] * b[k - i] for i in range(k + 1) if i < len(a) and k - i < len(b)))
+        for k in range(n + 1)
+    ]
+
+
+def _power(a: Series, exponent: Rational) -> Series:
+    """(1 + a_1 x + …)^exponent by Euler's recurrence."""
+    result: Series = [S.One]
+    for k in range(1, len(a)):
+        terms = ((exponent * i - (k - i)) * a[i] * result[k - i] for i in range(1, k + 1))
+        result.append(sympy.expand(sympy.Add(*terms) / k))
+    return result
+
+
+def _composed(outer: Series, inner: Series, n: int) -> Series:
+    """outer(inner(x)) for an inner series without constant term."""
+    result = [S.Zero] * (n + 1)
+    power: Series = [S.One] + [S.Zero] * n
+    for k in range(min(len(outer), n + 1)):
+        result = [r + outer[k] * p for r, p in zip(result, power, strict=True)]
+        power = _product(power, inner, n)
+    return [sympy.expand(r) for r in result]
+
+
+def _inverse(a: Series) -> Series:
+    """The x(z) of z = x + a_2 x^2 + …, to the same order."""
+    n = len(a) - 1
+    x: Series = [S.Zero, S.One] + [S.Zero] * (n - 1)
+    for k in range(2, n + 1):
+        x[k] = S.Zero
+        x[k] = -_composed(a, x, k)[k]
+    return [sympy.expand(c) for c in x]

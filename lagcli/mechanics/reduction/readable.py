@@ -1,0 +1,79 @@
+"""U_eff as it is read: squares of the momenta over what they are divided by, then the rest.
+
+Landau, Lifshitz, *Mechanics*, 3rd ed., section 35, problem 1: for the heavy top
+(M_z - M_3 cos)^2/(2 I_1 sin^2) + M_3^2/(2 I_3) + mu g l cos.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import sympy
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import is_zero, shape, simplify, terms
+from lagcli.algebra.build import free_of
+from lagcli.algebra.signs import sign
+from lagcli.algebra.systems import factors_of
+from lagcli.algebra.writing import Writer
+from lagcli.answers import Above
+from lagcli.expression import Expression, operation_count
+
+
+def effective_potential(
+    expression: Expr, momenta: Sequence[Symbol], order: Sequence[str]
+) -> Expression:
+    """The shorter of the sum over monomials in the momenta and the sum of squares."""
+    plain = terms(expression, order, {p.name for p in momenta})
+    squares = _squares(expression, momenta)
+    if squares is None:
+        return plain
+    writer = Writer(order)
+    *quadratic, rest = squares
+    parts = [shape(each, order) for each in quadratic]
+    parts.append(terms(rest, order, {p.name for p in momenta}))
+    written = writer.sum(parts)
+    return written if operation_count(written) <= operation_count(plain) else plain
+
+
+def _squares(expression: Expr, momenta: Sequence[Symbol]) -> list[Expr] | None:
+    """[k_1 (p_1 + …)²/2, …, what is of lower degree in p]; None without a quadratic form."""
+    second = [[simplify(expression.diff(a, b)) for b in momenta] for a in momenta]
+    if not momenta or any(not free_of(entry, momenta) for row in second for entry in row):
+        return None
+    rest = expression
+    found = []
+    for i in range(len(momenta)):
+        pivot = second[i][i]
+        if is_zero(pivot) is not False:
+            return None
+        along = [simplify(entry / pivot) for entry in second[i]]
+        linear = sum((c * q for c, q in zip(along[i:], momenta[i:], strict=True)), S.Zero)
+        square = pivot * linear**2 / 2
+        found.append(square)
+        rest -= square
+        second = [
+            [simplify(second[a][b] - pivot * along[a] * along[b]) for b in range(len(momenta))]
+            for a in range(len(momenta))
+        ]
+    return [*found, simplify(rest)]
+
+
+def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ()) -> Above | None:
+    """`left > right` for an expression that is to be positive, known factors left out.
+
+    None where nothing is left: it is positive unless something vanishes.
+    """
+    kept, direction = S.One, 1
+    for factor, power in factors_of(expression):
+        known = sign(factor, positive)
+        if known is None:
+            kept *= factor if power % 2 else S.One
+        else:
+            direction *= known**power
+    if kept == 1 and direction == 1:
+        return None
+    all_terms = (direction * kept).expand().as_ordered_terms()
+    right = -sympy.Add(*(term for term in all_terms if term.could_extract_minus_sign()))
+    left = sympy.Add(*(term for term in all_terms if not term.could_extract_minus_sign()))
+    return Above(shape(left, order), shape(right, order))

@@ -1,0 +1,213 @@
+"""Routh's reduction: the cyclic coordinates go, their momenta stay as constants.
+
+With p_c = dL/dq_c' solved for the velocities of the cyclic coordinates c,
+
+    R(q, q', t; p) = L - sum_c p_c q_c'
+
+is the Lagrangian of the other coordinates, and q_c' = -dR/dp_c gives the cyclic ones back.
+(Goldstein and Landau and Lifshitz call -R the Routhian.)  Where R is quadratic in the
+velocities, R = sum M_ab q_a' q_b' / 2 + sum g_a q_a' - U_eff.
+
+References
+----------
+Whittaker, *Analytical Dynamics*, 4th ed., section 38.
+Landau, Lifshitz, *Mechanics*, 3rd ed., section 41.
+Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., section 8.3.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import sympy
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import is_zero, shape, simplify
+from lagcli.algebra.build import free_of
+from lagcli.expression import ZERO, Equation
+from lagcli.mechanics.constraints import ConstraintEquation
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.legendre import Inverse, LegendreTransform
+from lagcli.mechanics.reduction.minimal import minimal, with_lagrangian
+from lagcli.mechanics.system import System
+from lagcli.problem import Constraint, Parameter
+
+
+class Routh:
+    """The reduction of a system by all of its cyclic coordinates at once.
+
+    Attributes
+    ----------
+    full : Derivation
+        The system that is reduced: solved constraints are put in.
+    reduced : Derivation or None
+        That of the remaining coordinates, with R for L; None with a `reason`.
+    """
+
+    def __init__(self, derivation: Derivation) -> None:
+        self.full = minimal(derivation)
+        self.system: System = self.full.system
+        self.reason = ""
+
+    # -- which coordinates -----------------------------------------------------------------------
+
+    @cached_property
+    def cyclic(self) -> tuple[int, ...]:
+        """Coordinates that occur nowhere, and that no force and no constraint acts along."""
+        dynamics = self.full.dynamics
+        return tuple(
+            j
+            for j in self.full.noether.cyclic
+            if is_zero(self.system.applied_forces[j]) is True
+            and all(_independent(f, self.system.q[j]) for f in self.system.applied_forces)
+            and all(self._untouched(e, j) for e in dynamics.constraints.equations)
+        )
+
+    def _untouched(self, equation: ConstraintEquation, j: int) -> bool:
+        q = self.system.q[j]
+        parts = (*equation.row, equation.f if equation.holonomic else equation.drift)
+        return is_zero(equation.row[j]) is True and all(_independent(x, q) for x in parts)
+
+    @property
+    def kept(self) -> list[int]:
+        """The other coordinates."""
+        return [j for j in range(len(self.system.q)) if j not in self.cyclic]
+
+    @property
+    def momenta(self) -> tuple[Symbol, ...]:
+        """The constants p_c."""
+        return tuple(self.system.momenta[j] for j in self.cyclic)
+
+    # -- the Routhian -----------------------------------------------------------------------------
+
+    @cached_property
+    def _inverse(self) -> Inverse | None:
+        return LegendreTransform(self.full.dynamics).inverse_of(self.cyclic)
+
+    @cached_property
+    def velocities(self) -> tuple[Expr, ...] | None:
+        """q_c'(q, q', t; p), verified by substitution; None where not solved."""
+        if not self.cyclic:
+            return ()
+        if self._inverse is None:
+            self.reason = "the momenta of the cyclic coordinates do not give their velocities"
+            return None
+        return tuple(simplify(v) for v in self._inverse.explicit)
+
+    @cached_property
+    def function(self) -> Expr | None:
+        """R(q, q', t; p)."""
+        if self.velocities is None:
+            return None
+        if not self.cyclic:
+            return simplify(self.system.L)
+        assert self._inverse is not None
+        flow = (self.system.qdot[j] for j in self.cyclic)
+        action = sympy.Add(*(p * v for p, v in zip(self.momenta, flow, strict=True)))
+        legendre = LegendreTransform(self.full.dynamics)
+        return legendre.with_momenta(self.system.L - action, [(self.cyclic, self._inverse)])
+
+    @cached_property
+    def reduced(self) -> Derivation | None:
+        """The system of the remaining coordinates, equal to the full one by substitution."""
+        R = self.function
+        if R is None or self.velocities is None:
+            return None
+        if not self.kept:
+            self.reason = "every coordinate is cyclic"
+            return None
+        put_in = self._back
+        forces = [self.system.applied_forces[j].xreplace(put_in) for j in self.kept]
+        momenta = tuple(Parameter(name=p.name) for p in self.momenta)
+        constraints = tuple(
+            Constraint(
+                name=old.name,
+                equation=Equation(shape(equation.f, self.system.order), ZERO),
+                multiplier=old.multiplier,
+                holds_while=None,
+            )
+            for old, equation in zip(
+                self.full.problem.constraints,
+                self.full.dynamics.constraints.equations,
+                strict=True,
+            )
+        )
+        reduced = with_lagrangian(
+            self.full,
+            self.kept,
+            R,
+            forces,
+            (*self.full.problem.parameters, *momenta),
+            constraints,
+        )
+        if not self._equal(reduced):
+            self.reason = "the reduced equations could not be verified by substitution"
+            return None
+        return reduced
+
+    @property
+    def _back(self) -> dict[Expr, Expr]:
+        assert self.velocities is not None
+        return {self.system.qdot[j]: v for j, v in zip(self.cyclic, self.velocities, strict=True)}
+
+    def _equal(self, reduced: Derivation) -> bool:
+        """Whether the equations of R are those of L with q_c' and q_c'' put in.
+
+        Both are linear in the accelerations: the constant terms and the coefficients agree.
+        """
+        new = reduced.system
+        put_in = self._back
+        put_in |= {
+            self.system.qddot[j]: new.total_derivative(v)
+            for j, v in zip(self.cyclic, put_in.values(), strict=True)
+        }
+        old = self.full.dynamics.lagrange.left_sides
+        still = dict.fromkeys(new.qddot, S.Zero)
+        residuals: list[Expr] = []
+        for j, left in zip(self.kept, reduced.dynamics.lagrange.left_sides, strict=True):
+            rest = left - old[j].xreplace(put_in)
+            residuals += [rest.xreplace(still), *(rest.diff(a).xreplace(still) for a in new.qddot)]
+        return reduced.dynamics.verifier.all_zero(residuals).holds is True
+
+    # -- its parts --------------------------------------------------------------------------------
+
+    @cached_property
+    def quadratic(self) -> bool:
+        """Whether R is a polynomial of second degree in the velocities."""
+        assert self.reduced is not None
+        return all(
+            free_of(simplify(entry), self.reduced.system.qdot)
+            for row in self.reduced.dynamics.lagrange.mass_matrix
+            for entry in row
+        )
+
+    @cached_property
+    def effective_potential(self) -> Expr:
+        """U_eff = -R at q' = 0."""
+        assert self.reduced is not None
+        return -self._at_rest(self.reduced.system.L)
+
+    @cached_property
+    def gyroscopic(self) -> tuple[Expr, ...]:
+        """g_a = dR/dq_a' at q' = 0, shape (n,)."""
+        assert self.reduced is not None
+        return tuple(simplify(self._at_rest(p)) for p in self.reduced.dynamics.lagrange.momenta)
+
+    @cached_property
+    def gyroscopic_forces(self) -> bool:
+        """Whether sum g_a q_a' is more than the rate of a function of q and t."""
+        assert self.reduced is not None
+        q, g = (*self.reduced.system.q, self.system.t), (*self.gyroscopic, S.Zero)
+        return any(
+            is_zero(g[a].diff(q[b]) - g[b].diff(q[a])) is not True
+            for a in range(len(q))
+            for b in range(a)
+        )
+
+    def _at_rest(self, expression: Expr) -> Expr:
+        assert self.reduced is not None
+        return expression.xreplace(dict.fromkeys(self.reduced.system.qdot, S.Zero))
+
+
+def _independent(expression: Expr, q: Symbol) -> bool:
+    return free_of(expression, [q]) or is_zero(expression.diff(q)) is True

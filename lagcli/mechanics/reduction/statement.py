@@ -1,0 +1,197 @@
+"""The section `reduction` in the shape in which it is read."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import shape, terms
+from lagcli.algebra.build import symbol
+from lagcli.algebra.equations import written
+from lagcli.algebra.writing import Writer
+from lagcli.answers import (
+    EquationsSection,
+    LagrangeEquation,
+    OneFreedom,
+    PeriodSeries,
+    ReductionSection,
+)
+from lagcli.expression import ONE, ZERO, Expression, Name, Number, Product, Quotient, Sum
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.reduction.one_freedom import OneFreedom as Motion
+from lagcli.mechanics.reduction.one_freedom import free_name
+from lagcli.mechanics.reduction.period import Periods
+from lagcli.mechanics.reduction.period import PeriodSeries as Found
+from lagcli.mechanics.reduction.readable import above, effective_potential
+from lagcli.mechanics.reduction.routh import Routh
+
+#: What was asked for and not found, and why.
+Missing = list[tuple[str, str]]
+
+
+def reduction(derivation: Derivation) -> tuple[ReductionSection, Missing]:
+    """The reduction by all cyclic coordinates, and what of it was not found."""
+    routh = Routh(derivation)
+    return _Statement(routh).section()
+
+
+class _Statement:
+    def __init__(self, routh: Routh) -> None:
+        self.routh = routh
+        self.missing: Missing = []
+        system = routh.system
+        self.names = system.names
+        momenta = tuple(p.name for p in routh.momenta)
+        cyclic = {system.q[j].name for j in routh.cyclic}
+        self.order = (
+            tuple(name for name in system.order if name not in (*momenta, *cyclic)) + momenta
+        )
+        self.fast = frozenset(v.name for v in (*system.qdot, *system.qddot, *system.multipliers))
+
+    def section(self) -> tuple[ReductionSection, Missing]:
+        routh = self.routh
+        momenta = {
+            self.names[j]: terms(routh.full.dynamics.lagrange.momenta[j], self.order, self.fast)
+            for j in routh.cyclic
+        }
+        reduced = routh.reduced
+        if reduced is None or routh.velocities is None:
+            self.missing.append(("the reduction", routh.reason))
+            section = ReductionSection(momenta=momenta, routhian=None, reason=routh.reason)
+            return section, self.missing
+        from lagcli.mechanics.statements import Statements
+
+        equations = Statements(reduced).answers(["equations"]).sections["equations"]
+        assert isinstance(equations, EquationsSection)
+        lines = equations.equations or ()
+        potential, gyroscopic = None, {}
+        if routh.quadratic:
+            potential = effective_potential(routh.effective_potential, routh.momenta, self.order)
+            gyroscopic = {
+                q.name: self._shape(g)
+                for q, g in zip(reduced.system.q, routh.gyroscopic, strict=True)
+                if g != 0
+            }
+            lines = self._by_parts(lines)
+        return (
+            ReductionSection(
+                momenta=momenta,
+                routhian=self._routhian(potential),
+                equations=lines,
+                constraints=equations.constraints,
+                reconstruction={
+                    self.names[j]: self._shape(v)
+                    for j, v in zip(routh.cyclic, routh.velocities, strict=True)
+                },
+                effective_potential=potential,
+                gyroscopic=gyroscopic,
+                gyroscopic_forces=routh.gyroscopic_forces if gyroscopic else False,
+                one_freedom=self._one_freedom(potential),
+            ),
+            self.missing,
+        )
+
+    def _by_parts(self, lines: tuple[LagrangeEquation, ...]) -> tuple[LagrangeEquation, ...]:
+        """The left sides as what the velocities give and dU_eff/dq."""
+        reduced, writer = self.routh.reduced, Writer(self.order)
+        assert reduced is not None
+        potential = self.routh.effective_potential
+        made = []
+        for line, q, left in zip(
+            lines, reduced.system.q, reduced.dynamics.lagrange.left_sides, strict=True
+        ):
+            slope = potential.diff(q)
+            parts = [terms(left - slope, self.order, self.fast), self._shape(slope)]
+            made.append(
+                LagrangeEquation(
+                    coordinate=line.coordinate,
+                    left=writer.sum([part for part in parts if part != ZERO]),
+                    right=line.right,
+                )
+            )
+        return tuple(made)
+
+    def _shape(self, expression: Expr) -> Expression:
+        return shape(expression, self.order)
+
+    def _routhian(self, potential: Expression | None) -> Expression:
+        """The kinetic and gyroscopic terms, then -U_eff as it is read by itself."""
+        R = self.routh.function
+        assert R is not None
+        if potential is None:
+            return terms(R, self.order, self.fast)
+        writer = Writer(self.order)
+        moving = sympy.expand(R + self.routh.effective_potential)
+        return writer.sum([terms(moving, self.order, self.fast), writer.negative(potential)])
+
+    # -- one degree of freedom --------------------------------------------------------------------
+
+    def _one_freedom(self, potential: Expression | None) -> OneFreedom | None:
+        reduced = self.routh.reduced
+        if reduced is None or potential is None or len(reduced.system.q) != 1:
+            return None
+        if reduced.dynamics.constraints.equations:
+            return None
+        motion = Motion(self.routh)
+        order = (*self.order, motion.E.name)
+        if motion.why_not_conserved:
+            return None
+        periods = Periods(motion)
+        found = tuple(self._period(each) for each in periods.series)
+        if periods.failed:
+            self.missing.append(("the period as a series", periods.reason))
+        points = motion.turning_points
+        writer = Writer(order)
+        kinetic = terms(motion.energy - motion.potential, order, self.fast)
+        return OneFreedom(
+            coordinate=motion.q.name,
+            constant=motion.E.name,
+            energy=writer.sum([kinetic, potential]),
+            turning_points=None if points is None else tuple(written(x, order) for x in points),
+            rate=shape(motion.rate, order),
+            periods=found,
+            reason=periods.reason,
+        )
+
+    def _period(self, found: Found) -> PeriodSeries:
+        """2 pi sqrt(M/U'') (1 + c_2 a^2 + …)."""
+        name = free_name(self.routh, ("a", "A", "a_0", "A_0"))
+        amplitude, order = symbol(name, "positive"), (*self.order, name)
+        corrections = [
+            shape(c * amplitude ** (k + 1), order)
+            for k, c in enumerate(found.coefficients)
+            if c != 0
+        ]
+        period = _two_pi_times(shape(found.root, order))
+        if corrections:
+            period = Product((period, Sum((ONE, *corrections))))
+        q = self.routh.reduced.system.q[0] if self.routh.reduced else None
+        where = (above(e, self.order) for e in found.where)
+        return PeriodSeries(
+            at={}
+            if found.point is None
+            else {q.name: written(value, self.order) for q, value in found.point.values.items()},
+            root_of=self._shape(self.routh.effective_potential.diff(q))
+            if found.point is None
+            else None,
+            amplitude=name if corrections else "",
+            order=len(found.coefficients) if corrections else 0,
+            period=period,
+            where=tuple(each for each in where if each is not None),
+        )
+
+
+def _two_pi_times(root: Expression) -> Expression:
+    """2 pi root, as one product or one fraction."""
+    two_pi = (Number(Fraction(2)), Name("pi"))
+    match root:
+        case Quotient(numerator=above_, denominator=below):
+            return Quotient(_two_pi_times(above_), below)
+        case Number(value=value) if value == 1:
+            return Product(two_pi)
+        case Product(factors=factors):
+            return Product((*two_pi, *factors))
+        case _:
+            return Product((*two_pi, root))

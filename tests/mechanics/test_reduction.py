@@ -1,0 +1,221 @@
+"""Reduction by cyclic coordinates, and the period of one degree of freedom."""
+
+from __future__ import annotations
+
+import mpmath
+import pytest
+import sympy
+from mpmath import mpf
+from sympy import Expr, Rational, S, Symbol
+
+from lagcli.algebra import is_zero
+from lagcli.algebra.build import Builder, symbol
+from lagcli.answers import ReductionSection
+from lagcli.expression import Expression, Name, walk
+from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.reduction.period import ratio_series
+from lagcli.mechanics.reduction.statement import Missing, reduction
+from lagcli.reader import parse_text
+
+from .derived import derive
+from .formulas import formula, normal
+
+
+def reduced(text: str) -> tuple[ReductionSection, Missing]:
+    return reduction(derive(text.replace("POSITIVE", "{assume: positive}")))
+
+
+def same(tree: Expression | None, expected: str) -> bool:
+    """Equality with every name real."""
+    assert tree is not None
+    other = parse_text(expected)
+    names = {n.name: symbol(n.name) for e in (tree, other) for n in walk(e) if isinstance(n, Name)}
+    flow = {s: symbol(name + "'") for name, s in names.items()}
+    build = Builder(names, {}, lambda e: flow[e])
+    return is_zero(build(tree) - build(other)) is True
+
+
+def test_a_linear_coupling_leaves_gyroscopic_terms():
+    """Whittaker, section 38: the terms linear in the velocities do not go away."""
+    section, missing = reduced("""
+coordinates: [x, y, phi]
+parameters: {m: POSITIVE, J: POSITIVE, k: POSITIVE}
+L: m*(x'^2 + y'^2)/2 + J*(phi' + x*y' - y*x')^2/2 - k*(x^2 + y^2)/2
+""")
+    assert not missing
+    assert same(section.reconstruction["phi"], "p_phi/J - x*y' + y*x'")
+    assert same(section.effective_potential, "p_phi^2/(2*J) + k*(x^2 + y^2)/2")
+    assert same(section.gyroscopic["x"], "-p_phi*y")
+    assert same(section.gyroscopic["y"], "p_phi*x")
+    assert section.gyroscopic_forces
+    assert section.one_freedom is None
+
+
+def test_a_total_derivative_is_no_force():
+    section, _ = reduced("""
+coordinates: [x, phi]
+parameters: {J: POSITIVE, k: POSITIVE}
+L: x'^2/2 + J*(phi' + x^2*x')^2/2 - k*x^2/2
+""")
+    assert same(section.gyroscopic["x"], "p_phi*x^2")
+    assert not section.gyroscopic_forces
+    assert section.one_freedom is not None
+    assert normal(section.one_freedom.periods[0].period) == formula("2*pi/sqrt(k)")
+
+
+def test_a_force_along_a_coordinate_that_L_does_not_have_keeps_it():
+    section, _ = reduced("""
+coordinates: [x, y]
+parameters: [m, F]
+T: m*(x'^2 + y'^2)/2
+forces: {x: F}
+""")
+    assert list(section.momenta) == ["y"]
+
+
+def test_a_drag_on_what_is_left_stays_in_the_equations_and_spoils_the_energy():
+    section, missing = reduced("""
+coordinates: {r: POSITIVE, phi: {}}
+parameters: {m: POSITIVE, k: POSITIVE, b: POSITIVE}
+T: m*(r'^2 + r^2*phi'^2)/2
+V: k*r^2/2
+dissipation: b*r'^2/2
+""")
+    assert not missing
+    assert to_grammar(section.equations[0].right) == "-b*r'"
+    assert section.one_freedom is None
+
+
+def test_a_constraint_that_gives_a_coordinate_is_put_in():
+    section, _ = reduced("""
+coordinates: {r: POSITIVE, theta: {}}
+parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE}
+T: m*(r'^2 + r^2*theta'^2)/2
+V: -m*g*r*cos(theta)
+constraints: {rod: r = l}
+""")
+    assert same(section.routhian, "m*l^2*theta'^2/2 + m*g*l*cos(theta)")
+
+
+def test_a_constraint_that_does_not_touch_the_cyclic_coordinate_stays():
+    section, _ = reduced("""
+coordinates: [x, y, z]
+parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE}
+T: m*(x'^2 + y'^2 + z'^2)/2
+V: m*g*y
+constraints: {rod: x^2 + y^2 = l^2}
+""")
+    assert list(section.momenta) == ["z"]
+    assert same(section.constraints["rod"][0], "x^2 + y^2 - l^2")
+    assert section.one_freedom is None
+
+
+def test_what_is_cyclic_altogether_leaves_nothing():
+    section, missing = reduced("{coordinates: [x, y], parameters: [m], T: m*(x'^2 + y'^2)/2}")
+    assert section.routhian is None
+    assert missing == [("the reduction", "every coordinate is cyclic")]
+
+
+def test_a_momentum_that_does_not_give_the_velocity():
+    section, missing = reduced("{coordinates: [x, y], parameters: [m], L: m*x'^2/2 + x*y'}")
+    assert section.routhian is None
+    assert missing
+
+
+def test_a_relativistic_reduction():
+    """Landau and Lifshitz, *The Classical Theory of Fields*, section 39: p_phi = gamma m r² phi'."""
+    section, _ = reduced("""
+coordinates: {r: POSITIVE, phi: {}}
+parameters: {m: POSITIVE, c: POSITIVE, k: POSITIVE}
+L: -m*c^2*sqrt(1 - (r'^2 + r^2*phi'^2)/c^2) + k/r
+""")
+    assert section.effective_potential is None
+    r, v, p, m, c = (mpf(x) for x in ("1.3", "0.2", "0.4", "0.9", "1.7"))
+    names = {n: symbol(n) for n in ("r", "p_phi", "m", "c")}
+    build = Builder(names, {}, lambda e: Symbol(e.name + "'", real=True))
+    values = {"r": r, "r'": v, "p_phi": p, "m": m, "c": c}
+    found = build(section.reconstruction["phi"])
+    rate = mpf(str(found.evalf(30, subs={s: values[s.name] for s in found.free_symbols})))
+    gamma = 1 / mpmath.sqrt(1 - (v**2 + r**2 * rate**2) / c**2)
+    assert abs(gamma * m * r**2 * rate - p) < 1e-12
+
+
+def test_names_that_are_taken_get_others():
+    section, _ = reduced("""
+coordinates: [x]
+parameters: {E: POSITIVE, a: POSITIVE}
+T: x'^2/2
+V: a*(x^2/2 + E*x^4)
+""")
+    motion = section.one_freedom
+    assert motion is not None
+    assert motion.constant == "h"
+    assert [p.amplitude for p in motion.periods] == ["A"]
+
+
+def test_a_free_motion_turns_nowhere():
+    section, missing = reduced(
+        "{coordinates: [x, y], parameters: [m], L: m*x'^2*(1 + y^2)/2 + y'^2}"
+    )
+    assert not missing
+    motion = section.one_freedom
+    assert motion is not None
+    assert motion.periods
+    section, _ = reduced(
+        "{coordinates: [x], parameters: {m: POSITIVE, F: {}}, L: m*x'^2/2 + F*t*x}"
+    )
+    assert section.one_freedom is None
+
+
+def series(U: Expr, M: Expr) -> list[Expr]:
+    x = Symbol("x")
+    second = U.diff(x, 2).subs(x, 0)
+    alpha = [2 * U.diff(x, k + 2).subs(x, 0) / sympy.factorial(k + 2) / second for k in range(5)]
+    beta = [M.diff(x, k).subs(x, 0) / sympy.factorial(k) / M.subs(x, 0) for k in range(5)]
+    return ratio_series(alpha, beta)
+
+
+@pytest.mark.parametrize(
+    ("U", "M"),
+    [
+        ("1 - cos(x)", "1"),
+        ("x**2/2 + x**3/5 + x**4/7 - x**5/3 + x**6/11", "1 + x/2 - x**2/3 + x**3/5 + x**4/9"),
+        ("(exp(-x) - 1)**2/2", "1"),
+        ("x**2/2", "1/(1 + x)"),
+    ],
+)
+def test_the_series_is_the_integral_at_30_digits(U: str, M: str):
+    """Quadrature of 2 dq sqrt(M/(2 (E - U))) at two amplitudes: the error falls as a^6."""
+    x = Symbol("x")
+    potential, mass = sympy.sympify(U, locals={"x": x}), sympy.sympify(M, locals={"x": x})
+    c2, c4 = (mpf(c.p) / c.q for c in map(Rational, series(potential, mass)[1::2]))
+    u, w = sympy.lambdify(x, potential, "mpmath"), sympy.lambdify(x, mass, "mpmath")
+    errors = []
+    with mpmath.workdps(60):
+        T0 = 2 * mpmath.pi
+        for a in (mpf(1) / 50, mpf(1) / 100):
+            left = mpmath.findroot(lambda m, a=a: u(m + a) - u(m - a), (-a * a, a * a))
+            E = u(left + a)
+
+            def integrand(s, left=left, a=a, E=E):
+                q = left + a * mpmath.sin(s)
+                return mpmath.sqrt(w(q) / (2 * (E - u(q)))) * a * mpmath.cos(s)
+
+            T = 2 * mpmath.quad(integrand, mpmath.linspace(-mpmath.pi / 2, mpmath.pi / 2, 5))
+            errors.append(abs(T / T0 - 1 - c2 * a**2 - c4 * a**4))
+    assert errors[0] < 1e-8
+    if errors[0] > 1e-25:
+        assert 55 < errors[0] / errors[1] < 75
+
+
+def test_the_harmonic_period_does_not_depend_on_the_amplitude():
+    assert series(Symbol("x") ** 2 / 2, S.One) == [0, 0, 0, 0]
+
+
+def test_the_morse_potential():
+    """Landau and Lifshitz, section 11 (method): T = 2 pi/sqrt(1 - 2 E) for m = alpha = 1, D = 1/2.
+
+    With tanh(a) = sqrt(2 E) for half the distance a of the turning points, T = 2 pi cosh(a).
+    """
+    x = Symbol("x")
+    assert series((sympy.exp(-x) - 1) ** 2 / 2, S.One) == [0, Rational(1, 2), 0, Rational(1, 24)]
