@@ -12,6 +12,7 @@ from typing import Literal
 
 from lagcli.expression import Expression
 from lagcli.record import field, record
+from lagcli.units import Unit
 
 #: The sections, in the order in which they are printed.
 SECTIONS = (
@@ -33,6 +34,7 @@ SECTIONS = (
     "modes",
     "reduction",
     "model",
+    "dimensions",
 )
 
 #: What `lagcli solve` prints unasked (`find` where the file asks).
@@ -339,6 +341,37 @@ class ModelSection:
     reason: Mapping[str, str]
 
 
+UnitSource = Literal["given", "inferred", "undetermined"]
+
+
+@record(kw_only=True)
+class QuantityUnit:
+    """The unit of one quantity; None where the file does not determine it."""
+
+    unit: Unit | None
+    source: UnitSource
+
+
+@record(kw_only=True)
+class DimensionsSection:
+    """The unit of everything that has a name, and of the generalized force along each coordinate.
+
+    Momenta and forces are by coordinate, multipliers by their own names, charges by the
+    names of the file's symmetries.
+    """
+
+    units_given: bool
+    coordinates: Mapping[str, QuantityUnit]
+    parameters: Mapping[str, QuantityUnit]
+    functions: Mapping[str, QuantityUnit]
+    definitions: Mapping[str, QuantityUnit]
+    energy: QuantityUnit
+    momenta: Mapping[str, QuantityUnit]
+    forces: Mapping[str, QuantityUnit]
+    multipliers: Mapping[str, QuantityUnit]
+    charges: Mapping[str, QuantityUnit]
+
+
 Section = (
     LagrangianSection
     | EquationsSection
@@ -357,6 +390,7 @@ Section = (
     | ModesSection
     | ReductionSection
     | ModelSection
+    | DimensionsSection
 )
 
 

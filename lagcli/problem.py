@@ -19,10 +19,11 @@ class Quantity:
 
     name: str
     assume: Assumption = "real"
-    unit: str | None = None
+    unit: str | None = None  # already checked to be one
     symbol: str | None = None  # LaTeX, already checked to be harmless
     description: str | None = None
     span: Span = field(default=NOWHERE, compare=False)
+    unit_span: Span = field(default=NOWHERE, compare=False)
 
 
 @record(kw_only=True)

@@ -30,7 +30,7 @@ Show = Annotated[
         metavar="A,B,C",
         help="Only these sections.  There are: lagrangian, equations, matrix_form, accelerations, "
         "multipliers, constraint_forces, momenta, energy, hamiltonian, canonical_equations, "
-        "charges, discovered, algebra, find, equilibria, modes, model.",
+        "charges, discovered, algebra, find, equilibria, modes, model, dimensions.",
         autocompletion=complete_section,
     ),
 ]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from lagcli.expression import Expression
 from lagcli.record import record
+from lagcli.units import Unit
 
 
 @record
@@ -23,12 +24,15 @@ class Label:
         Set in bold, its index in brackets.
     change : bool
         The change of the coordinate `letter` under a symmetry.
+    unit : bool
+        The unit of what is labelled, in brackets: [x].
     """
 
     letter: str
     index: tuple[str, ...] = ()
     matrix: bool = False
     change: bool = False
+    unit: bool = False
 
 
 @record
@@ -49,7 +53,7 @@ class Integral:
     times: int = 1
 
 
-Formula = Expression | Label | Integral
+Formula = Expression | Label | Integral | Unit
 
 
 @record

@@ -23,6 +23,8 @@ from lagcli.formatters.mathml import MathmlPrinter
 from lagcli.formatters.options import Options
 from lagcli.formatters.plain import harmless
 from lagcli.formatters.sections import to_document
+from lagcli.formatters.units import mathml_unit
+from lagcli.units import Unit
 
 _HEAD = """<!DOCTYPE html>
 <html lang="en">
@@ -141,8 +143,12 @@ def _matrix(matrix: Matrix, printer: MathmlPrinter) -> str:
 
 
 def _show(formula: Formula, printer: MathmlPrinter) -> str:
-    if isinstance(formula, Label):
-        return printer.label(formula)
-    if isinstance(formula, Integral):
-        return printer.integral(formula)
-    return printer.show(formula)
+    match formula:
+        case Label():
+            return printer.label(formula)
+        case Integral():
+            return printer.integral(formula)
+        case Unit():
+            return mathml_unit(formula)
+        case _:
+            return printer.show(formula)

@@ -20,6 +20,7 @@ from lagcli.answers import (
     Charge,
     ChargesSection,
     ConstraintForcesSection,
+    DimensionsSection,
     EnergySection,
     EquationsSection,
     EquilibriaSection,
@@ -36,6 +37,7 @@ from lagcli.answers import (
     MultipliersSection,
     OneFreedom,
     PeriodSeries,
+    QuantityUnit,
     ReductionSection,
     Rewritten,
     Section,
@@ -147,6 +149,8 @@ def _value(section: Section) -> Value:
                 "ignorable": section.ignorable,
                 "reason": dict(section.reason),
             }
+        case DimensionsSection():
+            return _dimensions(section)
         case _:
             raise TypeError(f"{type(section).__name__} has no place in the JSON")
 
@@ -262,6 +266,28 @@ def _period(period: PeriodSeries) -> Object:
 
 def _above(condition: Above) -> str:
     return f"{to_grammar(condition.left)} > {to_grammar(condition.right)}"
+
+
+def _dimensions(section: DimensionsSection) -> Object:
+    return {
+        "coordinates": _units(section.coordinates),
+        "parameters": _units(section.parameters),
+        "functions": _units(section.functions),
+        "definitions": _units(section.definitions),
+        "energy": _unit(section.energy),
+        "momenta": _units(section.momenta),
+        "forces": _units(section.forces),
+        "multipliers": _units(section.multipliers),
+        "charges": _units(section.charges),
+    }
+
+
+def _units(quantities: Mapping[str, QuantityUnit]) -> Object:
+    return {name: _unit(quantity) for name, quantity in quantities.items()}
+
+
+def _unit(quantity: QuantityUnit) -> Object:
+    return {"unit": _unless_none(quantity.unit, str), "source": quantity.source}
 
 
 def _unless_none(value: _Some | None, shown: Callable[[_Some], Value]) -> Value:

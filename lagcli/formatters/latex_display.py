@@ -12,7 +12,9 @@ from lagcli.formatters.latex_width import QUAD, RELATION, TEXT_WIDTH, text_width
 from lagcli.formatters.layout import RELATION as RELATION_RANK
 from lagcli.formatters.layout import Layout, Piece, break_lines, joined, width_of
 from lagcli.formatters.precedence import Level
+from lagcli.formatters.units import latex_unit
 from lagcli.record import record
+from lagcli.units import Unit
 
 #: A wider left side stands on lines of its own, in points.
 _NARROW = 90.0
@@ -48,6 +50,8 @@ class LatexDisplay:
             return (Piece(text, width),)
         if isinstance(formula, Integral):
             return self._integral(formula)
+        if isinstance(formula, Unit):
+            return (Piece(*latex_unit(formula)),)
         return self.printer.show(formula).pieces
 
     def _integral(self, integral: Integral) -> Layout:

@@ -10,6 +10,7 @@ from lagcli.formatters.greek import BY_NAME, LATEX, latex_of_name
 from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.latex_width import SCRIPT, text_width
 from lagcli.formatters.naming import name_parts
+from lagcli.record import replace
 
 _DOTS = {1: r"\dot", 2: r"\ddot"}
 _PLAIN_WORD = re.compile(r"[A-Za-z]+")
@@ -61,6 +62,9 @@ class LatexNames:
 
     def label(self, label: Label) -> tuple[str, float]:
         """Set a symbol of the page; with its width."""
+        if label.unit:
+            inner, size = self.label(replace(label, unit=False))
+            return f"{{[{inner}]}}", size + 6  # a bare [ behind \\\\ would be its argument
         width = self.width(label.letter) + 2
         if label.change:
             return rf"\Delta {self.name(label.letter)}", width + 9

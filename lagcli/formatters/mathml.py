@@ -23,6 +23,7 @@ from lagcli.formatters.greek import BY_NAME
 from lagcli.formatters.naming import name_parts
 from lagcli.formatters.numbers import decimal_parts, digit_groups
 from lagcli.formatters.precedence import Level, Printer
+from lagcli.record import replace
 
 _FUNCTIONS = {
     "log": "ln",
@@ -139,6 +140,9 @@ class MathmlPrinter(Printer[str]):
 
     def label(self, label: Label) -> str:
         """Show a symbol of the page."""
+        if label.unit:
+            inner = self.label(replace(label, unit=False))
+            return f"<mrow><mo>[</mo>{inner}<mo>]</mo></mrow>"
         if label.change:
             return f"<mrow><mi>Δ</mi>{mathml_name(label.letter)}</mrow>"
         letter = f"<mi>{_bold(label.letter)}</mi>" if label.matrix else mathml_name(label.letter)

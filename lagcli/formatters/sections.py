@@ -12,6 +12,7 @@ from lagcli.answers import (
     CanonicalSection,
     ChargesSection,
     ConstraintForcesSection,
+    DimensionsSection,
     EnergySection,
     EquationsSection,
     EquilibriaSection,
@@ -28,6 +29,7 @@ from lagcli.answers import (
     Verification,
 )
 from lagcli.expression import Expression, Name
+from lagcli.formatters.dimensions import dimension_blocks
 from lagcli.formatters.document import (
     Block,
     Document,
@@ -66,6 +68,7 @@ _HEADINGS = {
     "modes": "Normal modes",
     "reduction": "Reduction",
     "model": "Model",
+    "dimensions": "Dimensions",
 }
 
 _CHECKED = {
@@ -128,6 +131,8 @@ def section_blocks(section: Section, answers: Answers) -> Iterable[Block]:
             return reduction_blocks(section)
         case ModelSection():
             return _model(section)
+        case DimensionsSection():
+            return dimension_blocks(section)
         case _:
             raise TypeError(f"{type(section).__name__} has no wording")
 

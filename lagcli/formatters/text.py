@@ -31,6 +31,8 @@ from lagcli.formatters.options import Options
 from lagcli.formatters.plain import filled, harmless
 from lagcli.formatters.sections import to_document
 from lagcli.formatters.unicode import AsciiPrinter, UnicodePrinter
+from lagcli.formatters.units import unicode_unit
+from lagcli.units import Unit
 
 _EQUALS = " = "
 #: Left sides wider than this part of the line stand on lines of their own.
@@ -115,6 +117,9 @@ class _TextPage:
             return self.printer.label(formula)
         if isinstance(formula, Integral):
             return self.printer.integral(formula)
+        if isinstance(formula, Unit):
+            shown = unicode_unit(formula) if self.unicode else romanized(str(formula))
+            return (Piece(shown, display_width(shown)),)
         return self.printer.show(formula)
 
     def equations(self, rows: Sequence[Row], width: int) -> Iterator[str]:

@@ -22,6 +22,7 @@ from lagcli.formatters.layout import PRODUCT, Layout, Piece, joined
 from lagcli.formatters.naming import name_parts
 from lagcli.formatters.numbers import DecimalParts, decimal_parts
 from lagcli.formatters.precedence import Level
+from lagcli.record import replace
 
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _SUPERSCRIPTS = str.maketrans("0123456789−n", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿ")
@@ -115,6 +116,8 @@ class UnicodePrinter(GrammarPrinter):
 
     def label(self, label: Label) -> Layout:
         """Show a symbol of the page."""
+        if label.unit:
+            return text(f"[{joined(self.label(replace(label, unit=False)))}]")
         letter = self.spelled(label.letter, 0)
         names = [self.spelled(name, 0) for name in label.index]
         if label.change:
@@ -138,6 +141,8 @@ class AsciiPrinter(GrammarPrinter):
 
     def label(self, label: Label) -> Layout:
         """Show a symbol of the page."""
+        if label.unit:
+            return text(f"[{joined(self.label(replace(label, unit=False)))}]")
         names = [romanized(name) for name in label.index]
         letter = romanized(label.letter)
         if label.change:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from lagcli.answers import DEFAULT_SECTIONS, SECTIONS, Answers, Section
+from lagcli.answers import DEFAULT_SECTIONS, SECTIONS, Answers, DimensionsSection, Section
 from lagcli.problem import Problem
 
 
@@ -39,7 +39,8 @@ class Stating:
 
     def answers(self, sections: Sequence[str] | None) -> Answers:
         """The asked sections (the usual ones for None), in their fixed order."""
-        problem, makers = self.problem, self.makers
+        problem = self.problem
+        makers = {**self.makers, "dimensions": self._dimensions}
         asked = self._usual() if sections is None else sections
         made: dict[str, Section] = {}
         for name in SECTIONS:
@@ -59,6 +60,11 @@ class Stating:
             warnings=tuple(dict.fromkeys(self.warnings)),
             complete=self.complete,
         )
+
+    def _dimensions(self) -> DimensionsSection:
+        from lagcli.mechanics.quantity_units import dimensions_section
+
+        return dimensions_section(self.problem)
 
     def _usual(self) -> list[str]:
         """The default sections, without those that have nothing to say here."""

@@ -18,6 +18,7 @@ from lagcli.reader.dynamics import (
     read_points,
 )
 from lagcli.reader.expectations import ExpectReader
+from lagcli.reader.limits import MISTAKES
 from lagcli.reader.nodes import Mapping, Node, kind
 from lagcli.reader.quantities import (
     declare_parameters,
@@ -87,6 +88,8 @@ def read_problem(source_name: str, data: bytes) -> Reading:
         return Reading(source, None, (error.diagnostic,))
     sections = Sections(diagnostics=diagnostics)
     problem = _read(sections, source, root)
+    if problem is not None and not sections.diagnostics:
+        sections.diagnostics += _dimension_mistakes(problem)
     found = tuple(sorted(sections.diagnostics, key=lambda diagnostic: diagnostic.span))
     has_errors = any(diagnostic.is_error for diagnostic in found)
     return Reading(source, None if has_errors else problem, found)
@@ -149,6 +152,14 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
     )
     check_masses(sections, problem, section("points").span)
     return problem
+
+
+def _dimension_mistakes(problem: Problem) -> list[Diagnostic]:
+    if all(quantity.unit is None for quantity in (*problem.coordinates, *problem.parameters)):
+        return []
+    from lagcli.dimensions.check import check_dimensions
+
+    return check_dimensions(problem, MISTAKES)
 
 
 def _stem(name: str) -> str:

@@ -13,6 +13,7 @@ from lagcli.reader.suggest import did_you_mean
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from lagcli.diagnostics import Span
     from lagcli.reader.sections import Sections
 
 
@@ -20,6 +21,7 @@ class _Said(TypedDict, total=False):
     """The attributes that coordinates and parameters share."""
 
     unit: str
+    unit_span: Span
     symbol: str
     description: str
     assume: Assumption
@@ -128,7 +130,8 @@ def _said(sections: Sections, attributes: dict[str, Node]) -> _Said:
     """The attributes that coordinates and parameters share."""
     said: _Said = {}
     if "unit" in attributes and (text := sections.scalar(attributes["unit"], "'unit'")):
-        said["unit"] = text.value
+        said["unit"], said["unit_span"] = text.value, text.span
+        _check_unit(sections, text)
     if "symbol" in attributes and (text := sections.scalar(attributes["symbol"], "'symbol'")):
         said["symbol"] = text.value
         _check_symbol(sections, text)
@@ -144,6 +147,15 @@ def _said(sections: Sections, attributes: dict[str, Node]) -> _Said:
             hint = did_you_mean(text.value, _ASSUMPTIONS) or f"known are {', '.join(_ASSUMPTIONS)}"
             sections.error(f"unknown assumption '{text.value}'", text.span, hint)
     return said
+
+
+def _check_unit(sections: Sections, text: Scalar) -> None:
+    from lagcli.units import UnitMistake, read_unit
+
+    try:
+        read_unit(text.value)
+    except UnitMistake as wrong:
+        sections.error(wrong.message, text.excerpt().span(wrong.start, wrong.end), wrong.hint)
 
 
 def _check_symbol(sections: Sections, text: Scalar) -> None:

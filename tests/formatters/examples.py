@@ -14,6 +14,7 @@ from lagcli.answers import (
     Charge,
     ChargesSection,
     ConstraintForcesSection,
+    DimensionsSection,
     EnergySection,
     EquationsSection,
     EquilibriaSection,
@@ -31,9 +32,11 @@ from lagcli.answers import (
     MultipliersSection,
     OneFreedom,
     PeriodSeries,
+    QuantityUnit,
     ReductionSection,
     Rewritten,
     Solutions,
+    UnitSource,
 )
 from lagcli.expression import (
     Call,
@@ -48,6 +51,14 @@ from lagcli.expression import (
     Quotient,
     Sum,
 )
+from lagcli.units import Unit, read_unit
+
+
+def unit_of(text: str | None, source: UnitSource | None = None) -> QuantityUnit:
+    if text is None:
+        return QuantityUnit(unit=None, source="undetermined")
+    return QuantityUnit(unit=read_unit(text), source=source or "inferred")
+
 
 ZERO, ONE, TWO = (Number(Fraction(n)) for n in (0, 1, 2))
 
@@ -252,6 +263,18 @@ HOOP = Answers(
                     PeriodSeries(at={}, amplitude="", period=ONE, root_of=minus_half),
                 ),
             ),
+        ),
+        "dimensions": DimensionsSection(
+            units_given=True,
+            coordinates={"x": unit_of("m", "given"), "theta": unit_of("rad", "given")},
+            parameters={"M": unit_of("kg", "given"), "g": unit_of(None)},
+            functions={"U": unit_of("J")},
+            definitions={"s": unit_of("kg^(1/2) m")},
+            energy=unit_of("J"),
+            momenta={"x": unit_of("kg m/s"), "theta": unit_of("kg m^2/s")},
+            forces={"x": unit_of("N"), "theta": unit_of("N m")},
+            multipliers={"lambda_rolling": unit_of("V/(A m^2)")},
+            charges={"slide": QuantityUnit(unit=Unit((), 1e-05), source="inferred")},
         ),
         "model": ModelSection(
             kept=("x",),

@@ -10,7 +10,7 @@ from lagcli.reader import parse_equation_text, parse_text, read_problem
 
 GOOD = """\
 title: A problem
-coordinates: {x: {unit: m, symbol: '\\xi'}, θ: }
+coordinates: {x: {unit: rad, symbol: '\\xi'}, θ: }
 parameters: {m: {assume: positive}, g: 9.81, n: {integer: true}}
 functions: {U: [r]}
 definitions:

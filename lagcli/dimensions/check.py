@@ -1,0 +1,208 @@
+"""Terms whose dimension does not fit, and units that do not go together, as diagnostics."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import chain, islice
+
+from lagcli.diagnostics import Diagnostic, Severity, Span
+from lagcli.dimensions.forms import ENERGY, Form, Key, minus, times, unknowns
+from lagcli.dimensions.inference import Inference, gives_units, quantities
+from lagcli.dimensions.kinds import kind
+from lagcli.dimensions.system import Incoherent, dimension_of
+from lagcli.dimensions.terms import Group, Term, representative
+from lagcli.expression import Expression, Name, Negative, walk
+from lagcli.problem import Problem, Quantity
+from lagcli.units import read_unit
+
+#: What T may be: an energy, or one by mass or by moment of inertia, which then are 1.
+_ENERGIES: tuple[Form, ...] = (
+    ENERGY,
+    {"m": Fraction(2), "s": Fraction(-2)},
+    {"s": Fraction(-2)},
+)
+#: A term longer than this is quoted by its beginning.
+_QUOTED = 40
+_NAMES_IN_HINT = 5
+
+
+def check_dimensions(problem: Problem, limit: int) -> list[Diagnostic]:
+    """The first `limit` terms with a wrong dimension; none where the file gives no units."""
+    if not gives_units(problem):
+        return []
+    checker = _Checker(Inference(problem))
+    found = checker.incoherent()
+    if any(quantity.unit and form for quantity, form in checker.given()):
+        found = chain(found, checker.odd_terms(), checker.no_energy())
+    return list(dict.fromkeys(islice(found, limit)))
+
+
+class _Checker:
+    """Words what an inference could not reconcile."""
+
+    def __init__(self, inference: Inference) -> None:
+        self.inference = inference
+        self.problem = inference.problem
+        self._lines = self.problem.source.text.split("\n")
+
+    def given(self) -> Iterator[tuple[Quantity, Form]]:
+        names = self.inference.demands.names
+        return ((quantity, names[quantity.name]) for quantity in quantities(self.problem))
+
+    # Terms.
+
+    def odd_terms(self) -> Iterator[Diagnostic]:
+        """The odd ones of each group."""
+        for group in self.inference.demands.groups:
+            forms = [self.inference.form(term.form) for term in group.terms]
+            reference = self._reference(group, forms)
+            alike = [t for t, form in zip(group.terms, forms, strict=True) if form == reference]
+            for term, form in zip(group.terms, forms, strict=True):
+                if form != reference:
+                    yield self._odd(group, term, form, alike, reference)
+
+    def _reference(self, group: Group, forms: Sequence[Form]) -> Form:
+        if group.expected is not None:
+            return self.inference.form(group.expected)
+        if group.usual in forms and group.usual is not None:
+            return group.usual
+        return representative(forms)
+
+    def _odd(
+        self, group: Group, term: Term, form: Form, alike: Sequence[Term], reference: Form
+    ) -> Diagnostic:
+        quoted = self._quoted(term.node)
+        if unknowns(form) or unknowns(reference):
+            other = group.subject or (self._quoted(alike[0].node) if alike else "the other terms")
+            message = f"{quoted} differs from {other} by {self._factor(minus(form, reference))}"
+        elif group.subject:
+            torque = group.is_force and reference == ENERGY
+            needed = "a torque (N m)" if torque else self._named(reference)
+            message = f"{quoted} is {self._named(form)}, {group.subject} must be {needed}"
+        elif len(alike) == 1:
+            other = self._quoted(alike[0].node)
+            message = f"{quoted} is {self._named(form)} where {other} is {self._named(reference)}"
+        else:
+            others = self._named(reference, several=True)
+            message = f"{quoted} is {self._named(form)} where the other terms are {others}"
+        nodes = [term.node, *(each.node for each in alike[:1])]
+        return Diagnostic(message, _bare(term.node).span, self._advice(term.node, form, reference),
+                          related=tuple(self._inferred(nodes)))  # fmt: skip
+
+    def no_energy(self) -> Iterator[Diagnostic]:
+        """T and V, or L, whose terms agree, but on something that is no energy."""
+        energies = self.inference.demands.energies
+        forms = [] if energies is None else [self.inference.form(t.form) for t in energies.terms]
+        if energies is None or any(form != forms[0] for form in forms):
+            return
+        node, form = energies.terms[0].node, forms[0]
+        if unknowns(form) or form in _ENERGIES:
+            return
+        advice = self._advice(node, form, ENERGY)
+        named, energy = self._named(form), self._named(ENERGY)
+        if self.problem.lagrangian is None:
+            message = f"{self._quoted(node)} is {named}, T must be {energy}"
+            yield Diagnostic(message, _bare(node).span, advice)
+        else:  # the length of a path has the same extremals as an energy
+            message = f"L is usually {energy}, {self._quoted(node)} is {named}"
+            yield Diagnostic(message, _bare(node).span, advice, "warning")
+
+    # Words.
+
+    def _quoted(self, node: Expression) -> str:
+        span = _bare(node).span
+        if span.line < 1:
+            return "a term"
+        last = span.end_line - 1
+        lines = self._lines[span.line - 1 : last + 1]
+        lines[-1] = lines[-1][: span.end_column - 1]
+        lines[0] = lines[0][span.column - 1 :]
+        text = " ".join(" ".join(lines).split())
+        return f"'{text if len(text) <= _QUOTED else text[: _QUOTED - 1] + '…'}'"
+
+    def _named(self, form: Form, *, several: bool = False) -> str:
+        """`an energy (J)`, or the unit alone."""
+        if not form:
+            return kind(form, several=several)
+        unit = self.inference.system.unit(form)
+        name = kind(form, several=several)
+        return f"{name} ({unit})" if name else f"in {unit}"
+
+    def _advice(self, node: Expression, form: Form, reference: Form) -> str:
+        """What is missing or too many, and in what units the term's names are."""
+        parts = []
+        ratio = minus(reference, form)
+        if not unknowns(ratio):
+            parts.append(self._missing(ratio))
+        units = {q.name: q.unit for q in quantities(self.problem)}
+        used = dict.fromkeys(part.name for part in walk(node) if isinstance(part, Name))
+        known = [f"{name} in {units[name]}" for name in used if units.get(name)]
+        if 0 < len(known) <= _NAMES_IN_HINT:
+            parts.append(", ".join(known))
+        return "; ".join(parts)
+
+    def _missing(self, ratio: Form) -> str:
+        """`a length (m) is missing`, `a time (s) too many`."""
+        inverse = times(ratio, Fraction(-1))
+        divides = all(exponent < 0 for exponent in ratio.values())
+        if kind(ratio) and not divides:
+            return f"{self._named(ratio)} is missing"
+        if kind(inverse):
+            return f"{self._named(inverse)} too many"
+        return f"{self._factor(ratio)} is missing"
+
+    def _factor(self, ratio: Form) -> str:
+        name = self._named(ratio)
+        return name if kind(ratio) else f"a factor {name}"
+
+    def _inferred(self, nodes: Sequence[Expression]) -> Iterator[tuple[Span, str]]:
+        """Where the units of the names without one come from."""
+        names = self.inference.demands.names
+        used = dict.fromkeys(n.name for node in nodes for n in walk(node) if isinstance(n, Name))
+        for name in used:
+            for key in unknowns(names.get(name, {})):
+                unit = self.inference.unit(names[name])
+                if (
+                    unit is not None
+                    and _names_quantity(key)
+                    and key in self.inference.relations.origins
+                ):
+                    origin = self.inference.relations.origins[key]
+                    yield origin, f"'{name}' has no unit; from this it is in {unit}"
+
+    # Units.
+
+    def incoherent(self) -> Iterator[Diagnostic]:
+        """Units with a factor between them; an error where the file has numbers."""
+        has_numbers = bool(self.problem.initial) or any(
+            parameter.value is not None for parameter in self.problem.parameters
+        )
+        severity: Severity = "error" if has_numbers else "warning"
+        for found in self.inference.system.incoherent:
+            message, hint = self._incoherence(found)
+            related = (
+                ()
+                if found.other is None
+                else ((found.other.span, f"'{found.other.name}' is here"),)
+            )
+            yield Diagnostic(message, found.named.span, hint, severity, related)
+
+    def _incoherence(self, found: Incoherent) -> tuple[str, str]:
+        name, factor = found.named.name, f"{found.factor:.6g}"
+        if found.other is not None:
+            other = found.other.name
+            what = f"'{name}' beside '{other}': numbers would be off by a factor of {factor}"
+            return what, f"give all of them in {other}, or all in {name}"
+        dimension = dimension_of(read_unit(name))
+        base = str(self.inference.system.unit(dimension)) if dimension else "rad"
+        what = f"'{name}' is {factor} {base}: numbers would be off by that factor"
+        return what, f"write {base}"
+
+
+def _bare(node: Expression) -> Expression:
+    return node.operand if isinstance(node, Negative) else node
+
+
+def _names_quantity(key: Key) -> bool:
+    return key[0] in {"coordinate", "parameter"}

@@ -1,0 +1,86 @@
+"""The dimensions of a problem, as far as its units and its formulas determine them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+
+from lagcli.diagnostics import Span
+from lagcli.dimensions.demands import LAGRANGIAN, Demands
+from lagcli.dimensions.forms import ENERGY, NUMBER, Form, minus, unknown, unknowns
+from lagcli.dimensions.relations import Relations
+from lagcli.dimensions.system import Named, UnitSystem
+from lagcli.problem import Problem, Quantity
+from lagcli.units import Unit, read_unit
+
+
+def quantities(problem: Problem) -> tuple[Quantity, ...]:
+    """Coordinates and parameters, which may have units."""
+    return (*problem.coordinates, *problem.parameters)
+
+
+def gives_units(problem: Problem) -> bool:
+    """Whether a file gives any unit."""
+    return any(quantity.unit is not None for quantity in quantities(problem))
+
+
+class Inference:
+    """What follows for each quantity; where the file contradicts itself, from the rest."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.demands = Demands(problem)
+        self.relations = Relations()
+        self._solve()
+
+    @cached_property
+    def system(self) -> UnitSystem:
+        """The file's system of units."""
+        return UnitSystem(
+            Named(name, quantity.name, quantity.unit_span)
+            for quantity in quantities(self.problem)
+            if quantity.unit is not None
+            for name, _ in read_unit(quantity.unit).factors
+        )
+
+    def form(self, form: Form) -> Form:
+        """A dimension with what is known put in."""
+        return self.relations.reduced(form)
+
+    def unit(self, form: Form) -> Unit | None:
+        """The unit of a dimension in the file's system; None where it is undetermined."""
+        found = self.form(form)
+        return None if unknowns(found) else self.system.unit(found)
+
+    def _solve(self) -> None:
+        relations, energies = self.relations, self.demands.energies
+        if energies is not None:
+            relations.add(LAGRANGIAN, energies.representative, energies.span)
+        for left, right, span in sorted(self._equations(), key=_unknown_count):
+            relations.add(left, right, span)
+        self._powers_of_numbers()
+        if not relations.is_known(LAGRANGIAN) and energies is not None:
+            relations.add(LAGRANGIAN, ENERGY, energies.span)
+            self._powers_of_numbers()
+
+    def _equations(self) -> Iterator[tuple[Form, Form, Span]]:
+        for group in self.demands.groups:
+            is_energies = group is self.demands.energies
+            reference = LAGRANGIAN if is_energies else group.representative
+            for term in group.terms:
+                yield term.form, reference, term.node.span
+
+    def _powers_of_numbers(self) -> None:
+        """x^n is a number where x is one, whatever n."""
+        open_powers = dict(self.demands.powers)
+        found = True
+        while found:
+            found = False
+            for node, base in list(open_powers.items()):
+                if not self.form(base):
+                    del open_powers[node]
+                    found = self.relations.add(unknown("power", node), NUMBER, node.span) or found
+
+
+def _unknown_count(equation: tuple[Form, Form, Span]) -> int:
+    return len(unknowns(minus(equation[0], equation[1])))

@@ -1,0 +1,60 @@
+"""The wording of the units of all quantities."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from lagcli.answers import DimensionsSection, QuantityUnit
+from lagcli.formatters.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
+
+
+def dimension_blocks(section: DimensionsSection) -> Iterator[Block]:
+    """Say the unit of each quantity, in its kind, and which are not determined."""
+    if not section.units_given:
+        yield Paragraph(("The file gives no units, so nothing is checked or inferred.",))
+        return
+    own = {**section.coordinates, **section.parameters}
+    yield from _part("Given", _labels(own), own, "given")
+    derived = {**own, **section.functions, **section.definitions}
+    yield from _part("Inferred", _labels(derived), derived, "inferred")
+    yield from _part("Energy", {"L": Label("L", unit=True)}, {"L": section.energy})
+    yield from _part(
+        "Momenta",
+        {name: Label(f"p_{name}", unit=True) for name in section.momenta},
+        section.momenta,
+    )
+    yield from _part("Forces along the coordinates", _indexed(section.forces), section.forces)
+    yield from _part("Multipliers", _labels(section.multipliers), section.multipliers)
+    yield from _part("Charges of the symmetries", _indexed(section.charges), section.charges)
+    undetermined = [name for name, each in derived.items() if each.unit is None]
+    if undetermined:
+        yield Heading("Not determined", 2)
+        parts: list[str | Formula] = []
+        for name in undetermined:
+            parts += [", ", Label(name, unit=True)] if parts else [Label(name, unit=True)]
+        yield Paragraph((*parts, ": the units of the file leave them open."))
+
+
+def _labels(quantities: Mapping[str, QuantityUnit]) -> dict[str, Label]:
+    return {name: Label(name, unit=True) for name in quantities}
+
+
+def _indexed(quantities: Mapping[str, QuantityUnit]) -> dict[str, Label]:
+    return {name: Label("Q", (name,), unit=True) for name in quantities}
+
+
+def _part(
+    heading: str,
+    labels: Mapping[str, Label],
+    quantities: Mapping[str, QuantityUnit],
+    source: str = "",
+) -> Iterator[Block]:
+    """One kind of quantities, those with a unit."""
+    rows = [
+        Row(labels[name], each.unit)
+        for name, each in quantities.items()
+        if each.unit is not None and source in {"", each.source}
+    ]
+    if rows:
+        yield Heading(heading, 2)
+        yield Equations(tuple(rows))
