@@ -10,7 +10,6 @@ from __future__ import annotations
 import sympy
 from sympy import Add, Expr, Mul, Pow, Symbol
 from sympy.core.function import AppliedUndef
-from sympy.simplify.fu import TR8
 
 from lagcli.algebra.build import free_of, unspecified
 from lagcli.algebra.simplification import is_zero
@@ -113,8 +112,7 @@ def _term(term: Expr, x: Symbol) -> Expr | None:
         return constant * x ** (power + 1) / (power + 1)
     if not (power.is_Integer and power >= 0):
         return None
-    # a product of sines and cosines is a sum of them
-    wave = sympy.expand(TR8(Mul(*others))) if _are_waves(others, x) else Mul(*others)
+    wave = _summed(Mul(*others)) if _are_waves(others, x) else Mul(*others)
     parts = [_by_parts(constant, int(power), factor, x) for factor in Add.make_args(wave)]
     return None if any(part is None for part in parts) else Add(*parts)
 
@@ -178,3 +176,10 @@ def _by_rules(expression: Expr, x: Symbol) -> Expr | None:
     except (NotImplementedError, ValueError, RecursionError):
         return None
     return None if result.has(sympy.Integral) or result.has(sympy.Piecewise) else result
+
+
+def _summed(waves: Expr) -> Expr:
+    """A product of sines and cosines as a sum of them."""
+    from sympy.simplify.fu import TR8
+
+    return sympy.expand(TR8(waves))

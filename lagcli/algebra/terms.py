@@ -92,13 +92,13 @@ class _Splitter:
 
     def _is_leading(self, index: int) -> bool:
         generator = self.field.generators[index]
-        return generator.kind == "symbol" and str(generator.expression) in self.leading
+        return generator.kind == "symbol" and generator.expression.name in self.leading
 
     def _degree(self, fast: Monomial) -> tuple[int, int]:
         """The degrees in accelerations and in the other leading quantities."""
         accelerations = others = 0
         for index, exponent in fast:
-            if str(self.field.generators[index].expression).endswith("''"):
+            if self.field.generators[index].expression.name.endswith("''"):
                 accelerations += exponent
             else:
                 others += exponent

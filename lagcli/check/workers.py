@@ -15,7 +15,7 @@ from lagcli.check.findings import Report
 from lagcli.check.one import broken, check_problem, too_long
 from lagcli.diagnostics import Diagnostic, Source
 from lagcli.failures import describe
-from lagcli.sparing import keep_what_is_there, spare_tensors
+from lagcli.sparing import keep_what_is_there, spare_sympy
 from lagcli.stack import with_deep_stack
 
 #: Forked workers share what the parent has imported: SymPy's start-up is paid once.
@@ -48,7 +48,7 @@ def check_all(files: Sequence[str], jobs: int, limit: float) -> Generator[Report
 
 
 def _import_what_workers_need() -> None:
-    spare_tensors()
+    spare_sympy()
     import lagcli.check.expectations
     import lagcli.check.laws
     import lagcli.mechanics.statements

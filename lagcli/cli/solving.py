@@ -17,7 +17,7 @@ from lagcli.failures import describe
 from lagcli.formatters.registry import BUILT_IN
 from lagcli.pipeline import Request, derive, read, render, state
 from lagcli.problem import Problem
-from lagcli.sparing import keep_what_is_there, spare_tensors
+from lagcli.sparing import keep_what_is_there, spare_sympy
 
 #: A file's name, and its bytes or why there are none.
 Input = tuple[str, bytes | OSError]
@@ -79,7 +79,7 @@ def solve_files(
 def _start_algebra(*, needed: bool) -> None:
     """SymPy is loaded before the collector starts; a large system does without it."""
     if needed:
-        spare_tensors()
+        spare_sympy()
         import lagcli.mechanics.statements  # noqa: F401
 
     keep_what_is_there()

@@ -282,7 +282,8 @@ class Noether:
         """
         system, zero = self.system, sympy.S.Zero
         alone = {c.transformation.changes for c in self._cyclic_charges() if c.conserved}
-        unit = [tuple(map(sympy.S, row)) for row in sympy.eye(len(system.q)).tolist()]
+        basis = range(len(system.q))
+        unit = [tuple(sympy.S(int(i == j)) for j in basis) for i in basis]
         moved = [j for j, changes in enumerate(unit) if changes not in alone]
         if len(moved) < 2:
             return ()

@@ -1,0 +1,109 @@
+"""What is spared is there the moment it is used, and nothing is answered differently."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+START = "from lagcli.sparing import spare_sympy; spare_sympy(); import sys; "
+
+
+def told(code, **environment):
+    run = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        env={**os.environ, **environment},
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+    return run.stdout
+
+
+def test_a_sum_a_product_and_a_derivative_import_no_matrices():
+    code = (
+        START + "from sympy import Symbol, sin; x, y = Symbol('x'), Symbol('y'); "
+        "(x * sin(y) ** 2 + x / y).diff(x); "
+        "print([m for m in ('matrices.matrixbase', 'integrals.integrals', 'polys.polytools')"
+        "if type(sys.modules.get('sympy.' + m)).__name__ == 'module'])"
+    )
+    assert told(code).strip() == "[]"
+
+
+@pytest.mark.parametrize(
+    ("expression", "value"),
+    [
+        ("Matrix([[1, 2], [3, 4]]).det()", "-2"),
+        ("integrate(x**2, (x, 0, 1))", "1/3"),
+        ("Integral(sin(x), (x, 0, pi)).evalf(3)", "2.00"),
+        ("isinstance(MatrixSymbol('A', 2, 2) * 2, MatrixExpr)", "True"),
+        ("Sum(1 / x**2, (x, 1, 3)).doit()", "49/36"),
+        ("minimal_polynomial(sqrt(2), x)", "x**2 - 2"),
+        ("solve(x**2 - 4, x)", "[-2, 2]"),
+        ("expand_func(binomial(x, 2))", "x*(x - 1)/2"),
+        ("cos(3 * acos(x)).expand(trig=True)", "4*x**3 - 3*x"),
+        ("bernoulli(4)", "-1/30"),
+        ("rf(Poly(x, x), 2)", "Poly(x**2 + x, x, domain='ZZ')"),
+        ("factor(x**2 - 1)", "(x - 1)*(x + 1)"),
+        ("limit(sin(x) / x, x, 0)", "1"),
+        ("sin(x).series(x, 0, 4)", "x - x**3/6 + O(x**4)"),
+        ("AccumBounds(1, 2) + 1", "AccumBounds(2, 3)"),
+        ("(Q.real, ask(Q.real(pi)))", "(Q.real, True)"),
+        ("(Reals.contains(1), EmptySet)", "(True, EmptySet)"),
+    ],
+)
+@pytest.mark.parametrize("whole", ["", "1"])
+def test_what_is_asked_for_is_sympys_own(expression, value, whole):
+    code = START + f"from sympy import *; x = Symbol('x'); print({expression})"
+    names = "from sympy.matrices.expressions import MatrixExpr; print("
+    if expression.startswith("isinstance"):
+        code = code.replace("print(", names)
+    assert told(code, LAGCLI_WHOLE_SYMPY=whole).strip() == value
+
+
+def test_every_name_of_every_package_is_the_one_that_sympy_hands_out():
+    packages = (
+        "sympy sympy.functions sympy.polys sympy.ntheory sympy.sets sympy.matrices sympy.series "
+        "sympy.solvers sympy.simplify sympy.integrals sympy.printing sympy.logic sympy.tensor "
+        "sympy.calculus sympy.concrete sympy.assumptions sympy.discrete sympy.geometry"
+    )
+    code = (
+        "import importlib\n"
+        f"for package in {packages.split()!r}:\n"
+        "    module = importlib.import_module(package)\n"
+        "    for name in NAMES(module):\n"
+        "        found = getattr(module, name)\n"
+        "        where = getattr(found, '__module__', None)\n"
+        "        print(package, name, type(found).__name__, where)\n"
+    )
+    lazily = told(
+        "from lagcli.sparing import spare_sympy\nspare_sympy()\n"
+        + code.replace("NAMES(module)", "sorted(module.__all__)")
+    )
+    wholly = told(code.replace("NAMES(module)", "sorted(vars(module))"))
+    ours, theirs = (
+        {tuple(line.split()[:2]): line for line in lines.splitlines()} for lines in (lazily, wholly)
+    )
+    assert len(ours) > 900
+    different = {
+        key: (line, theirs.get(key)) for key, line in ours.items() if theirs.get(key) != line
+    }
+    assert not different
+
+
+@pytest.mark.parametrize(
+    "problem",
+    ["hoop", "central/kepler", "pendulums/double-pendulum", "nonholonomic/skate-on-incline"],
+)
+def test_the_answers_are_the_same_with_the_whole_of_sympy(problem, tmp_path):
+    def answered(whole):
+        run = subprocess.run(
+            [sys.executable, "-m", "lagcli", "solve", "--no-cache", f"problems/{problem}.yaml"],
+            capture_output=True,
+            env={**os.environ, "LAGCLI_WHOLE_SYMPY": whole},
+            check=True,
+        )
+        return run.stdout
+
+    assert answered("") == answered("1")
