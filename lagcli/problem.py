@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from typing import Literal
 
 from lagcli.diagnostics import NOWHERE, Source, Span
-from lagcli.expression import Equation, Expression, Name
+from lagcli.expression import Equation, Expression, Name, Negative, Number, Product, Sum
 from lagcli.record import field, record
 
 Assumption = Literal["real", "positive", "nonnegative", "nonzero", "negative"]
 Comparison = Literal[">=", "<=", ">", "<"]
+OnLoss = Literal["stop", "release"]
 
 
 @record(kw_only=True)
@@ -68,6 +69,37 @@ class Constraint:
     equation: Equation
     multiplier: str  # the multiplier's name, `lambda_<name>` by default
     holds_while: Inequality | None = None
+    on_loss: OnLoss = "stop"  # what a numerical run does where holds_while fails
+    restitution: Expression | None = None  # of the impact that closes it again; None: stop
+    span: Span = field(default=NOWHERE, compare=False)
+
+
+def pushing_sign(multiplier: str, condition: Inequality) -> int | None:
+    """1 for `N >= 0`, -1 for `N <= 0`, None for any other condition than on its multiplier.
+
+    A force N df/dq with N >= 0 pushes towards f > 0: there the contact is open.
+    """
+    left, right = condition.left, condition.right
+    sign = 1 if condition.comparison[0] == ">" else -1
+    if isinstance(left, Number):
+        left, right, sign = right, left, -sign
+    if isinstance(left, Negative):
+        left, sign = left.operand, -sign
+    simple = isinstance(left, Name) and left.name == multiplier and not left.primes
+    return sign if simple and isinstance(right, Number) and right.value == 0 else None
+
+
+@record(kw_only=True)
+class Contact:
+    """What a body may touch and leave: no constraint, it acts while it is closed.
+
+    The gap is left - right of the equation, a function of q and t: positive where it is open.
+    """
+
+    name: str
+    equation: Equation
+    multiplier: str  # >= 0 while it is closed
+    restitution: Expression | None = None  # Newton's; None: the run stops where it closes
     span: Span = field(default=NOWHERE, compare=False)
 
 
@@ -80,6 +112,25 @@ class Symmetry:
     time: Expression | None = None  # Delta t; None is 0
     gauge: Expression | None = None  # None: to be found
     span: Span = field(default=NOWHERE, compare=False)
+
+
+#: sum q' dL/dq' - L, whatever the file calls `energy`: no name of a file has blanks.
+JACOBI_FUNCTION = Name("the energy function")
+
+
+def charge_of(symmetry: Symmetry) -> Expression:
+    """p Delta q - h Delta t - gauge, in momenta `p_x` and the energy function h.
+
+    A gauge that the file leaves out is not in it.
+    """
+    terms: list[Expression] = [
+        Product((Name(f"p_{name}"), change)) for name, change in symmetry.changes.items()
+    ]
+    if symmetry.time is not None:
+        terms.append(Negative(Product((JACOBI_FUNCTION, symmetry.time))))
+    if symmetry.gauge is not None:
+        terms.append(Negative(symmetry.gauge))
+    return terms[0] if len(terms) == 1 else Sum(tuple(terms))
 
 
 @record(kw_only=True)
@@ -117,6 +168,36 @@ class Simulation:
 NOT_CONSERVED = "not conserved"
 
 
+@record
+class Known:
+    """The value of an expression along the motion."""
+
+    column: Expression
+    value: Expression
+
+
+@record(kw_only=True)
+class KnownRow:
+    """What is known at one time, or just before one event."""
+
+    t: Expression | None
+    event: str | None = None  # the name of a contact or constraint
+    what: str | None = None  # what happens to it
+    values: tuple[Known, ...] = ()
+    span: Span = field(default=NOWHERE, compare=False)
+
+
+@record(kw_only=True)
+class Trajectory:
+    """The motion from `initial`, as far as it is known."""
+
+    formulas: tuple[Known, ...] = ()  # of t and the parameters, at all times
+    rows: tuple[KnownRow, ...] = ()  # values at times
+    events: tuple[KnownRow, ...] = ()  # the first ones, in their order
+    until: Expression | None = None  # the end; that of `simulation` otherwise
+    tolerance: Expression | None = None  # of every number; 1e-9 otherwise
+
+
 @record(kw_only=True)
 class ExpectReduction:
     """What is known of the Routhian, and of the one degree of freedom that is left."""
@@ -144,7 +225,7 @@ class Expect:
     modes: tuple[Expression, ...] | None = None  # angular frequencies
     find: Mapping[str, tuple[Expression, ...]] = field(default_factory=dict)
     reduction: ExpectReduction | None = None
-    trajectory: Mapping[str, Expression] = field(default_factory=dict)  # coordinate -> q(t)
+    trajectory: Trajectory | None = None
     spans: Mapping[tuple[str, ...], Span] = field(default_factory=dict, compare=False)
     #: place of each expectation: ("accelerations", "x"), ("equations", "0"), …
 
@@ -172,6 +253,7 @@ class Problem:
     forces: Mapping[str, Expression] = field(default_factory=dict)
     dissipation: Expression | None = None
     constraints: tuple[Constraint, ...] = ()
+    contacts: tuple[Contact, ...] = ()
     symmetries: tuple[Symmetry, ...] = ()
     initial: Mapping[Name, Expression] = field(default_factory=dict)  # Name("x", primes=0 or 1)
     find: tuple[Question, ...] = ()

@@ -2,6 +2,17 @@
 
 from __future__ import annotations
 
+#: The forms of a table of `simulate`, those of them that are no text, and its methods.
+TABLES = ("table", "json", "csv", "npz", "parquet")
+BINARY = ("npz", "parquet")
+METHODS = ("auto", "dop853", "taylor")
+
+#: What `simulate --show` knows besides the names of the file.
+_SHOWN = (
+    "coordinates", "velocities", "accelerations", "multipliers", "constraint_forces", "momenta",
+    "charges", "energy",
+)  # fmt: skip
+
 
 def complete_section(incomplete: str) -> list[str]:
     """The sections that the last word of `a,b,c` may become."""
@@ -21,3 +32,19 @@ def complete_format(incomplete: str) -> list[str]:
 def complete_report(incomplete: str) -> list[str]:
     """The forms of a check's report that begin so."""
     return [name for name in ("text", "json", "junit", "github") if name.startswith(incomplete)]
+
+
+def complete_table(incomplete: str) -> list[str]:
+    """The forms of a table that begin so."""
+    return [name for name in TABLES if name.startswith(incomplete)]
+
+
+def complete_method(incomplete: str) -> list[str]:
+    """The methods that begin so."""
+    return [name for name in METHODS if name.startswith(incomplete)]
+
+
+def complete_column(incomplete: str) -> list[str]:
+    """The groups of columns that the last word of `a,b,c` may become."""
+    before, comma, word = incomplete.rpartition(",")
+    return [before + comma + name for name in _SHOWN if name.startswith(word)]

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from lagcli.cli.choices import complete_column, complete_method, complete_table
+
 File = Annotated[str, typer.Argument(metavar="FILE", help="A problem; - is stdin.")]
 Until = Annotated[
     str | None, typer.Option("--until", metavar="T", help="The end, also 2*pi.  [default: file's]")
@@ -33,10 +35,17 @@ Show = Annotated[
         metavar="A,B,C",
         help="Columns: any expression, energy, p_x, multipliers, rod.x (the force of a "
         "constraint), or all of coordinates, velocities, accelerations, multipliers, "
-        "constraint_forces, momenta.",
+        "constraint_forces, momenta, charges.",
+        autocompletion=complete_column,
     ),
 ]
-Format = Annotated[str, typer.Option("--format", "-f", metavar="NAME", help="table, json or csv.")]
+Format = Annotated[
+    str,
+    typer.Option(
+        "--format", "-f", metavar="NAME", help="table, json, csv, npz or parquet.",
+        autocompletion=complete_table,
+    ),
+]  # fmt: skip
 Output = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="PATH", help="Write to a file instead.")
 ]
@@ -49,7 +58,12 @@ Precision = Annotated[
         "--precision", metavar="DIGITS", min=20, max=1000, help="Go beyond doubles where needed."
     ),
 ]
-Method = Annotated[str, typer.Option("--method", metavar="NAME", help="auto, dop853 or taylor.")]
+Method = Annotated[
+    str,
+    typer.Option(
+        "--method", metavar="NAME", help="auto, dop853 or taylor.", autocompletion=complete_method
+    ),
+]
 StopWhen = Annotated[
     str | None,
     typer.Option("--stop-when", metavar="EXPRESSION", help="Stop where it changes its sign."),

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
+from lagcli.cli.choices import BINARY, METHODS, TABLES
 from lagcli.cli.delivering import has_place
 from lagcli.cli.files import print_result, read_input, reason, write_output
 from lagcli.cli.status import Status
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
 
 Value = TypeVar("Value")
 
-FORMATS = ("table", "json", "csv")
-METHODS = ("auto", "dop853", "taylor")
 _USUAL_ACCURACY = 1e-9
 
 
@@ -50,7 +49,8 @@ class Wish:
 
 def simulate_file(wish: Wish) -> Status:
     """Run, write, and say how it ended."""
-    if not (_known("--format", wish.format_name, FORMATS) & has_place(wish.output)):
+    known = _known("--format", wish.format_name, TABLES)
+    if not (known and _can_be_written(wish)) & has_place(wish.output):
         return Status.USAGE
     try:
         found = read(wish.file, read_input(wish.file), Request(settings=wish.settings))
@@ -87,7 +87,7 @@ def _run(problem: Problem, asked: Asked, wish: Wish) -> Status:
 def _written(result: Result, wish: Wish) -> bool:
     from lagcli.numerics.writing import WRITERS
 
-    data = WRITERS[wish.format_name](result).encode()
+    data = WRITERS[wish.format_name](result)
     if wish.output is None:
         print_result(data)
         return True
@@ -97,6 +97,26 @@ def _written(result: Result, wish: Wish) -> bool:
         tell_line(f"{wish.output}: error: {reason(error)}")
         return False
     return True
+
+
+def _can_be_written(wish: Wish) -> bool:
+    """Whether there is what writes the format, and a place that takes bytes."""
+    if wish.format_name == "parquet" and not _is_installed("pyarrow"):
+        tell_line(
+            "lagcli: error: --format parquet needs the package pyarrow: "
+            "pip install 'lagcli[parquet]', or take --format npz, which needs nothing"
+        )
+        return False
+    if wish.format_name in BINARY and wish.output is None and sys.stdout.isatty():
+        tell_line(f"lagcli: error: --format {wish.format_name} is not for a terminal: give -o PATH")
+        return False
+    return True
+
+
+def _is_installed(package: str) -> bool:
+    from importlib.util import find_spec
+
+    return find_spec(package) is not None
 
 
 # -- options -----------------------------------------------------------------------------------

@@ -9,6 +9,11 @@ digits are taken or the answer is refused from the time on at which it is no lon
 What two runs may both step over is looked for: a step is at most 1/200 of the span, the
 defect is probed at a thousand places between the stages, conserved charges must stay.
 The runs begin one rounding of the initial values apart.
+
+Where things happen on the way (impacts, contacts lost), both runs must go through the same
+events in the same order.  A time that lies after an event in one run and before it in the
+other is within the error of that event: there the state on the same side is compared, and
+the times of the events are compared as every other number.
 This is a cross-check and no proof; it held in 643 of 643 answers on nine systems, chaotic
 ones among them.
 
@@ -21,10 +26,10 @@ Runge-Kutta methods", IMA J. Numer. Anal. 16 (1996).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from lagcli.numerics.run import Run
+from lagcli.numerics.run import Mark, Run
 from lagcli.record import record
 
 #: The runs' tolerances lie this far apart.
@@ -45,8 +50,6 @@ _FINER_STEPS = 1.37
 
 #: (tolerance, longest step, peaks of the run before, probes every so many steps) -> run
 Runner = Callable[[float, float, "Sequence[float] | None", int], Run]
-#: The columns at a state, those of the charges last.
-Row = Callable[[float, "Sequence[Any]", "Sequence[Any]"], list[Any]]
 
 
 @record
@@ -56,6 +59,7 @@ class Outcome:
     run: Run
     rows: list[list[Any]]
     errors: list[float]  # of each column, relative to max(1, its largest magnitude)
+    times: list[float]  # the errors of the times of the events
     good_rows: int  # so many rows from the beginning are within the accuracy
     reached: bool
     reason: str
@@ -69,8 +73,8 @@ class Controller:
 
     Parameters
     ----------
-    runner, tabulate_one
-        Make a run, and the columns at a state.
+    runner
+        Makes a run.
     accuracy
         A.
     finest
@@ -86,7 +90,6 @@ class Controller:
     def __init__(
         self,
         runner: Runner,
-        tabulate_one: Row,
         *,
         accuracy: float,
         finest: float,
@@ -94,7 +97,7 @@ class Controller:
         charges: int,
         shortest_step: bool = True,
     ) -> None:
-        self.runner, self.tabulate_one = runner, tabulate_one
+        self.runner = runner
         self.accuracy, self.finest, self.span = accuracy, finest, span
         self.charges = charges
         self._longest = _LONGEST if shortest_step else (_SERIES,)
@@ -143,8 +146,7 @@ class Controller:
         self._finer += 1
         self.runs += 1
         self.evaluations += run.evaluations
-        rows = [self.tabulate_one(t, q, v) for t, (q, v) in zip(run.times, run.states, strict=True)]
-        return run, rows
+        return run, run.rows()
 
     def _compared(
         self,
@@ -162,45 +164,63 @@ class Controller:
         ]
         errors = [0.0] * len(scales)
         good = 0
-        both = list(zip(rows, fine_rows, strict=False))
-        same_end = (coarse.event is None) == (fine.event is None) and (len(rows) == len(fine_rows))
-        for place, (row, fine_row) in enumerate(both):
+        partner = Partners(coarse, fine)
+        for place, (mark, fine_row) in enumerate(zip(fine.marks, fine_rows, strict=True)):
+            other = partner(mark)
+            if other is None:
+                break
             now = [
                 0.0 if a is None or b is None else 2 * abs(float(a - b)) / scale
-                for a, b, scale in zip(row, fine_row, scales, strict=False)  # without charges
+                for a, b, scale in zip(rows[other], fine_row, scales, strict=False)  # no charges
             ]
-            if good == place and max(now) <= accuracy:
+            late = 0.0
+            if mark.sample < 0:
+                late = 2 * abs(coarse.marks[other].t - mark.t) / max(1.0, self.span)
+            if good == place and max(*now, late) <= accuracy:
                 good += 1
             errors = [max(pair) for pair in zip(errors, now, strict=True)]
+        same_end = (coarse.event is None) == (fine.event is None) and partner.agree
         reached = good == len(fine_rows) and same_end and fine.stop is None
-        reason = ""
-        if not reached:
-            reason = _why(coarse, fine, good, len(fine_rows))
+        reason = "" if reached else _why(coarse, fine, good, partner)
         return Outcome(
-            fine, fine_rows, errors, good, reached, reason, self.runs, self.evaluations, tolerances
+            fine,
+            fine_rows,
+            errors,
+            partner.late,
+            good,
+            reached,
+            reason,
+            self.runs,
+            self.evaluations,
+            tolerances,
         )
 
     def _missed(self, fine: Run, rows: list[list[Any]]) -> str:
         """What both runs may have stepped over."""
         if fine.defect > _DEFECT * self.accuracy:
             return "something acts in a time too short for the steps"
-        for j in range(len(rows[0]) - self.charges, len(rows[0])):
-            values = [float(row[j]) for row in rows]
-            scale = max(1.0, *map(abs, values))
-            drift, place = max((abs(x - values[0]), k) for k, x in enumerate(values))
-            bound = _CHARGES * self.accuracy * scale
-            if drift > bound and drift > _CHARGES * self._felt(fine, place, j, values[place]):
-                return "a conserved charge drifts"
+        for j in range(self.charges):
+            column = len(rows[0]) - self.charges + j
+            for stretch in stretches(fine, j):
+                values = [float(rows[place][column]) for place in stretch]
+                scale = max(1.0, *map(abs, values))
+                drift, worst = max((abs(x - values[0]), k) for k, x in enumerate(values))
+                bound = _CHARGES * self.accuracy * scale
+                if drift > bound:
+                    felt = self._felt(fine, stretch[worst], column, values[worst])
+                    if drift > _CHARGES * felt:
+                        return "a conserved charge drifts"
         return ""
 
     def _felt(self, fine: Run, place: int, column: int, value: float) -> float:
         """How much a charge changes when each component errs by what is allowed."""
-        q, v = fine.states[place]
-        state, n, total = [*q, *v], len(q), 0.0
+        mark = fine.marks[place]
+        tabulate = fine.phases[mark.phase].mode.tabulate
+        state, n, total = [*mark.q, *mark.v], len(mark.q), 0.0
         for k, peak in enumerate(fine.peaks):
             moved = list(state)
             moved[k] += self.accuracy * max(1.0, peak)
-            other = self.tabulate_one(fine.times[place], moved[:n], moved[n:])[column]
+            other = tabulate(mark.t, moved[:n], moved[n:])[column]
             if other is None:
                 return float("inf")
             total += abs(float(other) - value)
@@ -214,15 +234,72 @@ def _both_stop(coarse: Run, fine: Run, good: int, accuracy: float) -> bool:
     if coarse.stop is None or fine.stop is None:
         return False
     together = abs(coarse.stop.t - fine.stop.t) <= accuracy * max(1.0, fine.stop.t)
-    return together and good >= min(len(coarse.times), len(fine.times))
+    return together and good >= min(len(coarse.marks), len(fine.marks))
 
 
-def _why(coarse: Run, fine: Run, good: int, count: int) -> str:
+def _why(coarse: Run, fine: Run, good: int, partner: Partners) -> str:
     if fine.stop is not None:
         return ""
     if (coarse.event is None) != (fine.event is None):
         return "whether the event takes place is within the error"
-    return "" if good < count else "the two runs end at different rows"
+    if not partner.agree:
+        return "which event comes next is within the error"
+    return "" if good < len(fine.marks) else "the two runs end at different rows"
+
+
+class Partners:
+    """The rows of one run that those of another are compared with.
+
+    Attributes
+    ----------
+    agree
+        Whether both go through the same events.
+    late
+        Twice the difference of the times of each event.
+    """
+
+    def __init__(self, coarse: Run, fine: Run) -> None:
+        self._marks = coarse.marks
+        self._samples = {m.sample: place for place, m in enumerate(coarse.marks) if m.sample >= 0}
+        self._sides = {
+            (m.phase, m.begins): place for place, m in enumerate(coarse.marks) if m.sample < 0
+        }
+        same = 0
+        for (_, one), (_, other) in zip(coarse.events, fine.events, strict=False):
+            if (one.name, one.what) != (other.name, other.what):
+                break
+            same += 1
+        self.agree = same == len(coarse.events) == len(fine.events)
+        self.late = [
+            2 * abs(one.t - other.t)
+            for (_, one), (_, other) in zip(coarse.events[:same], fine.events, strict=False)
+        ] + [float("inf")] * (len(fine.events) - same)
+        # phases up to the first event that differs
+        self._phases = fine.events[same][0] if same < len(fine.events) else len(fine.phases)
+        if same < len(coarse.events):
+            self._phases = min(self._phases, coarse.events[same][0])
+
+    def __call__(self, mark: Mark) -> int | None:
+        """The place of the same row in the coarser run; None where there is none."""
+        if mark.phase > self._phases:
+            return None
+        if mark.sample < 0:
+            return self._sides.get((mark.phase, mark.begins))
+        place = self._samples.get(mark.sample)
+        if place is not None and self._marks[place].phase == mark.phase:
+            return place
+        # one run is already beyond the event: the nearest state on the same side
+        ahead = place is None or self._marks[place].phase > mark.phase
+        return self._sides.get((mark.phase, not ahead))
+
+
+def stretches(run: Run, charge: int) -> Iterator[list[int]]:
+    """The places of the rows of each phase in which a charge is conserved."""
+    for number, phase in enumerate(run.phases):
+        if phase.mode.conserved[charge]:
+            places = [place for place, mark in enumerate(run.marks) if mark.phase == number]
+            if len(places) > 1:
+                yield places
 
 
 def _refused(found: Outcome, reason: str) -> Outcome:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from lagcli.numerics.accuracy import Outcome
+from lagcli.numerics.accuracy import Outcome, stretches
 from lagcli.numerics.asked import Certificate, Result
 from lagcli.numerics.events import Event
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import told
 from lagcli.numerics.steps import CannotGoOn
+from lagcli.record import replace
 
 if TYPE_CHECKING:
     from lagcli.numerics.simulate import Simulation
@@ -25,20 +27,24 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
     asked, run = simulation.asked, outcome.run
     names = tuple(column.name for column in asked.columns)
     kept = len(outcome.rows) if outcome.reached else outcome.good_rows
-    rows = [
-        tuple(None if x is None else float(x) for x in row[: len(names)])
-        for place, row in enumerate(outcome.rows[:kept])
-        if place % simulation.every == 0
-        or (run.event is not None and run.times[place] == run.event.t)
-    ]
+    rows: list[tuple[float | None, ...]] = []
+    for place, mark in enumerate(run.marks[:kept]):
+        ends = run.event is not None and place == len(run.marks) - 1
+        if mark.sample >= 0:
+            shown = mark.sample % simulation.every == 0
+        else:
+            shown = ends and (not rows or rows[-1][0] != mark.t)
+        if shown:
+            rows.append(_floats(outcome.rows[place][: len(names)]))
     last = max(0, kept - 1)
-    holds_until = run.times[last]
-    events = [run.event] if run.event is not None and outcome.reached else []
+    holds_until = run.marks[last].t
+    events = _events(outcome, names, kept)
     refusal = ""
     if not outcome.reached:
         refusal = _refusal(simulation, motion, outcome, holds_until)
         if run.stop is not None:
-            events.append(Event(run.stop.t, "singularity", _why_stopped(motion, run.stop)))
+            what = "grazes" if run.stop.reason.startswith("it grazes") else "singularity"
+            events.append(Event(run.stop.t, what, _why_stopped(motion, run.stop)))
     return Result(
         columns=names,
         rows=tuple(rows),
@@ -53,16 +59,47 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
             },
             estimated_by=_estimated_by(outcome),
             charges=_drifts(simulation, outcome, kept),
-            constraints=_residuals(simulation, outcome),
+            constraints=_residuals(outcome),
         ),
-        method=run.method.name,
-        reason=REASONS[run.method.name],
+        method=run.method_name or "dop853",
+        reason=REASONS[run.method_name or "dop853"],
         steps=run.steps,
         evaluations=outcome.evaluations,
         events=tuple(events),
-        warnings=tuple(_warnings(simulation, rows)),
+        warnings=tuple(_warnings(simulation, rows, events)),
         refusal=refusal,
     )
+
+
+def _floats(row: Sequence[Any]) -> tuple[float | None, ...]:
+    return tuple(None if x is None else float(x) for x in row)
+
+
+def _events(outcome: Outcome, names: Sequence[str], kept: int) -> list[Event]:
+    """What happened while the accuracy held, with the columns on both sides."""
+    run = outcome.run
+    sides = {
+        (mark.phase, mark.begins): dict(zip(names, _floats(row[: len(names)]), strict=True))
+        for mark, row in zip(run.marks[:kept], outcome.rows, strict=False)
+        if mark.sample < 0
+    }
+    found = []
+    for (phase, event), late in zip(run.events, outcome.times, strict=True):
+        if phase >= 0 and (phase, False) not in sides:
+            break
+        found.append(
+            replace(
+                event,
+                error=event.error + late,
+                before=_without_time(sides.get((phase, False), {})),
+                after=_without_time(sides.get((phase + 1, True), {})),
+            )
+        )
+    return found
+
+
+def _without_time(row: dict[str, float | None]) -> dict[str, float | None]:
+    return {name: value for name, value in row.items() if name != "t"}
 
 
 def _estimated_by(outcome: Outcome) -> str:
@@ -74,30 +111,37 @@ def _estimated_by(outcome: Outcome) -> str:
 
 
 def _drifts(simulation: Simulation, outcome: Outcome, kept: int) -> dict[str, float]:
-    """The largest change of each charge, relative to max(1, its magnitude)."""
+    """The largest change of each charge between events, relative to max(1, its magnitude)."""
     first = len(simulation.nodes)
     drifts: dict[str, float] = {}
-    for j, name in enumerate(simulation.charges, start=first):
-        values = [float(row[j]) for row in outcome.rows[:kept] if row[j] is not None]
-        if values:
-            scale = max(1.0, *map(abs, values), 1.0)
-            drifts[name] = max(abs(x - values[0]) for x in values) / scale
+    for j, name in enumerate(simulation.charges):
+        for stretch in stretches(outcome.run, j):
+            values = [
+                float(outcome.rows[place][first + j])
+                for place in stretch
+                if place < kept and outcome.rows[place][first + j] is not None
+            ]
+            if values:
+                scale = max(1.0, *map(abs, values), 1.0)
+                change = max(abs(x - values[0]) for x in values) / scale
+                drifts[name] = max(drifts.get(name, 0.0), change)
     return drifts
 
 
-def _residuals(simulation: Simulation, outcome: Outcome) -> dict[str, tuple[float | None, float]]:
-    surface = outcome.run.surface
-    if surface is None:
-        return {}
-    e = simulation.equations
-    place = {k: i for i, k in enumerate(e.holonomic)}
-    return {
-        constraint.name: (
-            surface.residuals[place[k]] if k in place else None,
-            surface.residuals[len(place) + k],
-        )
-        for k, constraint in enumerate(e.problem.constraints)
-    }
+def _residuals(outcome: Outcome) -> dict[str, tuple[float | None, float]]:
+    """The largest residual of each constraint while it acts, and of its rate."""
+    found: dict[str, tuple[float | None, float]] = {}
+    for phase in outcome.run.phases:
+        if phase.surface is None:
+            continue
+        e, residuals = phase.mode.equations, phase.surface.residuals
+        place = {k: i for i, k in enumerate(e.holonomic)}
+        for k, constraint in enumerate(e.declared):
+            position, rate = found.get(constraint.name, (None, 0.0))
+            if k in place:
+                position = max(position or 0.0, residuals[place[k]])
+            found[constraint.name] = (position, max(rate, residuals[len(place) + k]))
+    return found
 
 
 def _refusal(simulation: Simulation, motion: Motion, outcome: Outcome, holds_until: float) -> str:
@@ -115,7 +159,7 @@ def _refusal(simulation: Simulation, motion: Motion, outcome: Outcome, holds_unt
 
 def _why_stopped(motion: Motion, stop: CannotGoOn) -> str:
     """What ends the motion."""
-    if stop.reason.startswith(("it takes", "a force")):
+    if stop.reason.startswith(("it ", "a force", "an impact", "event")):
         return stop.reason
     names = [q.name for q in motion.equations.q]
     try:
@@ -127,8 +171,13 @@ def _why_stopped(motion: Motion, stop: CannotGoOn) -> str:
     return f"{grows} ({stop.reason})" if stop.reason else grows
 
 
-def _warnings(simulation: Simulation, rows: list[Any]) -> list[str]:
-    found = []
+def _warnings(simulation: Simulation, rows: list[Any], events: list[Event]) -> list[str]:
+    found = [
+        f"{event.name} comes to its limit at t = {event.t:.10g}: whether it is lost there is "
+        "within the error; it is kept"
+        for event in events
+        if event.what == "touches"
+    ]
     for j, column in enumerate(simulation.asked.columns):
         empty = [row[0] for row in rows if row[j] is None]
         if empty and len(empty) == len(rows):

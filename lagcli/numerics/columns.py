@@ -7,6 +7,7 @@ solved for only where a column needs them.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any
 
 from lagcli.expression import Expression, Name
@@ -14,6 +15,7 @@ from lagcli.graph.nodes import Node, Symbol
 from lagcli.graph.substitution import Substitution
 from lagcli.numerics.equations import Equations
 from lagcli.numerics.motion import Function, Motion
+from lagcli.problem import JACOBI_FUNCTION
 from lagcli.record import record
 
 
@@ -44,9 +46,9 @@ class Reading:
             *problem.definitions,
             *(c.multiplier for c in problem.constraints),
         }
-        self._stand_ins: dict[Symbol, Node] = {}
         self._momenta = {f"p_{q.name}": j for j, q in enumerate(equations.q)}
-        self._energy = ENERGY.name not in declared
+        free = [ENERGY] if ENERGY.name not in declared else []
+        self._energies = [graph.symbol(name.name) for name in (*free, JACOBI_FUNCTION)]
 
     def __call__(self, expression: Expression) -> Node:
         """The node, in t, q, q', q'' and the multipliers."""
@@ -57,9 +59,9 @@ class Reading:
             symbol = graph.symbol(name)
             if symbol.mask & node.mask:
                 formulas[symbol] = equations.momenta[j]
-        energy = graph.symbol(ENERGY.name)
-        if self._energy and energy.mask & node.mask:
-            formulas[energy] = equations.energy
+        for energy in self._energies:
+            if energy.mask & node.mask:
+                formulas[energy] = equations.energy
         return Substitution(graph, formulas)(node) if formulas else node
 
 
@@ -82,6 +84,8 @@ class Values:
         for symbol in solved:
             mask |= symbol.mask
         self._motion = motion
+        #: for each multiplier of the problem, its place among those that are solved for
+        self._places = [motion.equations.place.get(k) for k in range(len(reading.multipliers))]
         self._plain = [node for node in nodes if not node.mask & mask]
         self._deep = [node for node in nodes if node.mask & mask]
         self._order = _order([bool(node.mask & mask) for node in nodes])
@@ -102,12 +106,23 @@ class Values:
         """
         found = list(self._of_state(t, *q, *v))
         if self._of_all is not None:
-            solved = self._motion.accelerations_and_multipliers(t, *q, *v)
+            solved = self._solved(t, q, v)
             if None not in solved:
                 found += self._of_all(t, *q, *v, *solved)
             else:
                 found += [self._one(function, (t, *q, *v, *solved)) for function in self._single]
         return [found[place] for place in self._order]
+
+    def _solved(self, t: Any, q: Sequence[Any], v: Sequence[Any]) -> Sequence[Any]:
+        """q'' and every multiplier: 0 where a contact is open."""
+        motion = self._motion
+        solved = motion.accelerations_and_multipliers(t, *q, *v)
+        if len(self._places) == motion.m:
+            return solved
+        held = solved[motion.n :]
+        zero = motion.arithmetic.number(Fraction(0))
+        forces = [zero if place is None else held[place] for place in self._places]
+        return [*solved[: motion.n], *forces]
 
     @staticmethod
     def _one(function: Function, arguments: Sequence[Any]) -> Any:

@@ -56,24 +56,32 @@ class Dop853:
         self.motion, self.surface, self.n = motion, surface, motion.n
         self.evaluations = 0
         self.rejected = 0
+        self.reached: int | None = None
         self.generated = generated or generated_step(motion.n, motion.accelerations)
         self._step, self._dense = self.generated
 
     def steps(
-        self, q: list[float], v: list[float], until: float, tolerance: Tolerance
+        self,
+        q: list[float],
+        v: list[float],
+        until: float,
+        tolerance: Tolerance,
+        begin: float = 0.0,
     ) -> Iterator[Step]:
-        """Accepted steps from t = 0 to `until`.
+        """Accepted steps from `begin` to `until`, or to where friction sticks (`reached`).
 
         Raises
         ------
         CannotGoOn
             Where the step becomes shorter than rounding, with the reason.
         """
-        t, n = 0.0, self.n
+        t, n = begin, self.n
         motion, kinks = self.motion, Kinks(self.motion)
-        motion.set_signs(t, q, v)
+        self.reached = None
+        if motion.kinks:
+            kinks.begin(t, q, v)
         rate = self._rate(t, q, v)
-        h = self._first(q, v, rate, until, tolerance)
+        h = self._first(q, v, rate, until - begin, tolerance)
         lost = [0.0] * (2 * n)  # what rounding takes from the sums (Kahan)
         grow = _GROW
         while t < until:
@@ -120,6 +128,9 @@ class Dop853:
             lost = left
             yield Step(start, h, t, q, v, inside)
             if kinks.reached is not None:
+                if kinks.sticks(t, q, v):
+                    self.reached = kinks.reached
+                    return
                 kinks.pass_through()
                 rate = self._rate(t, q, v)
             factor = _SAFETY * error ** (-1 / ORDER) if error else _GROW

@@ -26,8 +26,19 @@ _WRITTEN_OUT = 24
 class Equations:
     """M, forcing, A and what is eliminated from them.
 
+    Parameters
+    ----------
+    problem
+        With its one-sided contacts among the constraints: see `contact`.
+    whole, held
+        Other equations of the same problem, and which constraints act; all, without them.
+
     Attributes
     ----------
+    constraints : tuple of ConstraintRow
+        Those that act.
+    declared : tuple of Constraint
+        The same as the file has them.
     t, q, qdot : Symbol and tuples of Symbol
         In the order of the file; also the arguments of every function made of them.
     holonomic : tuple of int
@@ -39,16 +50,28 @@ class Equations:
         Where the problem needs the algebra, or is not defined anywhere.
     """
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(
+        self,
+        problem: Problem,
+        whole: Equations | None = None,
+        held: frozenset[int] | None = None,
+    ) -> None:
         self.problem = problem
+        self.whole = whole or self
         try:
-            self.form = form = MatrixForm(problem, combine_angles=False)
+            form = MatrixForm(problem, combine_angles=False) if whole is None else whole.form
+            self.form: MatrixForm = form
             self.mass, self.forcing = form.mass_matrix, form.forcing
-            self.constraints = form.constraints
+            every = form.constraints
         except NotStructural as reason:
             raise Refusal(f"no numbers for this problem: {reason}") from None
         except ArithmeticError as error:
             raise Refusal(f"the equations are not defined: {error}") from None
+        acting = [k for k in range(len(every)) if held is None or k in held]
+        #: for each constraint of the file, its place among those that act
+        self.place = {k: i for i, k in enumerate(acting)}
+        self.constraints = tuple(every[k] for k in acting)
+        self.declared = tuple(problem.constraints[k] for k in acting)
         self.graph = form.graph
         self.t, self.q, self.qdot = form.t, form.q, form.qdot
         self.state: tuple[Symbol, ...] = (self.t, *self.q, *self.qdot)
@@ -57,6 +80,10 @@ class Equations:
         self.holonomic = tuple(
             k for k, row in enumerate(self.constraints) if row.position is not None
         )
+
+    def holding(self, held: frozenset[int]) -> Equations:
+        """The equations while only these constraints act."""
+        return Equations(self.problem, self.whole, held)
 
     @cached_property
     def positions(self) -> list[Node]:
@@ -92,7 +119,12 @@ class Equations:
 
     @cached_property
     def kinks(self) -> list[Node]:
-        """What stands in abs and sign: where it passes 0 the equations are not smooth."""
+        """What stands in abs and sign: where it passes 0 the equations are not smooth.
+
+        The same list, whichever constraints act.
+        """
+        if self.whole is not self:
+            return self.whole.kinks
         mask = 0
         for symbol in self.state:
             mask |= symbol.mask
@@ -168,7 +200,7 @@ class Equations:
         return graph.sum([*work, graph.scaled(self.lagrangian, -1)])
 
     @cached_property
-    def charges(self) -> dict[str, Node]:
+    def evident_charges(self) -> dict[str, Node]:
         """The energy and the momenta of ignorable coordinates, where they are conserved.
 
         Only what is seen in the structure: L, the forces and the constraints do not name t,

@@ -1,46 +1,92 @@
-"""Where along the motion a condition fails: a contact is lost, `--stop-when` comes true.
+"""Where along the motion something happens: a contact is lost or closes, `--stop-when`.
 
 A condition is a margin that is not negative while it holds.  Each step is looked at in
 several places, so that a margin that dips below 0 and comes back is seen; where it comes
-near without being seen below, its least value within the step is sought.
+near without being seen below, its least value within the step is sought.  A least value
+that nobody can tell from 0, because errors as large as the accuracy change it as much, is
+a touch: a root of even multiplicity.
+
+A margin that begins at 0 (a contact that has just been left) counts from where it has
+risen above rounding.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal
 
+from lagcli.numerics.extrema import crossing, least, lowest_of
 from lagcli.numerics.steps import Step
-from lagcli.record import record
+from lagcli.record import field, record
 
 Vector = Sequence[Any]
 Margin = Callable[[float, Vector, Vector], float]
 State = tuple[list[Any], list[Any]]
+#: stop: `--stop-when`; loss, gap: of a contact; slip: of what friction holds.
+Kind = Literal["stop", "loss", "gap", "slip"]
 
 _PLACES = (0.25, 0.5, 0.75, 1.0)
-_GOLDEN = 0.6180339887498949
-_HALVINGS = 60
-_NEAR = 0.5
-#: A margin that begins below this is taken for 0: contact at its limit.
-_AT_LIMIT = -1e-12
+#: A margin whose polynomial falls below this part of its variation is looked at closely.
+_NEAR = 0.1
+#: Margins within so many roundings of the state are 0.
+_ROUNDINGS = 100.0
+_NUDGE = 1e-6
+#: Within this part of a step two things happen together: stopping comes first.
+_TOGETHER = 1e-9
 
 
 @record
 class Event:
-    """What happened, and when."""
+    """What happened, and when.
+
+    Attributes
+    ----------
+    error
+        Of the time, as measured by the two runs.
+    energy_lost
+        By an impact.
+    before, after : mapping
+        The columns on both sides, where the motion goes on.
+    """
 
     t: float
     name: str
     what: str
+    error: float = 0.0
+    energy_lost: float | None = None
+    before: Mapping[str, float | None] = field(default_factory=dict)
+    after: Mapping[str, float | None] = field(default_factory=dict)
 
 
 @record
 class Condition:
-    """Holds while its margin is >= 0."""
+    """Holds while its margin is >= 0.
+
+    Attributes
+    ----------
+    index
+        Of the constraint or kink that it is about.
+    two_sided
+        Whether it is the change of sign that counts, from whichever side.
+    """
 
     name: str
     what: str
     margin: Margin
+    kind: Kind = "stop"
+    index: int = -1
+    two_sided: bool = False
+
+
+@record
+class Occurrence:
+    """A condition that fails, or only touches 0."""
+
+    t: float
+    condition: Condition
+    touches: bool = False
+    band: float = 0.0  # a margin as near to 0 as this is not told from it
 
 
 class Watch:
@@ -48,83 +94,207 @@ class Watch:
 
     Parameters
     ----------
-    conditions
-        What to look at.
     state_at
         The state inside a step, on the constraints.
+    allowed
+        The error that each component may have, at any time.
+    rounding
+        That of each component at a time.
     """
 
     def __init__(
-        self, conditions: Sequence[Condition], state_at: Callable[[Step, float], State]
+        self,
+        state_at: Callable[[Step, float], State],
+        allowed: Callable[[], Sequence[float]],
+        rounding: Callable[[float], Sequence[float]],
     ) -> None:
+        self._state_at, self._allowed, self._rounding = state_at, allowed, rounding
+        self.conditions: Sequence[Condition] = ()
+        self._before: list[float] = []
+        self._noise: list[float] = []
+        self._armed: list[bool] = []
+        self._falling: list[bool] = []
+        self._sign: dict[str, float] = {}
+
+    def begin(
+        self,
+        conditions: Sequence[Condition],
+        t: float,
+        q: Vector,
+        v: Vector,
+        touched: Occurrence | None = None,
+    ) -> Occurrence | None:
+        """Look at other conditions from here on; one that does not even hold here.
+
+        `touched` is what has just been at 0 and counts from where it has risen again.
+        """
         self.conditions = conditions
-        self._state_at = state_at
-        self._before = [0.0] * len(conditions)
+        self._before, self._noise, self._armed = [], [], []
+        self._falling = [False] * len(conditions)
+        failed = None
+        rounding = self._rounding(t)
+        for condition in conditions:
+            raw = float(condition.margin(t, q, v))
+            noise = _ROUNDINGS * self._felt(condition, t, q, v, rounding)
+            if touched is not None and touched.condition.name == condition.name:
+                noise = max(noise, touched.band)
+            if condition.two_sided and condition.name not in self._sign and abs(raw) > noise:
+                self._choose(condition, raw)
+            value = self._value(condition, raw)
+            self._before.append(value)
+            self._noise.append(noise)
+            self._armed.append(value > noise)
+            if value < -noise and failed is None:
+                failed = Occurrence(t, condition)
+        return failed
 
-    def begin(self, q: Vector, v: Vector) -> Event | None:
-        """The condition that does not even hold at t = 0."""
-        for k, condition in enumerate(self.conditions):
-            self._before[k] = margin = float(condition.margin(0.0, q, v))
-            if margin < _AT_LIMIT:
-                return Event(0.0, condition.name, condition.what)
-        return None
+    def _choose(self, condition: Condition, value: float) -> None:
+        """The side from which a condition is looked at: where it is found first."""
+        self._sign[condition.name] = 1.0 if value > 0 else -1.0
 
-    def first(self, step: Step) -> Event | None:
-        """The first condition that fails within a step."""
-        found = [
-            Event(t, condition.name, condition.what)
-            for k, condition in enumerate(self.conditions)
-            if (t := self._fails(k, condition, step)) is not None
-        ]
-        return min(found, key=lambda event: event.t) if found else None
+    def _value(self, condition: Condition, margin: float) -> float:
+        return self._sign.get(condition.name, 1.0) * float(margin)
 
-    def _fails(self, k: int, condition: Condition, step: Step) -> float | None:
-        def at(x: float) -> float:
+    def first(self, step: Step) -> Occurrence | None:
+        """The first condition that fails or touches within a step."""
+        if not self.conditions:
+            return None
+        states: dict[float, tuple[float, State]] = {0.0: (step.start, ([], []))}
+        for x in _PLACES:
             t = step.end if x == 1 else step.start + x * step.h
-            q, v = (step.q, step.v) if x == 1 else self._state_at(step, t)
-            return float(condition.margin(t, q, v))
+            states[x] = (t, (step.q, step.v) if x == 1 else self._state_at(step, t))
+        found = []
+        for k, condition in enumerate(self.conditions):
+            occurrence = self._look(k, condition, step, states)
+            if occurrence is not None:
+                found.append(occurrence)
+        if not found:
+            return None
+        earliest = min(found, key=lambda one: one.t)
+        limit = earliest.t + _TOGETHER * step.h
+        return min(
+            (one for one in found if one.t <= limit),
+            key=lambda one: (one.touches, one.condition.kind != "stop", one.t),
+        )
+
+    def _look(
+        self,
+        k: int,
+        condition: Condition,
+        step: Step,
+        states: Mapping[float, tuple[float, State]],
+    ) -> Occurrence | None:
+        def at(x: float) -> float:
+            if x in states and x > 0:
+                t, (q, v) = states[x]
+            else:
+                t = step.start + x * step.h
+                q, v = self._state_at(step, t)
+            return self._value(condition, condition.margin(t, q, v))
 
         places, values = [0.0], [self._before[k]]
+        armed, noise = self._armed[k], self._noise[k]
+        risen = 0  # from here on it counts
         for x in _PLACES:
+            value = at(x)
+            if not armed and abs(value) > noise and condition.two_sided:
+                if condition.name not in self._sign:
+                    self._choose(condition, value)
+                    value = abs(value)
+                armed, risen = True, len(places)
+            if value < (0.0 if armed else -noise):
+                start = places[-1]
+                if not armed:
+                    return Occurrence(step.start + start * step.h, condition)
+                found = crossing(at, start, x, values[-1], value)
+                return self._failed(condition, step, at, found)
+            if not armed and value > noise:
+                armed = True
+                risen = len(places)
             places.append(x)
-            values.append(at(x))
-            if values[-1] < 0:
-                return step.start + step.h * _crossing(at, places[-2], x)
-        self._before[k] = values[-1]
-        for i in range(1, len(values) - 1):
-            left, here, right = values[i - 1 : i + 2]
-            # a minimum between, and near enough to 0 to reach below it
-            if here <= left and here <= right and here < _NEAR * max(left, right):
-                x, least = _least(at, places[i - 1], places[i + 1])
-                if least < 0:
-                    return step.start + step.h * _crossing(at, places[i - 1], x)
+            values.append(value)
+        self._before[k], self._armed[k] = values[-1], armed
+        if not armed:
+            return None
+        return self._dip(k, condition, step, at, places[risen:], values[risen:])
+
+    def _failed(
+        self,
+        condition: Condition,
+        step: Step,
+        at: Callable[[float], float],
+        x: float,
+    ) -> Occurrence:
+        """It fails at x, unless it comes back before anybody can tell it from a touch."""
+        high = min(1.0, x + 0.25)
+        if high > x and at(high) > 0:
+            place, value = least(at, x, high)
+            band = self._band(condition, step, place)
+            if abs(value) <= band:
+                return Occurrence(step.start + place * step.h, condition, True, band)
+        return Occurrence(step.start + x * step.h, condition)
+
+    def _dip(
+        self,
+        k: int,
+        condition: Condition,
+        step: Step,
+        at: Callable[[float], float],
+        places: Sequence[float],
+        values: Sequence[float],
+    ) -> Occurrence | None:
+        """Whether it dips to 0 between the places."""
+        was_falling = self._falling[k]
+        self._falling[k] = len(values) > 1 and values[-1] < values[-2]
+        if len(values) < 3:
+            return None
+        spread = max(values) - min(values)
+        if not min(values) < spread < math.inf:
+            return None
+        x = lowest_of(places, values)
+        low, high = places[0], places[-1]
+        if x == high or (x == low and not was_falling):
+            return None
+        place, value = x, values[0]
+        if x > low:
+            width = (high - low) / 8
+            if at(x) > _NEAR * spread:
+                return None
+            place, value = least(at, max(low, x - width), min(high, x + width))
+        band = self._band(condition, step, place)
+        if abs(value) <= band:
+            return Occurrence(step.start + place * step.h, condition, True, band)
+        if value < 0:
+            found = crossing(at, low, place, values[0], value)
+            return Occurrence(step.start + found * step.h, condition)
         return None
 
+    # -- what is 0 -----------------------------------------------------------------------------
 
-def _crossing(at: Callable[[float], float], good: float, bad: float) -> float:
-    """Where a margin passes through 0, by halving."""
-    for _ in range(_HALVINGS):
-        middle = (good + bad) / 2
-        if not good < middle < bad:
-            break
-        if at(middle) < 0:
-            bad = middle
-        else:
-            good = middle
-    return bad
+    def _band(self, condition: Condition, step: Step, x: float) -> float:
+        """How much the margin changes when each component errs by what is allowed."""
+        t = step.start + x * step.h
+        q, v = self._state_at(step, t)
+        return self._felt(condition, t, q, v, self._allowed())
 
-
-def _least(at: Callable[[float], float], low: float, high: float) -> tuple[float, float]:
-    """The place of the least value, by the golden section."""
-    a, b = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-    below, above = at(a), at(b)
-    for _ in range(_HALVINGS // 2):
-        if below < above:
-            high, b, above = b, a, below
-            a = high - _GOLDEN * (high - low)
-            below = at(a)
-        else:
-            low, a, below = a, b, above
-            b = low + _GOLDEN * (high - low)
-            above = at(b)
-    return (a, below) if below < above else (b, above)
+    def _felt(
+        self, condition: Condition, t: float, q: Vector, v: Vector, errors: Sequence[float]
+    ) -> float:
+        """Sum over the components of |d margin/d x_j| error_j."""
+        n, state = len(q), [*q, *v]
+        value = float(condition.margin(t, q, v))
+        if not math.isfinite(value):
+            return 0.0
+        total = 0.0
+        for j, error in enumerate(errors):
+            change = max(error, _NUDGE * abs(float(state[j])))
+            if change == 0.0:
+                continue
+            moved = list(state)
+            moved[j] += change
+            try:
+                other = float(condition.margin(t, moved[:n], moved[n:]))
+            except (ArithmeticError, ValueError):
+                continue
+            total += abs(other - value) / change * error
+        return total

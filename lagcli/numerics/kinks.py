@@ -29,6 +29,7 @@ class Kinks:
     def __init__(self, motion: Motion) -> None:
         self.motion = motion
         self.reached: int | None = None  # the one at which the next step ends
+        self._slack = [0.0] * len(motion.kinks)
         self._times: list[float] = []
 
     def first(
@@ -41,7 +42,11 @@ class Kinks:
         def wrong(x: float) -> list[int]:
             state = (q, v) if x == 1 else inside(t + x * h)[:2]
             found = self.motion.kink_arguments(t + x * h, *state[0], *state[1])
-            return [k for k, s in enumerate(self.motion.signs) if found[k] * s < 0]
+            return [
+                k
+                for k, s in enumerate(self.motion.signs)
+                if found[k] * s < -self._slack[k] and k not in self.motion.stuck
+            ]
 
         before = 0.0
         for x in (*_PLACES, 1.0):
@@ -62,6 +67,28 @@ class Kinks:
         self.reached = wrong(bad)[0]
         return bad * h
 
+    def begin(self, t: float, q: Sequence[float], v: Sequence[float]) -> None:
+        """Begin at a state; what is at a kink there may be on either side by rounding."""
+        found = self.motion.kink_arguments(t, *q, *v)
+        noise = self.motion.kink_noise(t, q, v)
+        self._slack = [
+            limit if abs(x) <= limit else 0.0 for x, limit in zip(found, noise, strict=True)
+        ]
+
+    def sticks(self, t: float, q: Sequence[float], v: Sequence[float]) -> bool:
+        """Whether both branches lead back to the kink that has been reached."""
+        motion, k = self.motion, self.reached
+        if k is None or k not in motion.moving_kinks:
+            return False
+        usual = motion.signs[k]
+        away: list[float] = []
+        for sign in (1.0, -1.0):
+            motion.signs[k] = sign
+            rates = motion.kink_rates(t, *q, *v, *motion.accelerations(t, *q, *v))
+            away.append(sign * float(rates[k]))
+        motion.signs[k] = usual
+        return max(away) <= 0
+
     def stuck(self, t: float, span: float) -> bool:
         """Whether branches have changed again and again at one time."""
         self._times.append(t)
@@ -76,4 +103,4 @@ class Kinks:
 
     def why(self) -> str:
         """What holds the motion at a kink."""
-        return "a force that jumps holds it there (it sticks), which is not modelled"
+        return "a force that jumps holds it there, which is not modelled"

@@ -21,6 +21,9 @@ Function = Callable[..., tuple[Any, ...]]
 
 #: A time in which a sign shows itself.
 _AFTER = 1e-6
+_NUDGE = 1e-6
+#: An argument of a sign within so many roundings of its terms is 0.
+_ROUNDINGS = 100 * 2.2e-16
 
 
 class Motion:
@@ -34,6 +37,8 @@ class Motion:
         The value of every parameter.
     arithmetic
         `Doubles()` or `Balls()`.
+    signs
+        Those of another motion of the same problem, to share with it.
 
     Raises
     ------
@@ -42,15 +47,21 @@ class Motion:
     """
 
     def __init__(
-        self, equations: Equations, constants: Mapping[Symbol, Any], arithmetic: Arithmetic
+        self,
+        equations: Equations,
+        constants: Mapping[Symbol, Any],
+        arithmetic: Arithmetic,
+        signs: list[float] | None = None,
     ) -> None:
+        #: the kinks at which friction holds the motion
+        self.stuck: tuple[int, ...] = ()
         self.equations = equations
         self.arithmetic = arithmetic
         self.constants = constants
         self.n, self.m = len(equations.q), len(equations.rows)
         self.kinks = equations.kinks if arithmetic.ordered else []
         #: of each kink's argument, as the dynamics is to take it
-        self.signs = [1.0] * len(self.kinks)
+        self.signs = [1.0] * len(self.kinks) if signs is None else signs
         self._frozen = ({node: k for k, node in enumerate(self.kinks)}, self.signs)
 
     def function(
@@ -125,7 +136,7 @@ class Motion:
     def held(self, *state: float) -> Held:
         """The null-space way."""
         n, m = self.n, self.m
-        values = self._matrices(*state)
+        values = self.matrices(*state)
         mass = [values[i * n : (i + 1) * n] for i in range(n)]
         forcing = list(values[n * n : n * n + n])
         rest = values[n * n + n :]
@@ -133,7 +144,8 @@ class Motion:
         return held_motion(mass, forcing, rows, list(rest[m * n :]))
 
     @cached_property
-    def _matrices(self) -> Function:
+    def matrices(self) -> Function:
+        """M, forcing, A and the bias c, row by row in one tuple."""
         e = self.equations
         return self.function(
             [
@@ -150,10 +162,43 @@ class Motion:
         """What stands in abs and sign in the equations of motion."""
         return self.function(self.kinks)
 
+    @cached_property
+    def kink_rates(self) -> Function:
+        """The rates of what stands in abs and sign, of the state and then q''."""
+        e = self.equations
+        rates = [e.form.read.total_derivative(node) for node in self.kinks]
+        return self.function(rates, [e.graph.symbol(q.name, 2) for q in e.q])
+
+    @cached_property
+    def moving_kinks(self) -> tuple[int, ...]:
+        """The kinks whose argument depends on the velocities: dry friction."""
+        mask = 0
+        for v in self.equations.qdot:
+            mask |= v.mask
+        return tuple(k for k, node in enumerate(self.kinks) if node.mask & mask)
+
+    def kink_noise(self, t: float, q: Sequence[float], v: Sequence[float]) -> list[float]:
+        """How much rounding of the state changes the arguments of abs and sign."""
+        state = [*q, *v]
+        here = self.kink_arguments(t, *state)
+        noise = [0.0] * len(here)
+        for j, x in enumerate(state):
+            if x:
+                moved = [*state[:j], x * (1 + _NUDGE), *state[j + 1 :]]
+                for k, y in enumerate(self.kink_arguments(t, *moved)):
+                    noise[k] += abs(y - here[k]) / _NUDGE * _ROUNDINGS
+        return noise
+
     def set_signs(self, t: float, q: Sequence[float], v: Sequence[float]) -> None:
         """Take the signs of the kinks' arguments here, or just after where they are 0."""
         found = self.kink_arguments(t, *q, *v)
-        self.signs[:] = [float((x > 0) - (x < 0)) for x in found]
+        if not found:
+            return
+        noise = self.kink_noise(t, q, v)
+        self.signs[:] = [
+            0.0 if abs(x) <= limit else 1.0 if x > 0 else -1.0
+            for x, limit in zip(found, noise, strict=True)
+        ]
         if 0 not in self.signs:
             return
         a, h = self.accelerations(t, *q, *v), _AFTER * (1 + abs(t))
@@ -162,6 +207,16 @@ class Motion:
         after = self.kink_arguments(t + h, *later_q, *later_v)
         for k, x in enumerate(after):
             self.signs[k] = self.signs[k] or (1.0 if x >= 0 else -1.0)
+
+    @cached_property
+    def rates(self) -> Function:
+        """A q' + b of every constraint."""
+        return self.function(self.equations.rates)
+
+    @cached_property
+    def positions(self) -> Function:
+        """f(q, t) of the holonomic constraints."""
+        return self.function(self.equations.positions)
 
     def _need_order(self) -> None:
         if not self.arithmetic.ordered:
@@ -192,7 +247,7 @@ class Motion:
 
         def robust(*state: float) -> tuple[Any, ...]:
             n, m = self.n, self.m
-            values, found = self._matrices(*state), plain(*state)
+            values, found = self.matrices(*state), plain(*state)
             mass = [values[i * n : (i + 1) * n] for i in range(n)]
             rest = values[n * n + n : n * n + n + m * n]
             rows = [rest[k * n : (k + 1) * n] for k in which]

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 from lagcli.numerics.accuracy import Controller, Outcome
 from lagcli.numerics.arithmetic import Balls
 from lagcli.numerics.constants import constants_of
-from lagcli.numerics.motion import Motion
+from lagcli.numerics.modes import Mode, Modes
 from lagcli.numerics.refusal import Refusal
 from lagcli.numerics.run import Run
 from lagcli.numerics.start import refined_state
-from lagcli.numerics.steps import Tolerance
+from lagcli.numerics.steps import Method, Tolerance
 from lagcli.numerics.surface import Surface
 from lagcli.numerics.taylor import Taylor
+from lagcli.numerics.transitions import Transitions
 
 if TYPE_CHECKING:
     from lagcli.numerics.simulate import Simulation
@@ -26,7 +27,7 @@ _UNASKED, _ASKED = 20_000, 500_000
 
 
 def precise_outcome(
-    simulation: Simulation, q: Sequence[float], v: Sequence[float], digits: int
+    simulation: Simulation, doubles: Modes, q: Sequence[float], v: Sequence[float], digits: int
 ) -> Outcome | None:
     """The outcome with up to so many digits; None where only doubles can do it."""
     from flint import ctx
@@ -39,23 +40,23 @@ def precise_outcome(
     try:
         arithmetic = Balls()
         constants = constants_of(equations, simulation.all_nodes, arithmetic)
-        motion = Motion(equations, constants, arithmetic)
         rounding = 10.0**-digits
-        surface = Surface(motion, rounding) if equations.rows else None
-        exact_q, exact_v = refined_state(motion, surface, q, v, anew=not asked.project)
-        conditions = simulation.conditions(motion, exact_q, exact_v)
+        modes = Modes(simulation, constants, arithmetic, _taylor, rounding)
+        modes.first.conserved = doubles.first.conserved
+        motion = modes.first.motion
+        exact_q, exact_v = refined_state(
+            motion, modes.first.surface(), q, v, anew=not asked.project
+        )
         limit = _UNASKED if asked.digits is None else _ASKED
 
         def runner(tolerance: float, longest: float, peaks: Sequence[float] | None, _: int) -> Run:
-            on = Surface(motion, rounding) if equations.rows else None
             bound = Tolerance(tolerance, motion.n, asked.until, longest, peaks, math.sqrt(rounding))
-            run = Run(motion, Taylor(motion, on), on, bound, conditions)
+            run = Run(Transitions(modes, asked.accuracy, asked.until), bound, asked.accuracy)
             run.step_limit = limit
             return run.go(exact_q, exact_v, simulation.times, progress=simulation.progress)
 
         return Controller(
             runner,
-            simulation.tabulator(motion),
             accuracy=asked.accuracy,
             finest=rounding,
             span=asked.until,
@@ -66,3 +67,7 @@ def precise_outcome(
         return None
     finally:
         ctx.prec = usual
+
+
+def _taylor(mode: Mode, surface: Surface | None) -> Method:
+    return Taylor(mode.motion, surface)

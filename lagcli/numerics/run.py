@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from lagcli.numerics.events import Condition, Event, Watch
-from lagcli.numerics.motion import Motion
+from lagcli.numerics.events import Event, Occurrence, Watch
+from lagcli.numerics.modes import Mode
 from lagcli.numerics.steps import CannotGoOn, Method, Step, Tolerance
 from lagcli.numerics.surface import Surface
+from lagcli.numerics.transitions import Transitions, Turn
+from lagcli.record import record
 
 Vector = list[Any]
 
@@ -16,6 +18,40 @@ Vector = list[Any]
 STEP_LIMIT = 200_000
 #: Weyl's sequence of the golden ratio: places as even as can be, the same in every run.
 _GOLDEN = 0.6180339887498949
+_EPSILON = 2.2e-16
+#: So many changes of mode at one time are an end.
+_AT_ONCE = 20
+
+
+@record
+class Phase:
+    """A stretch of time in one mode."""
+
+    mode: Mode
+    surface: Surface | None
+    begin: float
+
+
+@record
+class Mark:
+    """A row: at a time that was asked for, or on one side of an event.
+
+    Attributes
+    ----------
+    phase
+        Its number.
+    sample
+        Which of the times asked for; -1 at an event.
+    begins
+        At an event: whether it is the beginning of the phase, or its end.
+    """
+
+    t: float
+    q: Vector
+    v: Vector
+    phase: int
+    sample: int = -1
+    begins: bool = False
 
 
 class Run:
@@ -23,8 +59,12 @@ class Run:
 
     Attributes
     ----------
-    times, states : list
-        The rows: times, and (q, q') there.
+    marks : list of Mark
+        The rows.
+    phases : list of Phase
+        The modes gone through.
+    events : list of (phase, Event)
+        What happened at the end of which phase (-1: at the very beginning).
     event : Event or None
         What stopped it.
     stop : CannotGoOn or None
@@ -38,24 +78,25 @@ class Run:
     """
 
     def __init__(
-        self,
-        motion: Motion,
-        method: Method,
-        surface: Surface | None,
-        tolerance: Tolerance,
-        conditions: Sequence[Condition] = (),
+        self, transitions: Transitions, tolerance: Tolerance, allowed: float = 0.0
     ) -> None:
-        self.motion, self.method, self.surface = motion, method, surface
+        self.transitions = transitions
         self.tolerance = tolerance
-        self._watch = Watch(conditions, self._state_in)
-        self.times: list[float] = []
-        self.states: list[tuple[Vector, Vector]] = []
+        transitions.rounding = self._rounding
+        self._allowed = allowed
+        self._watch = Watch(self._state_in, self._errors, self._rounding)
+        self.marks: list[Mark] = []
+        self.phases: list[Phase] = []
+        self.events: list[tuple[int, Event]] = []
         self.event: Event | None = None
         self.stop: CannotGoOn | None = None
         self.steps = 0
         self.defect = 0.0
+        self.evaluations = 0
+        self.method_name = ""
         self._probes = 0
         self.step_limit = STEP_LIMIT
+        self._changes: list[float] = []
 
     @property
     def peaks(self) -> list[float]:
@@ -63,9 +104,13 @@ class Run:
         return self.tolerance.peaks
 
     @property
-    def evaluations(self) -> int:
-        """How often the accelerations were worked out."""
-        return self.method.evaluations
+    def times(self) -> list[float]:
+        """Of the rows."""
+        return [mark.t for mark in self.marks]
+
+    def rows(self) -> list[list[Any]]:
+        """The columns and charges at the marks."""
+        return [self.phases[m.phase].mode.tabulate(m.t, m.q, m.v) for m in self.marks]
 
     def go(
         self,
@@ -77,51 +122,144 @@ class Run:
         progress: Callable[[float], None] | None = None,
     ) -> Run:
         """Run through the times, of which the last is the end."""
-        self._row(times[0], q, v)
-        if self.surface is not None:
-            self.surface.measure(0.0, q, v)
-        self.event = self._watch.begin(q, v)
-        if self.event is not None:
-            return self
-        pending = 1
+        self._times, self._pending = times, 0
+        self._probe_every, self._progress = probe_every, progress
+        t = times[0]
         try:
-            for step in self.method.steps(q, v, times[-1], self.tolerance):
-                self.steps += 1
-                if self.surface is not None:
-                    self.surface.measure(step.end, step.q, step.v)
-                    self.surface.note(step.end, step.q, step.v)
-                self.event = self._watch.first(step) if self._watch.conditions else None
-                end = step.end if self.event is None else self.event.t
-                while pending < len(times) and times[pending] <= end:
-                    self._row(times[pending], *self._state_in(step, times[pending]))
-                    pending += 1
-                if self.event is not None:
-                    if self.times[-1] < end:
-                        self._row(end, *self._state_in(step, end))
+            turn = self.transitions.begin(q, v)
+            while True:
+                self._note(turn, t)
+                if turn.mode is None:
                     break
-                if probe_every and self.steps % probe_every == 0:
-                    self._probe(step)
-                if progress is not None and self.steps % 64 == 0:
-                    progress(step.end / times[-1])
-                if self.steps >= self.step_limit:
-                    reason = f"it takes more than {self.step_limit:,} steps"
-                    self.stop = CannotGoOn(step.end, step.q, step.v, reason)
+                t, following = self._phase(turn, t)
+                if following is None:
                     break
+                turn = following
         except CannotGoOn as stop:
             self.stop = stop
         return self
 
-    def _row(self, t: float, q: Vector, v: Vector) -> None:
-        self.times.append(t)
-        self.states.append((q, v))
+    def _note(self, turn: Turn, t: float) -> None:
+        """The events of a turn, and the state after it."""
+        last = len(self.phases) - 1
+        self.events += [(last, event) for event in turn.events]
+        if turn.mode is None:
+            self.event = turn.events[-1]
+            if last < 0:
+                first = self.transitions.modes.first
+                self.phases.append(Phase(first, first.surface(), t))
+                self.marks.append(Mark(t, turn.q, turn.v, 0, 0))
+            return
+        if last >= 0:
+            self._changes.append(t)
+            recent = self._changes[-_AT_ONCE:]
+            if len(recent) == _AT_ONCE and recent[0] == t:
+                reason = "event follows event without time passing"
+                raise CannotGoOn(t, turn.q, turn.v, reason)
+        surface = turn.mode.surface()
+        if surface is not None:
+            surface.measure(t, turn.q, turn.v)
+        self.phases.append(Phase(turn.mode, surface, t))
+        if last >= 0:
+            self.marks.append(Mark(t, turn.q, turn.v, last + 1, begins=True))
+
+    def _phase(self, turn: Turn, t: float) -> tuple[float, Turn | None]:
+        """Go on in one mode up to what ends it; None at the end of the run."""
+        mode, q, v = turn.mode, turn.q, turn.v
+        assert mode is not None
+        times = self._times
+        if self._pending == 0:
+            self._mark(t, q, v)
+        due, skipped = turn.due if turn.due is not None else (times[-1], -1)
+        conditions = [c for c in mode.conditions if c.kind != "gap" or c.index != skipped]
+        found = self._watch.begin(conditions, t, q, v, turn.touched)
+        if found is not None:
+            return t, self._turned(mode, found, q, v)
+        method = mode.method(self.phases[-1].surface)
+        self.method_name = method.name
+        before = self.evaluations
+        for step in self._steps(method, turn, due, t):
+            self.evaluations = before + method.evaluations
+            q, v, t = step.q, step.v, step.end
+            self._see(step)
+            found = self._watch.first(step)
+            end = t if found is None else found.t
+            while self._pending < len(times) and times[self._pending] <= end:
+                at = times[self._pending]
+                self._mark(at, *self._state_in(step, at))
+            if found is not None:
+                return end, self._turned(mode, found, *self._state_in(step, end))
+            self._look(step)
+        if method.reached is not None:
+            self._end(t, q, v)
+            return t, self.transitions.sticks(mode, t, method.reached, q, v)
+        if skipped >= 0:
+            self._end(t, q, v)
+            return t, self.transitions.closes(mode, t, skipped, q, v)
+        return t, None
+
+    def _steps(self, method: Method, turn: Turn, until: float, begin: float) -> Iterator[Step]:
+        """The steps of a phase; none is longer than what a bounce takes to its highest point."""
+        q, v = turn.q, turn.v
+        if turn.apex < min(until, begin + self.tolerance.longest):
+            for step in method.steps(q, v, turn.apex, self.tolerance, begin):
+                q, v, begin = step.q, step.v, step.end
+                yield step
+            if method.reached is not None:
+                return
+        if begin < until:
+            yield from method.steps(q, v, until, self.tolerance, begin)
+
+    def _turned(self, mode: Mode, found: Occurrence, q: Vector, v: Vector) -> Turn:
+        self._end(found.t, q, v)
+        return self.transitions.after(mode, found, q, v)
+
+    def _mark(self, t: float, q: Vector, v: Vector) -> None:
+        """The next of the times that were asked for."""
+        self.marks.append(Mark(t, q, v, len(self.phases) - 1, self._pending))
+        self._pending += 1
+
+    def _end(self, t: float, q: Vector, v: Vector) -> None:
+        self.marks.append(Mark(t, q, v, len(self.phases) - 1))
+
+    def _see(self, step: Step) -> None:
+        self.steps += 1
+        surface = self.phases[-1].surface
+        if surface is not None:
+            surface.measure(step.end, step.q, step.v)
+            surface.note(step.end, step.q, step.v)
+
+    def _look(self, step: Step) -> None:
+        """Probe the defect, tell the progress, stop where it takes too long."""
+        if self._probe_every and self.steps % self._probe_every == 0:
+            self._probe(step)
+        if self._progress is not None and self.steps % 64 == 0:
+            self._progress(step.end / self._times[-1])
+        if self.steps >= self.step_limit:
+            reason = f"it takes more than {self.step_limit:,} steps"
+            raise CannotGoOn(step.end, step.q, step.v, reason)
+
+    def _errors(self) -> list[float]:
+        """What each component may err by."""
+        return [self._allowed * max(1.0, peak) for peak in self.peaks]
+
+    def _rounding(self, t: float) -> list[float]:
+        """Of each component: of its size, and of the time in which it changes."""
+        peaks = self.peaks
+        n = len(peaks) // 2
+        return [
+            _EPSILON * (max(peak, t * peaks[n + j]) if j < n else peak)
+            for j, peak in enumerate(peaks)
+        ]
 
     def _state_in(self, step: Step, t: float) -> tuple[Vector, Vector]:
         """The state at a time of the step, on the constraints."""
         if t >= step.end:
             return step.q, step.v
         q, v, _ = step.inside(t)
-        if self.surface is not None:
-            q, v = self.surface.project(t, q, v)
+        surface = self.phases[-1].surface
+        if surface is not None:
+            q, v = surface.project(t, q, v)
         return q, v
 
     def _probe(self, step: Step) -> None:
@@ -130,10 +268,10 @@ class Run:
         t = step.start + step.h * (self._probes * _GOLDEN % 1.0)
         q, v, slope = step.inside(t)
         try:
-            rate = self.motion.accelerations(t, *q, *v)
+            rate = self.phases[-1].mode.motion.accelerations(t, *q, *v)
         except (ArithmeticError, ValueError):
             self.defect = float("inf")
             return
-        scales = self.tolerance.scales[self.motion.n :]
+        scales = self.tolerance.scales[len(q) :]
         for a, b, scale in zip(rate, slope, scales, strict=True):
             self.defect = max(self.defect, step.h * abs(float(a - b)) / scale)

@@ -6,24 +6,25 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from lagcli.expression import Expression
 from lagcli.graph.nodes import Node
-from lagcli.numerics.accuracy import Controller, Outcome, Row
+from lagcli.numerics.accuracy import Controller, Outcome
 from lagcli.numerics.arithmetic import Doubles
 from lagcli.numerics.asked import Asked, Result
 from lagcli.numerics.certificate import result_of
-from lagcli.numerics.columns import Column, Reading, Values
+from lagcli.numerics.columns import Column, Reading
 from lagcli.numerics.constants import constants_of
+from lagcli.numerics.contact import one_sided, with_contacts
 from lagcli.numerics.dop853 import Dop853, generated_step
 from lagcli.numerics.equations import Equations
-from lagcli.numerics.events import Condition
+from lagcli.numerics.modes import Mode, Modes
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import Refusal, told
 from lagcli.numerics.run import Run
 from lagcli.numerics.start import initial_state, rounded_components
-from lagcli.numerics.steps import Tolerance
-from lagcli.numerics.surface import Surface
-from lagcli.problem import Problem
+from lagcli.numerics.steps import Method, Tolerance
+from lagcli.numerics.surface import ROUNDING, Surface
+from lagcli.numerics.transitions import Transitions
+from lagcli.problem import Problem, charge_of
 
 #: Local tolerances below this change nothing: an estimate is rounded at h |rate| 1e-16.
 FINEST_DOUBLE = 1e-18
@@ -63,16 +64,24 @@ class Simulation:
 
     def __init__(self, problem: Problem, asked: Asked, progress: Progress | None = None) -> None:
         self.problem, self.asked, self.progress = problem, asked, progress
-        self.equations = equations = Equations(problem)
+        #: with the contacts among the constraints
+        self.whole = with_contacts(problem)
+        self.equations = equations = Equations(self.whole)
         self.reading = Reading(equations)
+        #: the constraints that act at the beginning, whatever the contacts do
+        self.given = frozenset(range(len(problem.constraints)))
+        self.contacts = one_sided(self.whole, len(problem.constraints))
         try:
-            self.charges = equations.charges
+            self.stop = None if asked.stop_when is None else self.reading(asked.stop_when)
             self.nodes = [self._column(column) for column in asked.columns]
-            self.margins = [
-                (c.name, "contact lost", self._margin(c.holds_while))
-                for c in problem.constraints
+            self.margins = {
+                k: self._margin(c.holds_while)
+                for k, c in enumerate(self.whole.constraints)
                 if c.holds_while is not None
-            ]
+            }
+            self.gaps = self._gaps()
+            self.charges = dict(equations.holding(frozenset()).evident_charges)
+            self.candidates = self._candidates()
         except ArithmeticError as error:
             raise Refusal(f"a column is not defined: {error}") from None
         every = max(1, -(-_COMPARED // (asked.samples - 1)))
@@ -85,6 +94,27 @@ class Simulation:
         if column.expression is None:
             return self.equations.t
         return self.reading(column.expression)
+
+    def _gaps(self) -> dict[int, Node]:
+        """Of the contacts that can be open."""
+        e = self.equations
+        gaps = {}
+        for k, contact in self.contacts.items():
+            position = e.constraints[k].position
+            if not contact.stops and position is not None:
+                gaps[k] = e.graph.scaled(position, contact.sign)
+        return gaps
+
+    def _candidates(self) -> list[str]:
+        """The names of the candidates' charges, which are added to the charges."""
+        names = []
+        for symmetry in self.problem.symmetries:
+            name = symmetry.name
+            while name in self.charges:
+                name += "*"
+            self.charges[name] = self.reading(charge_of(symmetry))
+            names.append(name)
+        return names
 
     def _margin(self, condition: Any) -> Node:
         graph = self.equations.graph
@@ -106,9 +136,11 @@ class Simulation:
             *e.rates,
             *initial,
             *self.nodes,
-            *(node for _, _, node in self.margins),
+            *self.margins.values(),
+            *self.gaps.values(),
             *self.charges.values(),
-            *([self.reading(self.asked.stop_when)] if self.asked.stop_when else []),
+            *([self.stop] if self.stop is not None else []),
+            *(e.form.read(c.restitution) for c in self.contacts.values() if c.restitution),
         ]
 
     # -- in doubles ------------------------------------------------------------------------------
@@ -117,18 +149,33 @@ class Simulation:
         """The table."""
         arithmetic = Doubles()
         constants = constants_of(self.equations, self.all_nodes, arithmetic)
-        motion = Motion(self.equations, constants, arithmetic)
-        q, v = initial_state(motion, project=self.asked.project)
+        modes = Modes(self, constants, arithmetic, dop853, ROUNDING)
+        motion = modes.first.motion
+        self.start = q, v = initial_state(motion, project=self.asked.project)
         self._check_start(motion, q, v)
-        outcome = self._doubles(motion, q, v)
+        self._keep_conserved(modes)
+        outcome = self._doubles(modes, q, v)
         beyond = self._beyond(outcome)
-        if beyond is not None:
+        if beyond is not None and not self._goes_on:
             from lagcli.numerics.precise import precise_outcome
 
-            precise = precise_outcome(self, q, v, beyond)
+            precise = precise_outcome(self, modes, q, v, beyond)
             if precise is not None and precise.good_rows >= outcome.good_rows:
                 outcome = precise
         return result_of(self, motion, outcome)
+
+    @property
+    def _goes_on(self) -> bool:
+        """Whether the motion may go on in another mode than the first."""
+        return bool(self.gaps) or any(c.on_loss == "release" for c in self.problem.constraints)
+
+    def _keep_conserved(self, modes: Modes) -> None:
+        """Leave out the candidates that are conserved in no mode."""
+        if self.candidates and not self._goes_on:
+            kept = dict(zip(self.charges, modes.first.conserved, strict=True))
+            self.charges = {name: node for name, node in self.charges.items() if kept[name]}
+            self.candidates = [name for name in self.candidates if kept[name]]
+            del modes.first.conserved
 
     def _beyond(self, outcome: Outcome) -> int | None:
         """How many digits to go on with, where doubles do not reach the accuracy."""
@@ -142,11 +189,8 @@ class Simulation:
         close = max(outcome.errors) <= _ROUNDING_REACH
         return _DIGITS if close and not stopped else None
 
-    def _doubles(self, motion: Motion, q: list[float], v: list[float]) -> Outcome:
-        asked = self.asked
-        conditions = self.conditions(motion, q, v)
-        tabulate = self.tabulator(motion)
-        generated = generated_step(motion.n, motion.accelerations)
+    def _doubles(self, modes: Modes, q: list[float], v: list[float]) -> Outcome:
+        asked, motion = self.asked, modes.first.motion
         # every other run begins at the next double: what the initial values are rounded by
         # must not matter either
         rounded = rounded_components(motion, q, v)
@@ -160,9 +204,8 @@ class Simulation:
         def runner(
             tolerance: float, longest: float, peaks: Sequence[float] | None, every: int
         ) -> Run:
-            surface = Surface(motion) if self.equations.rows else None
             bound = Tolerance(tolerance, motion.n, asked.until, longest, peaks)
-            run = Run(motion, Dop853(motion, surface, generated), surface, bound, conditions)
+            run = Run(Transitions(modes, asked.accuracy, asked.until), bound, asked.accuracy)
             done = self.finished
 
             def told(part: float) -> None:
@@ -176,7 +219,6 @@ class Simulation:
 
         return Controller(
             runner,
-            tabulate,
             accuracy=asked.accuracy,
             finest=FINEST_DOUBLE,
             span=asked.until,
@@ -194,66 +236,9 @@ class Simulation:
             reason = told(error)
         raise Refusal(f"at t = 0 the accelerations are not determined: {reason}", mistake=False)
 
-    # -- for any numbers --------------------------------------------------------------------------
 
-    def conditions(self, motion: Motion, q: Sequence[Any], v: Sequence[Any]) -> list[Condition]:
-        """The contacts, and `--stop-when`."""
-        found = [
-            Condition(name, what, self._watched(motion, node)) for name, what, node in self.margins
-        ]
-        if self.asked.stop_when is not None:
-            margin = self._watched(motion, self.stop_node(motion, self.asked.stop_when, q, v))
-            found.append(Condition(self.asked.stop_name, "stopped", margin))
-        return found
-
-    def stop_node(
-        self, motion: Motion, expression: Expression, q: Sequence[Any], v: Sequence[Any]
-    ) -> Node:
-        """The expression with the sign that it has, or takes, at the beginning."""
-        node = self.reading(expression)
-        rate = self.equations.form.read.total_derivative(node)
-        for each in (node, rate):
-            try:
-                value = float(Values(motion, self.reading, [each])(0.0, q, v)[0])
-            except (ArithmeticError, ValueError, KeyError):
-                continue
-            if value:
-                return self.equations.graph.scaled(node, 1 if value > 0 else -1)
-        return node
-
-    def _watched(self, motion: Motion, node: Node) -> Callable[..., float]:
-        values = Values(motion, self.reading, [node])
-
-        def margin(t: float, q: Sequence[Any], v: Sequence[Any]) -> float:
-            [value] = values(t, q, v)
-            return math.inf if value is None else float(value)
-
-        return margin
-
-    def tabulator(self, motion: Motion) -> Row:
-        """The columns and then the charges at a state."""
-        nodes = [*self.nodes, *self.charges.values()]
-        values = Values(motion, self.reading, nodes)
-        single: list[Values] = []
-
-        def row(t: float, q: Sequence[Any], v: Sequence[Any]) -> list[Any]:
-            try:
-                found = values(t, q, v)
-                if all(x is None or math.isfinite(float(x)) for x in found):
-                    return found
-            except (ArithmeticError, ValueError):
-                pass
-            if not single:
-                single.extend(Values(motion, self.reading, [node]) for node in nodes)
-            return [_one(each, t, q, v) for each in single]
-
-        return row
-
-
-def _one(values: Values, t: float, q: Sequence[Any], v: Sequence[Any]) -> Any:
-    """A column where it is defined, else None."""
-    try:
-        [value] = values(t, q, v)
-    except (ArithmeticError, ValueError):
-        return None
-    return value if value is None or math.isfinite(float(value)) else None
+def dop853(mode: Mode, surface: Surface | None) -> Method:
+    """The method for doubles."""
+    if mode.generated is None:
+        mode.generated = generated_step(mode.motion.n, mode.motion.accelerations)
+    return Dop853(mode.motion, surface, mode.generated)

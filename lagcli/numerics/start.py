@@ -217,7 +217,7 @@ class _Completion:
 
     def _open(self, unknown: Symbol, which: int, why: str) -> Refusal:
         name = unknown.name + "'" * unknown.primes
-        constraint = self.equations.problem.constraints[which]
+        constraint = self.equations.declared[which]
         return Refusal(
             (
                 Diagnostic(
@@ -232,7 +232,7 @@ class _Completion:
         e = self.equations
         count = len(e.holonomic)
         which = e.holonomic[residual] if residual < count else residual - count
-        constraint = e.problem.constraints[which]
+        constraint = e.declared[which]
         what = "satisfy" if residual < count else "move along"
         if nearest is None:
             hint = "no state near it does: do the constraints contradict each other?"

@@ -109,8 +109,14 @@ class Method(Protocol):
 
     name: str
     evaluations: int
+    reached: int | None  # the kink at which friction has stopped the steps
 
     def steps(
-        self, q: list[Any], v: list[Any], until: float, tolerance: Tolerance
+        self,
+        q: list[Any],
+        v: list[Any],
+        until: float,
+        tolerance: Tolerance,
+        begin: float = 0.0,
     ) -> Iterator[Step]:
-        """Accepted steps from t = 0."""
+        """Accepted steps from `begin`."""

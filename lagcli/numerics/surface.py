@@ -17,7 +17,7 @@ from lagcli.numerics.motion import Motion
 Vector = list[Any]
 
 #: Residuals relative to the sum of |a_kj q_j| that are as good as 0 in doubles.
-_ROUNDING = 4e-16
+ROUNDING = 4e-16
 _STEPS = 6
 
 
@@ -32,7 +32,7 @@ class Surface:
         The relative residual at which a projection is done.
     """
 
-    def __init__(self, motion: Motion, rounding: float = _ROUNDING) -> None:
+    def __init__(self, motion: Motion, rounding: float = ROUNDING) -> None:
         self.motion = motion
         self.rounding = rounding
         self.n = motion.n
@@ -57,10 +57,11 @@ class Surface:
         ArithmeticError, ValueError
             Where the constraints cannot be solved.
         """
-        q = self._settled(t, q, v) if self.count else q
+        q = self.settle(t, q, v) if self.count else q
         return q, self._tangent(t, q, v)
 
-    def _settled(self, t: float, q: Vector, v: Vector) -> Vector:
+    def settle(self, t: float, q: Vector, v: Vector) -> Vector:
+        """The nearest positions on the holonomic constraints."""
         n, before = self.n, float("inf")
         for _ in range(_STEPS):
             found = self.motion.position_correction(t, *q, *v)

@@ -52,6 +52,7 @@ class Taylor:
 
         self.motion, self.surface, self.n = motion, surface, motion.n
         self.evaluations = 0
+        self.reached: int | None = None
         self._ball, self._series, self._context = arb, arb_series, ctx
         mask = 0
         for v in motion.equations.qdot:
@@ -62,16 +63,21 @@ class Taylor:
         self._gain = 1 if any(node.mask & mask for node in nodes) else 2
 
     def steps(
-        self, q: list[Any], v: list[Any], until: float, tolerance: Tolerance
+        self,
+        q: list[Any],
+        v: list[Any],
+        until: float,
+        tolerance: Tolerance,
+        begin: float = 0.0,
     ) -> Iterator[Step]:
-        """Accepted steps from t = 0 to `until`.
+        """Accepted steps from `begin` to `until`.
 
         Raises
         ------
         CannotGoOn
             Where the series has no radius of convergence left.
         """
-        t, order = 0.0, order_for(tolerance.value)
+        t, order = begin, order_for(tolerance.value)
         while t < until:
             series = self._coefficients(t, q, v, order)
             self._see(series, tolerance)

@@ -1,18 +1,33 @@
-"""The result as JSON, CSV or a table to read."""
+"""The result as JSON, CSV or a table to read; `columnar` has the forms made of arrays."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from lagcli.numerics.asked import Result
+from lagcli.numerics.events import Event
+
+#: Of many events so many are told at the beginning and at the end of the list.
+_LISTED = 5
 
 
 def to_json(result: Result) -> str:
     """The machine's view; a stable contract."""
+    return to_text(document_of(result)) + "\n"
+
+
+def to_text(document: dict[str, Any]) -> str:
+    """JSON; what is not a number is null and never nan."""
+    return json.dumps(document, ensure_ascii=False, allow_nan=False)
+
+
+def document_of(result: Result) -> dict[str, Any]:
+    """The result as maps, lists and numbers."""
     held = result.certificate
-    document: dict[str, Any] = {
+    return {
         "schema": 1,
         "columns": list(result.columns),
         "rows": [list(row) for row in result.rows],
@@ -34,11 +49,22 @@ def to_json(result: Result) -> str:
             "steps": result.steps,
             "evaluations": result.evaluations,
         },
-        "events": [{"t": e.t, "name": e.name, "what": e.what} for e in result.events],
+        "events": [_event(event) for event in result.events],
         "model": {},
         "warnings": list(result.warnings),
     }
-    return json.dumps(document, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _event(event: Event) -> dict[str, Any]:
+    found: dict[str, Any] = {"t": event.t, "name": event.name, "what": event.what}
+    found["error"] = event.error if event.error < math.inf else None
+    if event.energy_lost is not None:
+        found["energy_lost"] = event.energy_lost
+    if event.before:
+        found["before"] = dict(event.before)
+    if event.after:
+        found["after"] = dict(event.after)
+    return found
 
 
 def to_csv(result: Result) -> str:
@@ -67,7 +93,7 @@ def to_table(result: Result) -> str:
         for row in cells
     ]
     lines.append("")
-    lines += [f"{e.what} at t = {e.t!r} ({e.name})" for e in result.events]
+    lines += _told(result.events)
     bound = max(held.global_error.values(), default=0.0)
     word = "reached" if held.reached else f"held until t = {held.holds_until:g} only"
     lines.append(f"accuracy {held.accuracy:g} {word}; global error at most {bound:.1e},")
@@ -83,6 +109,22 @@ def to_table(result: Result) -> str:
     return "".join(f"{line}\n" for line in lines)
 
 
+def _told(events: Sequence[Event]) -> list[str]:
+    """A line for each event; of many impacts the first and the last."""
+    lines = [_line(event) for event in events]
+    if len(lines) > 2 * _LISTED + 1:
+        left_out = len(lines) - 2 * _LISTED
+        lost = sum(event.energy_lost or 0.0 for event in events[_LISTED:-_LISTED])
+        told = f"… {left_out} more events" + (f", energy lost {lost:.6g}" if lost else "")
+        lines = [*lines[:_LISTED], told, *lines[-_LISTED:]]
+    return lines
+
+
+def _line(event: Event) -> str:
+    lost = "" if event.energy_lost is None else f", energy lost {event.energy_lost:.6g}"
+    return f"{event.what} at t = {event.t!r} ({event.name}){lost}"
+
+
 def _digits(result: Result) -> list[int]:
     """As many significant digits as the accuracy tells of, for each column."""
     errors = result.certificate.global_error
@@ -93,8 +135,22 @@ def _digits(result: Result) -> list[int]:
     return [count if name in errors else 12 for name in result.columns]
 
 
-WRITERS: dict[str, Callable[[Result], str]] = {
-    "table": to_table,
-    "json": to_json,
-    "csv": to_csv,
+def _npz(result: Result) -> bytes:
+    from lagcli.numerics.columnar import to_npz
+
+    return to_npz(result)
+
+
+def _parquet(result: Result) -> bytes:
+    from lagcli.numerics.columnar import to_parquet
+
+    return to_parquet(result)
+
+
+WRITERS: dict[str, Callable[[Result], bytes]] = {
+    "table": lambda result: to_table(result).encode(),
+    "json": lambda result: to_json(result).encode(),
+    "csv": lambda result: to_csv(result).encode(),
+    "npz": _npz,
+    "parquet": _parquet,
 }

@@ -6,16 +6,17 @@ from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, ProblemError, Source
 from lagcli.expression import Diff, Expression, Name, Negative, Product, Sum, walk
+from lagcli.problem import JACOBI_FUNCTION, charge_of
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.names import depends_on_time, derivative_order, name_mistakes
 from lagcli.reader.positions import Excerpt
-from lagcli.reader.scope import NUMBERS, QUESTION, Definition, Role, Scope
+from lagcli.reader.scope import ALONG, NUMBERS, Definition, Role, Scope
 from lagcli.reader.text import Mistake
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from lagcli.problem import Constraint, Problem
+    from lagcli.problem import Constraint, Contact, Problem
 
 #: A column's name and its expression; None is the time.
 Shown = tuple[str, Expression | None]
@@ -23,6 +24,7 @@ Shown = tuple[str, Expression | None]
 #: Words that stand for several columns.
 GROUPS = (
     "coordinates", "velocities", "accelerations", "multipliers", "constraint_forces", "momenta",
+    "charges",
 )  # fmt: skip
 _ENERGY = "energy"
 
@@ -50,7 +52,7 @@ def usual_columns(problem: Problem) -> list[Shown]:
 
 def read_along(problem: Problem, text: str, option: str) -> Expression:
     """An expression along the motion, such as that of `--stop-when`."""
-    return _read(text, option, scope_of(problem), QUESTION)
+    return _read(text, option, scope_of(problem), ALONG)
 
 
 def read_number(text: str, option: str) -> Expression:
@@ -65,6 +67,7 @@ def scope_of(problem: Problem) -> Scope:
     scope.kinds.update({p.name: "parameter" for p in problem.parameters})
     scope.kinds.update(dict.fromkeys(problem.functions, "function"))
     scope.kinds.update({c.multiplier: "multiplier" for c in problem.constraints})
+    scope.kinds.update({c.multiplier: "contact force" for c in problem.contacts})
     scope.kinds.update(dict.fromkeys(problem.definitions, "definition"))
     for place, (name, formula) in enumerate(problem.definitions.items()):
         scope.definitions[name] = Definition(
@@ -79,12 +82,16 @@ def _columns(problem: Problem, scope: Scope, word: str) -> Iterator[Shown]:
     if word in GROUPS and word not in scope.kinds:
         yield from _group(problem, word)
         return
-    for constraint in problem.constraints:
+    for constraint in _holding(problem):
         for name, force in _forces(problem, constraint):
             if word == name:
                 yield name, force
                 return
-    expression = _read(word, "--show", scope, QUESTION)
+    for symmetry in problem.symmetries:
+        if word == symmetry.name and word not in scope.kinds:
+            yield word, charge_of(symmetry)
+            return
+    expression = _read(word, "--show", scope, ALONG)
     yield word, None if expression == Name("t") else expression
 
 
@@ -92,10 +99,16 @@ def _group(problem: Problem, word: str) -> Iterator[Shown]:
     orders = {"coordinates": 0, "velocities": 1, "accelerations": 2}
     match word:
         case "multipliers":
-            yield from ((c.multiplier, Name(c.multiplier)) for c in problem.constraints)
+            yield from ((c.multiplier, Name(c.multiplier)) for c in _holding(problem))
         case "constraint_forces":
-            for constraint in problem.constraints:
+            for constraint in _holding(problem):
                 yield from _forces(problem, constraint)
+        case "charges":
+            taken = scope_of(problem).kinds.keys() - {_ENERGY}
+            yield _ENERGY, JACOBI_FUNCTION
+            for symmetry in problem.symmetries:
+                if symmetry.name not in taken | {_ENERGY}:
+                    yield symmetry.name, charge_of(symmetry)
         case "momenta":
             yield from ((f"p_{c.name}", Name(f"p_{c.name}")) for c in problem.coordinates)
         case _:
@@ -104,7 +117,12 @@ def _group(problem: Problem, word: str) -> Iterator[Shown]:
                 yield str(name), name
 
 
-def _forces(problem: Problem, constraint: Constraint) -> Iterator[tuple[str, Expression]]:
+def _holding(problem: Problem) -> tuple[Constraint | Contact, ...]:
+    """What has a multiplier."""
+    return (*problem.constraints, *problem.contacts)
+
+
+def _forces(problem: Problem, constraint: Constraint | Contact) -> Iterator[tuple[str, Expression]]:
     """`rod.x`: lambda df/dq, or lambda df/dq' of a velocity constraint."""
     left, right = constraint.equation.left, constraint.equation.right
     f = Sum((left, Negative(right)))

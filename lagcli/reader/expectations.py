@@ -7,16 +7,19 @@ from typing import TYPE_CHECKING, Any
 from lagcli.problem import (
     NOT_CONSERVED,
     Constraint,
+    Contact,
     Expect,
     ExpectReduction,
     Question,
     Symmetry,
+    Trajectory,
 )
 from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.expected_reduction import read_reduction
 from lagcli.reader.nodes import Node, Scalar, Sequence
-from lagcli.reader.scope import CONSTANTS, EQUATION, MOTION, PHASE_SPACE, STATE, Role
+from lagcli.reader.scope import CONSTANTS, EQUATION, PHASE_SPACE, STATE, Role
 from lagcli.reader.suggest import did_you_mean
+from lagcli.reader.trajectory import TrajectoryReader
 
 if TYPE_CHECKING:
     from lagcli.diagnostics import Span
@@ -40,11 +43,13 @@ class ExpectReader:
         self,
         sections: Sections,
         constraints: tuple[Constraint, ...],
+        contacts: tuple[Contact, ...],
         symmetries: tuple[Symmetry, ...],
         find: tuple[Question, ...],
     ) -> None:
         self.sections = sections
         self.constraints = [constraint.name for constraint in constraints]
+        self.holding = [*self.constraints, *(contact.name for contact in contacts)]
         self.symmetries = [symmetry.name for symmetry in symmetries]
         self.questions = [question.name for question in find]
         self.spans: dict[tuple[str, ...], Span] = {}
@@ -81,8 +86,8 @@ class ExpectReader:
     def _momenta(self, node: Node) -> dict[str, Expression]:
         return self._by_coordinate(node, "momenta", "the expected momentum of '{}'")
 
-    def _trajectory(self, node: Node) -> dict[str, Expression]:
-        return self._by_coordinate(node, "trajectory", "the expected trajectory of '{}'", MOTION)
+    def _trajectory(self, node: Node) -> Trajectory:
+        return TrajectoryReader(self.sections, self.holding, self.spans).read(node)
 
     def _multipliers(self, node: Node) -> dict[str, Expression]:
         found = {}
@@ -138,11 +143,9 @@ class ExpectReader:
     def _reduction(self, node: Node) -> ExpectReduction:
         return read_reduction(self.sections, node, self.spans)
 
-    def _by_coordinate(
-        self, node: Node, section: str, what: str, role: Role = _ANSWER
-    ) -> dict[str, Expression]:
+    def _by_coordinate(self, node: Node, section: str, what: str) -> dict[str, Expression]:
         self._note(node, section)
-        return read_by_coordinate(self.sections, node, section, what, role)
+        return read_by_coordinate(self.sections, node, section, what, _ANSWER)
 
     def _note(self, node: Node, *path: str) -> None:
         for key, _ in getattr(node, "entries", ()):

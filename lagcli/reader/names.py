@@ -101,6 +101,12 @@ def _name(
                 yield Diagnostic(f"the multiplier '{name}' cannot stand in {what}", node.span)
             elif node.primes:
                 yield Diagnostic("a multiplier has no primes", node.span)
+        case "contact force":
+            if not role.contact_forces:
+                hint = "the forces of contacts are known along a numerical run only"
+                yield Diagnostic(f"'{name}' cannot stand in {what}", node.span, hint)
+            elif node.primes:
+                yield Diagnostic("a multiplier has no primes", node.span)
         case "function":
             hint = f"write {node}(…)"
             yield Diagnostic(f"'{name}' is a function and needs arguments", node.span, hint)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.diagnostics import Diagnostic, ProblemError, Source, Span
 from lagcli.problem import Problem
 from lagcli.reader.compose import compose
+from lagcli.reader.contacts import declare_contacts, read_contacts
 from lagcli.reader.dynamics import (
     check_energies,
     check_masses,
@@ -38,8 +39,8 @@ if TYPE_CHECKING:
 
 KEYS = (
     "title", "source", "description", "coordinates", "parameters", "functions", "definitions",
-    "points", "T", "V", "L", "forces", "dissipation", "constraints", "symmetries", "initial",
-    "find", "simulation", "expect",
+    "points", "T", "V", "L", "forces", "dissipation", "constraints", "contacts", "symmetries",
+    "initial", "find", "simulation", "expect",
 )  # fmt: skip
 
 
@@ -119,6 +120,8 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
     functions = read_functions(sections, section("functions"))
     definitions = declare_definitions(sections, section("definitions"))
     constraints = declare_constraints(sections, section("constraints"))
+    names = {one.key.label for one in constraints}
+    contacts = declare_contacts(sections, section("contacts"), names)
     check_momenta(sections)
     check_energies(sections, {key: name for key, (name, _) in given.items()})
 
@@ -127,7 +130,8 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
     constraints_read = read_constraints(sections, constraints)
     symmetries = read_symmetries(sections, section("symmetries"))
     questions = read_find(sections, section("find"))
-    expect = ExpectReader(sections, constraints_read, symmetries, questions)
+    contacts_read = read_contacts(sections, contacts)
+    expect = ExpectReader(sections, constraints_read, contacts_read, symmetries, questions)
     problem = Problem(
         source=source,
         title=text("title") or _stem(source.name),
@@ -144,6 +148,7 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
         forces=read_forces(sections, section("forces")),
         dissipation=formula("dissipation"),
         constraints=constraints_read,
+        contacts=contacts_read,
         symmetries=symmetries,
         initial=read_initial(sections, section("initial")),
         find=questions,

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from lagcli.problem import Constraint, Symmetry
+from lagcli.problem import Constraint, Symmetry, pushing_sign
+from lagcli.reader.contacts import RESTITUTION, read_restitution
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Node, Scalar
 from lagcli.reader.scope import QUESTION, STATE, name_mistake
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
+    from lagcli.expression import Expression
+    from lagcli.problem import Inequality, OnLoss
     from lagcli.reader.sections import Sections
 
-_CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while")
+_CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RESTITUTION)
+_ON_LOSS = ("stop", "release")
 
 
 class Declared(NamedTuple):
@@ -23,6 +27,7 @@ class Declared(NamedTuple):
     multiplier: str
     equation: Node | None
     holds_while: Node | None
+    attributes: dict[str, Node]
 
 
 def declare_constraints(sections: Sections, node: Node) -> list[Declared]:
@@ -30,7 +35,7 @@ def declare_constraints(sections: Sections, node: Node) -> list[Declared]:
     declared = []
     for key, value in sections.entries(node, "constraints", "write name: equation"):
         equation: Node | None = value
-        holds_while = None
+        attributes: dict[str, Node] = {}
         wrong = name_mistake(f"a{key.label}")  # `lambda_<name>` must be a name
         if wrong is not None or not key.label:
             hint = "a name has letters, digits and underscores"
@@ -42,7 +47,6 @@ def declare_constraints(sections: Sections, node: Node) -> list[Declared]:
             found = sections.attributes(value, what, _CONSTRAINT_ATTRIBUTES)
             attributes = {name: attribute for name, (_, attribute) in found.items()}
             equation = attributes.get("equation")
-            holds_while = attributes.get("holds_while")
             if equation is None:
                 sections.error(f"{what} has no equation", key.span)
             if "multiplier" in attributes:
@@ -50,7 +54,8 @@ def declare_constraints(sections: Sections, node: Node) -> list[Declared]:
                 if text is not None:
                     multiplier, place = text.label, text.span
         sections.declare(multiplier, "multiplier", place)
-        declared.append(Declared(key, multiplier, equation, holds_while))
+        holds_while = attributes.get("holds_while")
+        declared.append(Declared(key, multiplier, equation, holds_while, attributes))
     return declared
 
 
@@ -71,16 +76,56 @@ def read_constraints(sections: Sections, declared: list[Declared]) -> tuple[Cons
         holds_while = None
         if one.holds_while is not None:
             holds_while = sections.comparison(one.holds_while, "'holds_while'", QUESTION)
+        on_loss = _on_loss(sections, one)
         constraints.append(
             Constraint(
                 name=name,
                 equation=equation,
                 multiplier=one.multiplier,
                 holds_while=holds_while,
+                on_loss=on_loss,
+                restitution=_restitution(sections, one, holds_while, on_loss),
                 span=one.key.span,
             )
         )
     return tuple(constraints)
+
+
+def _on_loss(sections: Sections, one: Declared) -> OnLoss:
+    """What a run does where the contact is lost."""
+    if "on_loss" not in one.attributes:
+        return "stop"
+    text = sections.scalar(one.attributes["on_loss"], "'on_loss'")
+    if text is None:
+        return "stop"
+    if one.holds_while is None:
+        sections.error("'on_loss' needs 'holds_while'", text.span, "write holds_while: N >= 0")
+    match text.value.strip():
+        case "stop":
+            return "stop"
+        case "release":
+            return "release"
+        case other:
+            hint = did_you_mean(other, _ON_LOSS) or "write stop or release"
+            sections.error(f"'{other}' is nothing that a run does", text.span, hint)
+            return "stop"
+
+
+def _restitution(
+    sections: Sections, one: Declared, holds_while: Inequality | None, on_loss: OnLoss
+) -> Expression | None:
+    """Of the impact that closes a contact again which has been released."""
+    node = one.attributes.get(RESTITUTION)
+    if node is None:
+        return None
+    if on_loss != "release":
+        message = "'restitution' is of a contact that is released and closes again"
+        sections.error(message, node.span, "write on_loss: release")
+    elif holds_while is not None and pushing_sign(one.multiplier, holds_while) is None:
+        message = f"which side of '{one.key.label}' is open does not follow from 'holds_while'"
+        hint = f"write holds_while: {one.multiplier} >= 0, or <="
+        sections.error(message, node.span, hint)
+    return read_restitution(sections, node, f"the constraint '{one.key.label}'")
 
 
 def read_symmetries(sections: Sections, node: Node) -> tuple[Symmetry, ...]:

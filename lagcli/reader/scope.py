@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from lagcli.diagnostics import Span
 
-Kind = Literal["coordinate", "parameter", "function", "definition", "multiplier"]
+Kind = Literal["coordinate", "parameter", "function", "definition", "multiplier", "contact force"]
 
 #: The derivative order of what depends on no coordinate.
 CONSTANT = -1
@@ -32,6 +32,7 @@ class Role(NamedTuple):
     definitions: bool = True
     multipliers: bool = False
     momenta: bool = False
+    contact_forces: bool = False
 
 
 #: Terms of the Lagrangian, forces, definitions, constraints, transformations.
@@ -50,6 +51,8 @@ NUMBERS = Role(
     why="only a number can stand here",
 )
 QUESTION = Role(order=2, why="no law needs a third derivative", multipliers=True, momenta=True)
+#: A column of a numerical run.
+ALONG = QUESTION._replace(contact_forces=True)
 EQUATION = Role(order=2, why="the equations of motion are of second order", multipliers=True)
 PHASE_SPACE = Role(order=0, why="a Hamiltonian has momenta p_x, no velocities", momenta=True)
 MOTION = Role(order=CONSTANT, why="a trajectory depends on t and parameters")
@@ -91,6 +94,7 @@ class Scope:
             "function": True,
             "definition": role.definitions,
             "multiplier": role.multipliers,
+            "contact force": role.contact_forces,
         }
         names = [name for name, kind in self.kinds.items() if allowed[kind]]
         if role.momenta:

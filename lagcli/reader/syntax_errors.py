@@ -146,7 +146,7 @@ def _unexpected(
             return "'=' stands inside parentheses", "is a ')' missing before it?"
         return "'=' stands only in constraints and equations", ""
     if token.type == "COMPARISON":
-        return f"'{token}' stands only in 'holds_while', and once", ""
+        return f"'{token}' stands only in 'holds_while' and in the gap of a contact, and once", ""
     if token.type == "COMMA" and previous is not None and previous.type in _END_VALUE:
         return "a comma stands only between the arguments of a function", _comma_advice(previous)
     if previous is None:

@@ -69,3 +69,27 @@ def test_a_root_that_almost_grazes(depth):
 def test_no_event_where_it_does_not_reach():
     text = "{coordinates: [x], L: x'^2/2 - x^2/2, initial: {x: 0, x': 1}}"
     assert simulated(text, 20, 1e-9, stop="x + 1 + 1e-6").events == ()
+
+
+@pytest.mark.parametrize("accuracy", [1e-6, 1e-9])
+def test_a_root_of_even_multiplicity(accuracy):
+    """x = sin(t) touches -1 at 3 pi/2 and does not pass it."""
+    text = "{coordinates: [x], L: x'^2/2 - x^2/2, initial: {x: 0, x': 1}}"
+    result = simulated(text, 20, accuracy, stop="x + 1")
+    assert result.events[0].t == pytest.approx(3 * math.pi / 2, abs=accuracy)
+    assert result.certificate.reached
+
+
+def test_events_between_comparison_points_and_at_the_same_time():
+    """Both conditions fail at one time; stopping comes first."""
+    text = "{coordinates: [x], L: x'^2/2, contacts: {wall: {gap: x <= 1, restitution: 1}}, initial: {x': 0.77}}"
+    result = simulated(text, 10, stop="x - 1")
+    assert [event.what for event in result.events] == ["stopped"]
+    assert result.events[0].t == pytest.approx(1 / 0.77, abs=1e-9)
+
+
+def test_a_sign_that_an_impact_changes_stops_the_run():
+    text = "{coordinates: [x], L: x'^2/2, contacts: {wall: {gap: x <= 1, restitution: 1}}, initial: {x': 0.5}}"
+    result = simulated(text, 10, stop="x'", samples=3)
+    assert [event.what for event in result.events] == ["impact", "stopped"]
+    assert result.rows[-1][0] == pytest.approx(2, abs=1e-9)

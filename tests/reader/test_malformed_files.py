@@ -25,6 +25,11 @@ def after(addition: str) -> str:
     return GOOD + addition
 
 
+def one_sided(attributes: str) -> str:
+    """A good file whose constraint, in the sixth line, has attributes."""
+    return GOOD.replace("{line: x + y}", f"{{line: {{equation: x + y, {attributes}}}}}")
+
+
 FILES = [
     # The file as a whole.
     ("", "1:1", "empty"),
@@ -118,6 +123,23 @@ FILES = [
     (after("points: {p: {position: [x']}}\n"), "9:25", "the velocity x'"),
     (after("points: {p: {position: [x, y, x, y]}}\n"), "9:24", "1 to 3"),
     (after("points: {p: {position: [x, y], force: [x]}}\n"), "9:39", "its position has 2"),
+    (after("contacts: {f: x'}\n"), "9:15", "the velocity x'"),
+    (after("contacts: {f: m >= 0}\n"), "9:15", "contains no coordinate"),
+    (after("contacts: {f: {gapp: x}}\n"), "9:16", "did you mean 'gap'"),
+    (after("contacts: {f: {restitution: 1}}\n"), "9:12", "has no gap"),
+    (after("contacts: {line: x >= 0}\n"), "9:12", "is a constraint already"),
+    (after("contacts: {f: {gap: x, restitution: y}}\n"), "9:37", "only numbers and parameters"),
+    (after("contacts: {f: {gap: x, multiplier: y}}\n"), "9:36", "declared twice"),
+    (after("contacts: {f: x >= 0}\nV: lambda_f\n"), "10:4", "cannot stand in V"),
+    (one_sided("on_loss: release"), "6:48", "needs 'holds_while'"),
+    (one_sided("holds_while: lambda_line > 0, on_loss: relase"), "6:78", "did you mean 'release'"),
+    (one_sided("holds_while: lambda_line > 0, restitution: 1"), "6:82", "on_loss: release"),
+    (one_sided("holds_while: x > 0, on_loss: release, restitution: 1"), "6:90", "side"),
+    (after("expect: {trajectory: {x: y}}\n"), "9:26", "depends on t and parameters"),
+    (after("expect: {trajectory: {z: t}}\n"), "9:23", "unknown name 'z'"),
+    (after("expect: {trajectory: {at: [{x: 1}]}}\n"), "9:28", "has no time"),
+    (after("expect: {trajectory: {events: [{name: lin}]}}\n"), "9:39", "did you mean 'line'"),
+    (after("expect: {trajectory: {events: [{what: imact}]}}\n"), "9:39", "did you mean 'impact'"),
     (after("initial: {x: y}\n"), "9:14", "only numbers and parameters"),
     (after("initial: {x'': 1}\n"), "9:11", "acceleration"),
     (after("initial: {q: 1}\n"), "9:11", "no coordinate"),

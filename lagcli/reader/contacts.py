@@ -1,0 +1,107 @@
+"""The section `contacts`: what a body may strike, rest on and leave in a numerical run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from lagcli.expression import ZERO, Equation
+from lagcli.problem import Contact
+from lagcli.reader.names import derivative_order
+from lagcli.reader.nodes import Mapping, Node, Scalar
+from lagcli.reader.scope import POSITION, VALUES, name_mistake
+
+if TYPE_CHECKING:
+    from lagcli.expression import Expression
+    from lagcli.reader.sections import Sections
+
+RESTITUTION = "restitution"
+_ATTRIBUTES = ("gap", RESTITUTION, "multiplier")
+_HINT = "write floor: {gap: y >= 0, restitution: 0.8}"
+
+
+class DeclaredContact(NamedTuple):
+    """A contact whose multiplier has its name and whose gap is not read yet."""
+
+    key: Scalar
+    multiplier: str
+    gap: Node | None
+    restitution: Node | None
+
+
+def declare_contacts(
+    sections: Sections, node: Node, constraints: set[str]
+) -> list[DeclaredContact]:
+    """Enter the multipliers into the scope; a constraint's name is taken."""
+    declared = []
+    for key, value in sections.entries(node, "contacts", _HINT):
+        wrong = name_mistake(f"a{key.label}")
+        if wrong is not None or not key.label:
+            hint = "a name has letters, digits and underscores"
+            sections.error(f"'{key.label}' is no name for a contact", key.span, hint)
+            continue
+        if key.label in constraints:
+            sections.error(f"'{key.label}' is a constraint already", key.span)
+            continue
+        multiplier, place = f"lambda_{key.label}", key.span
+        attributes: dict[str, Node] = {"gap": value}
+        if isinstance(value, Mapping):
+            what = f"the contact '{key.label}'"
+            found = sections.attributes(value, what, _ATTRIBUTES)
+            attributes = {name: attribute for name, (_, attribute) in found.items()}
+            if "gap" not in attributes:
+                sections.error(f"{what} has no gap", key.span, _HINT)
+            if "multiplier" in attributes:
+                text = sections.scalar(attributes["multiplier"], "'multiplier'")
+                if text is not None:
+                    multiplier, place = text.label, text.span
+        sections.declare(multiplier, "contact force", place)
+        declared.append(
+            DeclaredContact(key, multiplier, attributes.get("gap"), attributes.get(RESTITUTION))
+        )
+    return declared
+
+
+def read_contacts(sections: Sections, declared: list[DeclaredContact]) -> tuple[Contact, ...]:
+    """The contacts, the larger side of each gap on the left."""
+    contacts = []
+    for one in declared:
+        if one.gap is None:
+            continue
+        what = f"the contact '{one.key.label}'"
+        gap = _gap(sections, one.gap, what)
+        restitution = None
+        if one.restitution is not None:
+            restitution = read_restitution(sections, one.restitution, what)
+        contacts.append(
+            Contact(
+                name=one.key.label,
+                equation=gap,
+                multiplier=one.multiplier,
+                restitution=restitution,
+                span=one.key.span,
+            )
+        )
+    return tuple(contacts)
+
+
+def _gap(sections: Sections, node: Node, what: str) -> Equation:
+    """`y >= 0`, `y <= h`, or an expression that is not negative."""
+    before = len(sections.diagnostics)
+    if isinstance(node, Scalar) and {"<", ">", "≤", "≥"} & set(node.value):
+        found = sections.comparison(node, what, POSITION)
+        left, right = (found.left, found.right) if found is not None else (ZERO, ZERO)
+        if found is not None and found.comparison[0] == "<":
+            left, right = right, left
+        gap = Equation(left, right, span=node.span)
+    else:
+        gap = Equation(sections.expression(node, what, POSITION), ZERO, span=node.span)
+    if len(sections.diagnostics) == before:
+        orders = [derivative_order(side, sections.scope) for side in (gap.left, gap.right)]
+        if max(orders) < 0:
+            sections.error(f"{what} contains no coordinate", node.span)
+    return gap
+
+
+def read_restitution(sections: Sections, node: Node, what: str) -> Expression:
+    """Newton's coefficient: a number or a formula of parameters."""
+    return sections.expression(node, f"the restitution of {what}", VALUES)

@@ -1,0 +1,133 @@
+"""`expect: trajectory`: the known motion, as formulas of t, numbers at times, and events."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from lagcli.problem import Known, KnownRow, Trajectory
+from lagcli.reader.nodes import Mapping, Node, Scalar
+from lagcli.reader.scope import ALONG, MOTION, VALUES, Role
+from lagcli.reader.suggest import did_you_mean
+
+if TYPE_CHECKING:
+    from lagcli.diagnostics import Span
+    from lagcli.expression import Expression
+    from lagcli.reader.sections import Sections
+
+_KEYS = ("until", "tolerance", "at", "events")
+_ENERGY = "energy"
+
+#: What can happen to a contact or constraint, as the answer of a run calls it.
+HAPPENINGS = (
+    "contact lost", "contact closes", "impact", "comes to rest", "touches", "sticks", "slips",
+)  # fmt: skip
+
+
+class _Row(NamedTuple):
+    """The words of a row, and its columns."""
+
+    words: dict[str, Scalar]
+    known: tuple[Known, ...]
+
+
+class TrajectoryReader:
+    """Reads the section.
+
+    Parameters
+    ----------
+    sections
+        The names and the mistakes.
+    contacts
+        What an event may be about.
+    spans
+        Where each expectation stands, which is added to.
+    """
+
+    def __init__(
+        self, sections: Sections, contacts: list[str], spans: dict[tuple[str, ...], Span]
+    ) -> None:
+        self.sections = sections
+        self.contacts = contacts
+        self.spans = spans
+
+    def read(self, node: Node) -> Trajectory:
+        """The whole section; a column is an expression along the motion."""
+        kinds = self.sections.scope.kinds
+        borrowed = kinds.setdefault(_ENERGY, "multiplier") if _ENERGY not in kinds else None
+        try:
+            return self._read(node)
+        finally:
+            if borrowed:
+                del kinds[_ENERGY]
+
+    def _read(self, node: Node) -> Trajectory:
+        parts: dict[str, Node] = {}
+        formulas = []
+        for key, value in self.sections.entries(node, "'trajectory'", "write x: cos(t)"):
+            self.spans["trajectory", key.label] = key.span
+            if key.label in _KEYS:
+                parts[key.label] = value
+            else:
+                formulas.append(self._known(key, value, MOTION))
+        return Trajectory(
+            formulas=tuple(formulas),
+            rows=tuple(self._rows(parts["at"], "at", ("t",))) if "at" in parts else (),
+            events=(
+                tuple(self._rows(parts["events"], "events", ("t", "name", "what")))
+                if "events" in parts
+                else ()
+            ),
+            until=self._number(parts, "until"),
+            tolerance=self._number(parts, "tolerance"),
+        )
+
+    def _number(self, parts: dict[str, Node], key: str) -> Expression | None:
+        if key not in parts:
+            return None
+        return self.sections.expression(parts[key], f"'{key}'", VALUES)
+
+    def _known(self, key: Scalar, value: Node, role: Role) -> Known:
+        what = f"the expected '{key.label}'"
+        column = self.sections.expression(key, "a column", ALONG)
+        return Known(column, self.sections.expression(value, what, role))
+
+    def _rows(self, node: Node, section: str, words: tuple[str, ...]) -> list[KnownRow]:
+        """Maps of columns, with words that say when."""
+        rows = []
+        for place, item in enumerate(self.sections.items(node, f"'{section}'")):
+            self.spans["trajectory", section, str(place)] = item.span
+            found: dict[str, Scalar] = {}
+            known: list[Known] = []
+            time: Expression | None = None
+            for key, value in self.sections.entries(item, f"a row of '{section}'"):
+                if key.label == "t":
+                    time = self.sections.expression(value, "the time", VALUES)
+                elif key.label in words:
+                    text = self.sections.scalar(value, f"'{key.label}'")
+                    if text is not None:
+                        found[key.label] = text
+                else:
+                    known.append(self._known(key, value, VALUES))
+            if section == "at" and time is None and isinstance(item, Mapping):
+                self.sections.error("a row of 'at' has no time", item.span, "write {t: 1, x: …}")
+            rows.append(
+                KnownRow(
+                    t=time,
+                    event=self._word(found.get("name"), self.contacts, "contact"),
+                    what=self._word(found.get("what"), HAPPENINGS, "event"),
+                    values=tuple(known),
+                    span=item.span,
+                )
+            )
+        return rows
+
+    def _word(
+        self, text: Scalar | None, known: list[str] | tuple[str, ...], what: str
+    ) -> str | None:
+        if text is None:
+            return None
+        word = " ".join(text.label.split())
+        if word not in known:
+            hint = did_you_mean(word, known) or f"known are {', '.join(known)}"
+            self.sections.error(f"there is no {what} '{word}'", text.span, hint)
+        return word
