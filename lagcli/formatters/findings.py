@@ -91,7 +91,7 @@ def find_blocks(section: FindSection) -> Iterator[Block]:
             case Rewritten(value=value, subject=subject) if value is not None:
                 yield Equations((Row(Label(name) if subject is None else subject, value),))
         if answer.note:
-            yield Paragraph((answer.note,))
+            yield Paragraph((f"{answer.note[0].upper()}{answer.note[1:].rstrip('.')}.",))
 
 
 def equilibrium_blocks(section: EquilibriaSection) -> Iterator[Block]:

@@ -19,7 +19,7 @@ from lagcli.formatters.document import (
     Paragraph,
     Row,
 )
-from lagcli.formatters.mathml import MathmlPrinter
+from lagcli.formatters.mathml import MathmlPrinter, enclosed
 from lagcli.formatters.options import Options
 from lagcli.formatters.plain import harmless
 from lagcli.formatters.sections import to_document
@@ -41,9 +41,17 @@ body {{ max-width: 50rem; margin: 2rem auto; padding: 0 1rem; font-family: serif
 _END = """</body>
 </html>
 """
-_DISPLAY = '<div style="overflow-x: auto"><math display="block"><mtable displaystyle="true">'
+_DISPLAY = (
+    '<div style="overflow-x: auto"><math display="block">'
+    '<mtable displaystyle="true" columnalign="right center left">'
+)
 _END_DISPLAY = "</mtable></math></div>"
-_CELL = '<mtd style="text-align: {side}; padding: 0.3em 0.2em">{content}</mtd>'
+#: Chromium wants its own name of a side, Firefox the table's `columnalign`.
+_CELL = '<mtd style="text-align: -webkit-{side}; padding: 0.3em 0.2em">{content}</mtd>'
+_WHOLE_ROW = (
+    '<mtr><mtd columnspan="3" columnalign="left" '
+    'style="text-align: -webkit-left; padding: 0.3em 0.2em">{content}</mtd></mtr>'
+)
 #: A side of an equation is broken where its terms reach so many operations.
 _LONG = 24
 
@@ -107,9 +115,13 @@ def _row(row: Row, printer: MathmlPrinter) -> Iterator[str]:
             below[-1] += note
         else:
             first += note
-    for line in above:
-        yield _cells(line, "", "")
-    yield _cells(last, "<mo>=</mo>", first)
+    if above:
+        for line in above:
+            yield _WHOLE_ROW.format(content=line)
+        content = f"<mrow><mspace width='1em'/>{last}<mo>=</mo>{first}</mrow>"
+        yield _WHOLE_ROW.format(content=content)
+    else:
+        yield _cells(last, "<mo>=</mo>", first)
     for line in below:
         yield _cells("", "", f"<mspace width='1em'/>{line}")
 
@@ -139,7 +151,7 @@ def _matrix(matrix: Matrix, printer: MathmlPrinter) -> str:
         "<mtr>" + "".join(f"<mtd>{printer.show(entry)}</mtd>" for entry in row) + "</mtr>"
         for row in matrix.entries
     )
-    return f"<mrow><mo>(</mo><mtable>{rows}</mtable><mo>)</mo></mrow>"
+    return enclosed("(", f"<mtable>{rows}</mtable>", ")")
 
 
 def _show(formula: Formula, printer: MathmlPrinter) -> str:

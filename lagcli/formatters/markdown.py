@@ -23,6 +23,10 @@ _COLON = re.compile(r":(?=[\w/+-])")
 #: What would start a list, a rule or a heading at the start of a line.
 _LINE_START = re.compile(r"^([-+=]|\d+(?=[.)]))")
 
+_OPERATOR = re.compile(r"\\operatorname\{([A-Za-z0-9]+)\}")
+_TEXT = re.compile(r"\\text\{[^{}]*\}")
+_UNDERSCORE = re.compile(r"\\_")
+
 
 def render(answers: Sequence[Answers], options: Options) -> str:  # noqa: ARG001 - all alike
     """Markdown for GitHub and Pandoc, with LaTeX in $$ blocks."""
@@ -58,15 +62,27 @@ def _block(block: Block, display: LatexDisplay) -> Iterator[str]:
 
 def _display(lines: Sequence[str]) -> str:
     """A display; no line in it starts with a sign that would start a list."""
-    body = " \\\\\n".join(lines)
+    body = _for_mathjax(" \\\\\n".join(lines))
     return f"$$\n\\begin{{aligned}}\n{body}\n\\end{{aligned}}\n$$"
 
 
 def _sentence(parts: Sequence[str | Formula], display: LatexDisplay) -> str:
     return "".join(
-        _words(part) if isinstance(part, str) else f"${joined(display.formula(part)).strip()}$"
+        _words(part) if isinstance(part, str) else f"${_inline(joined(display.formula(part)))}$"
         for part in parts
     )
+
+
+def _for_mathjax(latex: str) -> str:
+    r"""LaTeX that GitHub takes: no \operatorname, no escapes within \text."""
+    upright = _OPERATOR.sub(r"\\mathop{\\mathrm{\1}}", latex)
+    return _TEXT.sub(lambda match: _UNDERSCORE.sub(r"}\\_\\text{", match[0]), upright)
+
+
+def _inline(latex: str) -> str:
+    r"""A formula in a sentence, where Markdown may read `\,` as a comma, two `_` as emphasis."""
+    shown = _for_mathjax(latex.strip())
+    return shown.replace(r"\,", r"\thinspace ").replace("}_{", "}_ {")
 
 
 def _words(part: str) -> str:

@@ -42,6 +42,11 @@ _TRIGONOMETRIC = _FIXED - {"exp", "atan2", *_FUNCTIONS}
 _DOTS = {1: "˙", 2: "¨"}
 #: A function applied to its argument, and a product of factors side by side.
 _APPLIED, _TIMES = "<mo>&#x2061;</mo>", "<mo>&#x2062;</mo>"
+_SUB, _END_SUB = "<msub>", "</msub>"
+_DOTTED, _END_DOTTED = "<mover accent='true'>", "</mover>"
+_THIN = "<mspace width='0.17em'/>"
+#: What makes a formula higher than a line.
+_HIGH = ("<mfrac", "<mtable", "<msqrt", "<mo>∫")
 
 
 class MathmlPrinter(Printer[str]):
@@ -61,7 +66,7 @@ class MathmlPrinter(Printer[str]):
                 return super().level(node)
 
     def bracketed(self, shown: str) -> str:
-        return f"<mrow><mo>(</mo>{shown}<mo>)</mo></mrow>"
+        return enclosed("(", shown, ")")
 
     def number(self, node: Number) -> str:
         if node.decimal:
@@ -98,26 +103,30 @@ class MathmlPrinter(Printer[str]):
         first, *others = self.factors(node)
         shown = [first]
         for after, factor in zip(node.factors[1:], others, strict=True):
-            shown.append(("<mo>⋅</mo>" if _is_numeral(after) else _TIMES) + factor)
+            space = _THIN if _is_function(after) else ""
+            shown.append(("<mo>⋅</mo>" if _is_numeral(after) else _TIMES) + space + factor)
         return f"<mrow>{''.join(shown)}</mrow>"
 
     def quotient(self, node: Quotient) -> str:
         return f"<mfrac>{self.show(node.numerator)}{self.show(node.denominator)}</mfrac>"
 
     def power(self, node: Power) -> str:
-        exponent = self.show(node.exponent)
+        exponent = _on_one_line(node.exponent) or self.show(node.exponent)
         base = node.base
         natural = isinstance(node.exponent, Number) and node.exponent.value.denominator == 1
         if isinstance(base, Call) and base.function in _TRIGONOMETRIC and natural:
             head = f"<msup><mi>{base.function}</mi>{exponent}</msup>"
             return f"<mrow>{head}{_APPLIED}{self.arguments(base.arguments)}</mrow>"
-        return f"<msup>{self.at(base, Level.ATOM)}{exponent}</msup>"
+        shown = self.at(base, Level.ATOM)
+        if isinstance(base, Name) and shown.startswith(_SUB):  # one above the other
+            return f"<msubsup>{_low(shown[len(_SUB) : -len(_END_SUB)])}{exponent}</msubsup>"
+        return f"<msup>{_low(shown)}{exponent}</msup>"
 
     def call(self, node: Call) -> str:
         if node.function == "sqrt":
             return f"<msqrt>{self.show(node.arguments[0])}</msqrt>"
         if node.function == "abs":
-            return f"<mrow><mo>|</mo>{self.show(node.arguments[0])}<mo>|</mo></mrow>"
+            return enclosed("|", self.show(node.arguments[0]), "|")
         if node.function in _FIXED:
             head = f"<mi>{_FUNCTIONS.get(node.function, node.function)}</mi>"
         else:
@@ -142,9 +151,9 @@ class MathmlPrinter(Printer[str]):
         """Show a symbol of the page."""
         if label.unit:
             inner = self.label(replace(label, unit=False))
-            return f"<mrow><mo>[</mo>{inner}<mo>]</mo></mrow>"
+            return enclosed("[", inner, "]")
         if label.change:
-            return f"<mrow><mi>Δ</mi>{mathml_name(label.letter)}</mrow>"
+            return f"<mrow><mi mathvariant='normal'>Δ</mi>{mathml_name(label.letter)}</mrow>"
         letter = f"<mi>{_bold(label.letter)}</mi>" if label.matrix else mathml_name(label.letter)
         if not label.index:
             return letter
@@ -159,16 +168,32 @@ class MathmlPrinter(Printer[str]):
         return f"<mrow>{before}<mo>∫</mo>{inner}<mspace width='0.2em'/>{variable}</mrow>"
 
 
+def enclosed(left: str, shown: str, right: str) -> str:
+    """Set brackets, as high as what they enclose."""
+    high = any(element in shown for element in _HIGH)
+    tag = "<mo>" if high else "<mo stretchy='false'>"  # a bracket that stretches has wide margins
+    return f"<mrow>{tag}{left}</mo>{shown}{tag}{right}</mo></mrow>"
+
+
+def _low(shown: str) -> str:
+    """Let dots not lift the exponent beside them."""
+    if not shown.startswith(_DOTTED):
+        return shown
+    letter, end, after = shown.partition(_END_DOTTED)
+    return f"<mpadded height='0.75em'>{letter}{end}</mpadded>{after}"
+
+
 def mathml_name(name: str, primes: int = 0) -> str:
     """Show a name with its subscripts, and dots for its time derivatives."""
     parts = name_parts(name)
     base = _identifier(parts.base)
     if primes in _DOTS:
-        base = f"<mover accent='true'>{base}<mo>{_DOTS[primes]}</mo></mover>"
+        dots = f"<mo style='padding-bottom: 0.1em'>{_DOTS[primes]}</mo>"  # or they touch an x
+        base = f"{_DOTTED}{base}{dots}{_END_DOTTED}"
         primes = 0
     if parts.subscripts:
         index = "<mo>,</mo>".join(_subscript(each) for each in parts.subscripts)
-        base = f"<msub>{base}<mrow>{index}</mrow></msub>"
+        base = f"{_SUB}{base}<mrow>{index}</mrow>{_END_SUB}"
     return _primed(base, primes)
 
 
@@ -196,6 +221,29 @@ def _bold(letter: str) -> str:
     """A letter in mathematical bold, such as 𝐌."""
     first = ord("𝐀") - ord("A") if letter.isupper() else ord("𝐚") - ord("a")
     return chr(ord(letter) + first)
+
+
+def _is_function(node: Expression) -> bool:
+    """Whether a name such as `sin` begins it, which would run into the factor before."""
+    while isinstance(node, Power):
+        node = node.base
+    return isinstance(node, Call) and node.function in _FIXED
+
+
+def _on_one_line(exponent: Expression) -> str:
+    """A fraction of whole numbers with a slash; empty for everything else."""
+    minus = "<mo>−</mo>" if isinstance(exponent, Negative) else ""
+    match exponent.operand if isinstance(exponent, Negative) else exponent:
+        case Number(value=value, decimal=False) if value.denominator > 1:
+            above, below = value.numerator, value.denominator
+        case Quotient(numerator=Number(value=over), denominator=Number(value=under)) if (
+            over.denominator == under.denominator == 1
+        ):
+            above, below = over.numerator, under.numerator
+        case _:
+            return ""
+    slash = "<mo lspace='0' rspace='0'>/</mo>"
+    return f"<mrow>{minus}<mn>{above}</mn>{slash}<mn>{below}</mn></mrow>"
 
 
 def _is_numeral(node: Expression) -> bool:

@@ -51,7 +51,9 @@ def _mathml_power(name: str, power: Fraction) -> str:
 
 
 def _mathml_mark(mark: str) -> str:
-    return f"<mn>{mark}</mn>" if mark[0].isdigit() else f"<mo>{mark}</mo>"
+    if mark[0].isdigit():
+        return f"<mn>{mark}</mn>"
+    return f"<mo stretchy='false' lspace='0' rspace='0'>{mark}</mo>"
 
 
 def _written(

@@ -8,11 +8,20 @@ from xml.etree import ElementTree as ET
 import pytest
 from hypothesis import given, settings
 
+from lagcli.answers import (
+    EquilibriaSection,
+    Equilibrium,
+    LagrangianSection,
+    Multiplier,
+    MultipliersSection,
+)
+from lagcli.expression import Call, Name, Negative, Power, Quotient
 from lagcli.formatters import html, markdown
 from lagcli.formatters.mathml import MathmlPrinter, mathml_name
 from lagcli.formatters.options import Options
+from lagcli.record import replace
 
-from .examples import HOOP, HOSTILE, g, plus, sin, square, times, x
+from .examples import HOOP, HOSTILE, g, number, plus, sin, square, times, x
 from .strategies import expressions
 from .test_grammar import ONE_OF_EACH
 
@@ -67,7 +76,7 @@ def test_a_fragment_is_no_page():
 @given(expressions)
 def test_mathml_is_well_formed_and_every_slot_is_filled(node):
     tree = ET.fromstring(f"<math>{MathmlPrinter().show(node)}</math>")
-    slots = {"msup": 2, "msub": 2, "mfrac": 2, "mover": 2}
+    slots = {"msup": 2, "msub": 2, "msubsup": 3, "mfrac": 2, "mover": 2}
     for element in tree.iter():
         if element.tag in slots:
             assert len(element) == slots[element.tag]
@@ -80,11 +89,61 @@ def test_no_kind_of_node_is_forgotten():
 
 def test_mathml_brackets():
     shown = MathmlPrinter().show(times(x, plus(x, g)))
-    assert "<mo>(</mo><mrow><mi>x</mi><mo>+</mo><mi>g</mi></mrow><mo>)</mo>" in shown
+    inner = "<mrow><mi>x</mi><mo>+</mo><mi>g</mi></mrow>"
+    assert f"<mo stretchy='false'>(</mo>{inner}<mo stretchy='false'>)</mo>" in shown
+    high = MathmlPrinter().show(times(x, plus(x, Quotient(g, x))))
+    assert "<mo>(</mo>" in high
     assert MathmlPrinter().show(square(sin(x))).startswith("<mrow><msup><mi>sin</mi>")
+
+
+def test_an_index_and_a_power_stand_above_each_other():
+    shown = MathmlPrinter().show(square(Name("theta_1")))
+    assert shown == "<msubsup><mi>θ</mi><mrow><mn>1</mn></mrow><mn>2</mn></msubsup>"
+    half = MathmlPrinter().show(Power(x, Negative(Quotient(number(3), number(2)))))
+    assert "<mfrac>" not in half
+
+
+def test_a_function_does_not_run_into_the_factor_before():
+    assert "<mspace width='0.17em'/>" in MathmlPrinter().show(times(g, sin(x)))
+
+
+def test_markdown_has_only_what_github_takes():
+    """GitHub refuses \\operatorname; MathJax shows an escape within \\text as it stands."""
+    root = Call("asinh", (Name("x_a_b"),))
+    page = replace(
+        HOOP,
+        sections={
+            "lagrangian": LagrangianSection(lagrangian=root),
+            "multipliers": MultipliersSection(
+                multipliers={"no_slip": Multiplier(symbol="N", value=x, kind="holonomic")}
+            ),
+        },
+    )
+    shown = markdown.render([page, HOSTILE], Options())
+    assert r"\mathop{\mathrm{arsinh}}" in shown
+    assert "operatorname" not in shown
+    assert r"\text{(no}\_\text{slip: holonomic)}" in shown
+    assert not re.search(r"\\text\{[^}]*\\_", shown)
+
+
+def test_no_inline_formula_has_an_escape_or_emphasis():
+    answers = replace(
+        HOOP,
+        coordinates=("theta_1", "theta_2"),
+        sections={
+            "equilibria": EquilibriaSection(
+                equilibria=(Equilibrium(at={"x_1": times(g, Name("theta_2", 1))}, stable=True),)
+            ),
+        },
+    )
+    shown = markdown.render([answers], Options())
+    for formula in re.findall(r"\$([^$\n]+)\$", shown):
+        assert not re.search(r"\\[^A-Za-z]", formula)
+        assert "}_{" not in formula
 
 
 def test_mathml_names():
     assert mathml_name("theta_1", 1) == (
-        "<msub><mover accent='true'><mi>θ</mi><mo>˙</mo></mover><mrow><mn>1</mn></mrow></msub>"
+        "<msub><mover accent='true'><mi>θ</mi><mo style='padding-bottom: 0.1em'>˙</mo></mover>"
+        "<mrow><mn>1</mn></mrow></msub>"
     )
