@@ -183,5 +183,8 @@ def _polynomial(vectors: Sequence[Sequence[Expr]]) -> list[list[Expr]]:
 
 
 def _vanishes(expression: Expr) -> bool:
-    """A number that is 0 to 40 digits."""
-    return bool(expression.is_number and abs(expression.evalf(50)) < sympy.Float("1e-40"))
+    """A number that is 0 to 40 digits, which a singular point of the potential is not."""
+    if not expression.is_number:
+        return False
+    value = expression.evalf(50)
+    return value is not sympy.nan and bool(abs(value) < sympy.Float("1e-40"))

@@ -220,3 +220,14 @@ def test_no_equilibrium_no_modes(system):
     text = f"coordinates: [x]\nparameters: {{m: POSITIVE, g: POSITIVE}}\nT: m*x'^2/2\n{system}\n"
     assert not equilibria(dynamics(text)).equilibria
     assert modes(dynamics(text)).modes is None
+
+
+def test_the_singular_centre_of_a_force_is_no_equilibrium():
+    kepler = """
+coordinates: [x, y]
+parameters: {m: POSITIVE, k: POSITIVE}
+T: m*(x'^2 + y'^2)/2
+V: -k/sqrt(x^2 + y^2)
+"""
+    found = equilibria(dynamics(kepler)).equilibria
+    assert not found
