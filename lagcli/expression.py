@@ -121,6 +121,13 @@ class Diff(Expression):
 
 
 @record
+class Rate(Expression):
+    """d(operand)/dt, named in an explanation; in a file it is a prime."""
+
+    operand: Expression
+
+
+@record
 class Equation:
     """`left = right`; an expression alone is `left = 0`."""
 
@@ -136,7 +143,7 @@ ONE = Number(Fraction(1))
 def children(node: Expression) -> tuple[Expression, ...]:
     """The direct parts of a node."""
     match node:
-        case Negative(operand=operand):
+        case Negative(operand=operand) | Rate(operand=operand):
             return (operand,)
         case Sum(terms=parts) | Product(factors=parts):
             return parts

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from lagcli.answers import Answers
+    from lagcli.explanation import Explanation
     from lagcli.formatters import Options
     from lagcli.mechanics.derivation import Derivation
     from lagcli.mechanics.large_statements import LargeStatements
@@ -124,6 +125,24 @@ def state(derivation: Derivation, request: Request) -> Answers:
     from lagcli.rewriting import rewritten
 
     return replace(answers, sections=rewritten(answers.sections, with_decimals))
+
+
+def explain(derivation: Derivation) -> Explanation:
+    """Derivation -> its account, step by step.
+
+    Raises
+    ------
+    ProblemError
+        When the derivation finds that the problem cannot be meant.
+    """
+    large = derivation.large_form
+    if large is not None:
+        from lagcli.mechanics.explaining.large import explanation_of_large
+
+        return explanation_of_large(large)
+    from lagcli.mechanics.explaining.explain import explanation
+
+    return explanation(derivation)
 
 
 def _statements(derivation: Derivation) -> Statements | LargeStatements:

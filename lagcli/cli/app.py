@@ -13,6 +13,7 @@ from typer.core import TyperGroup
 #: function `<command>`; it is imported only when that command is called.
 COMMANDS = {
     "solve": "Derive and print the equations of motion, multipliers and charges.",
+    "explain": "Tell the derivation step by step, with its reasons.",
     "simulate": "Compute the motion to a stated accuracy, with a certificate.",
     "check": "Check problems against their known answers and against the mathematics.",
     "formats": "List the formats that `solve --format` knows.",

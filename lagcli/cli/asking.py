@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lagcli.answers import SECTIONS
-from lagcli.formatters.registry import UnknownFormatter, find_formatter
 from lagcli.pipeline import Request
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
@@ -20,13 +19,9 @@ class Asked:
 
 
 def asked(
-    format_name: str, show: Sequence[str], settings: Sequence[str], *, numeric: bool
+    show: Sequence[str], settings: Sequence[str], *, numeric: bool, mistakes: list[str]
 ) -> Asked:
-    """Read the options; a mistake in one hides none in another."""
-    mistakes: list[str] = []
-    formatter = find_formatter(format_name)
-    if isinstance(formatter, UnknownFormatter):
-        mistakes.append(f"--format: {formatter.message}")
+    """Read the options; a mistake in one hides none in another, nor those already found."""
     request = Request(sections=_sections(show, mistakes), settings=tuple(settings), numeric=numeric)
     return Asked(request, tuple(mistakes))
 

@@ -48,3 +48,10 @@ def complete_column(incomplete: str) -> list[str]:
     """The groups of columns that the last word of `a,b,c` may become."""
     before, comma, word = incomplete.rpartition(",")
     return [before + comma + name for name in _SHOWN if name.startswith(word)]
+
+
+def complete_page_format(incomplete: str) -> list[str]:
+    """The formats of an explanation that begin so."""
+    from lagcli.formatters.explaining import FORMATS
+
+    return [name for name in FORMATS if name.startswith(incomplete)]

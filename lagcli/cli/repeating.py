@@ -23,6 +23,7 @@ class Options(NamedTuple):
     show: tuple[str, ...]
     settings: tuple[str, ...]
     numeric: bool
+    command: str = "solve"
 
 
 def solve_or_repeat(
@@ -84,14 +85,17 @@ def _solved(
 ) -> tuple[Status, Outcome]:
     from lagcli.cli.asking import asked
     from lagcli.cli.solving import solve_files
+    from lagcli.cli.working import WORKS
     from lagcli.stack import with_deep_stack
 
-    request = asked(printing.format_name, options.show, options.settings, numeric=options.numeric)
+    work = WORKS[options.command]
+    mistakes = work.mistakes(printing.format_name)
+    request = asked(options.show, options.settings, numeric=options.numeric, mistakes=mistakes)
     for mistake in request.mistakes:
         tell_line(f"lagcli: error: {mistake}")
     possible = has_place(printing.output) and not request.mistakes
     outcome = with_deep_stack(
-        lambda: solve_files(inputs, request, printing, only_read=not possible)
+        lambda: solve_files(inputs, request, printing, work, only_read=not possible)
     )
     if not possible:
         return Status.USAGE, outcome

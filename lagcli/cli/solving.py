@@ -6,16 +6,16 @@ from collections.abc import Sequence
 from functools import cache
 from typing import NamedTuple
 
-from lagcli.answers import Answers
 from lagcli.cli.asking import Asked
 from lagcli.cli.files import reason
 from lagcli.cli.printing import Printing
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
+from lagcli.cli.working import Result, Work
 from lagcli.diagnostics import ProblemError
 from lagcli.failures import describe
 from lagcli.formatters.registry import BUILT_IN
-from lagcli.pipeline import Request, derive, read, render, state
+from lagcli.pipeline import Request, derive, read
 from lagcli.problem import Problem
 from lagcli.sparing import keep_what_is_there, spare_sympy
 
@@ -54,7 +54,12 @@ class Tally:
 
 
 def solve_files(
-    inputs: Sequence[Input], asked: Asked, printing: Printing, *, only_read: bool = False
+    inputs: Sequence[Input],
+    asked: Asked,
+    printing: Printing,
+    work: Work[Result],
+    *,
+    only_read: bool = False,
 ) -> Outcome:
     """Answer every file that can be read, and format the answers together."""
     tally = Tally()
@@ -65,11 +70,11 @@ def solve_files(
             answer
             for (name, _), problem in zip(inputs, problems, strict=True)
             if problem is not None
-            if (answer := _answer(name, problem, asked.request, tally)) is not None
+            if (answer := _answer(name, problem, asked.request, work, tally)) is not None
         ]
         if answers:
             options = printing.options(several=len(inputs) > 1)
-            text = render(answers, printing.format_name, options)
+            text = work.render(answers, printing.format_name, options)
     lasting = not (tally.missing or tally.unreadable or only_read)
     repeatable = lasting and printing.format_name in BUILT_IN
     return Outcome(tally.status, text, tuple(tally.said), repeatable)
@@ -96,11 +101,13 @@ def _read(name: str, data: bytes | OSError, request: Request, tally: Tally) -> P
     return found.problem
 
 
-def _answer(name: str, problem: Problem, request: Request, tally: Tally) -> Answers | None:
+def _answer(
+    name: str, problem: Problem, request: Request, work: Work[Result], tally: Tally
+) -> Result | None:
     try:
         derivation = derive(problem)
         _start_algebra(needed=derivation.large_form is None)
-        answers = state(derivation, request)
+        answers = work.make(derivation, request)
     except ProblemError as error:
         tally.said.append(tell(error.source, error.diagnostics))
         tally.wrong = True

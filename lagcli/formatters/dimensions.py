@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from lagcli.answers import DimensionsSection, QuantityUnit
-from lagcli.formatters.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
+from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
 
 
 def dimension_blocks(section: DimensionsSection) -> Iterator[Block]:

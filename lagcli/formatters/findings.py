@@ -16,8 +16,7 @@ from lagcli.answers import (
     Rewritten,
     Solutions,
 )
-from lagcli.expression import ZERO, Expression, Name, Number, Power, operation_count
-from lagcli.formatters.document import (
+from lagcli.document import (
     Block,
     Equations,
     Formula,
@@ -26,6 +25,7 @@ from lagcli.formatters.document import (
     Paragraph,
     Row,
 )
+from lagcli.expression import ZERO, Expression, Name, Number, Power, operation_count
 
 _SOURCES = {
     "candidate": "candidate",

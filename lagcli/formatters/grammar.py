@@ -16,6 +16,7 @@ from lagcli.expression import (
     Power,
     Product,
     Quotient,
+    Rate,
     Sum,
 )
 from lagcli.formatters.display_width import display_width
@@ -115,6 +116,9 @@ class GrammarPrinter(Printer[Layout]):
 
     def diff(self, node: Diff) -> Layout:
         return (*text("diff"), *self.arguments((node.operand, node.variable)))
+
+    def rate(self, node: Rate) -> Layout:
+        return (*text("d/dt"), *self.arguments((node.operand,)))
 
     def arguments(self, nodes: tuple[Expression, ...]) -> Layout:
         """Arguments in their brackets; a line may break after a comma."""

@@ -6,14 +6,14 @@ import html
 from collections.abc import Iterator, Sequence
 
 from lagcli.answers import Answers
-from lagcli.expression import Sum, operation_count
-from lagcli.formatters.document import (
+from lagcli.document import (
     Block,
     Document,
     Equations,
     Formula,
     Heading,
     Integral,
+    Items,
     Label,
     Matrix,
     Paragraph,
@@ -58,7 +58,11 @@ _LONG = 24
 
 def render(answers: Sequence[Answers], options: Options) -> str:
     """HTML with MathML: a fragment, or a whole page."""
-    documents = [to_document(each) for each in answers]
+    return pages([to_document(each) for each in answers], options)
+
+
+def pages(documents: Sequence[Document], options: Options) -> str:
+    """Set documents, one under another."""
     body = "\n".join(line for document in documents for line in _article(document)) + "\n"
     if not options.standalone:
         return body
@@ -82,10 +86,16 @@ def _article(document: Document) -> Iterator[str]:
 
 def _block(block: Block, printer: MathmlPrinter) -> Iterator[str]:
     match block:
-        case Heading(text=text, level=level):
-            yield f"<h{level + 1}>{escaped(text)}</h{level + 1}>"
+        case Heading(text=text, level=level, formula=formula):
+            about = "" if formula is None else _part(formula, printer)
+            yield f"<h{level + 1}>{escaped(text)} {about}".rstrip() + f"</h{level + 1}>"
         case Paragraph(parts=parts):
             yield f"<p>{''.join(_part(part, printer) for part in parts)}</p>"
+        case Items(items=items):
+            yield "<ul>"
+            for item in items:
+                yield f"<li>{''.join(_part(part, printer) for part in item)}</li>"
+            yield "</ul>"
         case Equations(rows=rows):
             yield _DISPLAY
             for row in rows:

@@ -5,7 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from lagcli.answers import Answers
-from lagcli.formatters.document import Block, Equations, Formula, Heading, Matrix, Paragraph
+from lagcli.document import (
+    Block,
+    Document,
+    Equations,
+    Formula,
+    Heading,
+    Items,
+    Matrix,
+    Paragraph,
+)
 from lagcli.formatters.latex_display import LatexDisplay
 from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_names import LatexNames
@@ -27,18 +36,22 @@ _BORROWED = {r"\mathbb": r"\mathbf", r"\mathfrak": r"\mathbf"}
 
 def render(answers: Sequence[Answers], options: Options) -> str:
     r"""LaTeX with amsmath: a fragment for \input, or a whole document."""
-    body = "\n".join(line for each in answers for line in _lines(each))
+    return pages([to_document(each) for each in answers], options)
+
+
+def pages(documents: Sequence[Document], options: Options) -> str:
+    """Set documents, one under another."""
+    body = "\n".join(line for each in documents for line in _lines(each))
     if not options.standalone:
         return body + "\n"
     return _PREAMBLE + body + "\n" + _END
 
 
-def _lines(answers: Answers) -> Iterator[str]:
-    names = LatexNames(answers.coordinates, answers.symbols)
+def _lines(document: Document) -> Iterator[str]:
+    names = LatexNames(document.coordinates, document.symbols)
     display = LatexDisplay(LatexPrinter(names))
-    document = to_document(answers)
     for macro, substitute in _BORROWED.items():
-        if any(macro in symbol for symbol in answers.symbols.values()):
+        if any(macro in symbol for symbol in document.symbols.values()):
             yield rf"\providecommand{{{macro}}}[1]{{{substitute}{{#1}}}}"
     yield rf"\section*{{\raggedright {latex_text(document.title)}}}"
     before: Block | None = None
@@ -51,10 +64,16 @@ def _lines(answers: Answers) -> Iterator[str]:
 
 def _block(block: Block, display: LatexDisplay) -> Iterator[str]:
     match block:
-        case Heading(text=text, level=level):
-            yield f"{_HEADINGS[level]}{{{latex_text(text)}}}"
+        case Heading(text=text, level=level, formula=formula):
+            parts = (text,) if formula is None else (f"{text} ", formula)
+            yield f"{_HEADINGS[level]}{{{_sentence(parts, display)}}}"
         case Paragraph(parts=parts):
             yield r"\noindent " + _sentence(parts, display)
+        case Items(items=items):
+            yield r"\begin{itemize}"
+            for item in items:
+                yield r"\item " + _sentence(item, display)
+            yield r"\end{itemize}"
         case Equations():
             for lines in display.equations(block):
                 yield from _aligned(lines)

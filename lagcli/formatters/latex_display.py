@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
-from lagcli.formatters.document import Equations, Formula, Integral, Label, Matrix, Row
+from lagcli.document import Equations, Formula, Integral, Label, Matrix, Row
 from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.latex_width import QUAD, RELATION, TEXT_WIDTH, text_width

@@ -19,6 +19,7 @@ from lagcli.expression import (
     Power,
     Product,
     Quotient,
+    Rate,
     Sum,
 )
 from lagcli.formatters.latex_names import LatexNames
@@ -254,10 +255,20 @@ class LatexPrinter(Printer[Box]):
 
     def diff(self, node: Diff) -> Box:
         below = self.show(node.variable)
+        if isinstance(node.operand, Name):
+            above = self.show(node.operand)
+            width = max(above.width, below.width) + 7
+            whole = _frac(rf"\partial {above.text}", rf"\partial {below.text}", width)
+            return Box((whole,), Level.POWER, _TALL)
         operator = _frac(r"\partial", rf"\partial {below.text}", below.width + 7)
         operand = self.bracketed(self.show(node.operand))
         gap = Piece(r" \, ", THIN_SPACE)
         return Box((operator, gap, *operand.pieces), Level.PRODUCT, _TALL)
+
+    def rate(self, node: Rate) -> Box:
+        operand = self.at(node.operand, Level.POWER)
+        gap = Piece(r" \, ", THIN_SPACE)
+        return Box((_frac("d", "dt", 9), gap, *operand.pieces), Level.PRODUCT, _TALL)
 
     def _arguments(self, nodes: tuple[Expression, ...]) -> Box:
         pieces: list[Piece] = []

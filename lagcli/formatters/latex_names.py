@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Mapping
 
-from lagcli.formatters.document import Label
+from lagcli.document import Label
 from lagcli.formatters.greek import BY_NAME, LATEX, latex_of_name
 from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.latex_width import SCRIPT, text_width

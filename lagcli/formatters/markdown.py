@@ -6,7 +6,16 @@ import re
 from collections.abc import Iterator, Sequence
 
 from lagcli.answers import Answers
-from lagcli.formatters.document import Block, Equations, Formula, Heading, Matrix, Paragraph
+from lagcli.document import (
+    Block,
+    Document,
+    Equations,
+    Formula,
+    Heading,
+    Items,
+    Matrix,
+    Paragraph,
+)
 from lagcli.formatters.latex_display import LatexDisplay
 from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_names import LatexNames
@@ -28,9 +37,14 @@ _TEXT = re.compile(r"\\text\{[^{}]*\}")
 _UNDERSCORE = re.compile(r"\\_")
 
 
-def render(answers: Sequence[Answers], options: Options) -> str:  # noqa: ARG001 - all alike
+def render(answers: Sequence[Answers], options: Options) -> str:
     """Markdown for GitHub and Pandoc, with LaTeX in $$ blocks."""
-    blocks = [block for each in answers for block in _blocks(each)]
+    return pages([to_document(each) for each in answers], options)
+
+
+def pages(documents: Sequence[Document], options: Options) -> str:  # noqa: ARG001 - all alike
+    """Set documents, one under another."""
+    blocks = [block for each in documents for block in _blocks(each)]
     return "\n\n".join(blocks) + "\n"
 
 
@@ -40,9 +54,8 @@ def escaped(text: str) -> str:
     return _COLON.sub("&#58;", shown)
 
 
-def _blocks(answers: Answers) -> Iterator[str]:
-    display = LatexDisplay(LatexPrinter(LatexNames(answers.coordinates, answers.symbols)))
-    document = to_document(answers)
+def _blocks(document: Document) -> Iterator[str]:
+    display = LatexDisplay(LatexPrinter(LatexNames(document.coordinates, document.symbols)))
     yield f"# {escaped(document.title)}"
     for block in document.blocks:
         yield from _block(block, display)
@@ -50,10 +63,13 @@ def _blocks(answers: Answers) -> Iterator[str]:
 
 def _block(block: Block, display: LatexDisplay) -> Iterator[str]:
     match block:
-        case Heading(text=text, level=level):
-            yield f"{'#' * (level + 1)} {escaped(text)}"
+        case Heading(text=text, level=level, formula=formula):
+            parts = (text,) if formula is None else (f"{text} ", formula)
+            yield f"{'#' * (level + 1)} {_sentence(parts, display)}"
         case Paragraph(parts=parts):
             yield _LINE_START.sub(r"\\\1", _sentence(parts, display))
+        case Items(items=items):
+            yield "\n".join(f"- {_sentence(item, display)}" for item in items)
         case Equations():
             yield from map(_display, display.equations(block))
         case Matrix():

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import html
 
+from lagcli.document import Integral, Label
 from lagcli.expression import (
     Call,
     Diff,
@@ -16,9 +17,9 @@ from lagcli.expression import (
     Power,
     Product,
     Quotient,
+    Rate,
     Sum,
 )
-from lagcli.formatters.document import Integral, Label
 from lagcli.formatters.greek import BY_NAME
 from lagcli.formatters.naming import name_parts
 from lagcli.formatters.numbers import decimal_parts, digit_groups
@@ -60,7 +61,9 @@ class MathmlPrinter(Printer[str]):
                 return Level.POWER if decimal_parts(value).exponent else Level.ATOM
             case Quotient() | Number() if super().level(node) is Level.QUOTIENT:
                 return Level.POWER
-            case Diff():
+            case Diff(operand=operand):
+                return Level.POWER if isinstance(operand, Name) else Level.PRODUCT
+            case Rate():
                 return Level.PRODUCT
             case _:
                 return super().level(node)
@@ -140,8 +143,14 @@ class MathmlPrinter(Printer[str]):
 
     def diff(self, node: Diff) -> str:
         below = f"<mrow><mo>∂</mo>{self.show(node.variable)}</mrow>"
+        if isinstance(node.operand, Name):
+            return f"<mfrac><mrow><mo>∂</mo>{self.show(node.operand)}</mrow>{below}</mfrac>"
         operand = self.bracketed(self.show(node.operand))
         return f"<mrow><mfrac><mo>∂</mo>{below}</mfrac>{operand}</mrow>"
+
+    def rate(self, node: Rate) -> str:
+        operator = "<mfrac><mi>d</mi><mrow><mi>d</mi><mi>t</mi></mrow></mfrac>"
+        return f"<mrow>{operator}{self.at(node.operand, Level.POWER)}</mrow>"
 
     def arguments(self, nodes: tuple[Expression, ...]) -> str:
         """Show arguments in their brackets."""

@@ -23,6 +23,7 @@ from lagcli.expression import (
     Power,
     Product,
     Quotient,
+    Rate,
     Sum,
     walk,
 )
@@ -124,6 +125,8 @@ class Printer(ABC, Generic[Shown]):
                 return self.partial_call(node)
             case Diff():
                 return self.diff(node)
+            case Rate():
+                return self.rate(node)
             case _:
                 raise TypeError(f"{type(node).__name__} has no notation")
 
@@ -149,3 +152,5 @@ class Printer(ABC, Generic[Shown]):
     def partial_call(self, node: PartialCall) -> Shown: ...
     @abstractmethod
     def diff(self, node: Diff) -> Shown: ...
+    @abstractmethod
+    def rate(self, node: Rate) -> Shown: ...

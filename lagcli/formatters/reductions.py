@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from lagcli.answers import Above, OneFreedom, PeriodSeries, ReductionSection
-from lagcli.expression import ZERO, Name
-from lagcli.formatters.document import (
+from lagcli.document import (
     Block,
     Equations,
     Formula,
@@ -16,6 +15,7 @@ from lagcli.formatters.document import (
     Paragraph,
     Row,
 )
+from lagcli.expression import ZERO, Name
 from lagcli.formatters.findings import state_blocks
 
 _POTENTIAL = Label("U", ("eff",))

@@ -28,9 +28,7 @@ from lagcli.answers import (
     Section,
     Verification,
 )
-from lagcli.expression import Expression, Name
-from lagcli.formatters.dimensions import dimension_blocks
-from lagcli.formatters.document import (
+from lagcli.document import (
     Block,
     Document,
     Equations,
@@ -41,6 +39,8 @@ from lagcli.formatters.document import (
     Paragraph,
     Row,
 )
+from lagcli.expression import Expression, Name
+from lagcli.formatters.dimensions import dimension_blocks
 from lagcli.formatters.findings import (
     charge_blocks,
     equilibrium_blocks,
@@ -87,7 +87,7 @@ def to_document(answers: Answers) -> Document:
     if answers.warnings:
         blocks.append(Heading("Warnings"))
         blocks.extend(Paragraph((warning,)) for warning in answers.warnings)
-    return Document(answers.title, tuple(blocks))
+    return Document(answers.title, tuple(blocks), answers.coordinates, answers.symbols)
 
 
 def section_blocks(section: Section, answers: Answers) -> Iterable[Block]:

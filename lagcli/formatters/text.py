@@ -5,19 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from lagcli.answers import Answers
-from lagcli.formatters.display_width import display_width
-from lagcli.formatters.document import (
+from lagcli.document import (
     Block,
     Document,
     Equations,
     Formula,
     Heading,
     Integral,
+    Items,
     Label,
     Matrix,
     Paragraph,
     Row,
 )
+from lagcli.formatters.display_width import display_width
 from lagcli.formatters.greek import romanized
 from lagcli.formatters.layout import (
     RELATION,
@@ -47,8 +48,13 @@ _FIRM_SPACE = "\N{NO-BREAK SPACE}"
 
 def render(answers: Sequence[Answers], options: Options) -> str:
     """Aligned equations for reading in a terminal."""
+    return pages([to_document(each) for each in answers], options)
+
+
+def pages(documents: Sequence[Document], options: Options) -> str:
+    """Set documents, one under another."""
     page = _TextPage(options.width, unicode=options.unicode)
-    return "\n\n".join("\n".join(page.lines(to_document(each))) for each in answers) + "\n"
+    return "\n\n".join("\n".join(page.lines(each)) for each in documents) + "\n"
 
 
 class _TextPage:
@@ -72,7 +78,8 @@ class _TextPage:
                 indent = 2 * (block.level - 1)
                 if not (block.level > 1 and isinstance(before, Heading)):
                     yield ""
-            yield from (line.rstrip() for line in self.block(block, indent))
+            inset = 2 * (document.prose and isinstance(block, (Equations, Matrix)))
+            yield from (line.rstrip() for line in self.block(block, indent + inset))
             if isinstance(block, Heading):
                 indent = 2 * block.level
             before = block
@@ -80,16 +87,25 @@ class _TextPage:
     def block(self, block: Block, indent: int) -> Iterator[str]:
         margin = " " * indent
         match block:
-            case Heading(text=text):
-                lines = iter(filled(self.words(text), self.width - indent))
+            case Heading(text=text, formula=formula):
+                about = [] if formula is None else [self.inline(formula)]
+                lines = iter(filled([*self.words(text), *about], self.width - indent))
             case Paragraph(parts=parts):
                 lines = iter(filled(self.sentence(parts), self.width - indent))
+            case Items(items=items):
+                lines = self.items(items, self.width - indent)
             case Equations(rows=rows):
                 lines = self.equations(rows, self.width - indent)
             case Matrix():
                 lines = self.matrix(block, self.width - indent)
         for line in lines:
             yield (margin + line).replace(_FIRM_SPACE, " ")
+
+    def items(self, items: Sequence[Sequence[str | Formula]], width: int) -> Iterator[str]:
+        mark = "• " if self.unicode else "- "
+        for item in items:
+            for number, line in enumerate(filled(self.sentence(item), width - len(mark))):
+                yield (" " * len(mark) if number else mark) + line
 
     def words(self, text: str) -> list[str]:
         """Split a text that comes from outside into harmless words."""

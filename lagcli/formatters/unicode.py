@@ -6,16 +6,17 @@ from __future__ import annotations
 
 import unicodedata
 
+from lagcli.document import Integral, Label
 from lagcli.expression import (
     Call,
     Diff,
     Expression,
+    Name,
     Number,
     PartialCall,
     Power,
     Product,
 )
-from lagcli.formatters.document import Integral, Label
 from lagcli.formatters.grammar import GrammarPrinter, text
 from lagcli.formatters.greek import BY_NAME, romanized
 from lagcli.formatters.layout import PRODUCT, Layout, Piece, joined
@@ -96,6 +97,13 @@ class UnicodePrinter(GrammarPrinter):
         return (*text(slots + self.spelled(node.function, 0)), *self.arguments(node.arguments))
 
     def diff(self, node: Diff) -> Layout:
+        if isinstance(node.operand, Name):
+            return (
+                *text("∂"),
+                *self.show(node.operand),
+                *text("/∂"),
+                *self.show(node.variable),
+            )
         return (
             *text("∂"),
             *self.arguments((node.operand,)),
@@ -138,6 +146,16 @@ class AsciiPrinter(GrammarPrinter):
 
     def spelled(self, name: str, primes: int) -> str:
         return romanized(name) + "'" * primes
+
+    def diff(self, node: Diff) -> Layout:
+        if isinstance(node.operand, Name):
+            return (*text("d"), *self.show(node.operand), *text("/d"), *self.show(node.variable))
+        return super().diff(node)
+
+    def level(self, node: Expression) -> Level:
+        if isinstance(node, Diff) and isinstance(node.operand, Name):
+            return Level.QUOTIENT
+        return super().level(node)
 
     def label(self, label: Label) -> Layout:
         """Show a symbol of the page."""

@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping, Sequence
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import shape, terms
 from lagcli.answers import (
     AccelerationsSection,
     AlgebraSection,
@@ -37,6 +36,7 @@ from lagcli.expression import ZERO, Expression
 from lagcli.mechanics.constraint_force import forces_on_points
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.noether import NoetherCharge
+from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
 from lagcli.problem import Problem
 
@@ -69,9 +69,7 @@ class Statements(Stating):
         self.derivation = derivation
         self.system = derivation.system
         self.dynamics = derivation.dynamics
-        system = self.system
-        fast = (*system.qdot, *system.qddot, *system.multipliers)
-        self._leading = frozenset(symbol.name for symbol in fast)
+        self.readable = Readable(self.dynamics)
 
     @property
     def makers(self) -> Mapping[str, Callable[[], Section]]:
@@ -105,15 +103,15 @@ class Statements(Stating):
 
     def _as_written(self, expression: Expr) -> Expression:
         """Readable, without using the constraints."""
-        return shape(expression, self.system.order)
+        return self.readable.as_written(expression)
 
     def _by_terms(self, expression: Expr, *, as_given: bool = False) -> Expression:
         """Term by term in velocities, accelerations, multipliers, as L and h are read."""
-        return terms(expression, self.system.order, self._leading, as_given=as_given)
+        return self.readable.by_terms(expression, as_given=as_given)
 
     def _on_surface(self, expression: Expr) -> Expression:
         """Readable, with the constraints used."""
-        return self.dynamics.shapes.shape(expression)
+        return self.readable.on_surface(expression)
 
     def _by_coordinate(self, values: Sequence[Expr]) -> dict[str, Expression]:
         return {

@@ -12,8 +12,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from lagcli.answers import Answers, LagrangianSection
+from lagcli.document import Equations, Row
 from lagcli.expression import Call, Diff, Name, Negative, PartialCall, Power, Quotient
-from lagcli.formatters.document import Equations, Row
 from lagcli.formatters.latex import render
 from lagcli.formatters.latex_display import LatexDisplay
 from lagcli.formatters.latex_math import WIDEST, LatexPrinter

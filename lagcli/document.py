@@ -1,12 +1,15 @@
 """A page before it has a notation: headings, sentences and equations in order.
 
-`sections` words the answers as such a page; `text`, `latex`, `markdown` and `html` set it.
+`formatters.sections` words the answers as such a page, `mechanics.explaining` a derivation;
+the formatters `text`, `latex`, `markdown` and `html` set it.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from lagcli.expression import Expression
-from lagcli.record import record
+from lagcli.record import field, record
 from lagcli.units import Unit
 
 
@@ -58,10 +61,11 @@ Formula = Expression | Label | Integral | Unit
 
 @record
 class Heading:
-    """The start of a section (`level` 1) or of a part of it (2)."""
+    """The start of a section (`level` 1) or of a part of it (2), perhaps on one formula."""
 
     text: str
     level: int = 1
+    formula: Formula | None = None
 
 
 @record
@@ -69,6 +73,13 @@ class Paragraph:
     """Sentences, with formulas between the words."""
 
     parts: tuple[str | Formula, ...]
+
+
+@record
+class Items:
+    """A list, each item a sentence with formulas between the words."""
+
+    items: tuple[tuple[str | Formula, ...], ...]
 
 
 @record
@@ -104,12 +115,18 @@ class Matrix:
         return Label(self.label.letter, tuple(index), matrix=True)
 
 
-Block = Heading | Paragraph | Equations | Matrix
+Block = Heading | Paragraph | Items | Equations | Matrix
 
 
 @record
 class Document:
-    """One file's answers as a page."""
+    """One file's answers as a page; `coordinates` and `symbols` say how names are set.
+
+    In `prose` the displays stand between sentences, from which they are set off.
+    """
 
     title: str
     blocks: tuple[Block, ...]
+    coordinates: tuple[str, ...] = ()
+    symbols: Mapping[str, str] = field(default_factory=dict)
+    prose: bool = False

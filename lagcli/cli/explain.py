@@ -1,0 +1,50 @@
+"""`lagcli explain`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from lagcli.cli.choices import complete_page_format
+from lagcli.cli.solve import Files, NoCache, Output, Set, Standalone, Width
+
+Format = Annotated[
+    str,
+    typer.Option(
+        "--format",
+        "-f",
+        metavar="NAME",
+        help="One of: text, latex, markdown, html, json.",
+        autocompletion=complete_page_format,
+    ),
+]
+
+
+def explain(
+    files: Files,
+    format_name: Format = "text",
+    output: Output = None,
+    settings: Set = None,
+    standalone: Standalone = False,
+    width: Width = None,
+    no_cache: NoCache = False,
+) -> int:
+    """Tell the derivation step by step, with its reasons.
+
+    Coordinates and constraints, the Lagrangian, its partial derivatives, Lagrange's
+    equations, how the multipliers are eliminated, what they mean, the check, and what is
+    conserved and why.  The exit status is that of lagcli solve.
+
+    \b
+    Examples:
+      lagcli explain problems/hoop.yaml
+      lagcli explain problems/hoop.yaml -f latex --standalone -o hoop.tex
+    """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.printing import Printing
+    from lagcli.cli.repeating import Options, solve_or_repeat
+
+    to_file = None if output is None or str(output) == "-" else output
+    printing = Printing(format_name, to_file, standalone, width)
+    options = Options((), tuple(settings or ()), numeric=False, command="explain")
+    return solve_or_repeat(files, options, printing, cached=not no_cache)

@@ -1,0 +1,55 @@
+"""What a command makes of each file's derivation, and how that is printed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, Generic, NamedTuple, Protocol, TypeVar
+
+from lagcli.formatters import Options
+from lagcli.formatters.explaining import FORMATS
+from lagcli.formatters.explaining import render as render_explanations
+from lagcli.formatters.registry import UnknownFormatter, find_formatter
+from lagcli.mechanics.derivation import Derivation
+from lagcli.pipeline import Request, explain, render, state
+from lagcli.reader.suggest import did_you_mean
+
+
+class Complete(Protocol):
+    """A result that knows whether everything asked for is in it."""
+
+    @property
+    def complete(self) -> bool:
+        """False: exit status 1."""
+        ...
+
+
+Result = TypeVar("Result", bound=Complete)
+
+
+class Work(NamedTuple, Generic[Result]):
+    """One command's way from derivations to text."""
+
+    make: Callable[[Derivation, Request], Result]
+    render: Callable[[Sequence[Result], str, Options], str]
+    mistakes: Callable[[str], list[str]]
+
+
+def _format_of_answers(name: str) -> list[str]:
+    formatter = find_formatter(name)
+    return [f"--format: {formatter.message}"] if isinstance(formatter, UnknownFormatter) else []
+
+
+def _format_of_explanations(name: str) -> list[str]:
+    if name in FORMATS:
+        return []
+    advice = did_you_mean(name, FORMATS) or f"there are {', '.join(FORMATS)}"
+    return [f"--format: an explanation has no format '{name}': {advice}"]
+
+
+#: By command.
+WORKS: dict[str, Work[Any]] = {
+    "solve": Work(state, render, _format_of_answers),
+    "explain": Work(
+        lambda derivation, _: explain(derivation), render_explanations, _format_of_explanations
+    ),
+}

@@ -1,0 +1,70 @@
+"""The steps of an explanation for a machine.
+
+Formulas are strings in the grammar of the problem format; inside a sentence they stand
+between backticks.  `d/dt(...)`, which a file writes as a prime, is the one addition.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+
+from lagcli.document import Block, Equations, Formula, Heading, Items, Label, Matrix, Paragraph
+from lagcli.explanation import Explanation
+from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.json import SCHEMA, Object, Value
+from lagcli.formatters.options import Options
+
+
+def render(explanations: Sequence[Explanation], options: Options) -> str:
+    """Print one object for one file, an array for several."""
+    objects = [_object(each) for each in explanations]
+    value: Value = objects[0] if len(objects) == 1 and not options.several else objects
+    return json.dumps(value, indent=2, ensure_ascii=False) + "\n"
+
+
+def _object(explanation: Explanation) -> Object:
+    return {
+        "schema": SCHEMA,
+        "title": explanation.title,
+        "coordinates": explanation.coordinates,
+        "parameters": explanation.parameters,
+        "degrees_of_freedom": explanation.degrees_of_freedom,
+        "steps": [
+            {"title": step.title, "content": [_block(block) for block in step.blocks]}
+            for step in explanation.steps
+        ],
+        "warnings": explanation.warnings,
+    }
+
+
+def _block(block: Block) -> Object:
+    match block:
+        case Heading(text=text, formula=formula):
+            return {"heading": text if formula is None else _sentence([text, " ", formula])}
+        case Paragraph(parts=parts):
+            return {"text": _sentence(parts)}
+        case Items(items=items):
+            return {"items": [_sentence(parts) for parts in items]}
+        case Equations(rows=rows):
+            return {
+                "equations": [
+                    {"left": _formula(row.left), "right": _formula(row.right)}
+                    | ({"note": row.note} if row.note else {})
+                    for row in rows
+                ]
+            }
+        case Matrix(label=label, entries=entries):
+            shown = [[to_grammar(entry) for entry in row] for row in entries]
+            return {"matrix": _formula(label), "entries": shown}
+
+
+def _sentence(parts: Sequence[str | Formula]) -> str:
+    return "".join(part if isinstance(part, str) else f"`{_formula(part)}`" for part in parts)
+
+
+def _formula(formula: Formula) -> str:
+    if isinstance(formula, Label):
+        letter = f"Delta_{formula.letter}" if formula.change else formula.letter
+        return "_".join((letter, *formula.index))
+    return to_grammar(formula)

@@ -1,0 +1,1 @@
+"""The derivation told step by step, each formula taken from the derivation itself."""

@@ -1,0 +1,296 @@
+"""The fourth step: the accelerations, and the multipliers eliminated on the way.
+
+q'' = M^-1 (F + A^T lambda),    A q'' + b = 0,
+A M^-1 A^T lambda = -b - A M^-1 F
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import is_zero, solve_linear
+from lagcli.document import Block, Equations, Label, Matrix, Row
+from lagcli.expression import ZERO, Expression, Name, operation_count
+from lagcli.mechanics.constraints import ConstraintEquation
+from lagcli.mechanics.dynamics import Motion
+from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.words import matrix_law, names, quoted, says
+
+#: A matrix is set when its entries show no more operations than this together.
+_SHOWN = 80
+#: Accelerations in terms of the multipliers are worked out for so many coordinates; for any
+#: number where M is diagonal.
+_COUPLED = 3
+#: Formulas on the way that show more operations than this are not written down.
+_ON_THE_WAY = 200
+#: A formula with so many operations stands within a sentence.
+_INLINE = 5
+
+
+def elimination(teller: Teller) -> Iterator[Block]:
+    """From the equations to q'' and the multipliers."""
+    motion = teller.dynamics.motion
+    if motion is None:
+        yield from _unsolved(teller)
+    elif teller.dynamics.constraints.equations:
+        yield from _with_multipliers(teller, motion)
+    else:
+        yield from _free(teller, motion)
+
+
+def _unsolved(teller: Teller) -> Iterator[Block]:
+    degenerate = [teller.system.names[i] for i in teller.dynamics.degenerate]
+    if degenerate:
+        yield says(
+            "The equations are linear in the accelerations, but the matrix of their coefficients "
+            "(the second derivatives of ",
+            teller.letters.L,
+            " by the velocities) has no inverse along ",
+            names(degenerate),
+            ": the Lagrangian is singular, and the equations do not determine the accelerations.",
+        )
+        return
+    yield says(
+        "The equations are linear in the accelerations and multipliers, but there are too many "
+        "of them for solutions that one could read. They stay in matrix form, to be solved in "
+        "numbers: ",
+        *matrix_law(constrained=bool(teller.dynamics.constraints.equations)),
+        ". Ask for --show matrix_form of lagcli solve to see its entries.",
+    )
+
+
+# -- without constraints ----------------------------------------------------------------------
+
+
+def _free(teller: Teller, motion: Motion) -> Iterator[Block]:
+    n = len(teller.system.names)
+    M = teller.dynamics.lagrange.mass_matrix
+    if n == 1:
+        coefficient = teller.readable.as_written(M[0][0])
+        acceleration = teller.accelerations[0]
+        if operation_count(coefficient) == 0:
+            yield says("Solved for ", acceleration, ":")
+        elif operation_count(coefficient) <= _INLINE:
+            yield says(
+                "The equation is linear in ", acceleration, ". Divided by its coefficient ",
+                coefficient, " it says",
+            )  # fmt: skip
+        else:
+            yield says("The equation is linear in ", acceleration,
+                       ". Divided by its coefficient it says")  # fmt: skip
+    elif _diagonal(M):
+        yield says(
+            "In each equation there is only one acceleration. Divided by its coefficient, it says"
+        )
+    else:
+        yield says(
+            "The equations are linear in the accelerations, which occur in several of them: ",
+            *matrix_law(constrained=False),
+        )
+        yield from _matrices(teller, [])
+        yield says("The coefficients are the second derivatives of ", teller.letters.L,
+                   " by the velocities. Solved for the accelerations, this gives")  # fmt: skip
+    yield Equations(tuple(_accelerations(teller, motion)))
+
+
+def _diagonal(M: Sequence[Sequence[Expr]]) -> bool:
+    return all(
+        is_zero(entry) is True for i, row in enumerate(M) for j, entry in enumerate(row) if i != j
+    )
+
+
+def _accelerations(teller: Teller, motion: Motion) -> Iterator[Row]:
+    for name, value in zip(teller.accelerations, motion.accelerations, strict=True):
+        yield Row(name, teller.readable.on_surface(value))
+
+
+def _matrices(teller: Teller, kept: Sequence[ConstraintEquation]) -> Iterator[Block]:
+    """M, F, A and b, where they are not too long."""
+    lagrange, write = teller.dynamics.lagrange, teller.readable.as_written
+    coordinates = teller.system.names
+    rows = tuple(e.name for e in kept)
+    shown = [
+        ("M", [[write(x) for x in row] for row in lagrange.mass_matrix], coordinates, coordinates),
+        ("F", [[write(x)] for x in lagrange.forcing], coordinates, ()),
+    ]
+    if kept:
+        shown += [
+            ("A", [[write(x) for x in e.row] for e in kept], rows, coordinates),
+            ("b", [[write(e.bias)] for e in kept], rows, ()),
+        ]
+    for letter, entries, row_names, column_names in shown:
+        label = Label(letter, matrix=True)
+        if sum(operation_count(x) for row in entries for x in row) <= _SHOWN:
+            yield Matrix(label, tuple(map(tuple, entries)), row_names, column_names)
+        else:
+            yield says("(the entries of ", label, " are too long to be set here)")
+
+
+# -- with constraints -------------------------------------------------------------------------
+
+
+def _with_multipliers(teller: Teller, motion: Motion) -> Iterator[Block]:
+    dynamics = teller.dynamics
+    kept = [dynamics.constraints.equations[k] for k in dynamics.independent_constraints]
+    unknowns = len(teller.system.names) + len(kept)
+    yield says(
+        "With the multiplier there is one unknown more than there are equations of motion. The "
+        "constraint makes up for it: it holds at all times, hence so do its time derivatives, "
+        "which bring in the accelerations:"
+        if len(kept) == 1
+        else "With the multipliers there are more unknowns than equations of motion. The "
+        "constraints make up for it: they hold at all times, hence so do their time derivatives, "
+        "which bring in the accelerations:"
+    )
+    yield Equations(tuple(_derivatives(teller, kept)))
+    if dynamics.redundant:
+        one = len(dynamics.redundant) == 1
+        yield says(
+            f"({quoted(dynamics.redundant)} {'is' if one else 'are'} implied by the others. The "
+            f"{'multiplier' if one else 'multipliers'} of what is implied can be set to 0: the "
+            "accelerations do not depend on that choice.)"
+        )
+    yield says(
+        f"So there are {unknowns} equations with accelerations or multipliers in them, linear in "
+        f"these {unknowns} unknowns."
+    )
+    steps = _eliminated(teller, motion, kept)
+    if steps is None:
+        yield says("In matrix form, ", *matrix_law(constrained=True), " with")
+        yield from _matrices(teller, kept)
+        if dynamics.degenerate:
+            yield says(
+                Label("M", matrix=True),
+                " alone has no inverse (",
+                names(teller.system.names[i] for i in dynamics.degenerate),
+                "), but together with the constraints everything is determined. The solution is",
+            )
+        else:
+            yield says("Solved together and simplified with the constraints, they give")
+    else:
+        yield from steps
+    yield from _solution(teller, motion)
+
+
+def _derivatives(teller: Teller, kept: Sequence[ConstraintEquation]) -> Iterator[Row]:
+    system, by_terms = teller.system, teller.readable.by_terms
+    for equation in kept:
+        still = sympy.Add(
+            *(a * v for a, v in zip(equation.row, system.qdot, strict=True)), equation.drift
+        )
+        twice = sympy.Add(
+            *(a * w for a, w in zip(equation.row, system.qddot, strict=True)), equation.bias
+        )
+        if equation.holonomic:
+            yield Row(by_terms(still), ZERO, f"{equation.name}, differentiated once")
+            yield Row(by_terms(twice), ZERO, f"{equation.name}, differentiated twice")
+        else:
+            yield Row(by_terms(twice), ZERO, f"{equation.name}, differentiated once")
+
+
+def _eliminated(
+    teller: Teller, motion: Motion, kept: Sequence[ConstraintEquation]
+) -> list[Block] | None:
+    """The accelerations by the multipliers, and these by the constraints; None: too long."""
+    by_multipliers = _by_multipliers(teller, kept)
+    if by_multipliers is None:
+        return None
+    conditions = [
+        sympy.Add(*(a * w for a, w in zip(e.row, by_multipliers, strict=True)), e.bias)
+        for e in kept
+    ]
+    if not _agree(teller, motion, by_multipliers, conditions):
+        return None
+    by_terms = teller.readable.by_terms
+    solved = [by_terms(each) for each in by_multipliers]
+    rows = [_condition(teller, e, each) for e, each in zip(kept, conditions, strict=True)]
+    formulas = [*solved, *(row.left for row in rows), *(row.right for row in rows)]
+    if any(operation_count(x) > _ON_THE_WAY for x in formulas if isinstance(x, Expression)):
+        return None
+    one = len(kept) == 1
+    symbols = names(e.multiplier.name for e in kept)
+    left = "What is left is a condition" if one else "What is left are conditions"
+    return [
+        says(
+            "First Lagrange's equations are solved for the accelerations, as if ",
+            symbols,
+            " were known:",
+        ),
+        Equations(tuple(map(Row, teller.accelerations, solved))),
+        says(
+            f"Put into the differentiated {'constraint' if one else 'constraints'}, they leave no "
+            f"acceleration there. {left} on ",
+            symbols,
+            ":",
+        ),
+        Equations(tuple(rows)),
+        says(
+            f"Solved, put back, and simplified with the {'constraint' if one else 'constraints'}, "
+            f"{'this gives' if one else 'these give'}"
+        ),
+    ]
+
+
+def _by_multipliers(teller: Teller, kept: Sequence[ConstraintEquation]) -> list[Expr] | None:
+    """q'' = M^-1 (F + A^T lambda)."""
+    lagrange = teller.dynamics.lagrange
+    M = lagrange.mass_matrix
+    right = [
+        sympy.Add(force, *(e.multiplier * e.row[i] for e in kept))
+        for i, force in enumerate(lagrange.forcing)
+    ]
+    if teller.dynamics.degenerate:
+        return None
+    if _diagonal(M):
+        return [force / M[i][i] for i, force in enumerate(right)]
+    if len(right) > _COUPLED:
+        return None
+    solution = solve_linear(M, right, budget=5.0)
+    return None if solution is None or solution.singular else list(solution.values)
+
+
+def _agree(
+    teller: Teller, motion: Motion, by_multipliers: Sequence[Expr], conditions: Sequence[Expr]
+) -> bool:
+    """Whether the formulas on the way hold for the solution that is printed."""
+    chosen: dict[Expr, Expr] = {
+        e.multiplier: value
+        for e, value in zip(teller.dynamics.constraints.equations, motion.independent, strict=True)
+    }
+    differences = [
+        formula.xreplace(chosen) - value
+        for formula, value in zip(by_multipliers, motion.accelerations, strict=True)
+    ]
+    rest = [condition.xreplace(chosen) for condition in conditions]
+    return teller.dynamics.verifier.all_zero([*differences, *rest]).holds is True
+
+
+def _condition(teller: Teller, equation: ConstraintEquation, condition: Expr) -> Row:
+    """What multiplies the multipliers on the left, the rest on the right."""
+    without = dict.fromkeys(teller.system.multipliers, sympy.S.Zero)
+    rest = condition.xreplace(without)
+    by_terms = teller.readable.by_terms
+    return Row(by_terms(condition - rest), by_terms(-rest), equation.name)
+
+
+def _solution(teller: Teller, motion: Motion) -> Iterator[Block]:
+    equations = teller.dynamics.constraints.equations
+    rows, unknown = [], []
+    for equation, value in zip(equations, motion.multipliers, strict=True):
+        if value is None:
+            unknown.append(equation.multiplier.name)
+        else:
+            shown = teller.readable.on_surface(value)
+            rows.append(Row(Name(equation.multiplier.name), shown))
+    rows += _accelerations(teller, motion)
+    yield Equations(tuple(rows))
+    if unknown:
+        yield says(
+            names(unknown),
+            " are" if len(unknown) > 1 else " is",
+            " not determined one by one, since constraints imply each other: only the "
+            "sum of their forces is.",
+        )

@@ -1,0 +1,72 @@
+"""The steps in order, and what was missing on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagcli.explanation import Explanation, Step
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.explaining.conservation import charges, energy
+from lagcli.mechanics.explaining.elimination import elimination
+from lagcli.mechanics.explaining.equations import equations
+from lagcli.mechanics.explaining.forces import check, meaning
+from lagcli.mechanics.explaining.lagrangian import lagrangian
+from lagcli.mechanics.explaining.large import UNSOLVED
+from lagcli.mechanics.explaining.scene import scene
+from lagcli.mechanics.explaining.teller import Teller
+
+
+def explanation(derivation: Derivation) -> Explanation:
+    """The derivation as a teacher writes it.
+
+    Parameters
+    ----------
+    derivation
+        That of a system of readable size; a large one is told by `large`.
+
+    Raises
+    ------
+    ProblemError
+        When the constraints cannot be used.
+    """
+    teller = Teller(derivation)
+    dynamics, problem = teller.dynamics, teller.problem
+    motion = dynamics.motion
+    constrained = bool(dynamics.constraints.equations)
+    told = [
+        Step("The system", tuple(scene(teller))),
+        Step("The Lagrangian", tuple(lagrangian(teller))),
+        Step("Lagrange's equations", tuple(equations(teller))),
+        Step(
+            "The multipliers are eliminated" if constrained else "The accelerations",
+            tuple(elimination(teller)),
+        ),
+    ]
+    if motion is not None:
+        told.append(Step("The check", tuple(check(teller, motion))))
+        if constrained:
+            told.append(Step("What the multipliers mean", tuple(meaning(teller, motion))))
+    told.append(Step("The energy", tuple(energy(teller))))
+    found = tuple(charges(teller))
+    if found:
+        told.append(Step("The charges", found))
+    missing = tuple(_missing(teller))
+    quantities = (*problem.coordinates, *problem.parameters)
+    return Explanation(
+        title=problem.title,
+        coordinates=teller.system.names,
+        parameters=tuple(p.name for p in problem.parameters),
+        degrees_of_freedom=dynamics.degrees_of_freedom,
+        steps=tuple(told),
+        symbols={q.name: q.symbol for q in quantities if q.symbol is not None},
+        warnings=missing,
+        complete=not missing,
+    )
+
+
+def _missing(teller: Teller) -> Iterator[str]:
+    if teller.dynamics.motion is None:
+        yield UNSOLVED
+    for charge in teller.derivation.noether.charges:
+        if charge.conserved is None:
+            yield f"whether '{charge.name}' is conserved was not decided"

@@ -1,0 +1,114 @@
+"""The check, and what each multiplier means as a force."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy
+
+from lagcli.algebra import is_zero
+from lagcli.document import Block, Equations, Label, Row
+from lagcli.expression import Name
+from lagcli.mechanics.constraint_force import forces_on_points
+from lagcli.mechanics.constraints import ConstraintEquation
+from lagcli.mechanics.dynamics import Motion
+from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.words import names, says
+
+
+def check(teller: Teller, motion: Motion) -> Iterator[Block]:
+    """How the solution was checked."""
+    constrained = bool(teller.dynamics.constraints.equations)
+    equations = "Lagrange's equations" if teller.letters.several else "Lagrange's equation"
+    one = "accelerations" if teller.letters.several else "acceleration"
+    what = f"{one} and multipliers" if constrained else one
+    where = (
+        f"into {equations} and into the differentiated constraints"
+        if constrained
+        else f"into {equations}"
+    )
+    verb = "were" if constrained or teller.letters.several else "was"
+    yield says(
+        f"The {what} {verb} put back {where}. There left side less right side is 0"
+        + (" on the constraints" if constrained else "")
+        + (
+            ": the computer's algebra reduces it to 0 exactly."
+            if motion.verified == "exact"
+            else ": calculated at random states to 50 digits, where all digits cancel."
+        )
+    )
+
+
+def meaning(teller: Teller, motion: Motion) -> Iterator[Block]:
+    """Each constraint's force along the coordinates, its direction, and on the points."""
+    dynamics = teller.dynamics
+    on_points = forces_on_points(dynamics)
+    yield says(
+        "The force of a constraint along a coordinate is its multiplier times its slope. Along a "
+        "length it is a force, along an angle a torque. It points to where the quantity that the "
+        "constraint keeps at 0 grows, if the multiplier is positive, and the other way if it is "
+        "negative."
+    )
+    for k, equation in enumerate(dynamics.constraints.equations):
+        multiplier = Name(equation.multiplier.name)
+        along = [
+            name
+            for name, entry in zip(teller.system.names, equation.row, strict=True)
+            if is_zero(entry) is not True
+        ]
+        yield says(
+            f"'{equation.name}' acts along ",
+            names(along),
+            ":",
+        )
+        found = dynamics.constraint_forces[k]
+        yield Equations(
+            tuple(
+                Row(
+                    Label("Q", (name,)),
+                    teller.readable.as_written(equation.multiplier * entry)
+                    if found is None
+                    else teller.readable.on_surface(found[j]),
+                )
+                for j, (name, entry) in enumerate(
+                    zip(teller.system.names, equation.row, strict=True)
+                )
+                if is_zero(entry) is not True
+            )
+        )
+        yield from _direction(equation, multiplier, along)
+        yield from _on_points(teller, on_points.get(equation.name, {}))
+        if motion.multipliers[k] is not None and is_zero(motion.multipliers[k]) is True:
+            yield says("It is 0: the motion keeps to the constraint by itself.")
+    if dynamics.redundant and dynamics.total_constraint_force is not None:
+        yield says("All constraints together act along each coordinate with")
+        total = map(teller.readable.on_surface, dynamics.total_constraint_force)
+        names_of = teller.system.names
+        yield Equations(
+            tuple(Row(Label("Q", (n,)), each) for n, each in zip(names_of, total, strict=True))
+        )
+
+
+def _direction(equation: ConstraintEquation, multiplier: Name, along: list[str]) -> Iterator[Block]:
+    """Where the multiplier is the force itself, and which way a positive one points."""
+    if len(along) != 1:
+        return
+    q, entry = Name(along[0]), sympy.Add(*equation.row)
+    if is_zero(entry - 1) is True:
+        yield says(multiplier, " is this force itself: positive towards larger ", q, ".")
+    elif is_zero(entry + 1) is True:
+        yield says(multiplier, " is this force reversed: positive towards smaller ", q, ".")
+
+
+def _on_points(teller: Teller, points: dict[str, tuple[sympy.Expr, ...]]) -> Iterator[Block]:
+    if not points:
+        return
+    yield says("In Cartesian components its force on the " + ("points is" if len(points) > 1
+               else "point is"))  # fmt: skip
+    yield Equations(
+        tuple(
+            Row(Label("F", (point, axis)), teller.readable.on_surface(component))
+            for point, components in points.items()
+            for axis, component in zip("xyz", components, strict=False)
+        )
+    )

@@ -1,0 +1,106 @@
+"""The second step: T and V with everything put in, L, and what no potential gives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+import sympy
+
+from lagcli.algebra import is_zero
+from lagcli.algebra.build import free_of
+from lagcli.document import Block, Equations, Label, Row
+from lagcli.expression import Diff, Name, Negative, Number, Power
+from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.words import difference, names, says, shows
+
+_SQUARE = Number(Fraction(2))
+
+
+def lagrangian(teller: Teller) -> Iterator[Block]:
+    """How L comes about."""
+    problem, system = teller.problem, teller.system
+    letters, by_terms = teller.letters, teller.readable.by_terms
+    if letters.moved:
+        yield says(
+            names(letters.moved),
+            " means" if len(letters.moved) == 1 else " mean",
+            " something else in this file. What the books write so has the index 'sys' here.",
+        )
+    if problem.definitions:
+        yield says("The file abbreviates")
+        yield Equations(tuple(Row(Name(n), formula) for n, formula in problem.definitions.items()))
+    if system.T is None or system.V is None:
+        yield says("The Lagrangian is given:")
+        yield shows(letters.L, by_terms(system.L, as_given=True))
+    else:
+        if problem.kinetic is None:
+            yield from _points(teller)
+        else:
+            yield says("The kinetic energy is")
+        yield shows(letters.T, by_terms(system.T, as_given=True))
+        if is_zero(system.V) is True:
+            yield says("There is no potential energy, so the Lagrangian is ", letters.T, ":")
+            yield shows(letters.L, by_terms(system.L, as_given=True))
+        else:
+            yield from _potential(teller)
+            yield says("so that the Lagrangian ", difference(letters.T, letters.V), " is")
+            yield shows(letters.L, by_terms(system.L, as_given=True))
+    yield from _beside(teller)
+
+
+def _points(teller: Teller) -> Iterator[Block]:
+    """Each particle where it is, and its speed."""
+    system, letters = teller.system, teller.letters
+    still = dict.fromkeys(system.qddot, sympy.S.Zero)
+    rows = []
+    for particle in system.particles:
+        for axis, position in zip("xyz", particle.position, strict=False):
+            place = letters.free(f"{axis}_{particle.name}")
+            rows.append(Row(place, teller.readable.as_written(position)))
+        if particle.mass is None:
+            continue
+        speed = sympy.Add(*(system.total_derivative(x) ** 2 for x in particle.position))
+        squared = Power(letters.free(f"v_{particle.name}"), _SQUARE)
+        rows.append(Row(squared, teller.readable.by_terms(speed.xreplace(still))))
+    yield says("The points are at these Cartesian places and have these speeds:")
+    yield Equations(tuple(rows))
+    yield says("Each mass contributes half of itself times its speed squared:")
+
+
+def _potential(teller: Teller) -> Iterator[Block]:
+    V, letters = teller.system.V, teller.letters
+    assert V is not None
+    if free_of(V, teller.system.qdot):
+        yield says("and the potential energy")
+    else:
+        yield says(
+            "and the potential, which depends on velocities too (Lagrange's equations take "
+            "account of that by themselves),"
+        )
+    yield shows(letters.V, teller.readable.by_terms(V, as_given=True))
+
+
+def _beside(teller: Teller) -> Iterator[Block]:
+    """Forces without a potential, and dissipation."""
+    system, letters = teller.system, teller.letters
+    if teller.forced:
+        pushed = any(particle.force is not None for particle in system.particles)
+        yield says(
+            "Forces act that no potential gives. Along each coordinate they are",
+            " (those on points by their virtual work)" if pushed else "",
+        )
+        yield Equations(
+            tuple(
+                Row(Label("Q", (name,)), teller.readable.as_written(force))
+                for name, force in zip(system.names, system.forces, strict=True)
+                if is_zero(force) is not True
+            )
+        )
+    if teller.damped:
+        yield says("Friction comes from Rayleigh's dissipation function,")
+        yield shows(letters.D, teller.readable.by_terms(system.D, as_given=True))
+        slope = Diff(letters.D, letters.velocity)
+        yield says(
+            "which adds the force ", Negative(slope), " along each coordinate ", letters.q, "."
+        )

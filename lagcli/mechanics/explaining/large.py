@@ -1,0 +1,119 @@
+"""A system too large for simplified formulas: what it is, and why it stays in matrix form."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagcli.document import Block, Items
+from lagcli.explanation import Explanation, Step
+from lagcli.expression import Diff, Product, Rate
+from lagcli.graph.sharing import operations
+from lagcli.mechanics.explaining.words import (
+    Letters,
+    Part,
+    counted,
+    difference,
+    matrix_law,
+    names,
+    says,
+)
+from lagcli.mechanics.large_charges import LargeCharges
+from lagcli.mechanics.matrix_form import MatrixForm
+
+UNSOLVED = "the accelerations and multipliers were not solved in closed form"
+
+
+def explanation_of_large(form: MatrixForm) -> Explanation:
+    """What can be told of a large system from its structure."""
+    problem = form.problem
+    charges = LargeCharges(form)
+    steps = [
+        Step("The system", tuple(_system(form))),
+        Step("Lagrange's equations", tuple(_equations(form))),
+        Step("The energy", tuple(_energy(form, charges))),
+    ]
+    quantities = (*problem.coordinates, *problem.parameters)
+    return Explanation(
+        title=problem.title,
+        coordinates=tuple(q.name for q in problem.coordinates),
+        parameters=tuple(p.name for p in problem.parameters),
+        degrees_of_freedom=form.degrees_of_freedom,
+        steps=tuple(steps),
+        symbols={q.name: q.symbol for q in quantities if q.symbol is not None},
+        warnings=(UNSOLVED,),
+        complete=False,
+    )
+
+
+def _system(form: MatrixForm) -> Iterator[Block]:
+    coordinates = [q.name for q in form.problem.coordinates]
+    yield says("The coordinates ", names(coordinates), " describe where everything is.")
+    free, rank = form.degrees_of_freedom, len(form.independent)
+    freedom = f"the system has {counted(free, 'degree')} of freedom."
+    if not form.constraints:
+        yield says(f"Nothing restricts them: {freedom}")
+        return
+    yield says(
+        f"{counted(len(form.constraints), 'constraint').capitalize()} "
+        f"{'restricts' if len(form.constraints) == 1 else 'restrict'} the motion:"
+    )
+    items: list[tuple[Part, ...]] = []
+    for constraint, row in zip(form.problem.constraints, form.constraints, strict=True):
+        kind = "without velocities, holonomic" if row.holonomic else "on the velocities"
+        items.append((f"'{constraint.name}': {kind}",))
+    yield Items(tuple(items))
+    yield says(
+        f"{counted(len(coordinates), 'velocity', 'velocities').capitalize()} less "
+        f"{counted(rank, 'independent condition')} on them: {freedom}"
+    )
+
+
+def _equations(form: MatrixForm) -> Iterator[Block]:
+    letters = Letters(form.problem)
+    constrained = bool(form.constraints)
+    left = difference(Rate(Diff(letters.L, letters.velocity)), Diff(letters.L, letters.q))
+    yield says(
+        "With ",
+        letters.q,
+        " any one of the coordinates, Lagrange's equation for it has ",
+        left,
+        " on its left side and what acts beside ",
+        letters.L,
+        " on its right side",
+        ", the forces of the constraints with their multipliers among it" if constrained else "",
+        ". Carried out for all coordinates, this is linear in the accelerations: ",
+        *matrix_law(constrained=constrained),
+        ".",
+    )
+    count = operations(form.entries)
+    yield says(
+        f"With their common parts worked out once, the entries take {count:,} operations. "
+        "Solutions in formulas would be longer than anyone could read, so the system stays in "
+        "this matrix form, to be solved in numbers at each moment: --show matrix_form of lagcli "
+        "solve prints the entries, lagcli simulate computes the motion."
+    )
+
+
+def _energy(form: MatrixForm, charges: LargeCharges) -> Iterator[Block]:
+    letters = Letters(form.problem)
+    yield says(
+        "The energy function ",
+        letters.h,
+        " is the sum of ",
+        Product((letters.velocity, Diff(letters.L, letters.velocity))),
+        " over all coordinates, less ",
+        letters.L,
+        f". {charges.energy_reason[0].upper()}{charges.energy_reason[1:]}.",
+    )
+    cyclic = [form.q[i].name for i in charges.cyclic]
+    if cyclic:
+        yield says(
+            names(cyclic),
+            " does not occur in " if len(cyclic) == 1 else " do not occur in ",
+            letters.L,
+            ": the momentum " if len(cyclic) == 1 else ": the momenta ",
+            names(f"p_{name}" for name in cyclic),
+            " changes only by what acts beside L."
+            if len(cyclic) == 1
+            else " change only by what acts beside L.",
+        )

@@ -1,0 +1,50 @@
+"""What every step of an explanation knows: the derivation, its letters and its shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sympy import Expr
+
+from lagcli.algebra import is_zero
+from lagcli.expression import Name
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.explaining.words import Letters
+from lagcli.mechanics.readable import Readable
+
+
+class Teller:
+    """One derivation, ready to be told."""
+
+    def __init__(self, derivation: Derivation) -> None:
+        self.derivation = derivation
+        self.problem = derivation.problem
+        self.system = derivation.system
+        self.dynamics = derivation.dynamics
+        self.readable = Readable(self.dynamics)
+        self.letters = Letters(self.problem)
+
+    @property
+    def velocities(self) -> tuple[Name, ...]:
+        """The velocities as names."""
+        return tuple(Name(name, 1) for name in self.system.names)
+
+    @property
+    def accelerations(self) -> tuple[Name, ...]:
+        """The accelerations as names."""
+        return tuple(Name(name, 2) for name in self.system.names)
+
+    @property
+    def forced(self) -> bool:
+        """Whether generalized forces act, by the file's forces or by those on points."""
+        return any(is_zero(force) is not True for force in self.system.forces)
+
+    @property
+    def damped(self) -> bool:
+        """Whether there is a dissipation function."""
+        return self.problem.dissipation is not None
+
+
+def vanishing(expressions: Sequence[Expr]) -> bool:
+    """Whether all are 0 for certain."""
+    return all(is_zero(each) is True for each in expressions)

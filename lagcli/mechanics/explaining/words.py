@@ -1,0 +1,108 @@
+"""Words and names of an explanation: lists, counts, and letters that the file leaves free."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from lagcli.document import Equations, Formula, Label, Paragraph, Row
+from lagcli.expression import Expression, Name, Negative, Sum
+from lagcli.problem import Problem
+
+Part = str | Formula
+
+_COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+
+
+def counted(number: int, noun: str, plural: str = "") -> str:
+    """One constraint, two constraints."""
+    word = _COUNTS[number] if number < len(_COUNTS) else str(number)
+    return f"{word} {noun if number == 1 else plural or noun + 's'}"
+
+
+def listed(parts: Sequence[Part | Sequence[Part]]) -> list[Part]:
+    """Parts with commas between them, and "and" before the last."""
+    result: list[Part] = []
+    for position, part in enumerate(parts):
+        if position:
+            result.append(" and " if position == len(parts) - 1 else ", ")
+        if isinstance(part, (str, Expression)) or not isinstance(part, Sequence):
+            result.append(part)
+        else:
+            result += part
+    return result
+
+
+def quoted(names: Iterable[str]) -> str:
+    """'rod' and 'floor'."""
+    parts = listed([f"'{name}'" for name in names])
+    return "".join(part for part in parts if isinstance(part, str))
+
+
+def names(words: Iterable[str], primes: int = 0) -> list[Part]:
+    """The names as formulas, listed."""
+    return listed([Name(word, primes) for word in words])
+
+
+def says(*parts: Part | Sequence[Part]) -> Paragraph:
+    """A paragraph of parts and lists of parts."""
+    flat: list[Part] = []
+    for part in parts:
+        if isinstance(part, (list, tuple)):
+            flat += part
+        else:
+            flat.append(part)  # type: ignore[arg-type]
+    return Paragraph(tuple(flat))
+
+
+def shows(left: Formula, right: Expression, note: str = "") -> Equations:
+    """One displayed equation."""
+    return Equations((Row(left, right, note),))
+
+
+def difference(first: Expression, second: Expression) -> Expression:
+    """First − second."""
+    return Sum((first, Negative(second)))
+
+
+def matrix_law(*, constrained: bool) -> tuple[str | Label, ...]:
+    """M q'' = F + A^T lambda and A q'' + b = 0, in words."""
+    M, F = Label("M", matrix=True), Label("F", matrix=True)
+    if not constrained:
+        return (M, " · accelerations = ", F)
+    A, b = Label("A", matrix=True), Label("b", matrix=True)
+    return (
+        M, " · accelerations = ", F, " + ", A, " transposed · multipliers and ",
+        A, " · accelerations + ", b, " = 0",
+    )  # fmt: skip
+
+
+class Letters:
+    """The letters of mechanics, with `_sys` added where the file means something else by them."""
+
+    def __init__(self, problem: Problem) -> None:
+        quantities = (*problem.coordinates, *problem.parameters)
+        self._taken = {
+            *(quantity.name for quantity in quantities),
+            *problem.definitions,
+            *problem.functions,
+            *(c.multiplier for c in problem.constraints),
+        }
+        self.L, self.T, self.V, self.D, self.h, self.Q, self.G = map(self.free, "LTVDhQG")
+        #: any one of the coordinates, where there are several
+        self.several = len(problem.coordinates) > 1
+        self.q = Name("q_j") if self.several else Name(problem.coordinates[0].name)
+        self.velocity = Name(self.q.name, 1)
+        self.force = Name(f"Q_{self.q.name if not self.several else 'j'}")
+
+    @property
+    def moved(self) -> list[str]:
+        """The letters for which another one stands."""
+        return [letter for letter in "LTVDhQG" if letter in self._taken]
+
+    def free(self, letter: str) -> Name:
+        """The letter, or another one where the file has it."""
+        return Name(f"{letter}_sys" if letter in self._taken else letter)
+
+    def f(self, constraint: str) -> Name:
+        """Left side less right side of a constraint."""
+        return self.free(f"f_{constraint}")

@@ -1,0 +1,31 @@
+"""The shapes in which the formulas of one system are read."""
+
+from __future__ import annotations
+
+from sympy import Expr
+
+from lagcli.algebra import shape, terms
+from lagcli.expression import Expression
+from lagcli.mechanics.dynamics import Dynamics
+
+
+class Readable:
+    """Trees of SymPy expressions, ordered as the system orders its names."""
+
+    def __init__(self, dynamics: Dynamics) -> None:
+        self.dynamics = dynamics
+        self.system = system = dynamics.system
+        fast = (*system.qdot, *system.qddot, *system.multipliers)
+        self._leading = frozenset(symbol.name for symbol in fast)
+
+    def as_written(self, expression: Expr) -> Expression:
+        """The shortest shape, without using the constraints."""
+        return shape(expression, self.system.order)
+
+    def by_terms(self, expression: Expr, *, as_given: bool = False) -> Expression:
+        """Term by term in velocities, accelerations, multipliers, as L and h are read."""
+        return terms(expression, self.system.order, self._leading, as_given=as_given)
+
+    def on_surface(self, expression: Expr) -> Expression:
+        """The shortest shape, with the constraints used."""
+        return self.dynamics.shapes.shape(expression)
