@@ -19,6 +19,7 @@ from lagcli.document import (
     Paragraph,
     Row,
 )
+from lagcli.expression import Sum, operation_count
 from lagcli.formatters.mathml import MathmlPrinter, enclosed
 from lagcli.formatters.options import Options
 from lagcli.formatters.plain import harmless

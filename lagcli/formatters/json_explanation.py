@@ -11,6 +11,7 @@ from collections.abc import Sequence
 
 from lagcli.document import Block, Equations, Formula, Heading, Items, Label, Matrix, Paragraph
 from lagcli.explanation import Explanation
+from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json import SCHEMA, Object, Value
 from lagcli.formatters.options import Options
@@ -67,4 +68,4 @@ def _formula(formula: Formula) -> str:
     if isinstance(formula, Label):
         letter = f"Delta_{formula.letter}" if formula.change else formula.letter
         return "_".join((letter, *formula.index))
-    return to_grammar(formula)
+    return to_grammar(formula) if isinstance(formula, Expression) else str(formula)

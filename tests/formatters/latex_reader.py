@@ -128,6 +128,12 @@ class _Reader:
             variable = self.name()
             self.expect("}")
             return Diff(*self.arguments(), variable)
+        if self.take(r"\frac{\partial "):
+            operand = self.name()
+            self.expect(r"}{\partial")
+            variable = self.name()
+            self.expect("}")
+            return Diff(operand, variable)
         if self.take(r"\frac"):
             return Quotient(self.braced(), self.braced())
         if self.take(r"\sqrt"):

@@ -20,6 +20,7 @@ from lagcli.expression import (
     Power,
     Product,
     Quotient,
+    Rate,
     Sum,
 )
 from lagcli.formatters.grammar import GrammarPrinter, equation_to_grammar, to_grammar
@@ -114,6 +115,7 @@ ONE_OF_EACH = {
     Call: sin(x),
     PartialCall: PartialCall("Phi", (1,), (x, g)),
     Diff: Diff(x, g),
+    Rate: Rate(Diff(x, g)),
 }
 
 

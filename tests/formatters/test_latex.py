@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from lagcli.answers import Answers, LagrangianSection
 from lagcli.document import Equations, Row
-from lagcli.expression import Call, Diff, Name, Negative, PartialCall, Power, Quotient
+from lagcli.expression import Call, Diff, Name, Negative, PartialCall, Power, Quotient, Rate
 from lagcli.formatters.latex import render
 from lagcli.formatters.latex_display import LatexDisplay
 from lagcli.formatters.latex_math import WIDEST, LatexPrinter
@@ -79,7 +79,9 @@ def latex(node, **names):
         (Power(x, number(1, 2)), "x^{1/2}"),
         (Call("U", (Name("r"),), 1), "U'(r)"),
         (PartialCall("Phi", (1, 2), (x, g)), r"\partial_{1} \partial_{2} \Phi(x, g)"),
-        (Diff(x, g), r"\frac{\partial}{\partial g} \, (x)"),
+        (Diff(square(x), g), r"\frac{\partial}{\partial g} \, (x^{2})"),
+        (Diff(x, g), r"\frac{\partial x}{\partial g}"),
+        (Rate(Diff(x, g)), r"\frac{d}{dt} \, \frac{\partial x}{\partial g}"),
         (Call("abs", (x,)), r"\lvert x \rvert "),
     ],
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""The LaTeX of every problem of the library compiles, no line more than 10pt too wide."""
+"""Every problem of the library compiles as LaTeX, answers and explanation, none too wide."""
 
 from __future__ import annotations
 
@@ -6,9 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from lagcli.formatters import explaining
+from lagcli.formatters.display_width import display_width
 from lagcli.formatters.latex import render
 from lagcli.formatters.options import Options
-from lagcli.pipeline import load, solve
+from lagcli.pipeline import derive, explain, load, solve
 
 from .test_latex import compiled, needs_latex
 
@@ -22,3 +24,13 @@ pytestmark = needs_latex
 def test_a_folder_of_the_library_compiles(folder, tmp_path):
     answers = [solve(load(path)) for path in sorted(folder.glob("*.yaml"))]
     compiled(render(answers, Options(standalone=True)), tmp_path)
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_the_explanations_of_a_folder_compile(folder, tmp_path):
+    told = [explain(derive(load(path))) for path in sorted(folder.glob("*.yaml"))]
+    compiled(explaining.render(told, "latex", Options(standalone=True)), tmp_path)
+    for line in explaining.render(told, "text", Options(width=80)).splitlines():
+        assert display_width(line) <= 80, line
+    for format_name in ("markdown", "html", "json"):
+        assert explaining.render(told, format_name, Options())

@@ -1,0 +1,272 @@
+"""The account of a derivation: its formulas against finite differences, its sentences."""
+
+from __future__ import annotations
+
+import math
+import random
+import re
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+import sympy
+
+from lagcli.algebra.build import Builder
+from lagcli.document import Equations, Heading, Items, Label, Paragraph
+from lagcli.expression import Diff, Expression, Name, Rate, walk
+from lagcli.pipeline import derive, explain, load
+from lagcli.rewriting import rebuilt
+
+from .derived import derive as derive_text
+from .formulas import formula, normal
+
+PROBLEMS = Path(__file__).parents[2] / "problems"
+
+SMOOTH = (
+    "hoop",
+    "pendulums/pendulum-with-rod",
+    "pendulums/double-pendulum",
+    "nonholonomic/chaplygin-sleigh",
+    "driven/driven-damped-oscillator",
+    "relativity/lorentz-boost",
+    "rigid/heavy-symmetric-top",
+    "pulleys/double-atwood-tension",
+)
+
+
+def told(name):
+    return explain(derive(load(PROBLEMS / f"{name}.yaml")))
+
+
+def told_text(text):
+    return explain(derive_text(text))
+
+
+def rows(explanation, title=None):
+    return [
+        row
+        for step in explanation.steps
+        if title in {None, step.title}
+        for block in step.blocks
+        if isinstance(block, Equations)
+        for row in block.rows
+    ]
+
+
+def words(explanation, title=None):
+    """The sentences, names as the grammar writes them."""
+    found = []
+    for step in explanation.steps:
+        if title not in {None, step.title}:
+            continue
+        for block in step.blocks:
+            sentences = []
+            if isinstance(block, Paragraph):
+                sentences = [block.parts]
+            elif isinstance(block, Items):
+                sentences = block.items
+            for parts in sentences:
+                shown = (part if isinstance(part, (str, Name)) else "…" for part in parts)
+                found.append("".join(map(str, shown)))
+    return " ".join(found)
+
+
+def value(tree, at):
+    """A number for a tree, with SymPy's evaluation beside the derivation's algebra."""
+    flat = _flat(tree)
+    names = {n.name: sympy.Symbol(n.name) for n in walk(flat) if isinstance(n, Name)}
+    built = Builder(names, {}, lambda expression: expression)(flat)
+    return float(built.subs({symbol: at[symbol.name] for symbol in built.free_symbols}))
+
+
+def _flat(tree):
+    """Velocities as plain names, so that nothing is differentiated."""
+    if isinstance(tree, Name):
+        return Name(tree.name + "_d" * tree.primes)
+    return rebuilt(tree, _flat)
+
+
+def moment(explanation, seed):
+    source = random.Random(seed)
+    at = {name: source.uniform(0.3, 0.6) for name in (*explanation.parameters, "t")}
+    if "c" in at:
+        at["c"] = 3.0
+    for name in explanation.coordinates:
+        for primes in range(3):
+            at[name + "_d" * primes] = source.uniform(0.2, 0.9)
+    return at
+
+
+def slope(tree, at, along):
+    """The directional derivative of a tree by central differences."""
+    step = 1e-5
+    before = {name: x - step * along.get(name, 0.0) for name, x in at.items()}
+    after = {name: x + step * along.get(name, 0.0) for name, x in at.items()}
+    return (value(tree, after) - value(tree, before)) / (2 * step)
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_every_derivative_is_that_of_the_formula_before_it(name):
+    explanation = told(name)
+    shown = {row.left: row.right for row in rows(explanation) if isinstance(row.left, Expression)}
+    checked = 0
+    for seed in range(2):
+        at = moment(explanation, seed)
+        flow = {"t": 1.0}
+        for coordinate in explanation.coordinates:
+            for primes in range(2):
+                flow[coordinate + "_d" * primes] = at[coordinate + "_d" * (primes + 1)]
+        for left, right in shown.items():
+            match left:
+                case Diff(operand=Name() as function, variable=variable) if function in shown:
+                    expected = slope(
+                        shown[function], at, {variable.name + "_d" * variable.primes: 1.0}
+                    )
+                case Rate(operand=inner):
+                    expected = slope(shown[inner], at, flow)
+                case _:
+                    continue
+            checked += 1
+            assert math.isclose(value(right, at), expected, rel_tol=1e-6, abs_tol=1e-7), left
+    assert checked >= 4
+
+
+@pytest.mark.parametrize(
+    ("name", "multipliers"),
+    [
+        # Goldstein, Poole, Safko, 3rd ed., section 2.4: the hoop on the incline
+        ("hoop", {"lambda_rolling": "-M*g*sin(alpha)/2"}),
+        # m l theta'^2 + m g cos(theta) pulls inwards, along -r
+        ("pendulums/pendulum-with-rod", {"lambda_rod": "-m*(l*theta'^2 + g*cos(theta))"}),
+    ],
+)
+def test_the_multipliers_are_the_textbooks(name, multipliers):
+    found = {
+        row.left.name: normal(row.right)
+        for row in rows(told(name), "The multipliers are eliminated")
+        if isinstance(row.left, Name) and not row.left.primes
+    }
+    assert found == {symbol: formula(text) for symbol, text in multipliers.items()}
+
+
+def test_a_hoop_from_the_constraint_to_the_force():
+    explanation = told("hoop")
+    titles = [step.title for step in explanation.steps]
+    assert titles == [
+        "The system",
+        "The Lagrangian",
+        "Lagrange's equations",
+        "The multipliers are eliminated",
+        "The check",
+        "What the multipliers mean",
+        "The energy",
+        "The charges",
+    ]
+    assert "'rolling' contains no velocity, it is holonomic" in words(explanation)
+    assert "2 − 1 = 1, so the system has one degree of freedom." in words(explanation)
+    assert "reduces it to 0 exactly" in words(explanation, "The check")
+    assert explanation.complete
+
+
+KINDS = """
+title: Kinds
+coordinates: [x, y, z, phi]
+parameters: [w]
+T: (x'^2 + y'^2 + z'^2 + phi'^2)/2
+constraints:
+  blade: x'*sin(phi) = y'*cos(phi)
+  lift: z = w*t
+"""
+
+
+def test_each_constraint_is_called_what_it_is():
+    text = words(told_text(KINDS), "The system")
+    assert "'blade' relates velocities" in text
+    assert "nonholonomic" in text
+    assert "'lift' contains no velocity, it is holonomic" in text
+    assert text.count("so the constraint itself moves and its force can do work") == 1
+    assert "4 − 2 = 2" in text
+
+
+def test_an_integrable_constraint_is_no_nonholonomic_one():
+    text = words(told("nonholonomic/circle-as-velocity-constraint"), "The system")
+    assert "yet it can be integrated" in text
+    assert "nonholonomic" not in text
+
+
+def test_redundant_multipliers_are_not_made_up():
+    explanation = told("nonholonomic/doubled-rolling-constraint")
+    text = words(explanation, "The multipliers are eliminated")
+    assert "lambda_rolling and lambda_no_slip are not determined one by one" in text
+    lefts = [row.left for row in rows(explanation, "The multipliers are eliminated")]
+    assert Name("lambda_no_slip") not in lefts
+    assert explanation.complete
+
+
+def test_a_singular_lagrangian_is_not_solved():
+    explanation = told_text(
+        "title: Singular\ncoordinates: [x, y]\nparameters: [k]\nL: x'^2/2 + x*y - k*y^2/2\n"
+    )
+    assert "has no inverse along y" in words(explanation)
+    assert "The check" not in [step.title for step in explanation.steps]
+    assert "Hamiltonian" not in words(explanation)
+    assert not explanation.complete
+
+
+@pytest.mark.parametrize(
+    ("energy", "sentence"),
+    [
+        ("T: m*x'^2/2\nV: k*x^2/2", "and V contains none, so h is the total energy"),
+        ("T: m*x'^2/2", "It is the kinetic energy"),
+        ("T: m*(x' + k*t)^2/2\nV: k*x", "T is not purely of second degree in the velocities"),
+        ("T: m*x'^2/2\nV: k*x*x'", "V contains velocities, so it is not the total energy"),
+        ("L: m*x'^2/2 - k*x^2/2", "Only L is given, so nothing is said of T + V."),
+        ("T: m*x'^2/2\nforces: {x: k*x'}", "the applied forces do work"),
+        ("T: m*x'^2/2\ndissipation: k*x'^2/2", "the dissipation takes energy"),
+        ("T: m*x'^2/2\nV: k*x*t", "L depends explicitly on the time"),
+    ],
+)
+def test_the_energy_is_told_for_what_it_is(energy, sentence):
+    text = f"title: Energy\ncoordinates: [x]\nparameters: [m, k]\n{energy}\n"
+    assert sentence in words(told_text(text), "The energy")
+
+
+def test_letters_of_the_file_are_left_to_it():
+    explanation = told_text(
+        "title: Rod\ncoordinates: [q]\nparameters: [L, T, m]\nT: m*L^2*q'^2/2\nV: T*q^2/2\n"
+    )
+    assert "L and T mean something else in this file" in words(explanation)
+    shown = {row.left: row.right for row in rows(explanation)}
+    assert Name("L_sys") in shown
+    assert Name("L") not in shown
+
+
+def test_a_large_system_stays_in_matrix_form():
+    links = range(9)
+    coordinates = ", ".join(f"a{i}" for i in links)
+    x = [" + ".join(f"l*sin(a{j})" for j in range(i + 1)) for i in links]
+    y = [" - ".join(["0", *(f"l*cos(a{j})" for j in range(i + 1))]) for i in links]
+    points = "".join(f"  p{i}: {{position: ['{x[i]}', '{y[i]}'], mass: m}}\n" for i in links)
+    potential = " + ".join(f"m*g*({each})" for each in y)
+    explanation = told_text(
+        f"title: Chain\ncoordinates: [{coordinates}]\nparameters: [m, l, g]\n"
+        f"points:\n{points}V: {potential}\n"
+    )
+    assert "the system stays in this matrix form" in words(explanation)
+    assert "nine degrees of freedom" in words(explanation)
+    assert not explanation.complete
+
+
+def test_sentences_end_and_no_word_stands_twice():
+    for name in SMOOTH:
+        explanation = told(name)
+        for step in explanation.steps:
+            assert step.blocks
+            for before, after in pairwise(step.blocks):
+                two = isinstance(before, Heading) and isinstance(after, Heading)
+                assert not two
+        assert not re.search(r"\b(\w+) \1\b", words(explanation))
+        assert not any(
+            isinstance(row.left, Label) and not row.left.index and not row.left.change
+            for row in rows(explanation)
+        )
