@@ -33,6 +33,7 @@ SECTIONS = (
     "equilibria",
     "modes",
     "reduction",
+    "steady_motions",
     "model",
     "dimensions",
 )
@@ -332,6 +333,43 @@ class ReductionSection:
 
 
 @record(kw_only=True)
+class SteadyMotion:
+    """The cyclic coordinates turn at constant `rates`, the others rest `at` their values.
+
+    `free` may have any value.  It is there where each of `where` holds, and with all rates
+    and momenta reversed where it is `mirrored`.  `rates` None: the axes of two rotations
+    coincide, so only the momenta are known.  `minimum` and `spectrum` say where U_eff has a
+    minimum, and where the spectrum lies on the imaginary axis: empty for always, None for
+    never or not decided.  `stable` None: it depends on these, or was not decided.
+    """
+
+    at: Mapping[str, Expression]
+    free: tuple[str, ...]
+    rates: Mapping[str, Expression] | None
+    momenta: Mapping[str, Expression]
+    where: tuple[Above, ...]
+    mirrored: bool
+    stable: bool | None
+    minimum: tuple[Above, ...] | None
+    spectrum: tuple[Above, ...] | None
+    frequencies_squared: tuple[Expression, ...]
+    mass: tuple[tuple[Expression, ...], ...] = ()
+    velocity: tuple[tuple[Expression, ...], ...] = ()
+    stiffness: tuple[tuple[Expression, ...], ...] = ()
+    reason: str = ""
+
+
+@record(kw_only=True)
+class SteadySection:
+    """The conditions dU_eff/dq = 0 by coordinate, and the motions; None with a `reason`."""
+
+    conditions: Mapping[str, Expression]
+    motions: tuple[SteadyMotion, ...] | None
+    complete: bool = True
+    reason: str = ""
+
+
+@record(kw_only=True)
 class ModelSection:
     """What a run keeps and drops, and why (by coordinate or parameter)."""
 
@@ -389,6 +427,7 @@ Section = (
     | EquilibriaSection
     | ModesSection
     | ReductionSection
+    | SteadySection
     | ModelSection
     | DimensionsSection
 )

@@ -210,6 +210,17 @@ class ExpectReduction:
 
 
 @record(kw_only=True)
+class ExpectSteady:
+    """What is known of one steady motion; `stable` where: all of these inequalities."""
+
+    at: Mapping[str, Expression] = field(default_factory=dict)
+    rates: Mapping[str, Expression] = field(default_factory=dict)
+    momenta: Mapping[str, Expression] = field(default_factory=dict)
+    frequencies_squared: tuple[Expression, ...] | None = None
+    stable: bool | tuple[Inequality, ...] | None = None
+
+
+@record(kw_only=True)
 class Expect:
     """The known answers, as the file gives them; None or empty: nothing expected."""
 
@@ -225,6 +236,7 @@ class Expect:
     modes: tuple[Expression, ...] | None = None  # angular frequencies
     find: Mapping[str, tuple[Expression, ...]] = field(default_factory=dict)
     reduction: ExpectReduction | None = None
+    steady_motions: tuple[ExpectSteady, ...] = ()
     trajectory: Trajectory | None = None
     spans: Mapping[tuple[str, ...], Span] = field(default_factory=dict, compare=False)
     #: place of each expectation: ("accelerations", "x"), ("equations", "0"), …

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
+import sympy
 from sympy import Expr
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.ring import Poly
+from lagcli.algebra.roots import substitute_square
 
 
 def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
@@ -23,7 +25,11 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
     field = Field([expression, *positive])
     try:
         element = field(expression)
-        given = [field(each).numerator for each in positive if sign(each) is None]
+        given = [
+            field(each).numerator * field(each).denominator
+            for each in positive
+            if sign(each) is None
+        ]
     except ZeroDivisionError:
         return None
     if element.is_zero():
@@ -41,13 +47,22 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
     return result
 
 
+def sign_of_circle(factor: Expr) -> int | None:
+    """The sign of cos - 1 and cos + 1, where they are not 0."""
+    constant, rest = factor.as_coeff_Add()
+    if abs(constant) == 1 and isinstance(rest, sympy.cos | sympy.sin):
+        return int(constant)
+    return None
+
+
 def _open_factors(field: Field, poly: Poly) -> list[Poly]:
     """The one factor whose sign a positive product decides, made positive; none if several."""
     content, factors = field.ring.lift(poly).factor()
     value = 1 if int(content) > 0 else -1
     unknown = []
     for factor, exponent in factors:
-        found = _by_terms(field, factor)
+        # none of the factors is 0, as their product is not
+        found = _by_terms(field, factor) or sign_of_circle(field.polynomial_to_sympy(factor))
         if found is None:
             unknown.append((factor, exponent))
         else:
@@ -58,9 +73,10 @@ def _open_factors(field: Field, poly: Poly) -> list[Poly]:
 
 
 def _of_factor(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | None:
-    by_terms = _by_terms(field, factor)
-    if by_terms is not None:
-        return by_terms
+    for equal in (factor, *_with_squares_swapped(field, factor)):
+        by_terms = _by_terms(field, equal)
+        if by_terms is not None:
+            return by_terms
     for known in positive:
         if factor == field.ring.lift(known):
             return 1
@@ -74,21 +90,38 @@ def _of_factor(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | No
     return -1 if expression.is_negative else None
 
 
+def _with_squares_swapped(field: Field, poly: Poly) -> Iterator[Poly]:
+    """The factor with 1 - sin² for a cos², and with 1 - cos² for a sin²."""
+    one = field.ring.one
+    for g in field.ring.used(poly):
+        generator = field.generators[g]
+        if generator.kind in ("cos", "sin") and field.ring.degree(poly, g) > 1:
+            yield substitute_square(
+                field, poly, g, one - field.ring.generator(generator.partner) ** 2
+            )
+
+
 def _by_terms(field: Field, poly: Poly) -> int | None:
-    """All terms of one sign: products of positive generators and even powers."""
+    """All terms of one sign, products of positive generators and even powers, one not 0."""
     signs = set()
+    never_zero = False
     for monomial, coefficient in field.ring.terms(poly):
         value = 1 if coefficient > 0 else -1
+        strict = True
         for g, exponent in monomial:
             expression = field.generators[g].expression
-            if exponent % 2 == 0 and expression.is_nonzero is not True:
-                return None
-            if exponent % 2 and expression.is_negative:
+            if exponent % 2 == 0:
+                strict = strict and expression.is_nonzero is True
+            elif expression.is_nonpositive:
                 value = -value
-            elif exponent % 2 and not expression.is_positive:
+                strict = strict and expression.is_negative is True
+            elif expression.is_nonnegative:
+                strict = strict and expression.is_positive is True
+            else:
                 return None
+        never_zero = never_zero or strict
         signs.add(value)
-    return signs.pop() if len(signs) == 1 else None
+    return signs.pop() if len(signs) == 1 and never_zero else None
 
 
 def _of_number(expression: Expr) -> int | None:

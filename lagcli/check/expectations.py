@@ -270,6 +270,7 @@ _SECTIONS: Mapping[str, Callable[[Expect], object]] = {
     "find": lambda expect: expect.find,
     "modes": lambda expect: expect.modes is not None,
     "reduction": lambda expect: expect.reduction is not None,
+    "steady_motions": lambda expect: expect.steady_motions,
 }
 
 

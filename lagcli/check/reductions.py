@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import cast
 
-from lagcli.answers import Answers, ReductionSection
+from sympy import Expr
+
+from lagcli.algebra import simplify
+from lagcli.answers import Answers, ReductionSection, SteadyMotion, SteadySection
 from lagcli.check.comparison import Comparison
 from lagcli.expression import Expression, Name, Number, Power, Sum
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
-from lagcli.problem import Parameter, Problem
+from lagcli.mechanics.reduction.readable import deciding
+from lagcli.problem import ExpectSteady, Inequality, Parameter, Problem
 from lagcli.reader.expected_reduction import AMPLITUDE_NAMES, ENERGY_NAMES
 
 #: The path of an expectation, the verdict, what was expected and what was found.
@@ -49,6 +53,7 @@ class Reductions:
     def findings(self) -> Iterator[Judged]:
         """Every expectation of these sections with its verdict."""
         yield from self._reduction()
+        yield from self._steady_motions()
 
     def _reduction(self) -> Iterator[Judged]:
         expect = self.derivation.problem.expect.reduction
@@ -78,6 +83,69 @@ class Reductions:
             verdicts = [self.comparison.equal(each, expect.period) for each in periods]
             verdict = True if True in verdicts else None if None in verdicts else False
             yield ["reduction", "period"], verdict, to_grammar(expect.period), _listed(periods)
+
+    def _steady_motions(self) -> Iterator[Judged]:
+        expected = self.derivation.problem.expect.steady_motions
+        if not expected:
+            return
+        motions = cast(SteadySection, self.answers.sections["steady_motions"]).motions
+        for place, each in enumerate(expected):
+            verdicts = [self._same_motion(motion, each) for motion in motions or ()]
+            verdict = True if True in verdicts else None if None in verdicts else False
+            if motions is None:
+                verdict = None
+            path = ["steady_motions", str(place)]
+            yield path, verdict, f"steady motion {place + 1}", "none that is the same"
+
+    def _same_motion(self, found: SteadyMotion, expected: ExpectSteady) -> bool | None:
+        verdicts: list[bool | None] = []
+        for answers, wanted in (
+            (found.at, expected.at),
+            (found.rates or {}, expected.rates),
+            (found.momenta, expected.momenta),
+        ):
+            for name, formula in wanted.items():
+                answer = answers.get(name)
+                verdicts.append(answer is not None and self.comparison.equal(answer, formula))
+        if False in verdicts:
+            return False
+        if expected.frequencies_squared is not None:
+            squares = found.frequencies_squared
+            verdicts.append(self.comparison.same_set(squares, expected.frequencies_squared))
+        if isinstance(expected.stable, tuple):
+            verdicts.append(self._same_conditions(found, expected.stable))
+        elif expected.stable is not None:
+            verdicts.append(found.stable is expected.stable)
+        return _conjunction(verdicts)
+
+    def _same_conditions(self, found: SteadyMotion, expected: tuple[Inequality, ...]) -> bool:
+        """Whether a minimum or the spectrum asks for the same, factors that are positive aside."""
+        build = self.comparison.build
+        wanted = [build(a) - build(b) for a, b in map(_positive, expected)]
+        for conditions in (found.spectrum, found.minimum):
+            derived = [build(each.left) - build(each.right) for each in conditions or ()]
+            if len(derived) == len(wanted) and all(
+                any(_same_sign(a, b) for b in derived) for a in wanted
+            ):
+                return True
+        return False
+
+
+def _same_sign(a: Expr, b: Expr) -> bool:
+    """Whether a is b times a positive number, after factors of known sign are left out."""
+    ratio = simplify(deciding(a) / deciding(b))
+    return bool(ratio.is_number and ratio.is_positive)
+
+
+def _positive(inequality: Inequality) -> tuple[Expression, Expression]:
+    """(greater, less)."""
+    pair = inequality.left, inequality.right
+    return pair if inequality.comparison == ">" else (pair[1], pair[0])
+
+
+def _conjunction(verdicts: Iterable[bool | None]) -> bool | None:
+    found = list(verdicts)
+    return False if False in found else None if None in found else True
 
 
 def _shown(found: Expression | None) -> str:

@@ -42,6 +42,8 @@ from lagcli.answers import (
     Rewritten,
     Section,
     Solutions,
+    SteadyMotion,
+    SteadySection,
 )
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
@@ -142,6 +144,8 @@ def _value(section: Section) -> Value:
             return _unless_none(section.modes, lambda each: [_mode(m) for m in each])
         case ReductionSection():
             return _unless_none(section.routhian, lambda _: _reduction(section))
+        case SteadySection():
+            return _unless_none(section.motions, lambda each: [_steady(m) for m in each])
         case ModelSection():
             return {
                 "kept": section.kept,
@@ -261,6 +265,25 @@ def _period(period: PeriodSeries) -> Object:
         "order": period.order,
         "period": to_grammar(period.period),
         "where": [_above(each) for each in period.where],
+    }
+
+
+def _steady(motion: SteadyMotion) -> Object:
+    return {
+        "at": _by_name(motion.at),
+        "free": motion.free,
+        "rates": _unless_none(motion.rates, _by_name),
+        "momenta": _by_name(motion.momenta),
+        "where": [_above(each) for each in motion.where],
+        "mirrored": motion.mirrored,
+        "stable": motion.stable,
+        "minimum": _unless_none(motion.minimum, lambda each: [_above(a) for a in each]),
+        "spectrum": _unless_none(motion.spectrum, lambda each: [_above(a) for a in each]),
+        "frequencies_squared": _strings(motion.frequencies_squared),
+        "mass": [_strings(row) for row in motion.mass],
+        "velocity": [_strings(row) for row in motion.velocity],
+        "stiffness": [_strings(row) for row in motion.stiffness],
+        "reason": motion.reason,
     }
 
 

@@ -18,7 +18,7 @@ from lagcli.document import (
 from lagcli.expression import ZERO, Name
 from lagcli.formatters.findings import state_blocks
 
-_POTENTIAL = Label("U", ("eff",))
+POTENTIAL = Label("U", ("eff",))
 
 
 def reduction_blocks(section: ReductionSection) -> Iterator[Block]:
@@ -37,7 +37,7 @@ def reduction_blocks(section: ReductionSection) -> Iterator[Block]:
         yield Paragraph(("The Routhian, the Lagrangian less the sum of p q' of these:",))
     rows = [Row(Label("R"), section.routhian)]
     if section.effective_potential is not None:
-        rows.append(Row(_POTENTIAL, section.effective_potential))
+        rows.append(Row(POTENTIAL, section.effective_potential))
     yield Equations(tuple(rows))
     yield from _gyroscopic(section)
     if section.equations:
@@ -76,7 +76,7 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
     constant, q = Name(motion.constant), Name(motion.coordinate)
     yield Equations((Row(constant, motion.energy, "conserved"),))
     if motion.turning_points is None:
-        yield Paragraph(("It turns where ", _POTENTIAL, " = ", constant, "."))
+        yield Paragraph(("It turns where ", POTENTIAL, " = ", constant, "."))
     elif motion.turning_points:
         yield Paragraph(("Turning points, where these are real:",))
         yield Equations(tuple(Row(q, value) for value in motion.turning_points))

@@ -26,6 +26,7 @@ from lagcli.answers import (
     MultipliersSection,
     ReductionSection,
     Section,
+    SteadySection,
     Verification,
 )
 from lagcli.document import (
@@ -48,6 +49,7 @@ from lagcli.formatters.findings import (
     mode_blocks,
 )
 from lagcli.formatters.reductions import reduction_blocks
+from lagcli.formatters.steady import steady_blocks
 
 _HEADINGS = {
     "lagrangian": "Lagrangian",
@@ -67,6 +69,7 @@ _HEADINGS = {
     "equilibria": "Equilibria",
     "modes": "Normal modes",
     "reduction": "Reduction",
+    "steady_motions": "Steady motions",
     "model": "Model",
     "dimensions": "Dimensions",
 }
@@ -129,6 +132,8 @@ def section_blocks(section: Section, answers: Answers) -> Iterable[Block]:
             return mode_blocks(section)
         case ReductionSection():
             return reduction_blocks(section)
+        case SteadySection():
+            return steady_blocks(section)
         case ModelSection():
             return _model(section)
         case DimensionsSection():

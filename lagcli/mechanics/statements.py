@@ -31,6 +31,7 @@ from lagcli.answers import (
     ReductionSection,
     Section,
     Solutions,
+    SteadySection,
 )
 from lagcli.expression import ZERO, Expression
 from lagcli.mechanics.constraint_force import forces_on_points
@@ -92,6 +93,7 @@ class Statements(Stating):
             "equilibria": self._equilibria,
             "modes": self._modes,
             "reduction": self._reduction,
+            "steady_motions": self._steady_motions,
         }
 
     @property
@@ -348,6 +350,14 @@ class Statements(Stating):
         from lagcli.mechanics.reduction.statement import reduction
 
         section, missing = reduction(self.derivation)
+        for what, why in missing:
+            self._missing(what, why)
+        return section
+
+    def _steady_motions(self) -> SteadySection:
+        from lagcli.mechanics.reduction.steady_statement import steady_motions
+
+        section, missing = steady_motions(self.derivation)
         for what, why in missing:
             self._missing(what, why)
         return section

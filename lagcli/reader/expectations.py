@@ -10,12 +10,13 @@ from lagcli.problem import (
     Contact,
     Expect,
     ExpectReduction,
+    ExpectSteady,
     Question,
     Symmetry,
     Trajectory,
 )
 from lagcli.reader.dynamics import read_by_coordinate
-from lagcli.reader.expected_reduction import read_reduction
+from lagcli.reader.expected_reduction import read_reduction, read_steady_motions
 from lagcli.reader.nodes import Node, Scalar, Sequence
 from lagcli.reader.scope import CONSTANTS, EQUATION, PHASE_SPACE, STATE, Role
 from lagcli.reader.suggest import did_you_mean
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 _KEYS = (
     "degrees_of_freedom", "equations", "accelerations", "multipliers", "constraint_forces",
     "momenta", "hamiltonian", "energy", "charges", "modes", "find", "trajectory",
-    "reduction",
+    "reduction", "steady_motions",
 )  # fmt: skip
 
 #: An answer holds what is left when accelerations and multipliers have been eliminated.
@@ -142,6 +143,9 @@ class ExpectReader:
 
     def _reduction(self, node: Node) -> ExpectReduction:
         return read_reduction(self.sections, node, self.spans)
+
+    def _steady_motions(self, node: Node) -> tuple[ExpectSteady, ...]:
+        return read_steady_motions(self.sections, node, self.spans)
 
     def _by_coordinate(self, node: Node, section: str, what: str) -> dict[str, Expression]:
         self._note(node, section)

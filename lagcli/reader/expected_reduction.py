@@ -6,14 +6,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from lagcli.problem import ExpectReduction
+from lagcli.problem import ExpectReduction, ExpectSteady
 from lagcli.reader.dynamics import read_by_coordinate
-from lagcli.reader.nodes import Node
+from lagcli.reader.nodes import Node, Scalar, Sequence
 from lagcli.reader.scope import Role
 
 if TYPE_CHECKING:
     from lagcli.diagnostics import Span
     from lagcli.expression import Expression
+    from lagcli.problem import Inequality
     from lagcli.reader.sections import Sections
 
 #: What the answers call the energy and the amplitude: the first that the file does not use.
@@ -21,6 +22,8 @@ ENERGY_NAMES = ("E", "h", "E_0", "h_0")
 AMPLITUDE_NAMES = ("a", "A", "a_0", "A_0")
 
 _REDUCED = Role(order=1, why="an answer is free of accelerations", momenta=True)
+_STEADY = ("at", "rates", "momenta", "frequencies_squared", "stable")
+_WORDS = {"yes": True, "no": False}
 _KEYS = ("routhian", "effective_potential", "reconstruction", "turning_points", "period")
 
 
@@ -62,3 +65,40 @@ def expressions(sections: Sections, node: Node, name: str, what: str) -> tuple[E
     """A list of expressions."""
     items = sections.items(node, f"'{name}'", "write [one, another]")
     return tuple(sections.expression(item, what, _REDUCED) for item in items)
+
+
+def read_steady_motions(
+    sections: Sections, node: Node, spans: dict[tuple[str, ...], Span]
+) -> tuple[ExpectSteady, ...]:
+    """`expect: {steady_motions: [{at, rates, momenta, frequencies_squared, stable}]}`."""
+    motions = []
+    with constants(sections):
+        for place, item in enumerate(sections.items(node, "'steady_motions'")):
+            spans["steady_motions", str(place)] = item.span
+            motions.append(_steady(sections, item))
+    return tuple(motions)
+
+
+def _steady(sections: Sections, node: Node) -> ExpectSteady:
+    found: dict[str, Any] = {}
+    for name, (_, value) in sections.attributes(node, "a steady motion", _STEADY).items():
+        if name == "stable":
+            found[name] = _stable(sections, value)
+        elif name == "frequencies_squared":
+            found[name] = expressions(sections, value, name, "an expected square of a frequency")
+        else:
+            what = f"the expected {name} of '{{}}'"
+            found[name] = read_by_coordinate(sections, value, f"'{name}'", what, _REDUCED)
+    return ExpectSteady(**found)
+
+
+def _stable(sections: Sections, node: Node) -> bool | tuple[Inequality, ...] | None:
+    if isinstance(node, Scalar) and node.value.strip() in _WORDS:
+        return _WORDS[node.value.strip()]
+    items = node.items if isinstance(node, Sequence) else [node]
+    what = "a condition of stability"
+    read = [sections.comparison(item, what, _REDUCED) for item in items]
+    for item, each in zip(items, read, strict=True):
+        if each is not None and each.comparison not in (">", "<"):
+            sections.error(f"{what} has > or <", item.span)
+    return tuple(each for each in read if each is not None)

@@ -36,6 +36,8 @@ from lagcli.answers import (
     ReductionSection,
     Rewritten,
     Solutions,
+    SteadyMotion,
+    SteadySection,
     UnitSource,
 )
 from lagcli.expression import (
@@ -276,6 +278,40 @@ HOOP = Answers(
             multipliers={"lambda_rolling": unit_of("V/(A m^2)")},
             charges={"slide": QuantityUnit(unit=Unit((), 1e-05), source="inferred")},
         ),
+        "steady_motions": SteadySection(
+            conditions={"theta": minus_half},
+            motions=(
+                SteadyMotion(
+                    at={"theta": ZERO},
+                    free=("x'",),
+                    rates={"x": dx, "z": Quotient(g, R)},
+                    momenta={"x": times(M, dx)},
+                    where=(Above(g, ZERO),),
+                    mirrored=True,
+                    stable=None,
+                    minimum=(Above(g, R),),
+                    spectrum=(Above(x, ZERO), Above(square(x), g)),
+                    frequencies_squared=(minus_half,),
+                    mass=((ONE, ZERO), (ZERO, ONE)),
+                    velocity=((ZERO, Negative(x)), (x, ZERO)),
+                    stiffness=((g, ZERO), (ZERO, g)),
+                ),
+                SteadyMotion(
+                    at={"theta": Name("pi")},
+                    free=(),
+                    rates=None,
+                    momenta={"x": Name("p_x")},
+                    where=(),
+                    mirrored=False,
+                    stable=False,
+                    minimum=None,
+                    spectrum=None,
+                    frequencies_squared=(),
+                    reason="neutral",
+                ),
+            ),
+            complete=False,
+        ),
         "model": ModelSection(
             kept=("x",),
             eliminated={"theta": Quotient(x, R)},
@@ -345,6 +381,7 @@ HOSTILE = Answers(
         "canonical_equations": CanonicalSection(equations=None, reason="no Hamiltonian"),
         "equilibria": EquilibriaSection(equilibria=None),
         "modes": ModesSection(modes=None),
+        "steady_motions": SteadySection(conditions={}, motions=None, reason="x_1 <&> 100%"),
         "reduction": ReductionSection(
             momenta={"phase": long_sum}, routhian=None, reason="x_1 & 100% <undecided>"
         ),

@@ -13,7 +13,7 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, shape, simplify, terms
 from lagcli.algebra.build import free_of
-from lagcli.algebra.signs import sign
+from lagcli.algebra.signs import sign, sign_of_circle
 from lagcli.algebra.systems import factors_of
 from lagcli.algebra.writing import Writer
 from lagcli.answers import Above
@@ -59,21 +59,27 @@ def _squares(expression: Expr, momenta: Sequence[Symbol]) -> list[Expr] | None:
     return [*found, simplify(rest)]
 
 
-def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ()) -> Above | None:
-    """`left > right` for an expression that is to be positive, known factors left out.
+def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
+    """A polynomial with the sign of the expression: factors of known sign are left out.
 
-    None where nothing is left: it is positive unless something vanishes.
+    Squares are taken as positive: what is divided by, or asked to be positive, is not 0.
     """
     kept, direction = S.One, 1
     for factor, power in factors_of(expression):
-        known = sign(factor, positive)
+        known = sign(factor, positive) or sign_of_circle(factor)
         if known is None:
             kept *= factor if power % 2 else S.One
         else:
             direction *= known**power
-    if kept == 1 and direction == 1:
+    return direction * kept
+
+
+def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ()) -> Above | None:
+    """`left > right` for an expression that is to be positive; None where it always is."""
+    rest = deciding(expression, positive)
+    if rest == 1:
         return None
-    all_terms = (direction * kept).expand().as_ordered_terms()
+    all_terms = rest.expand().as_ordered_terms()
     right = -sympy.Add(*(term for term in all_terms if term.could_extract_minus_sign()))
     left = sympy.Add(*(term for term in all_terms if not term.could_extract_minus_sign()))
     return Above(shape(left, order), shape(right, order))

@@ -1,0 +1,353 @@
+"""Steady motions (relative equilibria): the cyclic coordinates turn at constant rates.
+
+The others rest where dU_eff/dq = 0 at the momenta p of the cyclic ones, whose rates are
+q_c' = dU_eff/dp_c.  The conditions are polynomials in one rate (or momentum) u, the other
+quantities given: solved for u, they are a family over the places q; a factor without u
+gives places for every u.
+
+References
+----------
+Routh, *Stability of a Given State of Motion*, chapter IV.
+Whittaker, *Analytical Dynamics*, 4th ed., sections 38, 83 and 84.
+Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., sections 3.6 and 5.7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from itertools import combinations
+
+import sympy
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import is_zero, nullspace, simplify
+from lagcli.algebra.build import free_of
+from lagcli.algebra.equations import solve_for
+from lagcli.algebra.signs import sign
+from lagcli.algebra.systems import SystemSolution, factors_of, solve_system
+from lagcli.mechanics.characteristic import determinant
+from lagcli.mechanics.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.reduction.readable import deciding
+from lagcli.mechanics.reduction.routh import Routh
+from lagcli.record import record
+
+_ROOT_COST = 6  # operations that a root is worth
+
+
+@record
+class Steady:
+    """One steady motion, or a family of them.
+
+    Attributes
+    ----------
+    values
+        The coordinates that are fixed, and the momenta p_c, in what is free.
+    rates
+        q_c' by coordinate index; None where the coordinates are singular.
+    positive
+        It is there where each of these is > 0.
+    mirrored
+        It is there with all rates and momenta reversed, too.
+    curvature
+        The second derivative of U_eff, of a singular place; None elsewhere.
+    """
+
+    values: Mapping[Symbol, Expr]
+    rates: Mapping[int, Expr] | None
+    positive: tuple[Expr, ...] = ()
+    mirrored: bool = False
+    curvature: Expr | None = None
+
+
+class SteadyMotions:
+    """The steady motions of a reduced system.
+
+    Attributes
+    ----------
+    reason
+        Why none were found, in a sentence; empty otherwise.
+    complete
+        Whether there can be no other, beside those at singular coordinates.
+    """
+
+    def __init__(self, routh: Routh) -> None:
+        assert routh.reduced is not None
+        self.routh = routh
+        self.full, self.system = routh.system, routh.reduced.system
+        self.dynamics = routh.reduced.dynamics
+        self.rest = RestPoints(self.dynamics)
+        self.reason = ""
+        self.complete = True
+
+    @cached_property
+    def motions(self) -> tuple[Steady, ...] | None:
+        """All that were found, each by substitution; None with a reason."""
+        if is_zero(self.system.L.diff(self.system.t)) is not True:
+            self.reason = "the system depends explicitly on the time"
+            return None
+        given = self._given()
+        if self.routh.cyclic and self._free:
+            found = [*self._families(), *self._at_singular_places()]
+        else:
+            found = self._by_momenta()
+        if given is not None and not any(g.values == given.values for g in found):
+            found.insert(0, given)
+        if not found and not self.complete:
+            self.reason = "the conditions dU_eff/dq = 0 could not be solved"
+            return None
+        self.reason = ""
+        return tuple(found)
+
+    @property
+    def _free(self) -> bool:
+        """Without constraints, forces that have no potential, and roots in the velocities."""
+        return (
+            not self.dynamics.constraints.equations
+            and self.routh.quadratic
+            and all(is_zero(f) is True for f in self.system.applied_forces)
+        )
+
+    @cached_property
+    def conditions(self) -> tuple[Expr, ...]:
+        """dU_eff/dq, shape (n,)."""
+        return tuple(simplify(self.routh.effective_potential.diff(q)) for q in self.system.q)
+
+    # -- without families -------------------------------------------------------------------------
+
+    def _by_momenta(self) -> list[Steady]:
+        """The equilibria of the reduced system at given momenta."""
+        points = self.rest.points
+        self.complete = points is not None and self.rest.complete
+        return [
+            Steady(point.values, self._rates(point.values), point.positive)
+            for point in points or ()
+            if self._regular(point.values)
+        ]
+
+    def _given(self) -> Steady | None:
+        """The state `initial` of the file, where it is steady."""
+        build, system = self.system.build, self.system
+        given = {str(name): value for name, value in self.routh.full.problem.initial.items()}
+        if not given or any(q.name not in given for q in system.q):
+            return None
+        state = {q: build(given[q.name]) for q in system.q}
+        rates = {v: build(given[v.name]) if v.name in given else S.Zero for v in self.full.qdot}
+        if any(is_zero(rates[v]) is not True for v in system.qdot):
+            return None
+        momenta = self.routh.full.dynamics.lagrange.momenta
+        values = dict(state)
+        for p, j in zip(self.routh.momenta, self.routh.cyclic, strict=True):
+            values[p] = at(momenta[j].xreplace(rates), state)
+        try:
+            if not self.rest.balanced(values) or not self._regular(values):
+                return None
+        except ZeroDivisionError:
+            return None
+        return Steady(values, self._rates(values))
+
+    def _rates(self, values: Mapping[Symbol, Expr]) -> dict[int, Expr]:
+        assert self.routh.velocities is not None
+        still = dict.fromkeys(self.system.qdot, S.Zero)
+        return {
+            j: at(v.xreplace(still), values)
+            for j, v in zip(self.routh.cyclic, self.routh.velocities, strict=True)
+        }
+
+    def _regular(self, values: Mapping[Symbol, Expr]) -> bool:
+        """Whether the mass matrix of all coordinates can be inverted there."""
+        still = dict.fromkeys(self.full.qdot, S.Zero)
+        matrix = [
+            [at(entry.xreplace(still), values) for entry in row]
+            for row in self.routh.full.dynamics.lagrange.mass_matrix
+        ]
+        whole = determinant(matrix)
+        return whole is not None and is_zero(whole) is not True
+
+    # -- families ---------------------------------------------------------------------------------
+
+    def _families(self) -> list[Steady]:
+        """Those of the choice of the unknown with the shortest answer."""
+        best: list[Steady] | None = None
+        least = 0
+        for unknown, chart in self._charts():
+            found = self._solved(unknown, chart)
+            if found is None:
+                continue
+            cost = sum(_cost(v) for each in found for v in each.values.values())
+            if best is None or cost < least:
+                best, least = found, cost
+        if best is None:
+            return self._by_momenta()
+        return best
+
+    def _charts(self) -> Iterator[tuple[Symbol, dict[Expr, Expr]]]:
+        """What to solve for, and p_c by the rate of c where the rate is what is given."""
+        potential = self.routh.effective_potential
+        momenta, cyclic = self.routh.momenta, self.routh.cyclic
+        entering = [p for p in momenta if not all(free_of(f, [p]) for f in self.conditions)]
+        for p, j in zip(momenta, cyclic, strict=True):
+            if p not in entering:
+                continue
+            rate, slope = self.full.qdot[j], simplify(potential.diff(p))
+            stiffness = simplify(slope.diff(p))
+            if is_zero(stiffness) is not False or not free_of(stiffness, momenta):
+                continue
+            chart = {p: simplify((rate - slope.xreplace({p: S.Zero})) / stiffness)}
+            yield rate, chart
+            for other in entering:
+                if other != p:
+                    yield other, chart
+
+    def _solved(self, unknown: Symbol, chart: Mapping[Expr, Expr]) -> list[Steady] | None:
+        """All steady motions by one unknown; None where a closed form is missing."""
+        conditions = [simplify(c.xreplace(dict(chart))) for c in self.conditions]
+        conditions = [c for c in conditions if c != 0]
+        within = [c for c in conditions if not free_of(c, [unknown])]
+        if not within:
+            return None
+        first = min(within, key=lambda c: int(sympy.count_ops(c)))
+        rest = [c for c in conditions if c is not first]
+        found: list[Steady] = []
+        for factor, power in factors_of(first):
+            if power < 0 or sign(factor) in (1, -1):
+                continue
+            if free_of(factor, [unknown]):
+                if free_of(factor, self.system.q):
+                    continue
+                solved = solve_system([factor, *rest], self.system.q)
+                if not solved.complete:
+                    return None
+                for each in solved.solutions:
+                    found += self._checked(each.values, chart, each.positive)
+                continue
+            roots = solve_for(factor, unknown)
+            if roots is None:
+                return None
+            for root, mirrored in _without_mirrors(roots.values, self.routh.momenta):
+                root = simplify(root)
+                put_in = {unknown: root}
+                others = self._others([c.xreplace(put_in) for c in rest])
+                if others is None:
+                    return None
+                for each in others:
+                    value = at(root, each.values)
+                    values = {**each.values, unknown: value}
+                    positive = (*each.positive, *_radicands(value))
+                    found += self._checked(values, chart, positive, mirrored=mirrored)
+        return found
+
+    def _others(self, conditions: list[Expr]) -> Sequence[SystemSolution] | None:
+        """The other conditions solved for as many coordinates, the rest of them given."""
+        for chosen in combinations(self.system.q, len(conditions)):
+            solved = solve_system(conditions, chosen)
+            if solved.complete and solved.solutions:
+                return solved.solutions
+        return None
+
+    def _checked(
+        self,
+        values: Mapping[Symbol, Expr],
+        chart: Mapping[Expr, Expr],
+        positive: Sequence[Expr],
+        *,
+        mirrored: bool = False,
+    ) -> list[Steady]:
+        """The motion with its momenta and rates, put back into dU_eff/dq and q' = dU_eff/dp."""
+        state = {q: values[q] for q in self.system.q if q in values}
+        rates_given = {v: values[v] for v in self.full.qdot if v in values}
+        momenta = {p: values[p] for p in self.routh.momenta if p in values}
+        try:
+            for p, by_rate in chart.items():
+                momenta[p] = at(by_rate.xreplace({**momenta, **rates_given}), state)
+            whole = {**state, **momenta}
+            if not self._regular(state):
+                return []
+            if not all(is_zero(at(c, whole)) is True for c in self.conditions):
+                self.complete = False
+                return []
+            rates = self._rates(whole)
+            for j, rate in rates.items():
+                given = values.get(self.full.qdot[j])
+                if given is not None and is_zero(rate - given) is True:
+                    rates[j] = given
+            return [Steady(whole, rates, tuple(positive), mirrored)]
+        except ZeroDivisionError:
+            return []
+
+    # -- where the coordinates are singular -------------------------------------------------------
+
+    def _at_singular_places(self) -> list[Steady]:
+        """Where the axes of two rotations coincide: an upright top, a pendulum that hangs.
+
+        There the mass matrix of the cyclic coordinates has null vectors v with v p = 0, and
+        with these momenta U_eff is regular.
+        """
+        if len(self.system.q) != 1:
+            return []
+        mass, q = self.routh.full.dynamics.lagrange.mass_matrix, self.system.q[0]
+        block = [[simplify(mass[i][j]) for j in self.routh.cyclic] for i in self.routh.cyclic]
+        whole = determinant(block)
+        if whole is None or free_of(whole, [q]):
+            return []
+        found = []
+        for factor, power in factors_of(whole):
+            roots = solve_for(factor, q) if power > 0 and not free_of(factor, [q]) else None
+            for root in roots.values if roots is not None else ():
+                if not root.free_symbols and not (q.is_nonzero and root == 0):
+                    found += self._regularized(q, root, block)
+        return list({tuple(each.values.items()): each for each in found}.values())
+
+    def _regularized(self, q: Symbol, place: Expr, block: list[list[Expr]]) -> list[Steady]:
+        momenta = self.routh.momenta
+        rows = nullspace([[at(entry, {q: place}) for entry in row] for row in block])
+        conditions = [
+            sympy.Add(*(v * p for v, p in zip(row, momenta, strict=True))) for row in rows
+        ]
+        solved = solve_system(conditions, momenta)
+        if len(solved.solutions) != 1 or not solved.complete:
+            return []
+        [solution] = solved.solutions
+        half = Symbol("#half", real=True)
+        potential = self.routh.effective_potential.xreplace(dict(solution.values))
+        try:
+            near = simplify(potential.subs(q, place + 2 * half))
+            slope, bend = (at(near.diff(half, k), {half: S.Zero}) for k in (1, 2))
+        except ZeroDivisionError:
+            return []
+        if is_zero(slope) is not True or bend.has(sympy.zoo, sympy.nan):
+            return []
+        return [Steady({q: place, **solution.values}, None, curvature=simplify(bend / 4))]
+
+    def point(self, steady: Steady) -> RestPoint:
+        """The same as an equilibrium of the reduced system."""
+        free = tuple(q for q in self.system.q if q not in steady.values)
+        return RestPoint(steady.values, free, steady.positive)
+
+
+def _cost(value: Expr) -> int:
+    powers = value.atoms(sympy.Pow)
+    roots = sum(1 for power in powers if power.exp.is_Rational and power.exp.q > 1)
+    return int(sympy.count_ops(value)) + _ROOT_COST * roots
+
+
+def _without_mirrors(
+    roots: Sequence[Expr], momenta: Sequence[Symbol]
+) -> Iterator[tuple[Expr, bool]]:
+    """One of x and -x where nothing else changes its sign with them."""
+    seen: list[Expr] = []
+    for root in sorted(roots, key=lambda root: bool(root.could_extract_minus_sign())):
+        if any(is_zero(root + other) is True for other in seen):
+            continue
+        opposite = any(is_zero(root + other) is True for other in roots if other is not root)
+        seen.append(root)
+        yield root, opposite and free_of(root, momenta)
+
+
+def _radicands(value: Expr) -> list[Expr]:
+    """What stands under square roots and may be negative."""
+    return [
+        deciding(power.base)
+        for power in value.atoms(sympy.Pow)
+        if power.exp.is_Rational and power.exp.q % 2 == 0 and sign(power.base) != 1
+    ]

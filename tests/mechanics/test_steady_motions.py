@@ -1,0 +1,203 @@
+"""Steady motions and their stability against textbooks and against numeric spectra."""
+
+from __future__ import annotations
+
+import mpmath
+import pytest
+from sympy import Matrix, Symbol, symbols
+
+from lagcli.algebra.signs import sign
+from lagcli.answers import SteadyMotion
+from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.reduction.steady_statement import steady_motions
+
+from .derived import derive
+from .formulas import formula, normal
+
+
+def motions(text: str) -> tuple[SteadyMotion, ...]:
+    section, missing = steady_motions(derive(text.replace("POSITIVE", "{assume: positive}")))
+    assert not missing
+    assert section.motions is not None
+    return section.motions
+
+
+def conditions(found: tuple) -> list[str]:
+    return [f"{to_grammar(each.left)} > {to_grammar(each.right)}" for each in found]
+
+
+TOP = """
+coordinates: [phi, theta, psi]
+parameters: {I1: POSITIVE, I3: POSITIVE, k: POSITIVE}
+T: I1*(theta'^2 + phi'^2*sin(theta)^2)/2 + I3*(psi' + phi'*cos(theta))^2/2
+V: k*cos(theta)
+"""
+
+
+def test_the_sleeping_top():
+    """Landau and Lifshitz, section 35, problem 1(c)."""
+    upright = next(m for m in motions(TOP) if m.rates is None and to_grammar(m.at["theta"]) == "0")
+    assert upright.stable is None
+    assert conditions(upright.minimum or ()) == ["p_psi^2 > 4*I1*k"]
+
+
+def test_the_nutation_of_a_regular_precession():
+    """Whittaker, section 71: the small nutation by the numeric curvature of U_eff."""
+    precession = motions(TOP)[0]
+    assert precession.free == ("theta", "phi'")
+    assert precession.stable is True
+    I1, k, theta, rate = (mpmath.mpf(x) for x in ("1.3", "0.7", "0.9", "1.6"))
+    p_psi = I1 * rate * mpmath.cos(theta) + k / rate
+    p_phi = I1 * rate * mpmath.sin(theta) ** 2 + p_psi * mpmath.cos(theta)
+
+    def U(x):
+        return (p_phi - p_psi * mpmath.cos(x)) ** 2 / (
+            2 * I1 * mpmath.sin(x) ** 2
+        ) + k * mpmath.cos(x)
+
+    with mpmath.workdps(30):
+        assert abs(mpmath.diff(U, theta)) < 1e-12
+        expected = mpmath.diff(U, theta, 2) / I1
+    values = {"I1": I1, "k": k, "theta": theta, "phi'": rate}
+    [square] = precession.frequencies_squared
+    from lagcli.algebra.build import Builder, symbol
+
+    names = {n: symbol(n) for n in ("I1", "k", "theta", "phi")}
+    built = Builder(names, {}, lambda e: Symbol(e.name + "'", real=True))(square)
+    found = built.subs({s: values[s.name] for s in built.free_symbols})
+    assert abs(found - expected) < 1e-10
+
+
+def test_a_maximum_of_the_potential_held_by_a_magnetic_field():
+    """Gyroscopic stabilization: m x'' = a x + q B y', stable to first order for q² B² > 4 m a."""
+    [found] = motions("""
+coordinates: [x, y]
+parameters: {m: POSITIVE, a: POSITIVE, b: POSITIVE}
+L: m*(x'^2 + y'^2)/2 + b*(x*y' - y*x')/2 + a*(x^2 + y^2)/2
+""")
+    assert found.stable is None
+    assert found.minimum is None
+    assert conditions(found.spectrum or ()) == ["b^2 > 2*m*a", "b^2 > 4*m*a"]
+    for b, stable in ((mpmath.mpf("1.9"), False), (mpmath.mpf("2.1"), True)):
+        flow = mpmath.matrix([[0, 0, 1, 0], [0, 0, 0, 1], [1, 0, 0, b], [0, 1, -b, 0]])
+        roots = mpmath.eig(flow, left=False, right=False)
+        assert all(abs(r.real) < 1e-10 for r in roots) is stable
+
+
+def test_a_saddle_with_one_falling_direction_is_never_held():
+    """det K < 0: gyroscopic terms cannot help (Chetaev, chapter V)."""
+    [found] = motions("""
+coordinates: [x, y]
+parameters: {a: POSITIVE, c: POSITIVE, b: POSITIVE}
+L: (x'^2 + y'^2)/2 + b*(x*y' - y*x')/2 + a*x^2/2 - c*y^2/2
+""")
+    assert found.stable is False
+
+
+def test_with_dissipation_the_gyroscopic_criterion_is_not_used():
+    [found] = motions("""
+coordinates: [x, y]
+parameters: {a: POSITIVE, b: POSITIVE, d: POSITIVE}
+L: (x'^2 + y'^2)/2 + b*(x*y' - y*x')/2 + a*(x^2 + y^2)/2
+dissipation: d*(x'^2 + y'^2)/2
+""")
+    assert found.stable is None
+    assert found.spectrum is None
+    assert found.reason
+
+
+def test_parameters_without_a_sign_leave_the_verdict_open():
+    [found] = motions("{coordinates: [x], parameters: [m, k], L: m*x'^2/2 - k*x^2/2}")
+    assert found.stable is None
+    assert found.reason == "the kinetic energy is not known to be positive definite"
+
+
+def test_nothing_is_said_of_a_parametric_drive():
+    section, missing = steady_motions(
+        derive("{coordinates: [x], parameters: [w], L: x'^2/2 - (1 + cos(w*t))*x^2/2}")
+    )
+    assert section.motions is None
+    assert missing == [("the steady motions", "the system depends explicitly on the time")]
+
+
+def test_a_state_that_is_given_is_taken_when_it_is_steady():
+    text = """
+coordinates: {r: POSITIVE, phi: {}}
+parameters: {m: POSITIVE, k: POSITIVE, R: POSITIVE}
+T: m*(r'^2 + r^2*phi'^2)/2
+V: -k/r
+initial: {r: R, phi': RATE}
+"""
+    first = motions(text.replace("RATE", "sqrt(k/(m*R^3))"))[0]
+    assert normal(first.rates["phi"]) == formula("sqrt(k/(m*R^3))")
+    assert [normal(x) for x in first.frequencies_squared] == [formula("k/(m*R^3)")]
+    assert first.stable is True
+    [only] = motions(text.replace("RATE", "2*sqrt(k/(m*R^3))"))
+    assert only.free == ("r",)
+
+
+def test_a_constraint_stays_in_the_reduced_system():
+    found = motions("""
+coordinates: [x, y, z]
+parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE}
+T: m*(x'^2 + y'^2 + z'^2)/2
+V: m*g*y
+constraints: {rod: x^2 + y^2 = l^2}
+""")
+    assert {to_grammar(m.at["y"]): m.stable for m in found} == {"-l": True, "l": False}
+    assert all(to_grammar(m.rates["z"]) == "p_z/m" for m in found)
+
+
+@pytest.mark.parametrize(
+    ("expression", "positive", "expected"),
+    [
+        ("3*cos(x)**2 + 1", [], 1),
+        ("3*cos(x)**2", [], None),
+        ("a + b*sin(x)**2", [], 1),
+        ("b*cos(x)", ["cos(x)/sin(x)**2"], 1),
+        ("-b/cos(x)", ["b/cos(x)"], -1),
+        ("a - b*sin(x)**2", [], None),
+    ],
+)
+def test_signs(expression, positive, expected):
+    a, b = symbols("a b", positive=True)
+    from sympy import sympify
+
+    names = {"a": a, "b": b, "x": Symbol("x", real=True)}
+    built = [sympify(e, locals=names) for e in (expression, *positive)]
+    assert sign(built[0], built[1:]) == expected
+
+
+def test_a_spring_and_a_rotation():
+    """The linearised equations of a family against the Hessian of U_eff by finite differences."""
+    text = """
+coordinates: {r: POSITIVE, theta: {}, phi: {}}
+parameters: {m: POSITIVE, g: POSITIVE, k: POSITIVE, l: POSITIVE}
+T: m*(r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2
+V: k*(r - l)^2/2 - m*g*r*cos(theta)
+"""
+    family = next(m for m in motions(text) if "theta" in m.free)
+    numbers = {"m": 1.2, "g": 0.9, "k": 3.0, "l": 1.1, "theta": 0.6}
+    from lagcli.algebra.build import Builder, symbol
+
+    names = {n: symbol(n) for n in (*numbers, "r", "phi")}
+    build = Builder(names, {}, lambda e: Symbol(e.name + "'", real=True))
+
+    def value(tree):
+        return float(build(tree).subs({symbol(n): v for n, v in numbers.items()}))
+
+    r, rate = value(family.at["r"]), value(family.rates["phi"])
+    p = numbers["m"] * (r * mpmath.sin(numbers["theta"])) ** 2 * rate
+    assert abs(p - value(family.momenta["phi"])) < 1e-10
+
+    def U(a, b):
+        m, g, k, length = (numbers[n] for n in "mgkl")
+        wall = p**2 / (2 * m * (a * mpmath.sin(b)) ** 2)
+        return wall + k * (a - length) ** 2 / 2 - m * g * a * mpmath.cos(b)
+
+    place = (r, numbers["theta"])
+    with mpmath.workdps(30):
+        orders = [[(2, 0), (1, 1)], [(1, 1), (0, 2)]]
+        hessian = Matrix(2, 2, lambda i, j: mpmath.diff(U, place, orders[i][j]))
+    stiffness = Matrix(2, 2, lambda i, j: value(family.stiffness[i][j]))
+    assert max(abs(x) for x in hessian - stiffness) < 1e-8
