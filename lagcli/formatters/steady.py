@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from lagcli.answers import SteadyMotion, SteadySection
-from lagcli.expression import ZERO, Expression, Name, Number, Power
-from lagcli.formatters.document import (
+from lagcli.document import (
     Block,
     Equations,
     Formula,
@@ -17,6 +16,7 @@ from lagcli.formatters.document import (
     Paragraph,
     Row,
 )
+from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.formatters.reductions import POTENTIAL, conditions
 
 _SQUARED = Power(Name("omega"), Number(Fraction(2)))
