@@ -25,4 +25,4 @@ def commonest_ratio(ring: Ring, above: Poly, below: Poly) -> Poly | None:
         return None
     # the first of equally common ones: the order of the terms is fixed
     found, times = count.most_common(1)[0]
-    return ring.build([found]) if 2 * times > len(divisors) else None
+    return ring.build([found]) if 2 * times >= len(divisors) else None

@@ -99,6 +99,15 @@ class Ordering:
             if part.primes == most and index > self._first_variable:
                 yield index
 
+    def is_parameter(self, node: Expression) -> bool:
+        """Whether only numbers and names that are known to be parameters occur."""
+        return "t" in self._index and all(
+            part.primes == 0
+            and self._index.get(part.name, self._first_variable) < self._first_variable
+            for part in walk(node)
+            if isinstance(part, Name)
+        )
+
     def _is_constant(self, node: Expression) -> bool:
         """Whether only parameters occur."""
         return all(

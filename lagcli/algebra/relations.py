@@ -16,7 +16,7 @@ from lagcli.algebra.field import Element
 from lagcli.algebra.ideal import Ideal
 from lagcli.algebra.ring import Monomial, Poly
 
-_IDEALS = 6  # ideals in all
+_IDEALS = 8  # ideals in all
 _READ = 3  # reductions that are shaped
 
 
@@ -73,6 +73,21 @@ class Relations:
         if not expression.free_symbols & self.solved.keys():
             return expression
         return expression.xreplace(self.solved)
+
+    def folding(self, field: Field) -> list[tuple[Symbol, Element]]:
+        """The solutions whose terms move differently, as R theta' sin(phi) - W*y, by name."""
+        moving = {*self._moving, *self._welcome}
+        found = []
+        for symbol, value in self.solved.items():
+            if value.free_symbols & moving:
+                element = field(value)
+                static = [
+                    g for g in field.ring.used(element.numerator)
+                    if not field.generators[g].expression.free_symbols & moving
+                ]  # fmt: skip
+                if len(_by_outside(field, element.numerator, static)) > 1:
+                    found.append((symbol, element))
+        return sorted(found, key=lambda pair: pair[0].name)
 
     def _add(self, expression: Expr) -> None:
         expression = self.substitute(expression)
@@ -221,8 +236,11 @@ class Relations:
         ]  # fmt: skip
         polys = [ring.lift(p) for p in polys]
         squares = [n for n in variables if any(ring.degree(p, n) > 1 for p in polys)]
-        # the ideal of all, and those of single relations: using fewer can leave less
-        subsets = [polys, *([p] for p in sorted(polys, key=len) if len(polys) > 1)]
+        # the ideal of all, of those between the squared ones, of single ones: using fewer can
+        # leave less, as x² + y² = l² without x x' + y y' = 0
+        pure = [p for p in polys if not {*variables} - {*squares} & {*ring.used(p)}]
+        subsets = [polys, *([pure] if 1 < len(pure) < len(polys) else [])]
+        subsets += [[p] for p in sorted(polys, key=len) if len(polys) > 1]
         ideals: list[Ideal] = []
         for subset in subsets:
             within = [n for n in squares or variables if any(ring.degree(p, n) for p in subset)]

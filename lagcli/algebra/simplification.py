@@ -114,6 +114,7 @@ class Readable:
     def __init__(self, field: Field, writer: Writer, relations: Relations | None) -> None:
         self.field = field
         self.relations = relations if relations and relations.remaining else None
+        self._solutions = relations.folding(field) if relations else []
         shorter = partial(self.relations.shorter, field) if self.relations else None
         self._denominators: dict[tuple[tuple[Monomial, int], ...], Element] = {}
         self._shapers = [Shaper(field, writer, shorter=shorter)]
@@ -124,7 +125,7 @@ class Readable:
         """The best tree among equal elements, and the shaper that made it."""
         # cancelled first: a reduced numerator may share no factor with the denominator any more
         element = cancelled(self.field, element)
-        candidates = self._equal(element)
+        candidates = [*self._equal(element), *self._folded(element)]
         for shaper in self._shapers:
             shaper.grouper.renew()
         shapes = [(shaper.plan(each), shaper) for each in candidates for shaper in self._shapers]
@@ -151,8 +152,28 @@ class Readable:
         divided = [cancelled(field, each) for each in relations.reductions(field, element)]
         degree = min(each.denominator.total_degree() for each in found)
         found += [each for each in divided if each.denominator.total_degree() < degree]
-        found.sort(key=Element.size)
+        found.sort(key=_factored_size)
         return found[: _OF_LONG if found[0].size() > _LONG else _EQUAL]
+
+    def _folded(self, element: Element) -> Iterator[Element]:
+        """The element with x' for R theta' sin(phi) - W*y where x' was solved for, if shorter."""
+        field = self.field
+        before = len(element.numerator)
+        for symbol, value in self._solutions:
+            value = field.lifted(value)
+            above = field.ring.lift(element.numerator)
+            if len(value.numerator) > len(above):
+                continue
+            ratio = commonest_ratio(field.ring, above, value.numerator)
+            if ratio is None:
+                continue
+            rest = above - ratio * value.numerator
+            if len(rest) + 1 < len(above):
+                whole = field(symbol) * field.element(ratio * value.denominator, field.ring.one)
+                folded = whole + field.polynomial(rest)
+                element = folded / field.element(element.denominator, field.ring.one)
+        if len(element.numerator) < before:
+            yield element
 
     def _denominator(self, poly: Poly) -> Element:
         """The equal of a denominator that shows least."""
@@ -207,3 +228,9 @@ class Readable:
             equal += self.relations.modulo(field, factor)
             result = result * min(equal, key=Element.size) ** int(exponent)
         return result
+
+
+def _factored_size(element: Element) -> tuple[int, int]:
+    """The terms of the factors of an element, and those of itself."""
+    factors = (*element.numerator.factor()[1], *element.denominator.factor()[1])
+    return sum(len(factor) for factor, _ in factors), element.size()

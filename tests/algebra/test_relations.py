@@ -66,3 +66,16 @@ def test_contradictions_and_nothing_are_harmless() -> None:
     assert not Relations([])
     assert not Relations([sp.S.Zero])
     assert simplify(x + 1, Relations([x - x])) == x + 1
+
+
+def test_a_velocity_is_read_instead_of_its_solution() -> None:
+    """x'' = -2 W y'/7 of the ball on a turntable: no textbook prints the solution for y'."""
+    w, u, a, b = (Symbol(n, real=True) for n in "W u a b".split())
+    relations = Relations([dy + R * (u * cos(a) + b) - w * x], [dy], moving=[x, dy, u, a, b])
+    assert simplify(-2 * w * dy / 7, relations) == -2 * w * dy / 7
+
+
+def test_a_single_velocity_is_not_read_instead_of_another() -> None:
+    spin = Symbol("phi'", real=True)
+    relations = Relations([(R1 + R2) * dtheta - R2 * spin], [spin], moving=[dtheta, spin])
+    assert simplify(R2 * spin * dtheta, relations) == (R1 + R2) * dtheta**2

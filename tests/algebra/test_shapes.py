@@ -52,6 +52,21 @@ TEXTBOOK: list[tuple[Expr, str]] = [
     (unspecified("U", 1)(r + 0) * 2, "2*U(r)"),
     (unspecified("F", 2, (1, 2))(x, t), "diff(F, 1, 2)(x, t)"),
     ((x + y) ** 3, "(x + y)^3"),
+    # a bracket that stands in several terms: double Atwood machine, Thornton and Marion, ch. 7
+    (g / ((m1 + M) * (m2 + m) + 4 * m2 * m), "g/(4*m*m2 + (M + m1)*(m + m2))"),
+    # what is in front stays in front: axle of a physical pendulum, Landau and Lifshitz, sect. 32
+    (
+        -m * l1 * sin(theta) * (dtheta**2 + m * g * l1 * cos(theta) / (M + m * l1**2)),
+        "-m*l1*(theta'^2 + m*l1*g*cos(theta)/(M + m*l1^2))*sin(theta)",
+    ),
+    # N/D = Q + R/D with as many terms: bead in a groove, Goldstein, sect. 2.4
+    (
+        2 * k * (dx**2 - 2 * g * k * x**2) / (4 * k**2 * x**2 + 1),
+        "(2*k*x'^2 + g)/(4*k^2*x^2 + 1) - g",
+    ),
+    # the tangent of a parameter, but of no coordinate: it is infinite where nothing happens
+    ((g * cos(alpha) + k * sin(alpha)) * cos(alpha), "(g + k*tan(alpha))*cos(alpha)^2"),
+    ((g * cos(theta) + k * sin(theta)) * cos(theta), "(g*cos(theta) + k*sin(theta))*cos(theta)"),
 ]
 
 

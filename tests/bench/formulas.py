@@ -1,4 +1,12 @@
-"""lagcli's printed formulas beside SymPy's and the textbook's: operations and values."""
+"""lagcli's printed formulas beside SymPy's and the textbook's: operations and values.
+
+All three are counted in the same symbols, those of the coordinates and parameters, as
+`lagcli.expression.operation_count` does.  A file may write its `expect` with names of its own
+`definitions` (`mu`, `det`, `R`); lagcli and SymPy cannot print these, so each is written out
+wherever it stands, as often as it does.  To count a name as one leaf, or its operations once,
+would compare a formula together with a table of abbreviations with a formula that has none,
+and a book's form would become shorter by naming more of it.
+"""
 
 from __future__ import annotations
 

@@ -135,14 +135,14 @@ class Atoms:
         return self.writer.ordering.rank(tree), cosine
 
     def circular(self, function: str, angles: Angles) -> int:
-        """The atom sin or cos of a sum of multiples of base arguments."""
+        """The atom sin, cos or tan of a sum of multiples of base arguments."""
         key = (function, angles)
         known = self._trigonometric.get(key)
         if known is None:
             generators = self.field.generators
             argument = sympy.Add(*(sympy.Mul(k, generators[g].argument) for g, k in angles))
             tree = Call(function, (self._translator.tree(argument),))
-            expression = (sympy.sin if function == "sin" else sympy.cos)(argument)
+            expression = getattr(sympy, function)(argument)
             known = self._trigonometric[key] = self.add(tree, expression)
         return known
 
@@ -213,7 +213,9 @@ def _exact(value: Fraction) -> Exponent:
 
 def multiply(left: Term, right: Term) -> Term:
     """The product of two products of atoms."""
+    if not left or not right:
+        return left or right
     exponents = dict(left)
     for atom, exponent in right:
         exponents[atom] = exponents.get(atom, 0) + exponent
-    return tuple(sorted((a, e) for a, e in exponents.items() if e))
+    return tuple(sorted([pair for pair in exponents.items() if pair[1]]))

@@ -22,6 +22,8 @@ _MAX_FACTORED = 400  # terms
 _MAX_PLAIN = 10  # terms that may be left without any bracket
 _MAX_SHORTENED = 12  # terms
 _SHORTENINGS = 20  # attempts
+_MIN_KERNEL = 5  # terms among which (a + b)*(c + d) + rest is looked for
+_MAX_KERNEL = 60
 _EFFORT = 400  # splits that are tried in all; then the most promising one only
 
 
@@ -140,16 +142,20 @@ class Grouper:
         if self._effort <= 0:
             width = 1
         splits = self._squares(terms) if len(terms) <= _MAX_SHORTENED else []
-        for *_, atom, positive in weighed[:width]:
-            self._effort -= 1
+        kernels = self._effort > 0 and _MIN_KERNEL <= len(terms) <= _MAX_KERNEL
+        halves = []
+        for *_, atom, positive in weighed if kernels else weighed[:width]:
             with_atom: Integers = {}
             without: Integers = {}
             for term, value in terms.items():
                 holds = any(a == atom and (e > 0) == positive for a, e in term)
                 (with_atom if holds else without)[term] = value
             if without:
-                splits.append((with_atom, without))
-        return splits
+                halves.append((with_atom, without))
+        if kernels:
+            splits.extend(_kernels(halves))
+        self._effort -= len(halves[:width])
+        return splits + [half for half in halves[:width] if half not in splits]
 
     def _squares(self, terms: Integers) -> list[tuple[Integers, Integers]]:
         """Squares (u ± v)² and (u ± v ± w)², written out among the terms, apart from the rest."""
@@ -175,14 +181,18 @@ class Grouper:
         if len(terms) > _MAX_FACTORED:
             return None
         scales: dict[int, int] = {}
+        powers: dict[int, Exponent] = {}  # added up over the terms
         for term in terms:
             for atom, exponent in term:
                 if exponent < 0:
                     return None
+                powers[atom] = powers.get(atom, 0) + exponent
                 if isinstance(exponent, int):
                     scales.setdefault(atom, 1)
                 else:
                     scales[atom] = lcm(scales.get(atom, 1), exponent.denominator)
+        if any(powers[atom] * scale == 1 for atom, scale in scales.items()):
+            return None  # a*A + B with one term A has no factor but a common one
         used = {atom: position for position, atom in enumerate(sorted(scales))}
         context = fmpz_mpoly_ctx.get([f"a{a}" for a in used], Ordering.lex)
         data = {}
@@ -191,7 +201,8 @@ class Grouper:
             for atom, exponent in term:
                 exponents[used[atom]] = int(exponent * scales[atom])
             data[tuple(exponents)] = value
-        content, factors = context.from_dict(data).factor()
+        content, found = context.from_dict(data).factor()
+        factors = with_squares(found)
         if len(factors) == 1 and int(factors[0][1]) == 1:
             return None
         parts: list[tuple[int | Sum, Exponent]] = []
@@ -216,6 +227,47 @@ class Grouper:
 
 def _exact(value: Fraction) -> Exponent:
     return value.numerator if value.denominator == 1 else value
+
+
+def _kernels(halves: list[tuple[Integers, Integers]]) -> list[tuple[Integers, Integers]]:
+    """a*K and every b*K among the other terms, apart from the rest: (a + b)*K + rest.
+
+    The one that saves most; none where no K occurs twice.
+    """
+    best: list[tuple[Integers, Integers]] = []
+    most = 0
+    for some, others in halves:
+        size = len(some)
+        if size < 2 or (size + len(others)) // size * (size - 1) <= most + size - 1:
+            continue
+        _, _, kernel = _content(some, spread=False)
+        first, *_ = kernel
+        inverse = tuple((atom, -exponent) for atom, exponent in first)
+        left, taken = dict(others), dict(some)
+        for term, value in others.items():
+            if value % kernel[first] or term not in left:
+                continue
+            factor, number = multiply(term, inverse), value // kernel[first]
+            if all(left.get(multiply(factor, t)) == number * c for t, c in kernel.items()):
+                for each in kernel:
+                    whole = multiply(factor, each)
+                    taken[whole] = left.pop(whole)
+        saved = (len(taken) // size - 1) * (size - 1)
+        if left and saved > most:
+            best, most = [(taken, left)], saved
+    return best
+
+
+def with_squares(factors: list[tuple[Poly, int]]) -> list[tuple[Poly, int]]:
+    """(c - v)(c + v) as c² - v²."""
+    left = [(factor, int(exponent)) for factor, exponent in factors]
+    for i, (one, exponent) in enumerate(left):
+        for j in range(i + 1, len(left)):
+            other, same = left[j]
+            if len(one) == len(other) == 2 and exponent == same and len(one * other) == 2:
+                left[i], left[j] = (one * other, exponent), (one, 0)
+                break
+    return [(factor, exponent) for factor, exponent in left if exponent]
 
 
 def _content(terms: Integers, spread: bool) -> tuple[Term, int, Integers]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 
 from sympy import Expr
@@ -11,23 +11,18 @@ from lagcli.algebra.division import commonest_ratio
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.ring import Monomial, Poly
-from lagcli.algebra.roots import substitute_square
 from lagcli.algebra.shaping.atoms import Atoms, Exponent, Terms, multiply
-from lagcli.algebra.shaping.grouping import Grouper
+from lagcli.algebra.shaping.expansions import LONG, Expansions
+from lagcli.algebra.shaping.grouping import Grouper, with_squares
 from lagcli.algebra.shaping.plan import Product, Sum, product, total, write
-from lagcli.algebra.shaping.trigonometry import Trigonometry
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression
 
 _MAX_FACTORED = 1500  # terms
-_MAX_REWRITTEN = 400
-_LONG = 60  # terms of a polynomial that gets one bracketing only
 _MAX_DIVIDED = 8  # terms of a denominator that is divided through
 _FEW = 3  # terms that are also shown without factoring: c² - v²
-_EXPANSIONS = 3  # that are bracketed, the shortest ones
 
 _CIRCULAR = ("cos", "sin")
-_QUADRATIC = ("cos", "cosh")
 
 
 class Shaper:
@@ -54,7 +49,7 @@ class Shaper:
         self.scaled = scaled
         self._known: dict[tuple[tuple[tuple[Monomial, int], ...], int], Product] = {}
         self.atoms = Atoms(field, writer, self.shape, scaled=scaled)
-        self.trigonometry = Trigonometry(field, self.atoms)
+        self.expansions = Expansions(field, self.atoms)
         self.grouper = Grouper(self.atoms, shorter)
 
     def shape(self, element: Element) -> Expression:
@@ -79,10 +74,13 @@ class Shaper:
         above = self._factors(element.numerator)
         below = self._factors(element.denominator)
         best: Product | Sum = self._joined(above, below)
-        divided = (*self._by_roots(element), *self._divided(element)) if divide else ()
+        by_roots = self._by_roots(element) if divide else ()
         through = self._divided_through(above, element.denominator)
-        for candidate in (*self._spread(element, below), *divided, *through):
+        for candidate in (*self._spread(element, below), *by_roots, *through):
             if candidate.score < best.score:
+                best = candidate
+        for candidate, shorter in self._divided(element) if divide else ():
+            if candidate.score < best.score and (shorter or candidate.cost < best.cost):
                 best = candidate
         return best
 
@@ -93,7 +91,7 @@ class Shaper:
         for position, (atom, exponent) in enumerate(above.parts):
             if not isinstance(atom, int) or exponent < 1:
                 continue
-            for terms in self._expansions(denominator):
+            for terms in self.expansions.of(denominator):
                 quotient = {multiply(t, ((atom, -exponent),)): v for t, v in terms.items()}
                 plan = self.grouper.group(quotient, spread=True)
                 rest = [*above.parts[:position], *above.parts[position + 1 :]]
@@ -122,32 +120,49 @@ class Shaper:
             parts.extend(plan.terms if isinstance(plan, Sum) else (plan,))
         return total(parts)
 
-    def _divided(self, element: Element) -> Iterator[Sum]:
-        """N/D = Q + R/D for a factor D of the denominator that divides part of N."""
-        if not 2 < len(element.numerator) <= _LONG:
-            return
-        _, factors = element.denominator.factor()
-        for factor, exponent in factors:
-            divisor = factor**exponent
-            if len(factor) < 2:
-                continue
-            for quotient, rest in self._quotients(element.numerator, divisor):
-                yield self.together(
-                    (
-                        self.field.element(quotient, element.denominator / divisor),
-                        self.field.element(rest, element.denominator),
-                    )
-                )
+    def _divided(self, element: Element) -> Iterator[tuple[Product | Sum, bool]]:
+        """N/D = Q + R/D for a factor D of the denominator, and whether it has fewer terms.
 
-    def _quotients(self, numerator: Poly, divisor: Poly) -> Iterator[tuple[Poly, Poly]]:
-        """Q and R with N = Q D + R, neither 0 and together shorter than N."""
+        What all of N has in common stays in front of the sum, or is multiplied into it.
+        """
+        if not 2 <= len(element.numerator) <= LONG:
+            return
+        divisors = [f**e for f, e in element.denominator.factor()[1] if len(f) > 1]
+        if not divisors:
+            return
+        common = element.numerator.term_content()
+        primitive = element.numerator / common
+        for divisor in divisors:
+            for quotient, remainder, shorter in self._quotients(element.numerator, divisor):
+                yield self._sum_of(quotient, remainder, divisor, element.denominator), shorter
+            if common.is_constant():
+                continue
+            for quotient, remainder, shorter in self._quotients(primitive, divisor):
+                inner = self._sum_of(quotient, remainder, divisor, element.denominator)
+                outside = self._factors(common)
+                parts = [*outside.parts, (inner, 1)]
+                yield product(self.atoms, outside.coefficient, parts), shorter
+
+    def _sum_of(self, quotient: Poly, remainder: Poly, divisor: Poly, denominator: Poly) -> Sum:
+        """Q D/denominator + R/denominator."""
+        element = self.field.element
+        return self.together(
+            (element(quotient, denominator / divisor), element(remainder, denominator))
+        )
+
+    def _quotients(self, numerator: Poly, divisor: Poly) -> Iterator[tuple[Poly, Poly, bool]]:
+        """Q and R with N = Q D + R, neither 0, and whether together they are shorter than N.
+
+        At most one term longer: (2 a x'² - 4 g a² x²)/D = (2 a x'² + g)/D - g.
+        """
         found = [divmod(numerator, divisor)]
         ratio = commonest_ratio(self.field.ring, numerator, divisor)
         if ratio is not None and ratio != found[0][0]:
             found.append((ratio, numerator - ratio * divisor))
         for quotient, rest in found:
-            if quotient != 0 and rest != 0 and len(quotient) + len(rest) < len(numerator):
-                yield quotient, rest
+            terms = len(quotient) + len(rest)
+            if quotient != 0 and rest != 0 and terms <= len(numerator) + 1:
+                yield quotient, rest, terms < len(numerator)
 
     def _joined(self, above: Product, below: Product) -> Product:
         inverse = [(p, -e) for p, e in below.parts]
@@ -166,13 +181,13 @@ class Shaper:
     def _spread(self, element: Element, below: Product) -> Iterator[Product | Sum]:
         """Terms with denominators of their own, as far as these are products of atoms."""
         divisors = [(p, -e) for p, e in below.parts if isinstance(p, int)]
-        if not divisors or not 2 <= len(element.numerator) <= _LONG:
+        if not divisors or not 2 <= len(element.numerator) <= LONG:
             return
         sums: list[tuple[int | Sum, Exponent]] = [
             (p, -e) for p, e in below.parts if isinstance(p, Sum)
         ]
         divisor = tuple(sorted(divisors))
-        for terms in self._expansions(element.numerator):
+        for terms in self.expansions.of(element.numerator):
             divided: Terms = {}
             for term, value in terms.items():
                 divided[multiply(term, divisor)] = value / below.coefficient
@@ -207,8 +222,15 @@ class Shaper:
                     parts[atom] = parts.get(atom, 0) + each
         content, factors = self._factored(poly)
         number = Fraction(int(content))
+        cosines = self._parameter_cosines(factors)
         for factor, exponent in factors:
             plan = self._polynomial(factor)
+            for cosine, power in cosines.items() if exponent == 1 else ():
+                degree, other = self._by_tangent(factor, cosine)
+                if degree and other.cost + (power == 1) < plan.cost:
+                    plan = other
+                    ((atom, _),) = self.atoms.generator(cosine)
+                    parts[atom] = parts.get(atom, 0) + degree
             if isinstance(plan, Sum):
                 parts[plan] = parts.get(plan, 0) + int(exponent)
                 continue
@@ -221,6 +243,39 @@ class Shaper:
             if whole.cost <= factored.cost:
                 return whole
         return factored
+
+    def _parameter_cosines(self, factors: Sequence[tuple[Poly, int]]) -> dict[int, int]:
+        """The cosines of parameters among the factors, with their powers."""
+        generators = self.field.generators
+        found = {}
+        for factor, exponent in factors:
+            (number, *more) = self.field.ring.used(factor)
+            if len(factor) == 1 and not more and generators[number].kind == "cos":
+                tree = self.atoms.trees[self.atoms.generator(number)[0][0]]
+                if self.writer.ordering.is_parameter(tree):
+                    found[number] = exponent
+        return found
+
+    def _by_tangent(self, poly: Poly, cosine: int) -> tuple[int, Product | Sum]:
+        """g cos + a sin as (1, g + a tan): the degree d in both and the rest of cos^d.
+
+        The degree is 0 where the terms differ in it.
+        """
+        degrees, sine = set(), self.field.generators[cosine].partner
+        angles = ((cosine, 1),)
+        terms: Terms = {}
+        for monomial, value in self.field.ring.terms(poly):
+            powers = {g: e for g, e in monomial if g in (cosine, sine)}
+            degrees.add(sum(powers.values()))
+            rest = self.atoms.term(tuple(pair for pair in monomial if pair[0] not in powers))
+            tangent = (
+                ((self.atoms.circular("tan", angles), powers[sine]),) if sine in powers else ()
+            )
+            terms[multiply(rest, tangent)] = Fraction(value)
+        degree = degrees.pop()
+        if degrees or len(terms) < 2:
+            return 0, product(self.atoms, Fraction(0), [])
+        return degree, self.grouper.group(terms)
 
     def _factored(self, poly: Poly) -> tuple[int, list[tuple[Poly, int]]]:
         """Irreducible factors; (1 - cos)(1 + cos) is joined to sin²."""
@@ -247,6 +302,7 @@ class Shaper:
                 if e:
                     kept.append((f, e))
             factors = [*kept, (ring.generator(generator.partner), 2 * pairs)]
+        factors = with_squares(factors)
         factors.sort(key=lambda pair: str(pair[0]))
         return int(content), self._with_double_angles(factors)
 
@@ -270,7 +326,7 @@ class Shaper:
         """The shortest plan of an irreducible polynomial, its sign left to the product."""
         best: Product | Sum | None = None
         lowest = 0
-        for terms in self._expansions(poly):
+        for terms in self.expansions.of(poly):
             plan = self.grouper.group(terms)
             if isinstance(plan, Sum):
                 turned = plan.negated()
@@ -283,70 +339,6 @@ class Shaper:
                 best, lowest = plan, score
         assert best is not None
         return best
-
-    def _expansions(self, poly: Poly) -> list[Terms]:
-        """Equal sums of products of atoms, which differ in the trigonometric functions."""
-        generators = self.field.generators
-        used = self.field.ring.used(poly)
-        plain = self.atoms.terms(poly)
-        periodic = any(generators[g].kind in (*_QUADRATIC, "sin", "sinh") for g in used)
-        if not periodic or len(poly) > _MAX_REWRITTEN:
-            return [plain]
-        found = [plain]
-        by_rest = self._by_rest(poly)
-        choices: list[list[Terms]] = []
-        for rest, inner in by_rest:
-            forms = [self.atoms.terms(self.field.ring.build(inner))]
-            swapped = self._swapped(self.field.ring.build(inner))
-            forms.append(self.atoms.terms(swapped))
-            rewritten = self.trigonometry.rewritten(inner)
-            forms.extend(rewritten or [forms[0], forms[0]])
-            forms.append(min(forms, key=self._weight))
-            outer = self.atoms.term(rest)
-            choices.append([{multiply(outer, t): v for t, v in f.items()} for f in forms])
-        width = max(len(c) for c in choices)
-        for position in range(1, width):
-            merged: Terms = {}
-            for forms in choices:
-                for term, value in forms[min(position, len(forms) - 1)].items():
-                    merged[term] = merged.get(term, Fraction(0)) + value
-            merged = {t: v for t, v in merged.items() if v}
-            if merged not in found:
-                found.append(merged)
-        found.sort(key=self._weight)
-        return found[: _EXPANSIONS if len(poly) <= _LONG else 1]
-
-    def _weight(self, terms: Terms) -> int:
-        """Roughly the operations of a sum of products."""
-        costs = self.atoms.costs
-        return sum(
-            1 + (v < 0) + (abs(v) != 1) + sum(1 + costs[a] + (e != 1) for a, e in t)
-            for t, v in terms.items()
-        )
-
-    def _by_rest(self, poly: Poly) -> list[tuple[Monomial, tuple[tuple[Monomial, int], ...]]]:
-        """The trigonometric polynomial that stands by each other monomial."""
-        generators = self.field.generators
-        groups: dict[Monomial, list[tuple[Monomial, int]]] = {}
-        for monomial, coefficient in self.field.ring.terms(poly):
-            inside = tuple(p for p in monomial if generators[p[0]].kind in _CIRCULAR)
-            outside = tuple(p for p in monomial if generators[p[0]].kind not in _CIRCULAR)
-            groups.setdefault(outside, []).append((inside, coefficient))
-        return [(rest, tuple(inner)) for rest, inner in groups.items()]
-
-    def _swapped(self, poly: Poly) -> Poly:
-        """The polynomial with cos² = 1 - sin² where that makes it shorter."""
-        ring = self.field.ring
-        for index in ring.used(poly):
-            generator = self.field.generators[index]
-            if generator.kind not in _QUADRATIC or ring.degree(poly, index) < 2:
-                continue
-            square = ring.generator(generator.partner) ** 2
-            value = ring.one - square if generator.kind == "cos" else ring.one + square
-            other = substitute_square(self.field, poly, index, value)
-            if len(other) <= len(poly):
-                poly = other
-        return poly
 
 
 def _expanded(atoms: Atoms, terms: Terms) -> Sum:
