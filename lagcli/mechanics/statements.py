@@ -321,7 +321,7 @@ class Statements(Stating):
         return algebra_section(self.derivation.discovery)
 
     def _find(self) -> FindSection:
-        from lagcli.mechanics.find import answer_questions
+        from lagcli.mechanics.finding.find import answer_questions
 
         section = answer_questions(self.dynamics, self.derivation.noether)
         for name, answer in section.answers.items():
@@ -331,7 +331,7 @@ class Statements(Stating):
         return section
 
     def _equilibria(self) -> EquilibriaSection:
-        from lagcli.mechanics.small_oscillations import equilibria
+        from lagcli.mechanics.oscillations.small_oscillations import equilibria
 
         section = equilibria(self.dynamics)
         if section.equilibria is None:
@@ -339,7 +339,7 @@ class Statements(Stating):
         return section
 
     def _modes(self) -> ModesSection:
-        from lagcli.mechanics.small_oscillations import modes
+        from lagcli.mechanics.oscillations.small_oscillations import modes
 
         section = modes(self.dynamics)
         if section.modes is None:

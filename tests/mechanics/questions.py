@@ -6,7 +6,7 @@ from sympy import Expr
 
 from lagcli.answers import Rewritten, Solutions
 from lagcli.mechanics.derivation import Derivation
-from lagcli.mechanics.find import answer_questions
+from lagcli.mechanics.finding.find import answer_questions
 from lagcli.reader import read_problem
 
 from .formulas import normal

@@ -8,7 +8,7 @@ from sympy import Expr, acos
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.small_oscillations import equilibria, modes
+from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.reader import read_problem
 
 from .formulas import formula, formulas, normal

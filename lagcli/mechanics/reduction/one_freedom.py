@@ -23,7 +23,7 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.numeric import Evaluator
-from lagcli.mechanics.equilibria import at
+from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.parameter_values import DIGITS, admissible_values
 from lagcli.mechanics.reduction.routh import Routh
 

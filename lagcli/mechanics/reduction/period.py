@@ -26,7 +26,7 @@ from sympy import Expr, Rational, S, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reduction.one_freedom import OneFreedom
 from lagcli.record import record

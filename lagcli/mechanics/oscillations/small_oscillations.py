@@ -22,12 +22,12 @@ from lagcli.algebra import simplify
 from lagcli.algebra.equations import written
 from lagcli.answers import EquilibriaSection, Equilibrium, Mode, ModesSection
 from lagcli.expression import Expression
-from lagcli.mechanics.characteristic import Characteristic
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.equilibria import RestPoint, RestPoints
-from lagcli.mechanics.linearization import Linearization
-from lagcli.mechanics.normal_modes import NormalMode, normal_modes
-from lagcli.mechanics.stability import Stability, stability
+from lagcli.mechanics.oscillations.characteristic import Characteristic
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
+from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
+from lagcli.mechanics.oscillations.stability import Stability, stability
 
 
 def equilibria(dynamics: Dynamics) -> EquilibriaSection:

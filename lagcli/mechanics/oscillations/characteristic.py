@@ -13,7 +13,7 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import Field, solve_linear
 from lagcli.algebra.equations import coefficients, factor_roots
-from lagcli.mechanics.linearization import Linearization
+from lagcli.mechanics.oscillations.linearization import Linearization
 
 _BUDGET = 6.0
 

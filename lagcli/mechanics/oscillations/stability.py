@@ -18,8 +18,8 @@ from sympy import Expr, Symbol, count_ops
 
 from lagcli.algebra import simplify
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.characteristic import Characteristic, determinant, determinant_in
-from lagcli.mechanics.linearization import Linearization
+from lagcli.mechanics.oscillations.characteristic import Characteristic, determinant, determinant_in
+from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.record import record
 
 

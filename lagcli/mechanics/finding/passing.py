@@ -16,9 +16,9 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra.numeric import Evaluator
-from lagcli.mechanics.along_the_motion import AlongTheMotion
+from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
+from lagcli.mechanics.finding.reach import DIGITS, LineOfMotion, Reach, real_value
 from lagcli.mechanics.parameter_values import admissible_values, parameter_values
-from lagcli.mechanics.reach import DIGITS, LineOfMotion, Reach, real_value
 from lagcli.record import record
 
 _DRAWS = 160  # of random parameters, to find some at which a place is possible at all

@@ -13,8 +13,8 @@ from lagcli.algebra import nullspace, simplify
 from lagcli.algebra.equations import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.characteristic import Characteristic
-from lagcli.mechanics.linearization import Linearization
+from lagcli.mechanics.oscillations.characteristic import Characteristic
+from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.record import record
 

@@ -23,7 +23,7 @@ from sympy import Expr, S
 
 from lagcli.algebra import is_zero, nullspace, simplify, solve_linear
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 
 Matrix = list[list[Expr]]
 

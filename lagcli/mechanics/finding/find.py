@@ -7,11 +7,11 @@ from time import process_time
 from sympy import Symbol
 
 from lagcli.answers import FindSection, Rewritten, Solutions
-from lagcli.mechanics.along_the_motion import BUDGET, AlongTheMotion
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.finding.along_the_motion import BUDGET, AlongTheMotion
+from lagcli.mechanics.finding.passing import Passing
+from lagcli.mechanics.finding.where import Where
 from lagcli.mechanics.noether import Noether
-from lagcli.mechanics.passing import Passing
-from lagcli.mechanics.where import Where
 from lagcli.problem import Rewrite
 
 

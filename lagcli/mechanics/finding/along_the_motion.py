@@ -26,8 +26,8 @@ from lagcli.algebra.equations import written
 from lagcli.algebra.numeric import Evaluator
 from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.finding.level_set import LevelSet
 from lagcli.mechanics.initial import InitialState, initial_state
-from lagcli.mechanics.level_set import LevelSet
 from lagcli.mechanics.noether import Noether
 from lagcli.mechanics.parameter_values import parameter_values
 from lagcli.mechanics.states import State

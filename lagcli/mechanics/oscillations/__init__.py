@@ -1,0 +1,1 @@
+"""States of rest, their stability, and the small oscillations about them."""
