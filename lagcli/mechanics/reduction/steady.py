@@ -26,8 +26,8 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, factors_of, solve_system
-from lagcli.mechanics.characteristic import determinant
-from lagcli.mechanics.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.characteristic import determinant
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 from lagcli.mechanics.reduction.readable import deciding
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.record import record

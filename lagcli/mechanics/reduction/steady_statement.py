@@ -11,8 +11,8 @@ from lagcli.algebra.equations import written
 from lagcli.answers import Above, SteadyMotion, SteadySection
 from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
-from lagcli.mechanics.equilibria import at
-from lagcli.mechanics.linearization import Linearization, Matrix
+from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.reduction.readable import above
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.statement import Missing

@@ -25,8 +25,8 @@ from lagcli.algebra import Field, simplify
 from lagcli.algebra.equations import coefficients
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import factors_of
-from lagcli.mechanics.characteristic import Characteristic, determinant_in
-from lagcli.mechanics.linearization import Linearization, Matrix
+from lagcli.mechanics.oscillations.characteristic import Characteristic, determinant_in
+from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.record import record
 
 #: What makes it stable: a minimum of U_eff, or the spectrum with its gyroscopic terms.
@@ -149,7 +149,7 @@ def _is_square(poly: object) -> bool:
 
 
 def _leading_minors(matrix: Matrix) -> list[Expr]:
-    from lagcli.mechanics.characteristic import determinant
+    from lagcli.mechanics.oscillations.characteristic import determinant
 
     minors = [determinant([row[:k] for row in matrix[:k]]) for k in range(1, len(matrix) + 1)]
     return [S.Zero if minor is None else minor for minor in minors]
