@@ -22,7 +22,7 @@ $(READY): pyproject.toml
 	@test -n "$(PYTHON)" || { echo "lagcli needs Python >= 3.11: make setup PYTHON=/path/to/python3" >&2; exit 1; }
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV) || { \
 		rm -rf $(VENV); echo "no venv: on Debian, apt-get install python3-venv" >&2; exit 1; }
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev,fast]'
 	@$(BIN)/python -m compileall -q lagcli # Python may not be allowed to keep bytecode (PYTHONDONTWRITEBYTECODE)
 	@touch $@
 

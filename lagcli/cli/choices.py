@@ -5,7 +5,7 @@ from __future__ import annotations
 #: The forms of a table of `simulate`, those of them that are no text, and its methods.
 TABLES = ("table", "json", "csv", "npz", "parquet")
 BINARY = ("npz", "parquet")
-METHODS = ("auto", "dop853", "taylor")
+METHODS = ("auto", "taylor64", "taylor80", "taylor", "dop853")
 
 #: What `simulate --show` knows besides the names of the file.
 _SHOWN = (

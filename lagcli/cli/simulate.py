@@ -61,7 +61,10 @@ Precision = Annotated[
 Method = Annotated[
     str,
     typer.Option(
-        "--method", metavar="NAME", help="auto, dop853 or taylor.", autocompletion=complete_method
+        "--method",
+        metavar="NAME",
+        help="auto, taylor64, taylor80, taylor (any number of digits) or dop853.",
+        autocompletion=complete_method,
     ),
 ]
 StopWhen = Annotated[

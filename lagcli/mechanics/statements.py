@@ -313,8 +313,7 @@ class Statements(Stating):
     def _discovered(self) -> ChargesSection:
         discovery = self.derivation.discovery
         self.warnings.extend(discovery.stopped)
-        listed = (*discovery.charges, *discovery.momentum_equations)
-        return ChargesSection(charges=tuple(map(self._charge, listed)))
+        return ChargesSection(charges=tuple(map(self._charge, discovery.charges)))
 
     def _algebra(self) -> AlgebraSection:
         from lagcli.mechanics.discovery.summary import algebra_section

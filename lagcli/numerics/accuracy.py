@@ -39,8 +39,7 @@ _PROBES = 1000
 #: A defect that a step would turn into an error of so many A is a feature stepped over.
 _DEFECT = 3.0
 _CHARGES = 10.0
-_LONGEST = (200.0, 2000.0, 20000.0)  # parts of the span
-_SERIES = 10.0
+LONGEST = (200.0, 2000.0, 20000.0)  # parts of the span
 #: An error larger than this says little of the tolerance that is needed.
 _SATURATED = 0.03
 _MARGIN = 0.3
@@ -83,8 +82,8 @@ class Controller:
         Of time.
     charges
         How many columns at the end of a row are conserved.
-    shortest_step
-        Whether steps are held short; a series knows by itself what lies within its step.
+    longest
+        The longest step as parts of the span: at first, and where something was missed.
     """
 
     def __init__(
@@ -95,12 +94,12 @@ class Controller:
         finest: float,
         span: float,
         charges: int,
-        shortest_step: bool = True,
+        longest: Sequence[float] = LONGEST,
     ) -> None:
         self.runner = runner
         self.accuracy, self.finest, self.span = accuracy, finest, span
         self.charges = charges
-        self._longest = _LONGEST if shortest_step else (_SERIES,)
+        self._longest = longest
         self.runs = self.evaluations = 0
         self._finer = 0
 
@@ -113,7 +112,7 @@ class Controller:
             finer = max(tolerance / BETWEEN, self.finest)
             fine, fine_rows = self._run(finer, level, coarse)
             found = self._compared(coarse, rows, fine, fine_rows, (tolerance, finer))
-            if found.reached:
+            if found.reached or self._stepped_over(fine):
                 missed = self._missed(fine, fine_rows)
                 if not missed:
                     return found
@@ -197,7 +196,7 @@ class Controller:
 
     def _missed(self, fine: Run, rows: list[list[Any]]) -> str:
         """What both runs may have stepped over."""
-        if fine.defect > _DEFECT * self.accuracy:
+        if self._stepped_over(fine):
             return "something acts in a time too short for the steps"
         for j in range(self.charges):
             column = len(rows[0]) - self.charges + j
@@ -211,6 +210,9 @@ class Controller:
                     if drift > _CHARGES * felt:
                         return "a conserved charge drifts"
         return ""
+
+    def _stepped_over(self, fine: Run) -> bool:
+        return fine.defect > _DEFECT * self.accuracy
 
     def _felt(self, fine: Run, place: int, column: int, value: float) -> float:
         """How much a charge changes when each component errs by what is allowed."""

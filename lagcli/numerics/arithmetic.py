@@ -129,7 +129,7 @@ class Balls:
     def _atan2(self, y: Any, x: Any) -> Any:
         """atan(y/x) on the branch of the point, by the quotient that is no larger than 1."""
         above, below = self._constant(y), self._constant(x)
-        angle = above.atan2(below)
+        angle = self.ball.atan2(above, below)
         if not (isinstance(y, self.series) or isinstance(x, self.series)):
             return angle
         turned = (y / x).atan() if abs(below) > abs(above) else -(x / y).atan()

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 REASONS = {
     "dop853": "explicit, of order 8: the cheapest that reaches the accuracy without stiffness",
+    "taylor64": "power series in machine code: the cheapest of any order where it is compiled",
+    "taylor80": "power series in machine code of 80 bits: the accuracy lies within the rounding "
+    "of doubles",
     "taylor": "power series with more digits than doubles: the accuracy lies within their rounding",
 }
 
@@ -62,7 +65,7 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
             constraints=_residuals(outcome),
         ),
         method=run.method_name or "dop853",
-        reason=REASONS[run.method_name or "dop853"],
+        reason=REASONS[run.method_name or "dop853"] + simulation.remark,
         steps=run.steps,
         evaluations=outcome.evaluations,
         events=tuple(events),

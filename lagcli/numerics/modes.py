@@ -32,6 +32,7 @@ class Mode:
 
     def __init__(self, modes: Modes, held: frozenset[int], stuck: frozenset[int]) -> None:
         self.modes, self.held, self.stuck = modes, held, stuck
+        self.key = held, stuck
         simulation = modes.simulation
         every = len(simulation.equations.rows)
         whole = simulation.equations
@@ -150,6 +151,17 @@ class Modes:
         kinks = simulation.equations.kinks if arithmetic.ordered else []
         self.signs = [1.0] * len(kinks)
         self._known: dict[tuple[frozenset[int], frozenset[int]], Mode] = {}
+
+    def by(self, make_method: MakeMethod) -> Modes:
+        """The same problem in the same numbers, by another method."""
+        arguments = (self.simulation, self.constants, self.arithmetic, make_method, self.rounding)
+        other = Modes(*arguments)
+        other.signs = self.signs
+        first = Mode(other, *self.first.key)
+        first.motion = self.first.motion
+        first.conserved = self.first.conserved
+        other._known[first.key] = first
+        return other
 
     def mode(self, held: frozenset[int], stuck: frozenset[int] = frozenset()) -> Mode:
         """The mode in which these act."""

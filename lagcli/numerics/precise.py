@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from lagcli.numerics.simulate import Simulation
 
 _GUARD_BITS = 40
+_LONGEST = (10.0,)  # a part of the span: a series knows what lies within its step
 #: Steps of one run, when nobody has asked for more digits and when somebody has.
 _UNASKED, _ASKED = 20_000, 500_000
 
@@ -61,7 +62,7 @@ def precise_outcome(
             finest=rounding,
             span=asked.until,
             charges=len(simulation.charges),
-            shortest_step=False,
+            longest=_LONGEST,
         ).outcome()
     except Refusal:
         return None

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from lagcli.graph.nodes import Node
-from lagcli.numerics.accuracy import Controller, Outcome
+from lagcli.numerics.accuracy import LONGEST, Controller, Outcome
 from lagcli.numerics.arithmetic import Doubles
 from lagcli.numerics.asked import Asked, Result
 from lagcli.numerics.certificate import result_of
@@ -32,9 +32,12 @@ FINEST_DOUBLE = 1e-18
 _COMPARED = 100
 #: Doubles that miss the accuracy, and are this good, miss it by their rounding.
 _ROUNDING_REACH = 1e-5
+#: Doubles claim nothing better: the parameters are rounded too, alike in all runs.
+_LEAST_DOUBLE = 1e-13
 
 _DIGITS = 30
 
+State = tuple[list[float], list[float]]
 Progress = Callable[[float], None]
 
 
@@ -89,6 +92,8 @@ class Simulation:
         self.every = every
         self.times = [asked.until * k / count for k in range(count)] + [asked.until]
         self.finished = 0.0
+        #: what is said beside the reason for the method
+        self.remark = ""
 
     def _column(self, column: Column) -> Node:
         if column.expression is None:
@@ -154,15 +159,70 @@ class Simulation:
         self.start = q, v = initial_state(motion, project=self.asked.project)
         self._check_start(motion, q, v)
         self._keep_conserved(modes)
-        outcome = self._doubles(modes, q, v)
-        beyond = self._beyond(outcome)
-        if beyond is not None and not self._goes_on:
-            from lagcli.numerics.precise import precise_outcome
+        outcome: Outcome | None = None
+        for route in self._routes():
+            if outcome is None or self._beyond(outcome):
+                found = route(modes, q, v)
+                if found and (outcome is None or found.good_rows >= outcome.good_rows):
+                    outcome = found
+        return result_of(self, motion, outcome or self._doubles(modes, q, v))
 
-            precise = precise_outcome(self, modes, q, v, beyond)
-            if precise is not None and precise.good_rows >= outcome.good_rows:
-                outcome = precise
-        return result_of(self, motion, outcome)
+    def _routes(self) -> list[Callable[..., Outcome | None]]:
+        """The ways to run it, each for what those before it do not reach."""
+        match self.asked.method:
+            case "dop853":
+                return [self._doubles]
+            case "taylor64":
+                return [self._compiled]
+            case "taylor80":
+                return [self._extended]
+            case "taylor":
+                return [self._precise]
+        if self.asked.accuracy < _LEAST_DOUBLE:
+            return [self._extended, self._precise]
+        return [self._in_doubles, self._extended, self._precise]
+
+    def _beyond(self, outcome: Outcome) -> bool:
+        """Whether more digits may reach what was not reached."""
+        if outcome.reached:
+            return False
+        stopped = outcome.run.stop is not None
+        close = max(outcome.errors) <= _ROUNDING_REACH
+        return self.asked.digits is not None or (close and not stopped)
+
+    def _in_doubles(self, modes: Modes, q: list[float], v: list[float]) -> Outcome:
+        return self._compiled(modes, q, v) or self._doubles(modes, q, v)
+
+    def _extended(self, modes: Modes, q: Sequence[float], v: Sequence[float]) -> Outcome | None:
+        if self._goes_on:
+            return None
+        from lagcli.numerics.compiled.route import extended_outcome
+
+        return extended_outcome(self, modes, q, v)
+
+    def _precise(self, modes: Modes, q: Sequence[float], v: Sequence[float]) -> Outcome | None:
+        if self._goes_on:
+            return None
+        from lagcli.numerics.precise import precise_outcome
+
+        return precise_outcome(self, modes, q, v, self.asked.digits or _DIGITS)
+
+    def _compiled(self, doubles: Modes, q: list[float], v: list[float]) -> Outcome | None:
+        """In machine code; None where there is none, with a remark."""
+        from lagcli.numerics.compiled.method import PivotVanishes
+        from lagcli.numerics.compiled.route import LONGEST as LONG
+        from lagcli.numerics.compiled.route import Runs, double_machine
+
+        machine = double_machine(doubles.first.motion)
+        if isinstance(machine, str):
+            self.remark = f"; not compiled: {machine}"
+            return None
+        runs = Runs(self, doubles, machine, dop853)
+        try:
+            return self._outcome(runs.modes, q, v, runs.run, LONG)
+        except PivotVanishes:
+            self.remark = "; not compiled: the constraints become dependent"
+            return None
 
     @property
     def _goes_on(self) -> bool:
@@ -177,19 +237,24 @@ class Simulation:
             self.candidates = [name for name in self.candidates if kept[name]]
             del modes.first.conserved
 
-    def _beyond(self, outcome: Outcome) -> int | None:
-        """How many digits to go on with, where doubles do not reach the accuracy."""
-        if self.asked.method == "taylor":
-            return self.asked.digits or _DIGITS
-        if outcome.reached or self.asked.method == "dop853":
-            return None
-        if self.asked.digits is not None:
-            return self.asked.digits
-        stopped = outcome.run.stop is not None
-        close = max(outcome.errors) <= _ROUNDING_REACH
-        return _DIGITS if close and not stopped else None
-
     def _doubles(self, modes: Modes, q: list[float], v: list[float]) -> Outcome:
+        """In Python."""
+
+        def run(state: State, bound: Tolerance, every: int, told: Any) -> Run:
+            transitions = Transitions(modes, self.asked.accuracy, self.asked.until)
+            run = Run(transitions, bound, self.asked.accuracy)
+            return run.go(*state, self.times, probe_every=every, progress=told)
+
+        return self._outcome(modes, q, v, run, LONGEST)
+
+    def _outcome(
+        self,
+        modes: Modes,
+        q: list[float],
+        v: list[float],
+        one_run: Callable[..., Run],
+        longest_steps: Sequence[float],
+    ) -> Outcome:
         asked, motion = self.asked, modes.first.motion
         # every other run begins at the next double: what the initial values are rounded by
         # must not matter either
@@ -205,7 +270,6 @@ class Simulation:
             tolerance: float, longest: float, peaks: Sequence[float] | None, every: int
         ) -> Run:
             bound = Tolerance(tolerance, motion.n, asked.until, longest, peaks)
-            run = Run(Transitions(modes, asked.accuracy, asked.until), bound, asked.accuracy)
             done = self.finished
 
             def told(part: float) -> None:
@@ -213,7 +277,7 @@ class Simulation:
                     self.progress((done + part) / max(total, done + 1))
 
             state = (q, v) if self.finished % 2 else nudged
-            run.go(*state, self.times, probe_every=every, progress=told)
+            run = one_run(state, bound, every, told)
             self.finished += 1
             return run
 
@@ -223,6 +287,7 @@ class Simulation:
             finest=FINEST_DOUBLE,
             span=asked.until,
             charges=len(self.charges),
+            longest=longest_steps,
         ).outcome()
 
     def _check_start(self, motion: Motion, q: list[float], v: list[float]) -> None:

@@ -1,0 +1,301 @@
+"""The tape as code: the loop over the orders of its series.
+
+For each operation and order k the convolution of all coefficients that are known from the
+orders before is one call, `inner`; what is new at this order is added by hand:
+
+    product    c_k = a_0 b_k + a_k b_0 + sum_{0<j<k} a_j b_{k-j}
+    quotient   c_k = (a_k - c_0 b_k - sum_{0<j<k} b_j c_{k-j}) / b_0
+    root       c_k = (a_k - sum_{0<j<k} c_j c_{k-j}) / (2 c_0)
+    power r    c_k = (r k a_k c_0 + sum_{0<j<k} (r j - (k - j)) a_j c_{k-j}) / (k a_0)
+    exp        c_k = (k a_k c_0 + sum_{0<j<k} j a_j c_{k-j}) / k
+    sin, cos   s_k = (sum_{0<j<=k} j a_j c_{k-j}) / k,    c_k = -(the same with s) / k
+    tanh       t_k = (sum_{0<j<=k} j a_j w_{k-j}) / k,    w = 1 - t^2
+    primitive  k y_k = (k a_k - sum_{0<j<k} j y_j u_{k-j}) / u_0    for y' = a' / u
+
+A row of coefficients is kept forwards, backwards (so that both sides of a convolution are
+read in the order of memory) and, where needed, multiplied by j.
+
+References
+----------
+Griewank, Walther, *Evaluating Derivatives*, 2nd ed., section 13.2 and table 13.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from lagcli.graph.nodes import Node
+from lagcli.numerics.compiled.kernels import STRIDE
+from lagcli.numerics.compiled.numbers import Numbers
+from lagcli.numerics.compiled.tape import Op, Tape
+from lagcli.numerics.compiled.text import Text
+
+#: The place of the coefficient 0 in a row that is kept backwards; zeros stand from there on.
+LAST = STRIDE - 5
+_FUNCTIONS = "sin cos sinh cosh tanh exp log pow asin acos atan asinh acosh atanh atan2".split()
+
+
+def head(numbers: Numbers) -> str:
+    """Declarations, and the convolution."""
+    real, suffix = numbers.type, numbers.suffix
+    lines = [f"declare {real} @llvm.{name}.{suffix}({real})" for name in ("sqrt", "fabs")]
+    for name in _FUNCTIONS:
+        given = f"{real}, {real}" if name in {"pow", "atan2"} else real
+        lines.append(f"declare {real} {numbers.function(name)}({given})")
+    return "\n".join([*lines, _VECTOR_INNER if real == "double" else _inner(real)])
+
+
+_VECTOR_INNER = """
+declare <4 x double> @llvm.fmuladd.v4f64(<4 x double>, <4 x double>, <4 x double>)
+declare double @llvm.vector.reduce.fadd.v4f64(double, <4 x double>)
+define internal double @inner(ptr %a, ptr %b, i64 %n) noinline nounwind {
+entry:
+  %any = icmp sgt i64 %n, 0
+  br i1 %any, label %loop, label %none
+none:
+  ret double 0.0
+loop:
+  %i = phi i64 [ 0, %entry ], [ %next, %loop ]
+  %s = phi <4 x double> [ zeroinitializer, %entry ], [ %sum, %loop ]
+  %pa = getelementptr double, ptr %a, i64 %i
+  %pb = getelementptr double, ptr %b, i64 %i
+  %x = load <4 x double>, ptr %pa, align 8
+  %y = load <4 x double>, ptr %pb, align 8
+  %sum = call <4 x double> @llvm.fmuladd.v4f64(<4 x double> %x, <4 x double> %y, <4 x double> %s)
+  %next = add i64 %i, 4
+  %more = icmp slt i64 %next, %n
+  br i1 %more, label %loop, label %end
+end:
+  %r = call reassoc double @llvm.vector.reduce.fadd.v4f64(double -0.0, <4 x double> %sum)
+  ret double %r
+}"""
+
+
+def _inner(real: str) -> str:
+    return f"""define internal {real} @inner(ptr %a, ptr %b, i64 %n) noinline nounwind {{
+entry:
+  %any = icmp sgt i64 %n, 0
+  %zero = sitofp i64 0 to {real}
+  br i1 %any, label %loop, label %none
+none:
+  ret {real} %zero
+loop:
+  %i = phi i64 [ 0, %entry ], [ %next, %loop ]
+  %s = phi {real} [ %zero, %entry ], [ %sum, %loop ]
+  %pa = getelementptr {real}, ptr %a, i64 %i
+  %pb = getelementptr {real}, ptr %b, i64 %i
+  %x = load {real}, ptr %pa
+  %y = load {real}, ptr %pb
+  %xy = fmul {real} %x, %y
+  %sum = fadd {real} %s, %xy
+  %next = add i64 %i, 1
+  %more = icmp slt i64 %next, %n
+  br i1 %more, label %loop, label %end
+end:
+  ret {real} %sum
+}}"""
+
+
+class Series:
+    """The function `series` for q'' as nodes of a tape.
+
+    Attributes
+    ----------
+    rows : int
+        Of `STRIDE` numbers each, that it works in.
+    """
+
+    def __init__(
+        self, numbers: Numbers, tape: Tape, roots: Sequence[Node], guards: Sequence[Any]
+    ) -> None:
+        self._tape, self._roots, self._guards = tape, roots, guards
+        self._n = len(roots)
+        self._text = Text(numbers, tape)
+        self._real = numbers.type
+        self.rows = 2 * self._n + 1
+        self._rows: dict[tuple[int, str], int] = {}
+        self._inputs = [place for place, op in enumerate(tape.ops) if op.name == "input"]
+
+    def _row(self, place: int, kind: str) -> int:
+        """The row in which an operation is kept: forwards F, backwards R, times j FJ, RJ."""
+        if kind == "F" and self._tape.ops[place].name == "input":
+            return int(self._tape.ops[place].numbers[0])
+        if (place, kind) not in self._rows:
+            self._rows[place, kind] = self.rows
+            self.rows += 1
+        return self._rows[place, kind]
+
+    def code(self) -> str:
+        """Its definition."""
+        text, n = self._text, self._n
+        count = len(self._inputs)
+        inputs = [text.loaded("%rows", i * STRIDE) for i in range(count)]
+        zero = text.values(inputs, "%signs")
+        fine = text.guarded(self._guards, zero)
+        roots = [self._tape.values[root] for root in self._roots]
+        for j, root in enumerate(roots):
+            text.stored(inputs[n + j], "%rows", j * STRIDE + 1)
+            text.stored(text.scaled(root, zero), "%rows", (n + j) * STRIDE + 1)
+        first, text.lines = text.lines, []
+        now = self._orders(zero)
+        real = self._real
+        for j, root in enumerate(roots):
+            for row, value in ((j, now[n + j]), (n + j, text.scaled(root, now, order_0=False))):
+                divided = text.two("fdiv", value, "%next.real")
+                text.stored(divided, "%rows", text.made(f"add i64 %next, {row * STRIDE}"))
+        return "\n".join(
+            [
+                "define i64 @series(ptr %rows, ptr %signs, i64 %order) nounwind {",
+                "entry:",
+                *first,
+                "%several = icmp sgt i64 %order, 1",
+                "br i1 %several, label %loop, label %end",
+                "loop:",
+                "%k = phi i64 [ 1, %entry ], [ %next, %loop ]",
+                "%known = sub i64 %k, 1",
+                "%next = add i64 %k, 1",
+                f"%back = sub i64 {LAST}, %k",
+                "%behind = add i64 %back, 1",
+                f"%k.real = sitofp i64 %k to {real}",
+                f"%next.real = sitofp i64 %next to {real}",
+                f"%part = fdiv {real} {text.whole(1)}, %k.real",
+                *text.lines,
+                "%more = icmp slt i64 %next, %order",
+                "br i1 %more, label %loop, label %end",
+                "end:",
+                f"ret i64 {fine}",
+                "}",
+            ]
+        )
+
+    def _orders(self, zero: Sequence[str]) -> list[str]:
+        """The coefficients of order k of all operations."""
+        text, now = self._text, list[str]()
+        ops = self._tape.ops
+        pending: dict[int, str] = {}
+        pieces: list[list[str]] = []
+        for place, op in enumerate(ops):
+            text.lines = []
+            value = pending.pop(place, "") or self._order(place, op, zero, now, pending)
+            now.append(value)
+            pieces.append(text.lines)
+        # which rows are kept is known when all convolutions are written
+        lines: list[str] = []
+        for place, piece in enumerate(pieces):
+            lines += piece
+            text.lines = []
+            self._kept(place, now[place])
+            lines += text.lines
+        text.lines = lines
+        return now
+
+    def _kept(self, place: int, value: str) -> None:
+        text = self._text
+        rows = {kind: self._rows.get((place, kind)) for kind in ("F", "R", "FJ", "RJ")}
+        times = ""
+        if rows["FJ"] is not None or rows["RJ"] is not None:
+            times = text.two("fmul", value, "%k.real")
+        for kind, row in rows.items():
+            if row is not None:
+                index = "%k" if kind[0] == "F" else "%back"
+                at = text.made(f"add i64 {index}, {row * STRIDE}")
+                text.stored(times if "J" in kind else value, "%rows", at)
+
+    def _inner(self, left: tuple[int, str], right: tuple[int, str]) -> str:
+        """The sum over 0 < j < k of a forward row and a backward one."""
+        text, real = self._text, self._real
+        a = text.place("%rows", self._row(*left) * STRIDE + 1)
+        b = text.place("%rows", text.made(f"add i64 %behind, {self._row(*right) * STRIDE}"))
+        return text.made(f"call {real} @inner(ptr {a}, ptr {b}, i64 %known)")
+
+    def _order(
+        self,
+        place: int,
+        op: Op,
+        zero: Sequence[str],
+        now: list[str],
+        pending: dict[int, str],
+    ) -> str:
+        text, two, inner = self._text, self._text.two, self._inner
+        x = op.operands
+        a = now[x[0]] if x else ""
+        a0, c0 = (zero[x[0]] if x else ""), zero[place]
+        match op.name:
+            case "input":
+                return text.loaded("%rows", text.made(f"add i64 %k, {op.numbers[0] * STRIDE}"))
+            case "sum":
+                return text.combined(op, now, constant=False)
+            case "product":
+                before = inner((x[0], "F"), (x[1], "R"))
+                if x[0] == x[1]:
+                    twice = two("fmul", a0, text.whole(2))
+                    return two("fadd", before, two("fmul", twice, a))
+                new = two("fadd", two("fmul", a0, now[x[1]]), two("fmul", a, zero[x[1]]))
+                return two("fadd", before, new)
+            case "quotient":
+                below = x[-1]
+                before = inner((below, "F"), (place, "R"))
+                taken = two("fadd", before, two("fmul", c0, now[below]))
+                rest = two("fsub", a, taken) if len(x) > 1 else text.minus(taken)
+                return two("fdiv", rest, zero[below])
+            case "root":
+                rest = two("fsub", a, inner((place, "F"), (place, "R")))
+                return two("fdiv", rest, two("fmul", c0, text.whole(2)))
+            case "power":
+                r = text.literal(op.numbers[0])
+                left = inner((x[0], "FJ"), (place, "R"))
+                right = inner((x[0], "F"), (place, "RJ"))
+                new = two("fmul", two("fmul", "%k.real", a), c0)
+                before = two("fmul", r, two("fadd", left, new))
+                return two("fdiv", two("fmul", two("fsub", before, right), "%part"), a0)
+            case "exp":
+                return self._flow(x[0], a, place, c0)
+            case "sin" | "sinh":
+                other = self._other(place)
+                cosine = self._flow(x[0], a, place, c0)
+                pending[other] = text.minus(cosine) if op.name == "sin" else cosine
+                return self._flow(x[0], a, other, zero[other])
+            case "tanh":
+                # w = 1 - t^2 is kept where an operation of its own would be
+                return self._tanh(place, x[0], a, c0)
+            case "primitive":
+                rest = two("fmul", "%k.real", a)
+                rest = two("fsub", rest, inner((place, "FJ"), (x[1], "R")))
+                return two("fmul", two("fdiv", rest, zero[x[1]]), "%part")
+            case "angle":
+                y, u, below = x
+                turn = two("fsub", two("fmul", a, zero[u]), two("fmul", now[u], zero[y]))
+                turn = two("fmul", "%k.real", turn)
+                turn = two("fadd", turn, inner((y, "FJ"), (u, "R")))
+                turn = two("fsub", turn, inner((u, "FJ"), (y, "R")))
+                turn = two("fsub", turn, inner((place, "FJ"), (below, "R")))
+                return two("fmul", two("fdiv", turn, zero[below]), "%part")
+            case "sign":
+                return text.whole(0)
+            case "signed":
+                return two("fmul", text.loaded("%signs", op.numbers[0]), a)
+        raise TypeError(op.name)
+
+    def _other(self, place: int) -> int:
+        """The place of the cosine that belongs to a sine."""
+        return self._tape.ops.index(Op("other", (place,)))
+
+    def _flow(self, argument: int, a: str, factor: int, value: str) -> str:
+        """c_k of c' = a' f: (k a_k f_0 + sum of j a_j f_{k-j}) / k."""
+        two = self._text.two
+        before = self._inner((argument, "FJ"), (factor, "R"))
+        new = two("fmul", two("fmul", "%k.real", a), value)
+        return two("fmul", two("fadd", before, new), "%part")
+
+    def _tanh(self, place: int, argument: int, a: str, t0: str) -> str:
+        text, two = self._text, self._text.two
+        w0 = two("fsub", text.whole(1), two("fmul", t0, t0))
+        before = self._inner((argument, "FJ"), (-1 - place, "R"))
+        new = two("fmul", two("fmul", "%k.real", a), w0)
+        t = two("fmul", two("fadd", before, new), "%part")
+        squares = self._inner((place, "F"), (place, "R"))
+        twice = two("fmul", two("fmul", text.whole(2), t0), t)
+        w = text.minus(two("fadd", squares, twice))
+        text.stored(w, "%rows", text.made(f"add i64 %back, {self._row(-1 - place, 'R') * STRIDE}"))
+        return t

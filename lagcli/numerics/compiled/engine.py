@@ -1,0 +1,214 @@
+"""From the text of a module to addresses of functions, by LLVM.
+
+The library of llvmlite is used by its C interface: importing `llvmlite.binding` costs
+60 ms, loading its library 10.  That interface is llvmlite's own and changes with its
+releases, so it is used with the releases named here and with no other.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+from base64 import b64decode, b64encode
+from collections.abc import Callable
+from ctypes import POINTER, byref, c_bool, c_char_p, c_int, c_size_t, c_uint64, c_void_p
+from functools import cache
+from hashlib import sha256
+from importlib.machinery import PathFinder
+from pathlib import Path
+from typing import Any
+
+from lagcli.cache import Cache, Entry, folder
+
+#: Releases of llvmlite whose C interface is the one declared below.
+_RELEASES = ("0.50.",)
+_LIBRARIES = {"linux": "libllvmlite.so", "darwin": "libllvmlite.dylib", "win32": "llvmlite.dll"}
+
+_TEXT = POINTER(c_char_p)
+_INTERFACE: dict[str, tuple[Any, list[Any]]] = {
+    "InitializeNativeTarget": (None, []),
+    "InitializeNativeAsmPrinter": (None, []),
+    "LinkInMCJIT": (None, []),
+    "GetGlobalContext": (c_void_p, []),
+    "ParseAssembly": (c_void_p, [c_void_p, c_char_p, _TEXT]),
+    "GetProcessTriple": (None, [_TEXT]),
+    "GetHostCPUName": (None, [_TEXT]),
+    "GetHostCPUFeatures": (c_int, [_TEXT]),
+    "GetTargetFromTriple": (c_void_p, [c_char_p, _TEXT]),
+    "CreateTargetMachine": (
+        c_void_p,
+        # target, triple, cpu, features, level, relocation, code model, print, jit, abi
+        [c_void_p, *[c_char_p] * 3, c_int, *[c_char_p] * 2, c_int, c_int, c_char_p],
+    ),
+    "CreatePipelineTuningOptions": (c_void_p, []),
+    "CreatePassBuilder": (c_void_p, [c_void_p, c_void_p]),
+    "CreateNewModulePassManager": (c_void_p, []),
+    "RunNewModulePassManager": (None, [c_void_p, c_void_p, c_void_p]),
+    "module_AddSROAPass": (None, [c_void_p]),
+    "module_AddSimplifyCFGPass": (None, [c_void_p]),
+    "module_AddInstCombinePass": (None, [c_void_p]),
+    "module_AddNewGVNPass": (None, [c_void_p]),
+    "TargetMachineEmitToMemory": (c_void_p, [c_void_p, c_void_p, c_int, _TEXT]),
+    "GetBufferStart": (c_void_p, [c_void_p]),
+    "GetBufferSize": (c_size_t, [c_void_p]),
+    "DisposeMemoryBuffer": (None, [c_void_p]),
+    "CreateObjectFile": (c_void_p, [c_char_p, c_size_t]),
+    "MCJITAddObjectFile": (None, [c_void_p, c_void_p]),
+    "CreateMCJITCompiler": (c_void_p, [c_void_p, c_void_p, c_bool, _TEXT]),
+    "FinalizeObject": (None, [c_void_p]),
+    "GetFunctionAddress": (c_uint64, [c_void_p, c_char_p]),
+}
+
+#: What is done before code is made, by the time that the whole takes: mem2reg and little else.
+_PASSES = ("SROA", "InstCombine", "SimplifyCFG")
+_CODE_LEVEL = 2
+_HOW = (_RELEASES, _PASSES, _CODE_LEVEL)
+
+
+class NoCompiler(Exception):
+    """There is no compiler here; why, in words."""
+
+
+class Engine:
+    """The compiler of this machine.
+
+    Raises
+    ------
+    NoCompiler
+        Where llvmlite is missing, or is a release that is not known.
+    """
+
+    def __init__(self) -> None:
+        self._library = _library()
+        for name in ("InitializeNativeTarget", "InitializeNativeAsmPrinter", "LinkInMCJIT"):
+            self._call(name)
+        self._triple = self._told("GetProcessTriple")
+        #: whether there are numbers of 80 bits, and `long double` is such a number
+        self.extended = self._triple.startswith(b"x86_64-") and sys.platform != "win32"
+        self._cpu = self._told("GetHostCPUName"), self._told("GetHostCPUFeatures")
+        self._folder = None if os.environ.get("LAGCLI_NO_CACHE") else folder(os.environ)
+
+    def compiled(self, source: bytes, text: Callable[[], str]) -> Compiled:
+        """The functions of a module, which an earlier run may have made already.
+
+        Parameters
+        ----------
+        source
+            All that the text of the module is made of.
+        text
+            The module in LLVM's language.
+
+        Raises
+        ------
+        NoCompiler
+            Where the module cannot be compiled here.
+        """
+        place = Cache(self._folder) if self._folder else None
+        whole = b"\0".join((*self._cpu, self._triple, repr(_HOW).encode(), source))
+        key = sha256(whole).hexdigest()
+        entry = place.find(key) if place else None
+        if entry is not None and entry.text is not None:
+            return self._loaded(b64decode(entry.text))
+        code = self._code(text())
+        if place:
+            place.keep(key, Entry(0, b64encode(code).decode()))
+        return self._loaded(code)
+
+    def _code(self, text: str) -> bytes:
+        """Machine code as an object file."""
+        machine, module, error = self._machine(), self._module(text), c_char_p()
+        builder = self._call(
+            "CreatePassBuilder", machine, self._call("CreatePipelineTuningOptions")
+        )
+        passes = self._call("CreateNewModulePassManager")
+        for name in _PASSES:
+            self._call(f"module_Add{name}Pass", passes)
+        self._call("RunNewModulePassManager", passes, module, builder)
+        buffer = self._call("TargetMachineEmitToMemory", machine, module, 1, byref(error))
+        if not buffer:
+            raise NoCompiler(f"llvmlite makes no code here: {(error.value or b'').decode()}")
+        start, size = self._call("GetBufferStart", buffer), self._call("GetBufferSize", buffer)
+        code = ctypes.string_at(start, size)
+        self._call("DisposeMemoryBuffer", buffer)
+        return code
+
+    def _loaded(self, code: bytes) -> Compiled:
+        """An object file in memory, linked to the C library."""
+        error = c_char_p()
+        arm = b"aarch64" in self._triple or b"arm64" in self._triple
+        engine = self._call(
+            "CreateMCJITCompiler", self._module(""), self._machine(), arm, byref(error)
+        )
+        if not engine:
+            raise NoCompiler(f"llvmlite runs no code here: {(error.value or b'').decode()}")
+        self._call("MCJITAddObjectFile", engine, self._call("CreateObjectFile", code, len(code)))
+        self._call("FinalizeObject", engine)
+        return Compiled(lambda name: self._call("GetFunctionAddress", engine, name.encode()))
+
+    def _module(self, text: str) -> Any:
+        error = c_char_p()
+        context = self._call("GetGlobalContext")
+        module = self._call("ParseAssembly", context, text.encode(), byref(error))
+        if not module or error.value:
+            raise NoCompiler(f"llvmlite does not take the code: {(error.value or b'').decode()}")
+        return module
+
+    def _machine(self) -> Any:
+        """A machine of its own for each module, which takes it over."""
+        error = c_char_p()
+        target = self._call("GetTargetFromTriple", self._triple, byref(error))
+        machine = target and self._call(
+            *("CreateTargetMachine", target, self._triple, *self._cpu, _CODE_LEVEL),
+            *(b"default", b"jitdefault", 0, 1, b""),
+        )
+        if not machine:
+            raise NoCompiler("llvmlite does not know this machine")
+        return machine
+
+    def _call(self, name: str, *arguments: Any) -> Any:
+        function = getattr(self._library, f"LLVMPY_{name}")
+        function.restype, function.argtypes = _INTERFACE[name]
+        return function(*arguments)
+
+    def _told(self, name: str) -> bytes:
+        text = c_char_p()
+        self._call(name, byref(text))
+        return text.value or b""
+
+
+class Compiled:
+    """Functions by their names; they stay in memory as long as the process."""
+
+    def __init__(self, address: Callable[[str], int]) -> None:
+        self.address = address
+
+    def function(self, name: str, result: Any, *arguments: Any) -> Any:
+        """A function with the C types of its result and arguments."""
+        return ctypes.CFUNCTYPE(result, *arguments)(self.address(name))
+
+
+@cache
+def engine() -> Engine:
+    """The one engine of this process."""
+    return Engine()
+
+
+def _library() -> ctypes.CDLL:
+    spec = PathFinder.find_spec("llvmlite")
+    if spec is None or not spec.submodule_search_locations:
+        raise NoCompiler("llvmlite is not installed")
+    folder = Path(next(iter(spec.submodule_search_locations)))
+    if not any(_release(folder).startswith(known) for known in _RELEASES):
+        raise NoCompiler(f"llvmlite is none of the releases {', '.join(_RELEASES)}")
+    try:
+        return ctypes.CDLL(str(folder / "binding" / _LIBRARIES[sys.platform]))
+    except (OSError, KeyError) as error:
+        raise NoCompiler(f"llvmlite cannot be loaded: {error}") from None
+
+
+def _release(folder: Path) -> str:
+    """The release of an installed llvmlite, by the name of the folder that tells of it."""
+    for path in folder.parent.glob("llvmlite-*.dist-info"):
+        return path.name.removeprefix("llvmlite-")
+    return ""

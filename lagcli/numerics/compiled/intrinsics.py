@@ -1,0 +1,69 @@
+"""What `kernels` may use beside the operations: for those who read or check it.
+
+The functions exist in compiled code only; `series`, `positions`, `velocities` and `sizes`
+are generated for the problem.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+
+class Reals(Protocol):
+    """A place in memory with real numbers from there on."""
+
+    def __getitem__(self, index: int) -> float: ...
+
+    def __setitem__(self, index: int, value: float) -> None: ...
+
+
+class Ints(Protocol):
+    """A place in memory with whole numbers from there on."""
+
+    def __getitem__(self, index: int) -> int: ...
+
+    def __setitem__(self, index: int, value: int) -> None: ...
+
+
+def at(place: Reals, index: int) -> Reals:
+    """The place so many numbers further on."""
+    raise NotImplementedError
+
+
+def sqrt(x: float) -> float:
+    """The square root; nan where there is none."""
+    raise NotImplementedError
+
+
+def log(x: float) -> float:
+    """The natural logarithm."""
+    raise NotImplementedError
+
+
+def exp(x: float) -> float:
+    """The exponential function."""
+    raise NotImplementedError
+
+
+def series(rows: Reals, signs: Reals, order: int) -> int:
+    """The coefficients of q and q' up to an order, from those of order 0.
+
+    The row of component i begins at `rows[i * STRIDE]`; the time comes after the 2 n
+    components.  0 where a pivot of the elimination vanishes, else 1.
+    """
+    raise NotImplementedError
+
+
+def positions(state: Reals, out: Reals) -> int:
+    """(d, f) of `Motion.position_correction`; 0 where a pivot vanishes, else 1."""
+    raise NotImplementedError
+
+
+def velocities(state: Reals, out: Reals) -> int:
+    """(d, r) of `Motion.velocity_correction`; 0 where a pivot vanishes, else 1."""
+    raise NotImplementedError
+
+
+def sizes(state: Reals, out: Reals) -> int:
+    """What the residuals of positions and rates are compared with."""
+    raise NotImplementedError

@@ -1,0 +1,239 @@
+"""Taylor series in machine code: as a method whose steps are looked into, or a whole run.
+
+The order follows from the tolerance, the step from the last four coefficients, as for
+`lagcli.numerics.taylor`; the sums of the steps are compensated.  A whole run stays in
+machine code between the calls that tell how far it is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from ctypes import c_int64
+from typing import Any
+
+from lagcli.numerics.compiled import kernels as k
+from lagcli.numerics.compiled.emission import LAST
+from lagcli.numerics.compiled.machine import Machine, pointer
+from lagcli.numerics.compiled.numbers import EXTENDED
+from lagcli.numerics.compiled.text import exact
+from lagcli.numerics.kinks import Kinks
+from lagcli.numerics.run import Mark, Run
+from lagcli.numerics.steps import CannotGoOn, Step, Tolerance
+from lagcli.numerics.surface import Surface
+from lagcli.numerics.taylor import order_for
+
+_HIGHEST = LAST - 2
+#: Steps of one call, and of one run: some minutes.
+_CALL = 20_000
+STEP_LIMIT = 100_000_000
+_FACTS, _COUNTS = 9, 10
+
+
+class PivotVanishes(Exception):
+    """The written-out elimination divides by nothing: only `dependent` goes on from here."""
+
+
+class CompiledTaylor:
+    """The steps of one run.
+
+    Parameters
+    ----------
+    machine
+        The equations.
+    surface
+        The constraints, or None; it is told the residuals of a whole run.
+    """
+
+    def __init__(self, machine: Machine, surface: Surface | None) -> None:
+        self.machine, self.surface = machine, surface
+        self.name = "taylor80" if machine.numbers is EXTENDED else "taylor64"
+        self.n = machine.motion.n
+        self.evaluations = 0
+        self.reached: int | None = None
+        self._array = machine.numbers.array
+        both, motion = 2 * self.n, machine.motion
+        self._rows, self._other = (self._zeros(machine.rows * k.STRIDE) for _ in range(2))
+        self._ahead = self._zeros(2 * both + 1 + 2 * (self.n + 2 * motion.m) + both + 1)
+        self._lost = self._zeros(both)
+        self._peaks, self._scales = self._zeros(both), self._array([1.0] * both)
+        self._signs = self._zeros(max(1, len(motion.kinks)))
+        self._held = self._zeros(max(1, 4 * motion.m))
+        self._facts = self._zeros(_FACTS)
+        self._counts = (c_int64 * _COUNTS)()
+        for rows in (self._rows, self._other):  # t' = 1
+            rows[both * k.STRIDE + 1] = 1.0
+
+    def _zeros(self, count: int) -> Any:
+        return (self.machine.numbers.c_type * count)()
+
+    def _prepare(self, q: Sequence[Any], v: Sequence[Any], until: float, bound: Tolerance) -> Any:
+        """The state in memory, and all that the loop wants to know."""
+        self.machine.take()
+        motion, facts, counts = self.machine.motion, self._facts, self._counts
+        self.order = min(order_for(bound.value), _HIGHEST)
+        facts[k.UNTIL], facts[k.TOLERANCE], facts[k.LONGEST] = until, bound.value, bound.longest
+        facts[k.SPAN] = bound.span
+        facts[k.SHORTEST] = 4 * self.machine.numbers.rounding
+        counts[k.N], counts[k.ORDER] = self.n, self.order
+        counts[k.HOLONOMIC], counts[k.CONSTRAINTS] = len(motion.equations.holonomic), motion.m
+        for i, peak in enumerate(bound.peaks):
+            self._peaks[i] = peak
+            self._scales[i] = bound.scales[i]
+        state = self._array([*map(exact, q), *map(exact, v), 0.0])
+        if self.surface is not None:
+            for i, scale in enumerate(self.surface.scales):
+                self._held[i] = scale
+        return state
+
+    # -- step by step ----------------------------------------------------------------------------
+
+    def steps(
+        self,
+        q: list[Any],
+        v: list[Any],
+        until: float,
+        tolerance: Tolerance,
+        begin: float = 0.0,
+    ) -> Iterator[Step]:
+        """Accepted steps from `begin` to `until`, or to where friction sticks (`reached`).
+
+        Raises
+        ------
+        CannotGoOn
+            Where the series has no radius of convergence left.
+        """
+        state, motion = self._prepare(q, v, until, tolerance), self.machine.motion
+        ahead, both, t = self._ahead, 2 * self.n, begin
+        state[both] = begin
+        kinks, self.reached = Kinks(motion), None
+        if motion.kinks:
+            kinks.begin(t, q, v)
+        while t < until:
+            for i, sign in enumerate(motion.signs):
+                self._signs[i] = sign
+            if self._expand(state) != k.MORE:
+                raise CannotGoOn(t, q, v, "")
+            h = float(self._facts[k.H])
+            end = until if t + 1.01 * h >= until else t + h
+            inside = self._inside(t)
+            q_end, v_end = self._move(state, end, q, v)
+            if motion.kinks:
+                shorter = kinks.first(t, end - t, q_end, v_end, inside)
+                if shorter is not None:
+                    end = t + shorter
+                    if kinks.stuck(end, until):
+                        raise CannotGoOn(t, q, v, kinks.why())
+                    q_end, v_end = self._move(state, end, q, v)
+            tolerance.peaks[:] = [float(x) for x in self._peaks]
+            tolerance.scales[:] = [float(x) for x in self._scales]
+            for i in range(both):
+                state[i], self._lost[i] = ahead[i], ahead[both + 1 + i]
+            state[both] = end
+            q, v = q_end, v_end
+            yield Step(t, end - t, end, q, v, inside)
+            if kinks.reached is not None:
+                if kinks.sticks(end, q, v):
+                    self.reached = kinks.reached
+                    return
+                kinks.pass_through()
+            t = end
+
+    def _expand(self, state: Any) -> int:
+        self.evaluations += self.order
+        given = (self._rows, self._signs, state, self._peaks, self._scales, self._facts)
+        status = self.machine.kernel("expand")(*map(pointer, given), pointer(self._counts))
+        if status == k.PIVOT:
+            raise PivotVanishes
+        return int(status)
+
+    def _move(self, state: Any, end: float, q: Any, v: Any) -> tuple[list[Any], list[Any]]:
+        given = map(pointer, (self._rows, state, self._lost, self._ahead))
+        rest = map(pointer, (self._held, self._counts))
+        status = self.machine.kernel("move")(*given, end, *rest)
+        if status == k.PIVOT:
+            raise PivotVanishes
+        if status != k.MORE:
+            raise CannotGoOn(float(state[2 * self.n]), q, v, "")
+        n = self.n
+        return list(self._ahead[:n]), list(self._ahead[n : 2 * n])
+
+    def _inside(self, start: float) -> Any:
+        """Positions, velocities and accelerations anywhere in the step."""
+        kept = self._zeros(len(self._rows))
+        kept[:] = self._rows
+        n, out, slopes = self.n, self._zeros(2 * self.n + 1), self._zeros(self.n)
+        at, rate, order = self.machine.kernel("inside"), self.machine.kernel("slopes"), self.order
+
+        def inside(t: float) -> tuple[list[Any], list[Any], list[Any]]:
+            at(pointer(kept), pointer(out), 2 * n, order, t - start)
+            rate(pointer(kept), pointer(slopes), n, order, t - start)
+            return list(out[:n]), list(out[n : 2 * n]), list(slopes)
+
+        return inside
+
+    # -- the whole run ---------------------------------------------------------------------------
+
+    def go(
+        self,
+        run: Run,
+        q: list[Any],
+        v: list[Any],
+        times: Sequence[float],
+        *,
+        probes: int,
+        progress: Callable[[float], None] | None,
+    ) -> Run:
+        """A run without conditions and kinks; at least `probes` places are looked at.
+
+        Raises
+        ------
+        PivotVanishes
+            Where only the null-space way goes on.
+        """
+        counts, facts, both = self._counts, self._facts, 2 * self.n
+        if self.surface is not None:
+            self.surface.measure(0.0, q, v)
+        state = self._prepare(q, v, times[-1], run.tolerance)
+        asked, out = self._array(times), self._zeros(len(times) * (both + 1))
+        for i in range(both):
+            out[i] = state[i]
+        counts[k.PENDING], counts[k.TIMES], counts[k.PROBES] = 1, len(times), probes
+        drive = self.machine.kernel("drive")
+        given = [self._rows, self._other, self._signs, state, self._lost, self._ahead, self._peaks]
+        given += [self._scales, self._held, facts, counts, asked, out]
+        status, limit = k.MORE, min(run.step_limit, STEP_LIMIT)
+        while status == k.MORE and counts[k.STEPS] < limit:
+            counts[k.LIMIT] = min(_CALL, limit - counts[k.STEPS])
+            status = drive(*map(pointer, given))
+            if progress is not None:
+                progress(float(state[both]) / times[-1])
+        if status == k.PIVOT:
+            raise PivotVanishes
+        done = int(counts[k.PENDING])
+        whole = self._read(out)
+        run.marks = [
+            Mark(t, whole[j : j + self.n], whole[j + self.n : j + both], 0, sample)
+            for sample, t in enumerate(times[:done])
+            for j in (sample * (both + 1),)
+        ]
+        run.method_name = self.name
+        run.steps = int(counts[k.STEPS])
+        run.defect = min(float(facts[k.DEFECT]), math.inf)
+        run.evaluations = run.steps * self.order
+        run.tolerance.peaks[:] = [float(x) for x in self._peaks]
+        run.tolerance.scales[:] = [float(x) for x in self._scales]
+        if status != k.DONE:
+            last = [float(x) for x in state]
+            reason = "" if status == k.STOPPED else f"it takes more than {limit:,} steps"
+            run.stop = CannotGoOn(last[both], last[: self.n], last[self.n : both], reason)
+        if self.surface is not None:
+            count = len(self.surface.residuals)
+            found = [float(x) for x in self._held[count : 2 * count]]
+            self.surface.residuals = [*map(max, self.surface.residuals, found)]
+        return run
+
+    def _read(self, values: Any) -> list[Any]:
+        if self.machine.numbers is not EXTENDED:
+            return list(values)
+        return [*map(self.machine.motion.arithmetic.number, EXTENDED.fractions(values))]

@@ -1,0 +1,150 @@
+"""When the motion is run in machine code, and in which numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from lagcli.numerics.accuracy import Controller, Outcome
+from lagcli.numerics.compiled.engine import NoCompiler, engine
+from lagcli.numerics.compiled.machine import Machine, NotCompiled
+from lagcli.numerics.compiled.method import CompiledTaylor, PivotVanishes
+from lagcli.numerics.compiled.numbers import DOUBLE, EXTENDED
+from lagcli.numerics.constants import constants_of
+from lagcli.numerics.modes import MakeMethod, Mode, Modes
+from lagcli.numerics.motion import Motion
+from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.run import Phase, Run
+from lagcli.numerics.start import refined_state, rounded_components
+from lagcli.numerics.steps import Method, Tolerance
+from lagcli.numerics.surface import Surface
+from lagcli.numerics.transitions import Transitions
+
+if TYPE_CHECKING:
+    from lagcli.numerics.simulate import Simulation
+
+#: Parts of the span that the longest step is: a series knows what lies within its step,
+#: but for what is flat and then is not.
+LONGEST = (10.0, 200.0, 2000.0, 20000.0)
+_PROBES = 2000
+_FINEST_EXTENDED = 1e-22
+#: Bits of the parameters and initial values behind numbers of 64.
+_BITS = 128
+#: Numbers of 80 bits claim nothing better.
+_LEAST_EXTENDED = 1e-14
+
+
+def double_machine(motion: Motion) -> Machine | str:
+    """The machine for a motion, or why there is none."""
+    try:
+        return Machine(motion, DOUBLE)
+    except (NoCompiler, NotCompiled) as reason:
+        return str(reason)
+
+
+class Runs:
+    """Runs in machine code, that go through the controller.
+
+    Parameters
+    ----------
+    simulation, modes
+        What is asked, and the modes with the numbers of the machine code or better.
+    machine
+        The equations of the first mode.
+    otherwise
+        Makes the method of a mode for which there is no machine code.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        modes: Modes,
+        machine: Machine,
+        otherwise: MakeMethod | None = None,
+    ) -> None:
+        self.simulation, self._otherwise = simulation, otherwise
+        self._machines: dict[Motion, Machine | str] = {modes.first.motion: machine}
+        self.modes = modes.by(self._method)
+
+    def _method(self, mode: Mode, surface: Surface | None) -> Method:
+        motion = mode.motion
+        if motion not in self._machines:
+            self._machines[motion] = "friction holds" if mode.stuck else double_machine(motion)
+        machine = self._machines[motion]
+        if isinstance(machine, str):
+            assert self._otherwise is not None
+            return self._otherwise(mode, surface)
+        return CompiledTaylor(machine, surface)
+
+    def run(
+        self,
+        state: tuple[Sequence[Any], Sequence[Any]],
+        bound: Tolerance,
+        every: int,
+        progress: Callable[[float], None] | None,
+    ) -> Run:
+        """One run from a state."""
+        asked, times, mode = self.simulation.asked, self.simulation.times, self.modes.first
+        transitions = Transitions(self.modes, asked.accuracy, asked.until)
+        run = Run(transitions, bound, asked.accuracy)
+        q, v = list(state[0]), list(state[1])
+        if mode.conditions or mode.motion.kinks:
+            return run.go(q, v, times, probe_every=every, progress=progress)
+        surface = mode.surface()
+        method = mode.method(surface)
+        assert isinstance(method, CompiledTaylor)
+        run.phases.append(Phase(mode, surface, 0.0))
+        return method.go(run, q, v, times, probes=_PROBES if every else 0, progress=progress)
+
+
+def extended_outcome(
+    simulation: Simulation, doubles: Modes, q: Sequence[float], v: Sequence[float]
+) -> Outcome | None:
+    """The outcome with numbers of 80 bits; None where there are none, or they do not do."""
+    from flint import ctx
+
+    from lagcli.numerics.arithmetic import Balls
+
+    equations, asked = simulation.equations, simulation.asked
+    if equations.kinks or doubles.first.conditions or asked.accuracy < _LEAST_EXTENDED:
+        return None
+    usual, ctx.prec = ctx.prec, _BITS
+    try:
+        if not engine().extended:
+            return None
+        arithmetic = Balls()
+        constants = constants_of(equations, simulation.all_nodes, arithmetic)
+        modes = Modes(simulation, constants, arithmetic, doubles.make_method, 2.0**-_BITS)
+        modes.first.conserved = doubles.first.conserved
+        motion = modes.first.motion
+        runs = Runs(simulation, modes, Machine(motion, EXTENDED))
+        surface = modes.first.surface()
+        exact_q, exact_v = refined_state(motion, surface, q, v, anew=not asked.project)
+        inexact = rounded_components(motion, q, v)
+        moved = [
+            x * (1 + arithmetic.ball(EXTENDED.rounding) * 2) if each else x
+            for x, each in zip((*exact_q, *exact_v), inexact, strict=True)
+        ]
+        states = (moved[: motion.n], moved[motion.n :]), (exact_q, exact_v)
+        made = 0
+
+        def runner(
+            tolerance: float, longest: float, peaks: Sequence[float] | None, every: int
+        ) -> Run:
+            nonlocal made
+            bound = Tolerance(tolerance, motion.n, asked.until, longest, peaks)
+            made += 1
+            return runs.run(states[1 - made % 2], bound, every, simulation.progress)
+
+        return Controller(
+            runner,
+            accuracy=asked.accuracy,
+            finest=_FINEST_EXTENDED,
+            span=asked.until,
+            charges=len(simulation.charges),
+            longest=LONGEST,
+        ).outcome()
+    except (Refusal, NoCompiler, NotCompiled, PivotVanishes, OverflowError):
+        return None
+    finally:
+        ctx.prec = usual

@@ -1,0 +1,205 @@
+"""Machine code: its recurrences against FLINT's series, its runs against runs in Python."""
+
+import math
+from fractions import Fraction
+
+import pytest
+
+from lagcli.numerics.arithmetic import Balls, Doubles
+from lagcli.numerics.compiled import kernels
+from lagcli.numerics.compiled.engine import NoCompiler, engine
+from lagcli.numerics.compiled.language import translated
+from lagcli.numerics.compiled.machine import Machine
+from lagcli.numerics.compiled.method import CompiledTaylor
+from lagcli.numerics.compiled.numbers import DOUBLE, EXTENDED
+from lagcli.numerics.constants import constants_of
+from lagcli.numerics.equations import Equations
+from lagcli.numerics.motion import Motion
+from lagcli.numerics.steps import Tolerance
+from lagcli.numerics.taylor import Taylor
+
+from .running import column, last, problem_of, simulated
+
+FORCES = [
+    "x*y", "x^2", "y^3", "x^7", "x/y", "1/y", "y/(x*y + 2)", "y^(1/2)", "y^(3/2)", "y^(-3/2)",
+    "1/y^2", "1/(2*y)^4", "y^(1/3)", "(2*y)^0.7", "y^x",
+    "sin(x)", "cos(x)", "sin(x)*cos(x)", "tan(x)", "cot(y)", "sec(x)", "csc(y)", "exp(x)", "log(y)",
+    "atan(x)", "asin(x/3)", "acos(x/3)", "sinh(x)", "cosh(x)", "tanh(x)", "asinh(x)", "acosh(2*y)",
+    "atanh(x/3)", "atan2(x, y)", "atan2(-y, x)", "sqrt(x^2 + y^2)", "-3*x + 2", "t*x", "sin(t)",
+    "x'*y'", "exp(-x'^2)", "abs(x)*x", "sign(y)*x^2",
+]  # fmt: skip
+
+
+def motions(force):
+    equations = Equations(
+        problem_of(
+            f"coordinates: [x, y]\nL: x'^2/2 + y'^2/2\nforces:\n  x: \"{force}\"\n  y: cos(x) - y^3\n"
+        )
+    )
+    nodes = [*(entry for row in equations.mass for entry in row), *equations.forcing]
+    return [
+        Motion(equations, constants_of(equations, nodes, numbers), numbers)
+        for numbers in (Doubles(), Balls())
+    ]
+
+
+@pytest.mark.parametrize("force", FORCES)
+def test_the_recurrences_give_the_series_that_flint_gives(force):
+    from flint import ctx
+
+    usual, ctx.prec = ctx.prec, 160
+    try:
+        plain, balls = motions(force)
+        q, v = [0.75, 1.25], [0.5, -0.375]
+        exact = Taylor(balls, None)._coefficients(
+            0.0, *([balls.arithmetic.ball(x) for x in s] for s in (q, v)), 20
+        )
+        kinds = [(DOUBLE, plain)]
+        if engine().extended and not plain.kinks:
+            kinds.append((EXTENDED, balls))
+        for numbers, motion in kinds:
+            method = CompiledTaylor(Machine(motion, numbers), None)
+            if motion.kinks:
+                motion.set_signs(0.0, q, v)
+            for i, sign in enumerate(motion.signs):
+                method._signs[i] = sign
+            state = method._prepare(q, v, 1.0, Tolerance(1e-16, 2, 1.0, 1.0))
+            assert method._expand(state) == kernels.MORE
+            for j, coefficients in enumerate(exact):
+                found = method._rows[j * kernels.STRIDE : j * kernels.STRIDE + method.order + 1]
+                for k in range(method.order + 1):
+                    true = float(coefficients[k])
+                    # sums of terms that cancel: relative to the growth of the whole series
+                    size = max(abs(float(c[k])) for c in exact)
+                    bound = 4e4 * numbers.rounding * max(abs(true), size, 1e-3)
+                    if numbers is EXTENDED:
+                        bound = max(bound, 2e-16 * abs(true))  # read as a double
+                    assert abs(float(found[k]) - true) <= bound, (j, k)
+    finally:
+        ctx.prec = usual
+
+
+@pytest.mark.parametrize(
+    "value", [0.0, 1.0, -1.5, 1e-300, Fraction(1, 10), Fraction(-981, 100), 3e200]
+)
+def test_numbers_of_80_bits_are_rounded_once(value):
+    [back] = EXTENDED.fractions(EXTENDED.array([value]))
+    assert abs(back - Fraction(value)) <= abs(Fraction(value)) * Fraction(2) ** -64
+    if isinstance(value, float):
+        assert back == Fraction(value)
+
+
+def test_the_language_means_what_python_means():
+    import ctypes
+
+    source = """
+def f(a: Reals, n: int) -> float:
+    total = 0.0
+    for i in range(n):
+        if a[i] > 0 and not i == 1:
+            total += a[i] * i
+        elif i == 3:
+            break
+        else:
+            total -= 1
+    for i in range(n - 1, -1, -1):
+        a[i] = max(a[i], total, 0.5)
+    k = 0
+    while k < 3:
+        k += 1
+    return total / k
+"""
+    code = engine().compiled(source.encode(), lambda: translated(source, DOUBLE, {}))
+    compiled = code.function("f", ctypes.c_double, ctypes.c_void_p, ctypes.c_int64)
+    values = [3.0, 2.0, 5.0, -1.0, 7.0]
+    array = DOUBLE.array(values)
+    found = compiled(ctypes.addressof(array), 5)
+
+    # by hand: i=0: +0; i=1: -1; i=2: +10; i=3: stop
+    assert found == 3.0
+    assert list(array) == [9.0] * 5
+
+
+KEPLER = """
+coordinates: [x, y]
+L: (x'^2 + y'^2)/2 + 1/sqrt(x^2 + y^2)
+initial: {x: 1/10, y: 0, x': 0, y': sqrt(19)}
+"""
+
+
+@pytest.mark.parametrize("accuracy", [1e-3, 1e-6, 1e-9, 1e-12])
+def test_kepler_returns_after_100_periods(accuracy):
+    """e = 0.9: at 200 pi the state is the initial one, with r'' = -100 and y' = sqrt(19)."""
+    from flint import arb, ctx
+
+    until, usual = 200 * math.pi, ctx.prec
+    ctx.prec = 128
+    late = float(arb(until) - 200 * arb.pi())
+    ctx.prec = usual
+    result = simulated(KEPLER, until, accuracy)
+    assert result.certificate.reached
+    assert result.method == ("taylor64" if accuracy > 1e-11 else "taylor80")
+    speed = math.sqrt(19)
+    for name, true in (("x", 0.1), ("y", late * speed), ("x'", -100 * late), ("y'", speed)):
+        scale = max(1.0, *map(abs, column(result, name)))
+        assert abs(last(result, name) - true) <= accuracy * scale
+    assert result.certificate.charges["energy"] < 1e-12
+
+
+SPRING = """
+coordinates: [r, a]
+parameters: {k: {value: 10^8}}
+L: (r'^2 + r^2*a'^2)/2 + 9.81*r*cos(a) - k/2*(r - 1)^2
+initial: {r: 1, a: 1}
+"""
+TWICE = """
+coordinates: [x, y]
+L: (x'^2 + y'^2)/2 - y
+constraints: {first: x^2 + y^2 = 1, again: 2*x^2 + 2*y^2 = 2}
+initial: {x: 1, y: 0}
+"""
+
+
+@pytest.mark.parametrize("accuracy", [1e-6, 1e-12])
+def test_a_stiff_spring_against_many_digits(accuracy):
+    true = simulated(SPRING, 0.25, 1e-14, digits=30, method="taylor")
+    found = simulated(SPRING, 0.25, accuracy)
+    assert found.certificate.reached
+    assert found.rows[-1] == pytest.approx(true.rows[-1], rel=accuracy, abs=accuracy)
+
+
+def test_dependent_constraints_fall_back_to_python_and_say_so():
+    result = simulated(TWICE, 5, 1e-8)
+    assert result.certificate.reached
+    assert result.method == "dop853"
+    assert "not compiled" in result.reason
+
+
+@pytest.mark.parametrize("method", ["taylor64", "taylor80", "dop853"])
+def test_the_methods_agree(method):
+    text = "{coordinates: [x], L: x'^2/2 + cos(x), initial: {x: 1.5}}"
+    true = simulated(text, 20, 1e-13, samples=5, digits=30, method="taylor")
+    found = simulated(text, 20, 1e-11, samples=5, method=method)
+    assert found.method == method
+    for row, other in zip(found.rows, true.rows, strict=True):
+        assert row == pytest.approx(other, abs=1e-11)
+
+
+def test_without_llvmlite_it_runs_in_python(monkeypatch):
+    from lagcli.numerics.compiled import machine
+
+    def missing():
+        raise NoCompiler("llvmlite is not installed")
+
+    monkeypatch.setattr(machine, "engine", missing)
+    result = simulated("{coordinates: [x], L: x'^2/2 - x^2/2, initial: {x: 1}}", 1, 1e-6)
+    assert result.method == "dop853"
+    assert result.reason.endswith("; not compiled: llvmlite is not installed")
+
+
+def test_a_run_takes_up_where_a_call_of_the_loop_ends(monkeypatch):
+    from lagcli.numerics.compiled import method
+
+    whole = simulated(KEPLER, 10, 1e-9, samples=11)
+    monkeypatch.setattr(method, "_CALL", 7)
+    assert simulated(KEPLER, 10, 1e-9, samples=11).rows == whole.rows
