@@ -22,6 +22,21 @@ COMMANDS = {
 }
 
 
+#: For someone in an empty directory, to whom nobody has given a file.
+_FIRST_PROBLEM = """\b
+A first problem, the file oscillator.yaml:
+  coordinates: [x]
+  parameters: [m, k]
+  T: m*x'^2/2
+  V: k*x^2/2
+
+\b
+Then:
+  lagcli solve oscillator.yaml
+  lagcli explain oscillator.yaml
+"""
+
+
 class DeferredCommand(click.Command):
     """A command known by name and summary, which becomes the real one when called."""
 
@@ -62,7 +77,7 @@ def application() -> click.Command:
         pretty_exceptions_enable=False,
         no_args_is_help=True,
         context_settings={"help_option_names": ["-h", "--help"]},
-        epilog="Example: lagcli solve problems/hoop.yaml",
+        epilog=_FIRST_PROBLEM,
     )
     app.callback()(lagcli)
     return typer.main.get_command(app)

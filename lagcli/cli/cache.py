@@ -14,9 +14,9 @@ Clear = Annotated[bool, typer.Option("--clear", help="Remove every answer that i
 def cache(clear: Clear = False) -> None:
     """Show where the answers of earlier runs are kept, or remove them.
 
-    `lagcli solve` prints the answer of an earlier run again where the files, the options
-    and the program are the same.  `LAGCLI_CACHE_DIR` names another folder; with
-    `LAGCLI_NO_CACHE=1` nothing is looked up or kept.
+    `lagcli solve` and `lagcli explain` print the answer of an earlier run again where the
+    files, the options and the program are the same.  `LAGCLI_CACHE_DIR` names another
+    folder; with `LAGCLI_NO_CACHE=1` nothing is looked up or kept.
 
     Example: lagcli cache --clear
     """

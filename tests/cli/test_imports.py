@@ -73,3 +73,16 @@ def test_each_command_says_in_help_what_the_table_says():
         function = getattr(importlib.import_module(f"lagcli.cli.{name}"), name)
         first = function.__doc__.partition("\n")[0]
         assert first.removesuffix(".").startswith(summary.removesuffix("."))
+
+
+def test_the_help_names_every_section():
+    from lagcli.answers import SECTIONS
+
+    done = subprocess.run(
+        [sys.executable, "-m", "lagcli", "solve", "--help"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    words = done.stdout.replace(",", " ").replace(".", " ").split()
+    assert [name for name in SECTIONS if name not in words] == []
