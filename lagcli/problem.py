@@ -170,8 +170,9 @@ NOT_CONSERVED = "not conserved"
 
 @record
 class Known:
-    """The value of an expression along the motion."""
+    """The value of an expression along the motion, and how the file calls it."""
 
+    name: str
     column: Expression
     value: Expression
 

@@ -30,6 +30,7 @@ def _check(found: Read) -> Report:
     from lagcli.check.comparison import Comparison
     from lagcli.check.expectations import Expectations, sections_expected
     from lagcli.check.laws import SECTIONS, Laws
+    from lagcli.check.trajectory import TrajectoryCheck
 
     source, problem = Source(found.source.name, ""), found.problem
     if problem is None:
@@ -40,7 +41,11 @@ def _check(found: Read) -> Report:
         answers = state(derivation, Request(sections=sections))
         comparison = Comparison(derivation)
         results = list(
-            chain(Expectations(derivation, answers, comparison), Laws(derivation, answers))
+            chain(
+                Expectations(derivation, answers, comparison),
+                Laws(derivation, answers),
+                TrajectoryCheck(problem),
+            )
         )
     except ProblemError as error:
         return Report(error.source, diagnostics=error.diagnostics)

@@ -18,6 +18,8 @@ class Asked:
     ----------
     until, accuracy, samples
         The span of time, the bound on the global error of every column, the rows.
+    times : tuple of float
+        The rows, from 0 to `until`, where they are not evenly spread.
     columns : tuple of Column
         What is shown; the first is the time.
     project : bool
@@ -35,6 +37,7 @@ class Asked:
     accuracy: float
     samples: int
     columns: tuple[Column, ...]
+    times: tuple[float, ...] = ()
     project: bool = False
     stop_when: Expression | None = None
     stop_name: str = ""

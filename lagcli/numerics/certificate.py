@@ -175,7 +175,8 @@ def _why_stopped(motion: Motion, stop: CannotGoOn) -> str:
 
 
 def _warnings(simulation: Simulation, rows: list[Any], events: list[Event]) -> list[str]:
-    found = [
+    found = list(simulation.notes)
+    found += [
         f"{event.name} comes to its limit at t = {event.t:.10g}: whether it is lost there is "
         "within the error; it is kept"
         for event in events

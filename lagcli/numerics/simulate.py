@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Any
 
 from lagcli.graph.nodes import Node
@@ -87,18 +88,28 @@ class Simulation:
             self.candidates = self._candidates()
         except ArithmeticError as error:
             raise Refusal(f"a column is not defined: {error}") from None
-        every = max(1, -(-_COMPARED // (asked.samples - 1)))
-        count = (asked.samples - 1) * every
-        self.every = every
-        self.times = [asked.until * k / count for k in range(count)] + [asked.until]
+        #: the rows asked for are those at multiples of this
+        self.every = max(1, -(-_COMPARED // (asked.samples - 1)))
+        self.times = self._times()
         self.finished = 0.0
         #: what is said beside the reason for the method
         self.remark = ""
+        self.notes: list[str] = []
 
     def _column(self, column: Column) -> Node:
         if column.expression is None:
             return self.equations.t
         return self.reading(column.expression)
+
+    def _times(self) -> list[float]:
+        """The rows, and between them what two runs are compared at as well."""
+        every, until = self.every, self.asked.until
+        given = self.asked.times
+        if given:
+            between = [a + (b - a) * k / every for a, b in pairwise(given) for k in range(every)]
+            return [*between, until]
+        count = (self.asked.samples - 1) * every
+        return [until * k / count for k in range(count)] + [until]
 
     def _gaps(self) -> dict[int, Node]:
         """Of the contacts that can be open."""
@@ -231,8 +242,16 @@ class Simulation:
 
     def _keep_conserved(self, modes: Modes) -> None:
         """Leave out the candidates that are conserved in no mode."""
-        if self.candidates and not self._goes_on:
-            kept = dict(zip(self.charges, modes.first.conserved, strict=True))
+        if not self.candidates:
+            return
+        kept = dict(zip(self.charges, modes.first.conserved, strict=True))
+        shown = {column.name for column in self.asked.columns}
+        self.notes = [
+            f"{s.name} is shown without a gauge, since the file gives none: it is not conserved"
+            for s in self.problem.symmetries
+            if s.gauge is None and s.name in shown and not kept.get(s.name, True)
+        ]
+        if not self._goes_on:
             self.charges = {name: node for name, node in self.charges.items() if kept[name]}
             self.candidates = [name for name in self.candidates if kept[name]]
             del modes.first.conserved

@@ -14,9 +14,9 @@ from lagcli.reader.scope import ALONG, NUMBERS, Definition, Role, Scope
 from lagcli.reader.text import Mistake
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
-    from lagcli.problem import Constraint, Contact, Problem
+    from lagcli.problem import Constraint, Contact, Problem, Symmetry
 
 #: A column's name and its expression; None is the time.
 Shown = tuple[str, Expression | None]
@@ -82,15 +82,10 @@ def _columns(problem: Problem, scope: Scope, word: str) -> Iterator[Shown]:
     if word in GROUPS and word not in scope.kinds:
         yield from _group(problem, word)
         return
-    for constraint in _holding(problem):
-        for name, force in _forces(problem, constraint):
-            if word == name:
-                yield name, force
-                return
-    for symmetry in problem.symmetries:
-        if word == symmetry.name and word not in scope.kinds:
-            yield word, charge_of(symmetry)
-            return
+    named = named_columns(scope, _holding(problem), problem.symmetries)
+    if word in named:
+        yield word, named[word]
+        return
     expression = _read(word, "--show", scope, ALONG)
     yield word, None if expression == Name("t") else expression
 
@@ -101,8 +96,7 @@ def _group(problem: Problem, word: str) -> Iterator[Shown]:
         case "multipliers":
             yield from ((c.multiplier, Name(c.multiplier)) for c in _holding(problem))
         case "constraint_forces":
-            for constraint in _holding(problem):
-                yield from _forces(problem, constraint)
+            yield from named_columns(scope_of(problem), _holding(problem), ()).items()
         case "charges":
             taken = scope_of(problem).kinds.keys() - {_ENERGY}
             yield _ENERGY, JACOBI_FUNCTION
@@ -122,15 +116,24 @@ def _holding(problem: Problem) -> tuple[Constraint | Contact, ...]:
     return (*problem.constraints, *problem.contacts)
 
 
-def _forces(problem: Problem, constraint: Constraint | Contact) -> Iterator[tuple[str, Expression]]:
-    """`rod.x`: lambda df/dq, or lambda df/dq' of a velocity constraint."""
-    left, right = constraint.equation.left, constraint.equation.right
-    f = Sum((left, Negative(right)))
-    scope = scope_of(problem)
-    primes = max(derivative_order(f, scope), 0)
-    for coordinate in problem.coordinates:
-        slope = Diff(f, Name(coordinate.name, primes))
-        yield f"{constraint.name}.{coordinate.name}", Product((Name(constraint.multiplier), slope))
+def named_columns(
+    scope: Scope, holding: Iterable[Constraint | Contact], symmetries: Iterable[Symmetry]
+) -> dict[str, Expression]:
+    """What is no expression: `rod.x`, a constraint's force along a coordinate, and charges.
+
+    The force is lambda df/dq, or lambda df/dq' of a velocity constraint.
+    """
+    found: dict[str, Expression] = {}
+    for each in holding:
+        f = Sum((each.equation.left, Negative(each.equation.right)))
+        primes = max(derivative_order(f, scope), 0)
+        for coordinate in scope.of_kind("coordinate"):
+            slope = Diff(f, Name(coordinate, primes))
+            found[f"{each.name}.{coordinate}"] = Product((Name(each.multiplier), slope))
+    for symmetry in symmetries:
+        if symmetry.name not in scope.kinds:
+            found[symmetry.name] = charge_of(symmetry)
+    return found
 
 
 def _split(text: str) -> list[str]:

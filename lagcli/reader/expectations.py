@@ -15,6 +15,7 @@ from lagcli.problem import (
     Symmetry,
     Trajectory,
 )
+from lagcli.reader.columns import named_columns
 from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.expected_reduction import read_reduction, read_steady_motions
 from lagcli.reader.nodes import Node, Scalar, Sequence
@@ -51,6 +52,7 @@ class ExpectReader:
         self.sections = sections
         self.constraints = [constraint.name for constraint in constraints]
         self.holding = [*self.constraints, *(contact.name for contact in contacts)]
+        self.columns = named_columns(sections.scope, (*constraints, *contacts), symmetries)
         self.symmetries = [symmetry.name for symmetry in symmetries]
         self.questions = [question.name for question in find]
         self.spans: dict[tuple[str, ...], Span] = {}
@@ -88,7 +90,7 @@ class ExpectReader:
         return self._by_coordinate(node, "momenta", "the expected momentum of '{}'")
 
     def _trajectory(self, node: Node) -> Trajectory:
-        return TrajectoryReader(self.sections, self.holding, self.spans).read(node)
+        return TrajectoryReader(self.sections, self.holding, self.columns, self.spans).read(node)
 
     def _multipliers(self, node: Node) -> dict[str, Expression]:
         found = {}

@@ -5,11 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from lagcli.problem import Known, KnownRow, Trajectory
-from lagcli.reader.nodes import Mapping, Node, Scalar
-from lagcli.reader.scope import ALONG, MOTION, VALUES, Role
+from lagcli.reader.nodes import Mapping as Map
+from lagcli.reader.nodes import Node, Scalar
+from lagcli.reader.scope import ALONG, CONSTANTS, MOTION, Role
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from lagcli.diagnostics import Span
     from lagcli.expression import Expression
     from lagcli.reader.sections import Sections
@@ -39,15 +42,22 @@ class TrajectoryReader:
         The names and the mistakes.
     contacts
         What an event may be about.
+    named
+        Columns that are no expressions.
     spans
         Where each expectation stands, which is added to.
     """
 
     def __init__(
-        self, sections: Sections, contacts: list[str], spans: dict[tuple[str, ...], Span]
+        self,
+        sections: Sections,
+        contacts: list[str],
+        named: Mapping[str, Expression],
+        spans: dict[tuple[str, ...], Span],
     ) -> None:
         self.sections = sections
         self.contacts = contacts
+        self.named = named
         self.spans = spans
 
     def read(self, node: Node) -> Trajectory:
@@ -84,12 +94,14 @@ class TrajectoryReader:
     def _number(self, parts: dict[str, Node], key: str) -> Expression | None:
         if key not in parts:
             return None
-        return self.sections.expression(parts[key], f"'{key}'", VALUES)
+        return self.sections.expression(parts[key], f"'{key}'", CONSTANTS)
 
     def _known(self, key: Scalar, value: Node, role: Role) -> Known:
         what = f"the expected '{key.label}'"
-        column = self.sections.expression(key, "a column", ALONG)
-        return Known(column, self.sections.expression(value, what, role))
+        column = self.named.get(key.label)
+        if column is None:
+            column = self.sections.expression(key, "a column", ALONG)
+        return Known(key.label, column, self.sections.expression(value, what, role))
 
     def _rows(self, node: Node, section: str, words: tuple[str, ...]) -> list[KnownRow]:
         """Maps of columns, with words that say when."""
@@ -101,14 +113,14 @@ class TrajectoryReader:
             time: Expression | None = None
             for key, value in self.sections.entries(item, f"a row of '{section}'"):
                 if key.label == "t":
-                    time = self.sections.expression(value, "the time", VALUES)
+                    time = self.sections.expression(value, "the time", CONSTANTS)
                 elif key.label in words:
                     text = self.sections.scalar(value, f"'{key.label}'")
                     if text is not None:
                         found[key.label] = text
                 else:
-                    known.append(self._known(key, value, VALUES))
-            if section == "at" and time is None and isinstance(item, Mapping):
+                    known.append(self._known(key, value, CONSTANTS))
+            if section == "at" and time is None and isinstance(item, Map):
                 self.sections.error("a row of 'at' has no time", item.span, "write {t: 1, x: …}")
             rows.append(
                 KnownRow(
