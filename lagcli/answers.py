@@ -55,7 +55,7 @@ DEFAULT_SECTIONS = (
 Verification = Literal["exact", "50 digits"]
 
 ConstraintKind = Literal["holonomic", "integrable", "nonholonomic"]
-ChargeSource = Literal["candidate", "cyclic", "time", "discovered"]
+ChargeSource = Literal["candidate", "cyclic", "time", "discovered", "momentum equation"]
 
 
 @record(kw_only=True)
@@ -200,13 +200,13 @@ class ChargesSection:
 
 @record(kw_only=True)
 class AlgebraSection:
-    """The Lie algebra of the discovered symmetries."""
+    """The Lie algebra of the discovered symmetries; None: no brackets to find it by."""
 
     ansatz: str
     dimension: int
     name: str | None
     independent: int
-    in_involution: int
+    in_involution: int | None
     integrable: bool | None
 
 

@@ -234,6 +234,7 @@ class Expect:
     hamiltonian: Expression | None = None
     energy: Expression | None = None
     charges: Mapping[str, Expression | Literal["not conserved"]] = field(default_factory=dict)
+    discovered: Mapping[str, Expression | Literal["not conserved"]] = field(default_factory=dict)
     modes: tuple[Expression, ...] | None = None  # angular frequencies
     find: Mapping[str, tuple[Expression, ...]] = field(default_factory=dict)
     reduction: ExpectReduction | None = None

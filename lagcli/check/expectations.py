@@ -57,6 +57,7 @@ class Expectations:
         yield from self._hamiltonian()
         yield from self._energy()
         yield from self._charges()
+        yield from self._discovered()
         yield from self._modes()
         yield from self._find()
         for path, verdict, expected, found in Reductions(self.derivation, self.answers).findings():
@@ -182,6 +183,19 @@ class Expectations:
             else:
                 yield self._conserved(path, charges, name, expected)
 
+    def _discovered(self) -> Found:
+        """Each charge is that of some discovered symmetry; names are compared where there are."""
+        if not self.expect.discovered:
+            return
+        section = cast(ChargesSection, self.answers.sections["discovered"])
+        charges = {charge.name: charge for charge in section.charges}
+        for name, expected in self.expect.discovered.items():
+            path = ["discovered", name]
+            if isinstance(expected, str):
+                yield self._not_conserved(path, charges.get(name))
+            else:
+                yield self._conserved(path, charges, name, expected)
+
     def _not_conserved(self, path: Sequence[str], charge: Charge | None) -> Finding | None:
         """A momentum that is not listed belongs to a coordinate that is not cyclic."""
         verdict = None if charge is None else charge.conserved
@@ -267,6 +281,7 @@ _SECTIONS: Mapping[str, Callable[[Expect], object]] = {
     "energy": lambda expect: expect.energy is not None,
     "hamiltonian": lambda expect: expect.hamiltonian is not None,
     "charges": lambda expect: expect.charges,
+    "discovered": lambda expect: expect.discovered,
     "find": lambda expect: expect.find,
     "modes": lambda expect: expect.modes is not None,
     "reduction": lambda expect: expect.reduction is not None,

@@ -32,6 +32,7 @@ _SOURCES = {
     "cyclic": "cyclic coordinate",
     "time": "translation in time",
     "discovered": "discovered",
+    "momentum equation": "momentum equation",
 }
 
 #: A value with so many operations stands within a sentence.
@@ -71,6 +72,8 @@ def _verdict(charge: Charge) -> str:
     if charge.conserved is None:
         words = "Whether it is conserved is undecided"
         return f"{words}: {charge.broken_by}." if charge.broken_by else f"{words}."
+    if charge.source == "momentum equation":
+        return f"Not conserved: its rate is the momentum equation{checked}."
     words = f"Not conserved{checked}"
     return f"{words}; broken by {charge.broken_by}." if charge.broken_by else f"{words}."
 

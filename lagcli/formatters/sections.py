@@ -295,7 +295,10 @@ def _algebra(section: AlgebraSection) -> Iterator[Block]:
         None: "Whether the motion is integrable is undecided.",
     }
     yield Paragraph((f"Searched: {section.ansatz}.",))
-    charges = f"{section.independent} independent charges, {section.in_involution} in involution"
+    number = section.independent
+    charges = f"{number} independent charge{'' if number == 1 else 's'}"
+    if section.in_involution is not None:
+        charges += f", {section.in_involution} in involution"
     yield Paragraph((f"Dimension {section.dimension}{named}; {charges}.",))
     yield Paragraph((integrable[section.integrable],))
 

@@ -313,7 +313,8 @@ class Statements(Stating):
     def _discovered(self) -> ChargesSection:
         discovery = self.derivation.discovery
         self.warnings.extend(discovery.stopped)
-        return ChargesSection(charges=tuple(map(self._charge, discovery.charges)))
+        listed = (*discovery.charges, *discovery.momentum_equations)
+        return ChargesSection(charges=tuple(map(self._charge, listed)))
 
     def _algebra(self) -> AlgebraSection:
         from lagcli.mechanics.discovery.summary import algebra_section

@@ -104,6 +104,11 @@ class RandomStates:
             self._kept.append(next(self._generator))
         return self._kept[:count]
 
+    def placed(self, state: State) -> bool:
+        """Move a state onto the constraints, its parameters as they are; whether it worked."""
+        with mpmath.workdps(DIGITS + _GUARD):
+            return self._project(state) is None
+
     # -- drawing ------------------------------------------------------------------------
 
     def _draw(self, source: random.Random, scale: float) -> State:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 _KEYS = (
     "degrees_of_freedom", "equations", "accelerations", "multipliers", "constraint_forces",
-    "momenta", "hamiltonian", "energy", "charges", "modes", "find", "trajectory",
+    "momenta", "hamiltonian", "energy", "charges", "discovered", "modes", "find", "trajectory",
     "reduction", "steady_motions",
 )  # fmt: skip
 
@@ -117,14 +117,19 @@ class ExpectReader:
     def _charges(self, node: Node) -> dict[str, Expression | str]:
         momenta = [f"p_{name}" for name in self.sections.scope.of_kind("coordinate")]
         known = [*self.symmetries, "energy", *momenta]
-        found: dict[str, Expression | str] = {}
-        for key, value in self._known(node, "charges", known, "charge"):
-            if isinstance(value, Scalar) and " ".join(value.value.split()) == NOT_CONSERVED:
-                found[key.label] = NOT_CONSERVED
-            else:
-                what = f"the expected charge '{key.label}'"
-                found[key.label] = self.sections.expression(value, what, _ANSWER)
-        return found
+        entries = self._known(node, "charges", known, "charge")
+        return {key.label: self._charge(key, value) for key, value in entries}
+
+    def _charge(self, key: Scalar, value: Node) -> Expression | str:
+        if isinstance(value, Scalar) and " ".join(value.value.split()) == NOT_CONSERVED:
+            return NOT_CONSERVED
+        return self.sections.expression(value, f"the expected charge '{key.label}'", _ANSWER)
+
+    def _discovered(self, node: Node) -> dict[str, Expression | str]:
+        """Charges under any names: nobody listed their symmetries."""
+        self._note(node, "discovered")
+        entries = self.sections.entries(node, "'discovered'")
+        return {key.label: self._charge(key, value) for key, value in entries}
 
     def _modes(self, node: Node) -> tuple[Expression, ...]:
         modes = []

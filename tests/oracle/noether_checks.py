@@ -88,11 +88,17 @@ def _charge(x: Examination, entry: dict[str, Any]) -> None:
     if charge is None:
         return
     truth = x.reference.charge(changes, time, gauge)
-    sign = -1 if entry["source"] == "time" else 1  # the energy is listed with Q = +h
+    sign = _sign(entry)
     x.compare(where, entry["charge"], lambda s: sign * truth(s.moment))
     _rate(x, entry, x.reference.of(charge), changes, time)
     if entry["source"] == "candidate":
         _boundary_term(x, entry, changes, time)
+
+
+def _sign(entry: dict[str, Any]) -> int:
+    """The energy is listed with Q = +h for Dt = 1."""
+    shift = entry["transformation"] == {"t": "1"}
+    return -1 if entry["source"] == "time" or (entry["source"] == "discovered" and shift) else 1
 
 
 def _as_asked(
@@ -148,7 +154,7 @@ def _rates_off_the_motion(
     time: Expression | None,
 ) -> list[mpf]:
     """dQ/dt - sum_j (d/dt(dL/dq_j') - dL/dq_j - Q_j) (Dq_j - q_j' Dt), for any q''."""
-    sign = -1 if entry["source"] == "time" else 1
+    sign = _sign(entry)
 
     def identity(m: Moment) -> Number:
         forces = x.reference.applied(m)

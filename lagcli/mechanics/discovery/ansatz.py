@@ -3,7 +3,9 @@
 Coordinates that are lengths enter to first degree, angles by sine and cosine (and by
 cosecant and cotangent, as rotations about other axes have them), a radius also by its
 inverse.  A coordinate is taken for an angle where it occurs in L only inside circular
-functions, or not at all while its inertia depends on other coordinates.
+functions, or not at all while its own inertia, or that with another coordinate, depends on
+a third one.  What has the unit of a length is none; an angle of which only the constraints
+know takes part in both ways.
 """
 
 from __future__ import annotations
@@ -41,18 +43,31 @@ class Kinds:
     latitudes: list[Symbol] = field(default_factory=list)  # angles in the inertia of others
 
 
-def kinds(L: Expr, equations: Equations) -> Kinds:
+def kinds(
+    L: Expr,
+    equations: Equations,
+    units: Sequence[str | None] = (),
+    constraints: Sequence[Expr] = (),
+) -> Kinds:
     """Tell lengths from angles."""
     found = Kinds()
     inertia = {x: sympy.Tuple(*row) for x, row in zip(equations.q, equations.mass, strict=True)}
     inside = {s for f in L.atoms(*_CIRCULAR) for s in f.free_symbols}
-    for x in equations.q:
+    turning = {s for e in constraints for f in e.atoms(*_CIRCULAR) for s in f.free_symbols}
+    for x, unit in zip(equations.q, units or [None] * len(equations.q), strict=True):
         cyclic = free_of(L, [x])
-        turned = inertia[x].free_symbols & (set(equations.q) - {x})
+        turned = any(
+            m.free_symbols & (set(equations.q) - {x, y})
+            for y, m in zip(equations.q, inertia[x], strict=True)
+        ) or inertia[x][equations.q.index(x)].free_symbols & (set(equations.q) - {x})
         angle = bool(cyclic and turned) or (x in inside and not _outside(L, x))
+        if cyclic and unit == "m":
+            angle = False
         (found.angles if angle else found.lengths).append(x)
         if angle and cyclic:
             found.cyclic.append(x)
+        elif cyclic and x in turning:
+            found.angles.append(x)
     found.radii = [
         x for x in found.lengths
         if any(x in inertia[y].free_symbols for y in found.angles)

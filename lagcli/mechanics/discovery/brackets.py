@@ -6,11 +6,12 @@ With p = dL/dq' the derivatives at constant q and p are, for Q(q, q', t),
 
 so no Legendre transform has to be solved.  The structure constants of
 {Q_a, Q_b} = sum_c C_ab^c Q_c + const are found from as many states as there are charges and
-confirmed at others, at 40 digits.
+confirmed at others, at 40 digits.  Under holonomic constraints they are Dirac's brackets.
 
 References
 ----------
 Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., section 9.5.
+Dirac, *Lectures on Quantum Mechanics* (1964), lecture 2.
 Arnold, *Mathematical Methods of Classical Mechanics*, 2nd ed., section 49 (Liouville).
 """
 
@@ -65,13 +66,17 @@ class Structure:
 
 
 class Brackets:
-    """Charges as functions on phase space."""
+    """Charges as functions on phase space, or on the surface of holonomic constraints there."""
 
     def __init__(self, charges: Sequence[Expr], dynamics: Dynamics, clock: Clock) -> None:
-        self.charges = tuple(charges)
+        system, equations = dynamics.system, dynamics.constraints.equations
+        kept = dynamics.independent_constraints
+        surface = [dynamics.constraints.velocity_forms[k] for k in kept]
+        surface += [equations[k].f for k in kept if equations[k].holonomic]
+        self._constraints = len(surface)
+        self.charges = (*charges, *surface)
         self.dynamics = dynamics
         self.clock = clock
-        system = dynamics.system
         q, v = system.q, system.qdot
         momenta = dynamics.lagrange.momenta
         expressions: list[Expr] = list(self.charges)
@@ -100,6 +105,9 @@ class Brackets:
                     scale = mpf(1) / 3 if x in system.qdot else mpf(1)
                     state[x] = -value * scale if negative else value * scale
                 state[system.t] = mpf(source.randint(1000, 9000)) / 10007
+                if not self.dynamics.states.placed(state):
+                    bad += 1
+                    continue
                 try:
                     values = self._evaluate(state)
                     if not all(isinstance(x, mpf) and mpmath.isfinite(x) for x in values):
@@ -129,7 +137,8 @@ class Brackets:
             p = inverse * mpmath.matrix(values[at + n : at + 2 * n])
             by_p.append(list(p))
             by_q.append(list(q - cross.T * p))
-        return Sample(values[:count], by_q, by_p)
+        sample = Sample(values[:count], by_q, by_p)
+        return _on_surface(sample, self._constraints) if self._constraints else sample
 
     def samples(self, count: int) -> list[Sample]:
         """That many states.
@@ -220,6 +229,27 @@ class Brackets:
                     if energy is not None:
                         second[a][b] = [sign * x for x in c[count + 1 :]]
         return Structure(constants, central, None if energy is None else second)
+
+
+def _on_surface(sample: Sample, count: int) -> Sample:
+    """The sample with Dirac's brackets: f - phi_a (C^-1)_ab {phi_b, f}, C_ab = {phi_a, phi_b}."""
+    first = len(sample.values) - count
+    surface = range(first, len(sample.values))
+    C = mpmath.matrix([[sample.bracket(a, b) for b in surface] for a in surface])
+    inverse = C**-1
+    by_q, by_p = [], []
+    for f in range(first):
+        along = inverse * mpmath.matrix([sample.bracket(b, f) for b in surface])
+        by_q.append(_less(sample.by_q, f, along, surface))
+        by_p.append(_less(sample.by_p, f, along, surface))
+    return Sample(sample.values[:first], by_q, by_p)
+
+
+def _less(rows: list[Vector], f: int, along: mpmath.matrix, surface: range) -> Vector:
+    return [
+        x - mpmath.fsum(along[k] * rows[a][j] for k, a in enumerate(surface))
+        for j, x in enumerate(rows[f])
+    ]
 
 
 def rank(rows: Sequence[Vector]) -> int:

@@ -17,12 +17,9 @@ from collections.abc import Sequence
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import is_zero, simplify
-from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Clock
-from lagcli.mechanics.discovery.modular import kernel_modulo
-from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled
+from lagcli.mechanics.discovery.surface import relations_on_surface
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.noether import Transformation
 
@@ -33,35 +30,20 @@ def tangent(
     """A basis of the combinations of transformations that are tangent to all constraints."""
     if not transformations:
         return []
-    system, relations = dynamics.system, dynamics.constraints.relations
-    vectors: list[list[Expr]] = []
-    for transformation in transformations:
-        clock.check()
-        vector = []
-        for equation in dynamics.constraints.equations:
-            across = sympy.Add(
+    system = dynamics.system
+    vectors: list[list[Expr]] = [
+        [
+            sympy.Add(
                 *(a * x for a, x in zip(equation.row, transformation.changes, strict=True)),
                 equation.drift * transformation.time,
             )
-            across = simplify(across, relations)
-            # what vanishes on the surface is no condition
-            vector.append(sympy.S.Zero if is_zero(across, relations) is True else across)
-        vectors.append(vector)
-    # the simplest transformations last: each combination has one that no other has
-    order = list(reversed(range(len(vectors))))
-    variables = [system.t, *system.q, *system.qdot]
-    relation = Relation([vectors[k] for k in order], variables, clock)
-    _, kernel = kernel_modulo(relation.rows(len(vectors) + 8), len(vectors))
-    exact = ExactSolver(relation.points)
+            for equation in dynamics.constraints.equations
+        ]
+        for transformation in transformations
+    ]
     found = []
-    for combination in kernel:
-        indices = sorted(combination)
-        values = exact.recognized([combination[i] for i in indices])
-        if values is None:
-            values = exact.solved([relation.vectors[i] for i in indices])
-        if values is None:
-            continue
-        chosen = [(transformations[order[i]], c) for i, c in zip(indices, values, strict=True)]
+    for combination in relations_on_surface(vectors, dynamics, clock):
+        chosen = [(transformations[k], c) for k, c in combination.items()]
         changes = [
             sympy.Add(*(c * each.changes[j] for each, c in chosen)) for j in range(len(system.q))
         ]

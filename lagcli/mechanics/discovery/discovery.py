@@ -34,12 +34,14 @@ from lagcli.mechanics.discovery.constrained import tangent
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
 from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, SECONDS, Clock, OutOfTime
+from lagcli.mechanics.discovery.listing import led_momentum, more, rank_of, times
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.names import Naming, distinct
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.slots import Equations, point_slots
 from lagcli.mechanics.discovery.special import special_values
-from lagcli.mechanics.noether import Noether, NoetherCharge
+from lagcli.mechanics.discovery.under_constraints import UnderConstraints
+from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
 _MOST_COORDINATES = 9
 _DIGITS = 40
@@ -55,6 +57,8 @@ class Discovery:
     ----------
     point_charges, hidden_charges : tuple of NoetherCharge
         Of point symmetries, and of second degree in the velocities beyond them.
+    momentum_equations : tuple of NoetherCharge
+        Of symmetries that nonholonomic constraints admit without a constant charge.
     stopped : list of str
         Which parts of the search were not finished, and why.
     """
@@ -68,6 +72,9 @@ class Discovery:
         self.words: list[str] = []
         self.point_charges: tuple[NoetherCharge, ...] = ()
         self.hidden_charges: tuple[NoetherCharge, ...] = ()
+        self.momentum_equations: tuple[NoetherCharge, ...] = ()
+        self._found: list[tuple[str, NoetherCharge]] = []
+        self._of_lagrangian: list[Transformation] = []
         self._run()
 
     @property
@@ -108,7 +115,12 @@ class Discovery:
             self.words.append("nothing")
             self.stopped.append("the Lagrangian is singular")
             return
-        for search, what in ((self._points, "point symmetries"), (self._hidden, "Killing tensors")):
+        searches = [(self._points, "point symmetries")]
+        if self.dynamics.constraints.equations:
+            searches += [(self._on_surface, "integrals on the constraint surface")]
+        else:
+            searches += [(self._hidden, "Killing tensors")]
+        for search, what in searches:
             try:
                 search()
             except OutOfTime:
@@ -139,7 +151,9 @@ class Discovery:
 
     @cached_property
     def _kinds(self) -> Kinds:
-        return kinds(self.system.L, self.equations)
+        units = [c.unit for c in self.system.problem.coordinates]
+        rows = [x for e in self.dynamics.constraints.equations for x in (*e.row, e.drift)]
+        return kinds(self.system.L, self.equations, units, rows)
 
     @cached_property
     def canonical(self) -> bool:
@@ -184,31 +198,26 @@ class Discovery:
         constraints = self.dynamics.constraints.equations
         search, words = self._search(self.equations, self._accelerations, clock)
         self.words.append(words)
-        naming = Naming(self.system.t, self.system.q, self._kinds)
         transformations = [
             point.transformation_of(search, solution, set(self.system.parameters))
             for solution in search.solutions()
         ]
         if search.unsolved:
             self.stopped.append(
-                f"{search.unsolved} more symmetries are there, whose coefficients were not solved"
+                f"{more(search.unsolved, 'symmetry')} there, whose coefficients were not solved"
             )
         transformations.reverse()
         transformations = centralized(transformations, self.system, clock)
         if constraints:
+            self._of_lagrangian = transformations
             transformations = tangent(transformations, self.dynamics, clock)
-            self.words.append(
-                "only symmetries of the unconstrained L that are tangent to the constraints"
-            )
-        found = []
         for transformation in transformations:
             clock.check()
             charge = point.charge_of(self.noether, transformation, clock)
             if charge is None or is_zero(charge.charge) is True:
                 self.stopped.append("a symmetry whose charge was not proved is left out")
                 continue
-            found.append((naming.of_point(transformation.changes, transformation.time), charge))
-            self._keep_points(found, naming)
+            self._add(charge)
         if not constraints:
             self._special(len(transformations))
 
@@ -229,19 +238,80 @@ class Discovery:
         if found:
             self.words.append(f"there are more point symmetries for {', '.join(found)}")
 
-    def _keep_points(self, found: Sequence[tuple[str, NoetherCharge]], naming: Naming) -> None:
-        found = sorted(found, key=lambda pair: _rank(pair[0]))
+    @cached_property
+    def _naming(self) -> Naming:
+        return Naming(self.system.t, self.system.q, self._kinds)
+
+    def _add(self, *charges: NoetherCharge) -> None:
+        """Name them, and sort all point symmetries anew."""
+        naming = self._naming
+        for charge in charges:
+            given = charge.transformation
+            name = naming.of_point(given.changes, given.time)
+            if name == "energy" and self._moved and charge.gauge != 0:
+                name = "moving_energy"
+            if not name and self.dynamics.constraints.equations:
+                name, charge = led_momentum(charge, self.system)
+            self._found.append((name, charge))
+        found = sorted(self._found, key=lambda pair: rank_of(pair[0]))
         names = distinct([name for name, _ in found])
         self.point_charges = tuple(
             replace(
-                _times(charge, naming.orientation(name, charge.transformation.changes)), name=name
+                times(charge, naming.orientation(name, charge.transformation.changes)), name=name
             )
             for name, (_, charge) in zip(names, found, strict=True)
         )
 
+    @cached_property
+    def _moved(self) -> bool:
+        """Whether a constraint moves, and so does work."""
+        return any(e.drift != 0 for e in self.dynamics.constraints.equations)
+
+    # -- with constraints -------------------------------------------------------------------
+
+    def _on_surface(self) -> None:
+        """Momenta along admissible displacements, then integrals that hold on the surface."""
+        times = time_functions(self.equations, self._constrained_motion, potential=self.canonical)
+        search = UnderConstraints(self.noether, self._kinds, times, self.clock)
+        integrated = search.integrated()
+        kept = search.new([], [c for _, c in self._found])
+        self._found = [pair for pair in self._found if pair[1] in kept]
+        self._add(*integrated)
+        self._add(*search.linear(self._values()))
+        momenta = search.momenta(self._of_lagrangian, self.point_charges)
+        names = [self._naming.of_point(c.transformation.changes, sympy.S.Zero) or f"momentum_{k}"
+                 for k, c in enumerate(momenta.changing, 1)]  # fmt: skip
+        self.momentum_equations = tuple(
+            replace(c, name=name, source="momentum equation")
+            for c, name in zip(momenta.changing, names, strict=True)
+        )
+        self._add(*search.new(self._values(), momenta.conserved))
+        self.words.append(
+            "on the constraints, first integrals of first degree in the velocities "
+            "along admissible displacements"
+        )
+        if self.dynamics.degrees_of_freedom > 1 and self.system.t not in self.equations_symbols:
+            found = search.quadratic(self.point_charges)
+            names = distinct([*(c.name for c in self.point_charges), *("" for _ in found)])
+            self.hidden_charges = tuple(
+                replace(c, name=name)
+                for c, name in zip(found, names[len(self.point_charges) :], strict=True)
+            )
+            self.words.append("and of second degree without explicit time")
+        if search.unsolved:
+            self.stopped.append(
+                f"{more(search.unsolved, 'integral')} there, whose coefficients were not solved"
+            )
+
+    def _values(self) -> list[Expr]:
+        return [c.charge for c in self.point_charges]
+
+    @property
+    def _constrained_motion(self) -> Sequence[Expr] | None:
+        motion = self.dynamics.motion
+        return None if motion is None else motion.accelerations
+
     def _hidden(self) -> None:
-        if self.dynamics.constraints.equations:
-            return
         if len(self.system.q) < 2 or not self._quadratic or not self.canonical:
             return
         if self.system.t in self.equations_symbols:
@@ -263,7 +333,7 @@ class Discovery:
         named.sort(key=lambda each: (not each[0], each[0]))
         names = distinct([*(c.name for c in self.point_charges), *(name for name, _, _ in named)])
         self.hidden_charges = tuple(
-            replace(_times(charge, factor), name=name)
+            replace(times(charge, factor), name=name)
             for name, (_, factor, charge) in zip(
                 names[len(self.point_charges) :], named, strict=True
             )
@@ -290,29 +360,3 @@ class Discovery:
         timed = " and with the exponents of the linear part" if times.exponents else ""
         space = " ".join(shapes) or "constant in the coordinates"
         return f"{what} {space}, {powers}{timed}"
-
-
-def _rank(name: str) -> tuple[int, str]:
-    """Energy, momenta, angular momenta, boosts, the rest."""
-    order = ("energy", "p_", "momentum", "L_", "angular", "boost", "dilation", "conformal")
-    for k, start in enumerate(order):
-        if name.startswith(start):
-            return k, name if start == "L_" else ""
-    return (len(order) if name else len(order) + 1), ""
-
-
-def _times(charge: NoetherCharge, factor: Expr) -> NoetherCharge:
-    """The charge of a constant multiple of the transformation."""
-    if factor == 1:
-        return charge
-    given = charge.transformation
-    return replace(
-        charge,
-        transformation=replace(
-            given,
-            changes=tuple(simplify(factor * c) for c in given.changes),
-            time=simplify(factor * given.time),
-        ),
-        gauge=None if charge.gauge is None else sympy.expand(factor * charge.gauge),
-        charge=sympy.expand(factor * charge.charge),
-    )

@@ -70,7 +70,7 @@ class ExactSolver:
         """(1/value, expression), the shortest first."""
         constants = [
             g for g, constant in enumerate(self.points.constant)
-            if constant and self.field.generators[g].kind in ("symbol", "root")
+            if constant and self.field.generators[g].kind in ("symbol", "root", "sin", "cos")
         ]  # fmt: skip
         for count in range(1, min(_TOGETHER, len(constants)) + 1):
             for chosen in combinations(constants[:8], count):

@@ -36,14 +36,13 @@ def name_of(structure: Structure) -> str | None:
     with mpmath.workdps(30):
         if structure.by_energy is None:
             return _name(structure.constants, structure.central)
-        negative = _at_energy(structure, -1)
-        positive = _at_energy(structure, 1)
-        below, above = (_name(c, structure.central) for c in (negative, positive))
-        if below is None:
+        names = [_name(_at_energy(structure, E), structure.central) for E in (-1, 0, 1)]
+        where = ("where the energy is negative", "where it is 0", "where it is positive")
+        if names[0] is None:
             return None
-        if above is None or above == below:
-            return f"{below} where the energy is negative"
-        return f"{below} where the energy is negative, {above} where it is positive"
+        if len(set(names)) == 1:
+            return names[0]
+        return ", ".join(f"{name} {at}" for name, at in zip(names, where, strict=True) if name)
 
 
 def _at_energy(structure: Structure, value: int) -> list[list[Vector]]:

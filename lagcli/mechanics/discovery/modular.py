@@ -93,14 +93,14 @@ class ModularPoints:
         for _ in range(_TRIES):
             values = dict(known)
             if all(
-                self._draw(g, values)
+                self.draw(g, values)
                 for g in range(len(self.field.generators))
                 if g not in values and self.constant[g] is wanted
             ):
                 return values
         raise NoPoint
 
-    def _draw(self, g: int, values: dict[int, int]) -> bool:
+    def draw(self, g: int, values: dict[int, int]) -> bool:
         """Give generator g a value (its partner too); False where its root does not exist."""
         if g in values:
             return True
@@ -145,6 +145,12 @@ def _root(value: int, index: int) -> int | None:
         value = root if pow(root, (PRIME - 1) // 2, PRIME) == 1 else PRIME - root
         index //= 2
     return pow(value, pow(index, -1, PRIME - 1), PRIME) if index > 1 else value
+
+
+def square_root(value: int) -> int | None:
+    """A square root, None where there is none."""
+    root = pow(value % PRIME, (PRIME + 1) // 4, PRIME)
+    return root if (root * root - value) % PRIME == 0 else None
 
 
 def small_fraction(value: int, most: int = 4096) -> Fraction | None:

@@ -23,7 +23,7 @@ class Summary:
     dimension: int
     name: str | None
     independent: int
-    in_involution: int
+    in_involution: int | None
     integrable: bool | None
     notes: tuple[str, ...] = ()
 
@@ -45,15 +45,16 @@ def summary(discovery: Discovery) -> Summary:
     """Brackets and what follows from them; counts alone where they were not worked out."""
     count = len(discovery.charges)
     try:
-        if discovery.dynamics.constraints.equations:
-            return _constrained(discovery)
+        kinds = discovery.dynamics.constraints.kinds.values()
+        if any(kind != "holonomic" for kind in kinds):
+            return _nonholonomic(discovery)
         return _free(discovery)
     except OutOfTime:
         why = "the brackets were not worked out: out of time"
     except (NoState, Contradiction):
         why = "the brackets were not worked out: no state was found to do it at"
     known = min(1, count)
-    return Summary(len(discovery.point_charges), None, known, known, None, (why,))
+    return Summary(len(discovery.point_charges), None, known, None, None, (why,))
 
 
 def _free(discovery: Discovery) -> Summary:
@@ -67,7 +68,7 @@ def _free(discovery: Discovery) -> Summary:
     everything = list(range(count))
     if not discovery.canonical:
         # with other forces than those of L the motion is no canonical flow
-        return Summary(points, None, brackets.independent(everything), 0, None,
+        return Summary(points, None, brackets.independent(everything), None, None,
                        ("brackets mean nothing for forces beside L",))  # fmt: skip
     independent = brackets.independent(everything)
     dimension, name, notes = points, None, []
@@ -95,7 +96,7 @@ def _free(discovery: Discovery) -> Summary:
         name,
         independent,
         involution,
-        involution == len(discovery.system.q),
+        involution == discovery.dynamics.degrees_of_freedom,
         tuple(notes),
     )
 
@@ -109,7 +110,7 @@ def _over_energy(
         structure = brackets.structure(rest, energy)
         name = None if structure is None else name_of(structure)
         if name is not None:
-            return len(everything), f"R + {name}"
+            return len(everything), f"the energy and {name}"
     structure = brackets.structure(everything[:points])
     return points, None if structure is None else name_of(structure)
 
@@ -129,20 +130,15 @@ def _squares(discovery: Discovery) -> list[Expr]:
     return found
 
 
-def _constrained(discovery: Discovery) -> Summary:
-    """Counts on the constraint surface; brackets there (Dirac's) are not worked out."""
+def _nonholonomic(discovery: Discovery) -> Summary:
+    """Counts on the constraint surface: the motion is no Hamiltonian flow there."""
     dynamics = discovery.dynamics
-    system = dynamics.system
     charges = [c.charge for c in discovery.charges]
     relations = [e.f for e in dynamics.constraints.equations if e.holonomic]
     relations += list(dynamics.constraints.velocity_forms)
     independent = _rank_on_surface(discovery, charges, relations)
-    involution = min(1, independent)
-    freedom = dynamics.degrees_of_freedom
-    holonomic = all(kind != "nonholonomic" for kind in dynamics.constraints.kinds.values())
-    autonomous = all(system.t not in c.free_symbols for c in charges[:1])
-    integrable = True if freedom == 1 and involution == 1 and holonomic and autonomous else None
-    return Summary(len(charges), None, independent, involution, integrable)
+    note = "velocity constraints leave no Poisson brackets to compare charges by"
+    return Summary(len(discovery.point_charges), None, independent, None, None, (note,))
 
 
 def _rank_on_surface(discovery: Discovery, charges: list[Expr], relations: list[Expr]) -> int:

@@ -1,0 +1,104 @@
+"""Vector fields along which the constraints let the system be displaced: a_k . e = 0.
+
+Of m constraints, the maximal minors of every m + 1 columns give one field each (Cramer).
+Together they span the admissible virtual displacements at every point where A has full
+rank, and have no poles, which a basis of them may need: on a sphere they are the rotations.
+
+References
+----------
+Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., section 1.4 (virtual displacements).
+Bloch, *Nonholonomic Mechanics and Control*, 2nd ed., section 5.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import Field, is_zero, nullspace, simplify
+from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.dynamics import Dynamics
+
+_MOST_MINORS = 60
+_MOST_ROWS = 3
+
+Vector = tuple[Expr, ...]
+
+
+def admissible_fields(dynamics: Dynamics, clock: Clock) -> list[Vector]:
+    """Fields that span the admissible displacements, the simplest first."""
+    relations = dynamics.constraints.relations
+    equations = dynamics.constraints.equations
+    rows = [equations[k].row for k in dynamics.independent_constraints]
+    if relations is not None:
+        rows = [tuple(map(relations.substitute, row)) for row in rows]
+    n = len(dynamics.system.q)
+    fields = [tuple(v) for v in nullspace(rows)]
+    if len(rows) <= _MOST_ROWS and _count(n, len(rows) + 1) <= _MOST_MINORS:
+        fields += _minors(rows, n, clock)
+    return _distinct([_upward(primitive(f)) for f in fields])
+
+
+def _count(n: int, k: int) -> int:
+    return int(sympy.binomial(n, k))
+
+
+def _minors(rows: Sequence[Vector], n: int, clock: Clock) -> list[Vector]:
+    found = []
+    for columns in combinations(range(n), len(rows) + 1):
+        clock.check()
+        field: list[Expr] = [sympy.S.Zero] * n
+        for sign, column in enumerate(columns):
+            rest = [c for c in columns if c != column]
+            minor = sympy.Matrix([[row[c] for c in rest] for row in rows])
+            field[column] = (-1) ** sign * simplify(minor.det(method="berkowitz"))
+        if any(is_zero(x) is not True for x in field):
+            found.append(tuple(field))
+    return found
+
+
+def primitive(vector: Sequence[Expr]) -> Vector:
+    """The vector without denominators and common factors."""
+    field = Field(vector)
+    ring = field.ring
+    elements = [field(x) for x in vector]
+    below = ring.one
+    for element in elements:
+        own = ring.lift(element.denominator)
+        below = ring.lift(below)
+        below = below * (own / below.gcd(own))
+    tops = [
+        ring.reduce(ring.lift(e.numerator) * (ring.lift(below) / ring.lift(e.denominator)))
+        for e in elements
+    ]
+    common = None
+    for top in tops:
+        if top != 0:
+            common = ring.lift(top) if common is None else ring.lift(common).gcd(ring.lift(top))
+    if common is None:
+        return tuple(vector)
+    return tuple(
+        simplify(field.polynomial_to_sympy(ring.lift(top) / ring.lift(common))) for top in tops
+    )
+
+
+def _upward(field: Vector) -> Vector:
+    """The last component that is not 0 is positive, where that can be said."""
+    last = next((x for x in reversed(field) if x != 0), sympy.S.One)
+    return tuple(-x for x in field) if last.could_extract_minus_sign() else field
+
+
+def _distinct(fields: Sequence[Vector]) -> list[Vector]:
+    """Each once."""
+    return list(dict.fromkeys(sorted(fields, key=_size)))
+
+
+def _size(field: Vector) -> tuple[int, int, str]:
+    return (
+        sum(sympy.count_ops(x) for x in field),
+        sum(1 for x in field if x != 0),
+        str(field),
+    )

@@ -1,0 +1,277 @@
+"""First integrals that hold on the constraint surface.
+
+With admissible displacements e_a(q), sum_j A_kj e_aj = 0, and J_a = sum_j e_aj p_j,
+
+    Q = sum_a f_a(t, q) J_a + sum_{a<=b} g_ab(q) J_a J_b + c(t) h + S(t, q),
+
+and, since the constraint forces do no work along e_a,
+
+    dJ_a/dt = sum_j (De_aj p_j + e_aj (dL/dq_j + Q_j)),    D = d/dt + sum q' d/dq,
+    dh/dt   = -dL/dt + sum_j Q_j q_j' - sum_k lambda_k b_k.
+
+dQ/dt = 0 at points of the surface is linear in the coefficients of f, g, c and S.  What is
+constant there takes no part.  Each Q is the charge of Dq = f_a e_a + g_ab (J_a e_b + J_b e_a)
+and Dt = -c up to the boundary term S: a symmetry of the system with its constraints.
+
+References
+----------
+Bloch, Krishnaprasad, Marsden, Murray, Arch. Rational Mech. Anal. 136 (1996) 21.
+Fasso, Sansonetto, J. Nonlinear Sci. 26 (2016) 519 (moving energies).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import sympy
+from flint import nmod_mat
+from sympy import Expr
+
+from lagcli.mechanics.discovery.admissible import Vector
+from lagcli.mechanics.discovery.exact import ExactSolver
+from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo, pivot_columns
+from lagcli.mechanics.discovery.surface import Surface
+from lagcli.mechanics.discovery.tree import Memo
+from lagcli.mechanics.noether import Noether
+
+_BAD_POINTS = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """T(t) g(q) times the J of the fields named, or the energy (-1,), or nothing ()."""
+
+    fields: tuple[int, ...]
+    time: Expr
+    space: Expr
+
+    @property
+    def function(self) -> Expr:
+        """T g."""
+        return self.time * self.space
+
+
+Integral = list[tuple[Term, Expr]]
+_Jet = tuple[int, int]  # value and rate
+
+
+class SurfaceIntegrals:
+    """The search among given terms.
+
+    Parameters
+    ----------
+    noether
+        Of a system with constraints.
+    fields
+        Admissible displacements.
+    terms
+        The simplest first.
+    known
+        Integrals that are known already: nothing that is a combination of them is found.
+    same
+        Functions that are constant on each component of the surface.
+    """
+
+    def __init__(
+        self,
+        noether: Noether,
+        fields: Sequence[Vector],
+        terms: Sequence[Term],
+        known: Sequence[Expr],
+        clock: Clock,
+        same: Sequence[Expr] = (),
+    ) -> None:
+        self.noether = noether
+        self.dynamics = noether.dynamics
+        self.system = noether.system
+        self.fields = list(fields)
+        self.terms = list(terms)
+        self.clock = clock
+        self.unsolved = 0
+        self._same = same
+        self._prepare(known)
+
+    # -- formulas on the surface ------------------------------------------------------------
+
+    def _prepare(self, known: Sequence[Expr]) -> None:
+        dynamics, system = self.dynamics, self.system
+        relations = dynamics.constraints.relations
+        assert relations is not None
+        on = relations.substitute
+        lagrange = dynamics.lagrange
+        self._momenta = [on(p) for p in lagrange.momenta]
+        self._pushes = [
+            on(a + b)
+            for a, b in zip(lagrange.lagrangian_forces, system.applied_forces, strict=True)
+        ]
+        self._fields = [[(on(x), on(self._convected(x))) for x in e] for e in self.fields]
+        self._energy = on(self.noether.energy.function)
+        power = [f * v for f, v in zip(system.applied_forces, system.qdot, strict=True)]
+        self._power = on(sympy.Add(-system.L.diff(system.t), *power))
+        self._known = [on(Q) for Q in known]
+        t = system.t
+        self._times = {T: (T, T.diff(t)) for T in dict.fromkeys(x.time for x in self.terms)}
+        self._spaces = {
+            g: (on(g), on(self._convected(g))) for g in dict.fromkeys(x.space for x in self.terms)
+        }
+        kept = [dynamics.constraints.equations[k] for k in dynamics.independent_constraints]
+        moving = any(e.drift != 0 for e in kept) and any(-1 in x.fields for x in self.terms)
+        self._equations = (
+            [[on(m) for m in row] for row in lagrange.mass_matrix],
+            [[on(a) for a in e.row] for e in kept],
+            [on(f) for f in lagrange.forcing],
+            [on(e.bias) for e in kept],
+            [on(e.drift) for e in kept],
+        )
+        if not moving:
+            self._equations = ([], [], [], [], [])
+        mass, rows, forcing, biases, drifts = self._equations
+        everything = [*self._momenta, *self._pushes, self._energy, self._power, *self._known]
+        everything += [x for e in self._fields for pair in e for x in pair]
+        everything += [x for pair in (*self._times.values(), *self._spaces.values()) for x in pair]
+        everything += [x for row in (*mass, *rows) for x in row] + [*forcing, *biases, *drifts]
+        self.surface = Surface(self.dynamics, everything, self.clock, self._same)
+
+    def _convected(self, expression: Expr) -> Expr:
+        system = self.system
+        present = expression.free_symbols
+        terms = [expression.diff(system.t)] if system.t in present else []
+        terms += [v * expression.diff(q) for q, v in zip(system.q, system.qdot, strict=True)
+                  if q in present]  # fmt: skip
+        return sympy.Add(*terms)
+
+    # -- values ---------------------------------------------------------------------------
+
+    def _sample(self) -> tuple[list[int], list[int], list[int]]:
+        """Values of the terms, their rates, and values of the known integrals."""
+        point = self.surface.point()
+        memo: Memo = {}
+
+        def at(expression: Expr) -> int:
+            return self.surface.tree.value(expression, point, memo)
+
+        p = [at(x) for x in self._momenta]
+        push = [at(x) for x in self._pushes]
+        jets: dict[tuple[int, ...], _Jet] = {(): (1, 0)}
+        for a, field in enumerate(self._fields):
+            e = [at(x) for x, _ in field]
+            De = [at(x) for _, x in field]
+            value = sum(x * y for x, y in zip(e, p, strict=True)) % PRIME
+            rate = sum(x * y for x, y in zip(De, p, strict=True))
+            rate += sum(x * y for x, y in zip(e, push, strict=True))
+            jets[(a,)] = value, rate % PRIME
+        jets[(-1,)] = at(self._energy), (at(self._power) - self._work(at)) % PRIME
+        times = {T: (at(x), at(y)) for T, (x, y) in self._times.items()}
+        spaces = {g: (at(x), at(y)) for g, (x, y) in self._spaces.items()}
+        values, rates = [], []
+        for term in self.terms:
+            jet = times[term.time], spaces[term.space], *(jets[(a,)] for a in term.fields)
+            value, rate = 1, 0
+            for x, y in jet:
+                value, rate = value * x % PRIME, (rate * x + value * y) % PRIME
+            values.append(value)
+            rates.append(rate)
+        return values, rates, [at(Q) for Q in self._known]
+
+    def _work(self, at: Callable[[Expr], int]) -> int:
+        """sum lambda_k b_k, from M q'' - A^T lambda = forcing, A q'' = -bias."""
+        mass, rows, forcing, biases, drifts = self._equations
+        if not rows:
+            return 0
+        n, m = len(mass), len(rows)
+        A = [[at(x) for x in row] for row in rows]
+        table = [
+            [*(at(x) for x in row), *(-A[k][i] for k in range(m)), at(f)]
+            for i, (row, f) in enumerate(zip(mass, forcing, strict=True))
+        ]
+        table += [[*row, *([0] * m), -at(b)] for row, b in zip(A, biases, strict=True)]
+        reduced, rank = nmod_mat(table, PRIME).rref()
+        if rank < n + m:
+            raise NoPoint
+        multipliers = [int(row[n + m]) for row in reduced.table()[n : n + m]]
+        return sum(x * at(b) for x, b in zip(multipliers, drifts, strict=True)) % PRIME
+
+    def _samples(self, count: int) -> Iterator[tuple[list[int], list[int], list[int]]]:
+        bad = 0
+        while count:
+            self.clock.check()
+            try:
+                yield self._sample()
+                count -= 1
+            except NoPoint:
+                bad += 1
+                if bad > _BAD_POINTS:
+                    raise
+
+    # -- the search -------------------------------------------------------------------------
+
+    def found(self) -> list[Integral]:
+        """Integrals that are independent, linearly over the constants, of the known ones.
+
+        Raises
+        ------
+        NoPoint
+            Where no points of the surface were found.
+        """
+        samples = list(self._samples(len(self.terms) + len(self._known) + 12))
+        # of terms that depend on each other on the surface the simplest stay
+        chosen = [k - 1 for k in pivot_columns([[1, *values] for values, _, _ in samples]) if k]
+        chosen.reverse()  # the simplest last: each solution has one that no other has
+        rows = [[rates[k] for k in chosen] for _, rates, _ in samples]
+        _, vectors = kernel_modulo(rows, len(chosen))
+        vectors.reverse()
+        start = 1 + len(self._known)
+        table = [
+            [1, *known, *(
+                sum(values[chosen[i]] * x for i, x in vector.items()) % PRIME for vector in vectors
+            )]
+            for values, _, known in samples
+        ]  # fmt: skip
+        new = [vectors[k - start] for k in pivot_columns(table) if k >= start]
+        return [i for vector in new if (i := self._exact(vector, chosen)) is not None]
+
+    def _exact(self, vector: dict[int, int], chosen: Sequence[int]) -> Integral | None:
+        exact = ExactSolver(self.surface.points)
+        indices = sorted(vector)
+        numbers = [vector[i] for i in indices]
+        for unit in reversed(numbers):
+            inverse = pow(unit, -1, PRIME)
+            values = exact.recognized([x * inverse % PRIME for x in numbers])
+            if values is not None:
+                return [
+                    (self.terms[chosen[i]], value) for i, value in zip(indices, values, strict=True)
+                ]
+        terms = [self.terms[chosen[i]] for i in indices]
+        moved = self._equations[0] and any(-1 in x.fields for x in terms)
+        if not self.surface.curved and not moved:
+            solved = exact.solved([[self._rate(term)] for term in terms])
+            if solved is not None:
+                return list(zip(terms, solved, strict=True))
+        self.unsolved += 1
+        return None
+
+    def _rate(self, term: Term) -> Expr:
+        """d/dt of a term as a formula in independent velocities."""
+        T, dT = self._times[term.time]
+        g, dg = self._spaces[term.space]
+        factors = [(T, dT), (g, dg)]
+        for a in term.fields:
+            if a < 0:
+                factors.append((self._energy, self._power))
+                continue
+            field = self._fields[a]
+            value = [e * p for (e, _), p in zip(field, self._momenta, strict=True)]
+            rate = [
+                De * p + e * f
+                for (e, De), p, f in zip(field, self._momenta, self._pushes, strict=True)
+            ]
+            factors.append((sympy.Add(*value), sympy.Add(*rate)))
+        total = sympy.Add(
+            *(
+                sympy.Mul(*(dx if i == k else x for i, (x, dx) in enumerate(factors)))
+                for k in range(len(factors))
+            )
+        )
+        return total.xreplace(self.surface.independent_velocities)

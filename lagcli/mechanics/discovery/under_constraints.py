@@ -1,0 +1,254 @@
+"""The search on a constraint surface: which terms, in which order, with which names."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace as changed
+from itertools import combinations_with_replacement
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import free_of
+from lagcli.mechanics.discovery.admissible import Vector, admissible_fields
+from lagcli.mechanics.discovery.ansatz import Kinds, TimeFunctions, affine, quadratic
+from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.momentum_equation import Momenta, MomentumEquations
+from lagcli.mechanics.discovery.scaling import scaled
+from lagcli.mechanics.discovery.surface import independent_on_surface
+from lagcli.mechanics.discovery.surface_integrals import Integral, SurfaceIntegrals, Term
+from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+
+_MOST_LINEAR = 420
+_MOST_QUADRATIC = 300
+_ENERGY = (-1,)
+
+
+class UnderConstraints:
+    """What is found on the surface beyond the symmetries of L that are tangent to it.
+
+    Attributes
+    ----------
+    unsolved : int
+        Integrals that are there, whose coefficients were not found.
+    """
+
+    def __init__(self, noether: Noether, kinds: Kinds, times: TimeFunctions, clock: Clock) -> None:
+        self.noether = noether
+        self.system = noether.system
+        self.dynamics = noether.dynamics
+        self.kinds = changed(
+            kinds, lengths=list(kinds.lengths), angles=list(kinds.angles), radii=list(kinds.radii)
+        )
+        self.times = times
+        self.clock = clock
+        self.unsolved = 0
+        self._same: list[Expr] = []
+        self.fields = admissible_fields(self.dynamics, clock)
+
+    def momenta(
+        self, symmetries: Sequence[Transformation], known: Sequence[NoetherCharge]
+    ) -> Momenta:
+        """Momenta along admissible symmetries of L, beyond the known ones that are constant."""
+        relations = self.dynamics.constraints.relations
+        curved = relations is not None and any(
+            not f.free_symbols & set(self.system.qdot) for f in relations.remaining
+        )
+        nonholonomic = "nonholonomic" in self.dynamics.constraints.kinds.values()
+        if curved or not nonholonomic:
+            return Momenta([], [])
+        moving = {self.system.t, *self.system.qdot}
+        constant = [
+            c.transformation.changes for c in known
+            if c.transformation.time == 0
+            and not sympy.Tuple(*c.transformation.changes).free_symbols & moving
+        ]  # fmt: skip
+        equations = MomentumEquations(self.noether, symmetries, self.fields, self.clock)
+        return equations.found(constant)
+
+    def new(self, known: Sequence[Expr], more: Sequence[NoetherCharge]) -> list[NoetherCharge]:
+        """Those of `more` that are independent of the known ones on the surface."""
+        charges = [*known, *(c.charge for c in more)]
+        kept = independent_on_surface(charges, self.dynamics, self.clock, self._same)
+        return [more[k - len(known)] for k in kept if k >= len(known)]
+
+    # -- of the coordinates alone ------------------------------------------------------------
+
+    def integrated(self) -> list[NoetherCharge]:
+        """What velocity constraints keep constant by themselves; a coordinate less for each.
+
+        What holonomic constraints keep constant tells the components of their surface
+        apart: from then on one of them is searched.
+        """
+        kinds = self.dynamics.constraints.kinds.values()
+        holonomic = all(kind == "holonomic" for kind in kinds)
+        relations = self.dynamics.constraints.relations
+        if holonomic and (relations is None or len(relations.remaining) < 4):
+            return []  # a single surface f = 0
+        one = sympy.S.One
+        functions = self._still([one]) if holonomic else [*self.kinds.lengths, *self.kinds.angles]
+        found = self._charges(self._integrals([Term((), one, g) for g in functions if g != 1], []))
+        if holonomic:
+            self._same = [c.charge for c in found]
+            return []
+        for charge in found:
+            solved = next(x for x in reversed(self.system.q) if x in charge.charge.free_symbols)
+            for group in (self.kinds.lengths, self.kinds.angles, self.kinds.radii):
+                if solved in group:
+                    group.remove(solved)
+        return found
+
+    # -- first degree -----------------------------------------------------------------------
+
+    def linear(self, known: Sequence[Expr]) -> list[NoetherCharge]:
+        """Integrals of first degree in the velocities, with the energy as it stands."""
+        terms = self._linear_terms()
+        return self._charges(self._integrals(terms, known))
+
+    def _linear_terms(self) -> list[Term]:
+        """All times with 1 and the lengths; the angles, and their products, without time."""
+        one = sympy.S.One
+        plain = [one, *self.kinds.lengths]
+        spaces = list(dict.fromkeys([*plain, *self._of_angles(), *affine(self.kinds)]))
+        times, translations = self.times.others, self.times.translations
+        while True:
+            timed = [T for T in times if T != 1]
+            fields = range(len(self.fields))
+            terms = [Term((a,), one, g) for a in fields for g in spaces]
+            terms += [Term((a,), T, one) for a in fields for T in translations if T != 1]
+            terms += [Term((a,), T, g) for a in fields for T in timed for g in plain[1:]]
+            terms += [Term(_ENERGY, T, one) for T in times]
+            terms += [
+                Term((), T, g)
+                for T in times
+                for g in (self._still(spaces) if T == 1 else self._still(plain))
+                if not T == g == 1
+            ]
+            if len(terms) <= _MOST_LINEAR:
+                break
+            if len(times) > 3:
+                times, translations = times[:3], translations[:4]
+            elif len(spaces) > len(plain) + 4:
+                spaces = spaces[: (len(plain) + len(spaces)) // 2]
+            elif len(times) > 1:
+                times = translations = times[:1]
+            elif len(spaces) > 1:
+                spaces = plain = spaces[: len(spaces) // 2]
+            else:
+                break
+        return _ordered(terms)
+
+    def _of_angles(self) -> list[Expr]:
+        """Sine, cosine, cosecant and cotangent of one angle."""
+        found = []
+        for x in self.kinds.angles:
+            s, c = sympy.sin(x), sympy.cos(x)
+            found += [s, c, *([1 / s, c / s] if x in self.kinds.latitudes else [])]
+        return found
+
+    def _still(self, spaces: Sequence[Expr]) -> list[Expr]:
+        """Functions of the coordinates for S: affine ones, angles, products of two lengths."""
+        x = self.kinds.lengths
+        squares = [a * b for i, a in enumerate(x) for b in x[: i + 1]]
+        return list(dict.fromkeys([*spaces, *self.kinds.angles, *squares]))
+
+    # -- second degree ----------------------------------------------------------------------
+
+    def quadratic(self, known: Sequence[NoetherCharge]) -> list[NoetherCharge]:
+        """Integrals of second degree without explicit time that are no products of others."""
+        t = self.system.t
+        fixed = [c for c in known if t not in c.charge.free_symbols]
+        linear = [c.charge for c in fixed if c.transformation.time == 0]
+        products = [a * b for a, b in combinations_with_replacement(linear, 2)]
+        pairs = list(combinations_with_replacement(range(len(self.fields)), 2))
+        if not pairs:
+            return []
+        functions = quadratic(self.kinds, _MOST_QUADRATIC // len(pairs)) or [sympy.S.One]
+        one = sympy.S.One
+        terms = [Term(pair, one, g) for pair in pairs for g in functions]
+        if not all(is_zero(f.xreplace({v: -v for v in self.system.qdot}) - f) is True
+                   for f in self.noether.dynamics.lagrange.forcing):  # fmt: skip
+            terms += [Term((a,), one, g) for a in range(len(self.fields)) for g in functions[:12]]
+        terms += [Term((), one, g) for g in self._potentials(functions)]
+        return self._charges(
+            self._integrals(_ordered(terms), [*(c.charge for c in fixed), *products])
+        )
+
+    def _potentials(self, functions: Sequence[Expr]) -> list[Expr]:
+        """The terms of L at rest with monomials and with the functions of the tensor."""
+        q = self.system.q
+        rest = self.system.L.xreplace(dict.fromkeys(self.system.qdot, sympy.S.Zero))
+        terms = {
+            t.as_independent(*q, as_Add=False)[1] for t in sympy.Add.make_args(sympy.expand(rest))
+        } - {sympy.S.One}
+        monomials = [sympy.S.One, *q, *(x * y for i, x in enumerate(q) for y in q[: i + 1])]
+        made = [a * b for a in terms for b in dict.fromkeys([*monomials, *functions[:20]])]
+        return [m for m in dict.fromkeys([*monomials, *functions, *made]) if not free_of(m, q)]
+
+    # -- common -----------------------------------------------------------------------------
+
+    def _integrals(self, terms: Sequence[Term], known: Sequence[Expr]) -> list[Integral]:
+        search = SurfaceIntegrals(self.noether, self.fields, terms, known, self.clock, self._same)
+        found = search.found()
+        self._J = [
+            sympy.Add(*(x * p for x, p in zip(e, self.dynamics.lagrange.momenta, strict=True)))
+            for e in self.fields
+        ]
+        self.unsolved += search.unsolved
+        return found
+
+    def _charges(self, integrals: Sequence[Integral]) -> list[NoetherCharge]:
+        found = []
+        for integral in integrals:
+            self.clock.check()
+            charge = self._charge(integral)
+            if charge.conserved is True and charge.verified == "exact":
+                found.append(charge)
+            else:
+                self.unsolved += 1
+        return found
+
+    def _charge(self, integral: Integral) -> NoetherCharge:
+        """The charge of Dq = f_a e_a + g_ab (J_a e_b + J_b e_a), Dt = -c, S = -G."""
+        n = len(self.system.q)
+        changes: list[Expr] = [sympy.S.Zero] * n
+        time = gauge = sympy.S.Zero
+        for term, value in integral:
+            c = value * term.function
+            if not term.fields:
+                gauge -= c
+            elif term.fields == _ENERGY:
+                time -= c
+            elif len(term.fields) == 1:
+                changes = self._moved(changes, c, self.fields[term.fields[0]])
+            else:
+                a, b = term.fields
+                changes = self._moved(changes, c * self._J[a], self.fields[b])
+                changes = self._moved(changes, c * self._J[b], self.fields[a])
+                gauge += c * self._J[a] * self._J[b]
+        *changes, gauge, time = scaled((*changes, gauge, time), set(self.system.parameters))
+        if time != 0 and not time.free_symbols & {self.system.t, *self.system.q}:
+            # a moving energy: Q = h + ...
+            *changes, gauge, time = (simplify(-x / time) for x in (*changes, gauge, time))
+        transformation = Transformation(tuple(changes), time)
+        return self.noether.charge("", "discovered", transformation, gauge)
+
+    def _moved(self, changes: Sequence[Expr], factor: Expr, field: Vector) -> list[Expr]:
+        return [x + factor * e for x, e in zip(changes, field, strict=True)]
+
+
+def _ordered(terms: Sequence[Term]) -> list[Term]:
+    """The simplest first."""
+
+    def cost(term: Term) -> tuple[int, int, int, str, tuple[int, ...]]:
+        T, g = term.time, term.space
+        return (
+            2 * sympy.count_ops(T) + len(T.free_symbols),
+            sympy.count_ops(g) + len(g.free_symbols),
+            sum(term.fields) if term.fields else 9,
+            str(g),
+            term.fields,
+        )
+
+    return sorted(terms, key=cost)

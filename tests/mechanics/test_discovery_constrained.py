@@ -1,0 +1,109 @@
+"""Symmetries, first integrals and momentum equations of systems with constraints.
+
+Numbers from the literature: on the surface the rolling disk is free in its two angles
+(Bloch, Nonholonomic Mechanics and Control, 2nd ed., section 1.4), a rigid body in the plane
+has the momenta of the Galilei group and its spin (Goldstein, section 4.1).
+"""
+
+from pathlib import Path
+
+import pytest
+import sympy
+
+from lagcli.algebra import is_zero
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.summary import summary
+from lagcli.mechanics.discovery.surface import independent_on_surface
+from lagcli.pipeline import load
+from lagcli.reader import parse_text
+
+LIBRARY = Path(__file__).parents[2] / "problems"
+
+# file -> names that are there, names of momentum equations, algebra, integrable
+KNOWN = {
+    "nonholonomic/rolling-vertical-disk": (
+        "energy p_phi momentum_theta boost_phi boost_theta dilation conformal", "", None, None),
+    "nonholonomic/chaplygin-sleigh": ("energy", "p_phi momentum_2", None, None),
+    "nonholonomic/ball-on-turntable": (
+        "p_phi momentum_x momentum_y moving_energy", "", None, None),
+    "nonholonomic/nonholonomic-free-particle": (
+        "energy p_y momentum_x boost_y charge_1", "", None, None),
+    "nonholonomic/two-wheeled-cart": ("energy constraint_integral charge_1", "", None, None),
+    "nonholonomic/skate-on-incline": ("energy p_phi boost_phi charge_1 charge_3", "", None, None),
+    "discovery/snakeboard": ("energy p_psi p_phi", "momentum_1", None, None),
+    "discovery/ball-in-cylinder": ("energy charge_1 charge_2", "", None, None),
+    "discovery/kepler-in-slanted-plane": (
+        "energy charge_1 charge_2 charge_3", "", "so(3) where the energy is negative", True),
+    "discovery/triangle-of-points": (
+        "energy momentum_x momentum_y L_z boost_x boost_y charge_1", "", "Galilei", True),
+    "classics/spherical-pendulum-cartesian": ("energy L_z", "", "R^2", True),
+    "classics/particle-in-paraboloid": ("energy L_z", "", None, None),
+    "chains/cartesian-double-pendulum": ("energy", "", "R", False),
+}  # fmt: skip
+
+
+def derived(name):
+    return Derivation(load(LIBRARY / f"{name}.yaml"))
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_what_is_known_is_found(name):
+    names, changing, algebra, integrable = KNOWN[name]
+    discovery = derived(name).discovery
+    found = summary(discovery)
+    assert not discovery.stopped
+    assert set(names.split()) <= {c.name for c in discovery.charges}
+    assert [c.name for c in discovery.momentum_equations] == changing.split()
+    assert (algebra or "") in (found.name or "")
+    assert found.integrable is integrable
+
+
+def built(derivation, text):
+    return derivation.system.build(parse_text(text))
+
+
+# Bloch, 2nd ed., sections 1.7 (sleigh) and 5.8 (snakeboard, there divided by sin(phi)).
+EQUATIONS = {
+    "nonholonomic/chaplygin-sleigh": [
+        ("p_phi", "(I + m*a^2)*phi' + m*a*(y'*cos(phi) - x'*sin(phi))",
+         "-m*a*phi'*(x'*cos(phi) + y'*sin(phi))"),
+        ("momentum_2", "m*(x'*cos(phi) + y'*sin(phi))", "m*a*phi'^2"),
+    ],
+    "discovery/snakeboard": [
+        ("momentum_1",
+         "l*m*cos(phi)*(x'*cos(theta) + y'*sin(theta)) + (m*l^2*theta' + J0*psi')*sin(phi)",
+         "J0*psi'*phi'*cos(phi)"),
+    ],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", EQUATIONS)
+def test_momentum_equations_are_those_of_the_textbook(name):
+    derivation = derived(name)
+    relations = derivation.dynamics.constraints.relations
+    found = derivation.discovery.momentum_equations
+    for charge, (title, momentum, rate) in zip(found, EQUATIONS[name], strict=True):
+        assert charge.name == title
+        assert charge.conserved is False
+        assert is_zero(charge.charge - built(derivation, momentum), relations) is True
+        assert is_zero(charge.rate - built(derivation, rate), relations) is True
+
+
+@pytest.mark.parametrize("name", ["nonholonomic/rolling-vertical-disk", "discovery/snakeboard"])
+def test_displacements_are_admissible(name):
+    derivation = derived(name)
+    for charge in (*derivation.discovery.charges, *derivation.discovery.momentum_equations):
+        for equation in derivation.dynamics.constraints.equations:
+            across = sympy.Add(
+                *(a * x for a, x in zip(equation.row, charge.transformation.changes, strict=True))
+            )
+            assert is_zero(across, derivation.dynamics.constraints.relations) is True
+
+
+def test_nothing_is_listed_twice():
+    derivation = derived("discovery/triangle-of-points")
+    charges = [c.charge for c in derivation.discovery.charges]
+    area = built(derivation, "x1*(y2 - y3) + x2*(y3 - y1) + x3*(y1 - y2)")
+    kept = independent_on_surface(charges, derivation.dynamics, Clock(), [area])
+    assert kept == list(range(7))

@@ -1,0 +1,84 @@
+"""To how many digits the printed charges stay constant along an independent motion.
+
+    python -m tests.oracle.constancy problems/central/kepler.yaml problems/rolling
+
+prints, for each problem, the seconds of the search, the number of charges that were
+discovered, and the digits to which the worst of them stays.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from mpmath import mp, mpf
+
+from lagcli.formatters.json import to_object
+from lagcli.pipeline import load, solve
+from lagcli.problem import Problem
+from lagcli.reader import parse_text
+
+from .evaluate import evaluate
+from .jets import real_part
+from .motion import NoMotion, motion
+from .reference import Reference
+
+DIGITS = 40
+
+
+def digits_kept(problem: Problem, charges: Sequence[Mapping[str, Any]]) -> dict[str, float]:
+    """-log10 of the relative change of each conserved charge, none where nothing moves."""
+    conserved = [c for c in charges if c["conserved"]]
+    if not conserved:
+        return {}
+    with mp.workdps(DIGITS):
+        reference = Reference(problem)
+        try:
+            first, *later = motion(reference)
+        except NoMotion:
+            return {}
+        kept = {}
+        for charge in conserved:
+            node = parse_text(charge["charge"])
+            start, *rest = (
+                real_part(evaluate(node, reference.setting, m)) for m in (first, *later)
+            )
+            change = max(abs(value - start) for value in rest) / (1 + abs(start))
+            kept[charge["name"]] = float(-mp.log10(change + mpf(10) ** -DIGITS))
+        return kept
+
+
+def discovered(problem: Problem) -> tuple[list[dict[str, Any]], float]:
+    """What `--show discovered,algebra` prints, as JSON, and the seconds that it took."""
+    begun = time.process_time()
+    answers = solve(problem, ["discovered", "algebra"])
+    seconds = time.process_time() - begun
+    return json.loads(json.dumps(to_object(answers)))["discovered"], seconds
+
+
+def main(arguments: Sequence[str]) -> None:
+    """One line for each problem, then the worst figures."""
+    paths = [Path(a) for a in arguments]
+    files = [f for p in paths for f in (sorted(p.rglob("*.yaml")) if p.is_dir() else [p])]
+    number, least, longest = 0, mp.inf, 0.0
+    for path in files:
+        problem = load(path)
+        charges, seconds = discovered(problem)
+        kept = digits_kept(problem, charges)
+        number += len(kept)
+        worst = min(kept.values(), default=mp.inf)
+        least, longest = min(least, worst), max(longest, seconds)
+        print(
+            f"{seconds:6.1f} s {len(kept):3} charges {float(worst):6.1f} digits  {path}", flush=True
+        )
+    print(
+        f"{len(files)} problems, {number} charges, least {float(least):.1f} digits, longest {longest:.1f} s"
+    )
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

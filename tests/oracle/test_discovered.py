@@ -1,0 +1,53 @@
+"""Every discovered charge stays to twenty digits along a motion that shares nothing with it.
+
+`python -m tests.oracle.constancy problems` prints the figures.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from lagcli.pipeline import load
+
+from .constancy import digits_kept, discovered
+from .examine import examine
+
+LIBRARY = Path(__file__).parents[2] / "problems"
+PROBLEMS = sorted(LIBRARY.rglob("*.yaml"))
+#: One of each kind; all of them are slow.
+SOME = (
+    "central/kepler", "discovery/calogero-moser", "discovery/ball-in-cylinder",
+    "discovery/kepler-in-slanted-plane", "nonholonomic/ball-on-turntable",
+    "nonholonomic/skate-on-incline", "discovery/snakeboard", "oscillations/damped-oscillator",
+)  # fmt: skip
+
+
+def stays(path: Path) -> None:
+    problem = load(path)
+    charges, seconds = discovered(problem)
+    assert seconds < 30
+    kept = digits_kept(problem, charges)
+    assert {name: digits for name, digits in kept.items() if digits < 20} == {}
+    sheet = {"degrees_of_freedom": None, "discovered": charges}
+    findings = [f for f in examine(problem, sheet, count=2) if f.where.startswith("charges")]
+    assert [str(f) for f in findings] == []
+
+
+@pytest.mark.parametrize("name", SOME)
+def test_charges_stay_on_an_independent_motion(name: str) -> None:
+    stays(LIBRARY / f"{name}.yaml")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", PROBLEMS, ids=lambda p: str(p.relative_to(LIBRARY)))
+def test_no_library_problem_gets_a_false_charge_or_takes_long(path: Path) -> None:
+    stays(path)
+
+
+def test_a_charge_that_changes_is_noticed() -> None:
+    problem = load(LIBRARY / "central/kepler.yaml")
+    [energy, *_], _ = discovered(problem)
+    wrong = {**energy, "charge": energy["charge"] + " + x*x'/10^12"}
+    assert 10 < digits_kept(problem, [wrong])["energy"] < 14
