@@ -23,11 +23,11 @@ def spare_sympy() -> None:
     version that this was not made for: all works as well, and starts more slowly.
     """
     from lagcli.sparing.packages import known_sympy, serve_names_lazily
-    from lagcli.sparing.stand_ins import import_functions, stand_in
+    from lagcli.sparing.stand_ins import give_way, import_functions, stand_in
 
     if os.environ.get("LAGCLI_WHOLE_SYMPY") or not known_sympy():
         return
-    serve_names_lazily()
+    serve_names_lazily(give_way)
     stand_in()
     import_functions()
 

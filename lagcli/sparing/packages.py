@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
@@ -26,6 +26,12 @@ _RUN = frozenset(
 )
 #: Its modules import each other in circles, and come well out of it in its own order only.
 _ONE_PIECE = "sympy.matrices"
+#: What a derivation imports on its way; whoever imports more is given no stand-ins.
+_USUAL = re.compile(
+    r"sympy\.(core|external|utilities|multipledispatch|logic|ntheory|polys|printing|sets|"
+    r"strategies|functions\.(elementary|combinatorial)|series\.order|simplify\.(fu|radsimp|sqrtdenest|powsimp|trigsimp|simplify|cse_main|cse_opts)|"
+    r"assumptions\.(wrapper|assume)|tensor\.array)\b"
+)
 
 _IMPORT = re.compile(r"^from (\S+) import (\([^)]*\)|[^\n(]*)", re.MULTILINE)
 _ALIAS = re.compile(r"^(\w+) = ([A-Za-z]\w*)(?:\.(\w+))?$", re.MULTILINE)
@@ -50,19 +56,33 @@ def _version(init: Path) -> str:
     return found[1] if found else ""
 
 
-def serve_names_lazily() -> None:
-    """Let SymPy's packages be found as lazy ones."""
-    sys.meta_path.insert(0, _Finder())
+def serve_names_lazily(before_more: Callable[[], None]) -> None:
+    """Let SymPy's packages be found as lazy ones.
+
+    Parameters
+    ----------
+    before_more
+        Called before the first module that a plain derivation does not need.
+    """
+    sys.meta_path.insert(0, _Finder(before_more))
 
 
 class _Finder(MetaPathFinder):
+    def __init__(self, before_more: Callable[[], None]) -> None:
+        self.before_more: Callable[[], None] | None = before_more
+
     def find_spec(self, fullname: str, path: Any, target: Any = None) -> ModuleSpec | None:
         del target
         parts = fullname.split(".")
         if parts[0] != "sympy" or ".".join(parts[:2]) in _RUN:
             return None
         found = PathFinder.find_spec(fullname, path)
-        if found is None or found.origin is None or found.submodule_search_locations is None:
+        if found is None or found.origin is None:
+            return None
+        if found.submodule_search_locations is None:
+            if self.before_more and not _USUAL.match(fullname):
+                self.before_more()
+                self.before_more = None
             return None
         return spec_from_file_location(
             fullname,
@@ -99,8 +119,9 @@ class LazyPackage(ModuleType):
         if name.startswith("__"):
             raise AttributeError(name)
         value = self._found(name)
-        if not hasattr(type(value), "stands_in"):
-            self.__dict__[name] = value
+        if self.__name__ == "sympy":  # nobody but a user of SymPy asks here
+            value = getattr(value, "real_thing", value)
+        self.__dict__[name] = value
         return value
 
     def _found(self, name: str) -> Any:
@@ -132,11 +153,7 @@ class LazyPackage(ModuleType):
 
 def import_matrices() -> None:
     """Import SymPy's matrices as SymPy does, before any one of them is used."""
-    package = import_module(_ONE_PIECE)
-    for name in [n for n in sys.modules if n.startswith(f"{_ONE_PIECE}.")]:
-        if not sys.modules[name].__spec__:  # a stand-in
-            del sys.modules[name]
-    for module, _ in package.__dict__["_places"].values():
+    for module, _ in import_module(_ONE_PIECE).__dict__["_places"].values():
         import_module(module)
 
 

@@ -10,16 +10,18 @@ attribute or inherited from it imports the real thing and hands it on.
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 from importlib import import_module
 from types import ModuleType
 from typing import Any
 
-from lagcli.sparing.packages import import_matrices
+from lagcli.sparing.packages import LazyPackage, import_matrices
 
 #: Until the end of the process, or their first use.
 _STANDING = {
     "sympy.tensor.tensor": "TensExpr TensAdd",
     "sympy.tensor.array.ndim_array": "NDimArray",
+    "sympy.tensor.array.dense_ndim_array": "ImmutableDenseNDimArray",
     "sympy.calculus.accumulationbounds": "AccumBounds AccumulationBounds",
     "sympy.matrices.matrixbase": "MatrixBase",
     "sympy.matrices.expressions.matexpr": "MatrixExpr",
@@ -43,10 +45,6 @@ _PASSING = {
     ),
 }
 _FUNCTIONS = ("exponential", "trigonometric", "hyperbolic", "complexes", "integers", "piecewise")
-#: Only these are given stand-ins, whoever else asks wants the real thing.
-_ASKERS = ("sympy.core", "sympy.functions", "sympy.assumptions.wrapper")
-#: `evalf` finds its ways in a table by class, made when the first number is asked for.
-_IN_TABLE = ("sympy.concrete.products", "sympy.concrete.summations", "sympy.integrals.integrals")
 
 
 def stand_in() -> None:
@@ -63,84 +61,83 @@ def import_functions() -> None:
         sys.modules[name] = _Module(name, names.split())
     for name in _FUNCTIONS:
         import_module(f"sympy.functions.elementary.{name}")
-    for name in _PASSING:
-        if isinstance(sys.modules[name], _Module):
-            del sys.modules[name]
+    _give_way(_PASSING)  # the functions keep what they took along
+
+
+def give_way() -> None:
+    """Let whoever asks from now on import the real thing."""
+    _give_way(_STANDING)
+    evalf = sys.modules.get("sympy.core.evalf")
+    if evalf is not None:
+        evalf.evalf_table.clear()
+
+
+def _give_way(names: Iterable[str]) -> None:
+    modules = [sys.modules.pop(n) for n in names if isinstance(sys.modules.get(n), _Module)]
+    for module in modules:
+        for each in vars(module).values():
+            if isinstance(each, StandIn):
+                each.left = True
+    for package in [m for m in sys.modules.values() if isinstance(m, LazyPackage)]:
+        for name, value in list(vars(package).items()):
+            if isinstance(value, StandIn) or any(value is m for m in modules):
+                package.__dict__.pop(name, None)
 
 
 class _Module(ModuleType):
-    """In the place of a module; gives way to it at the first use."""
+    """In the place of a module; all of them give way once more is asked for."""
 
     def __init__(self, name: str, names: list[str]) -> None:
         super().__init__(name)
-        self.__dict__["_stand_ins"] = {each: StandIn(self, each) for each in names}
+        for each in names:
+            self.__dict__[each] = StandIn(name, each)
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):  # the import system asks for these
             raise AttributeError(name)
-        stand_ins = self.__dict__["_stand_ins"]
-        if name in stand_ins and _asker().startswith(_ASKERS):
-            return stand_ins[name]
-        return getattr(self._real(), name)
-
-    def _real(self) -> ModuleType:
-        name = self.__name__
-        if sys.modules.get(name) is not self:
-            return import_module(name)
-        del sys.modules[name]
-        if name.startswith("sympy.matrices."):
-            import_matrices()
-        real = import_module(name)
-        package, _, last = name.rpartition(".")
-        if sys.modules[package].__dict__.get(last) is self:
-            setattr(sys.modules[package], last, real)
-        self.__dict__.update(real.__dict__)  # for whoever holds this one
-        if name in _IN_TABLE:
-            from sympy.core import evalf
-
-            evalf.evalf_table.clear()
-        return real
+        return getattr(_real(self.__name__), name)
 
 
-def _asker() -> str:
-    """The module that asks, not counting those of this package."""
-    frame = sys._getframe(2)  # noqa: SLF001 - as `warnings` and `logging` find their callers
-    while frame.f_globals["__name__"].startswith(("lagcli.sparing", "importlib")) and frame.f_back:
-        frame = frame.f_back
-    return str(frame.f_globals["__name__"])
+def _real(name: str) -> ModuleType:
+    """The module, imported now if nobody has used it yet."""
+    if isinstance(sys.modules.get(name), _Module):
+        if name in _STANDING:
+            give_way()
+        else:
+            _give_way([name])
+    if name.startswith("sympy.matrices."):
+        import_matrices()
+    return import_module(name)
 
 
 class StandIn:
     """A class or function of a module that is not imported yet."""
 
-    stands_in = True
-
-    def __init__(self, module: _Module, name: str) -> None:
-        self._module, self._name = module, name
-
-    @property
-    def _real(self) -> Any:
-        return getattr(self._module._real(), self._name)  # noqa: SLF001 - the two are one
+    def __init__(self, module: str, name: str) -> None:
+        self.place = (module, name)
+        self.left = False
 
     @property
-    def _is_there(self) -> bool:
-        return sys.modules.get(self._module.__name__) not in (None, self._module)
+    def real_thing(self) -> Any:
+        """What it stands for."""
+        module, name = self.place
+        return getattr(_real(module), name)
 
     def __call__(self, *args: Any, **options: Any) -> Any:
         """What the real one gives."""
-        return self._real(*args, **options)
+        return self.real_thing(*args, **options)
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        return getattr(self._real, name)
+        return getattr(self.real_thing, name)
 
     def __instancecheck__(self, instance: object) -> bool:
-        return self._is_there and isinstance(instance, self._real)
+        return self.left and isinstance(instance, self.real_thing)
 
     def __subclasscheck__(self, subclass: type) -> bool:
-        return self._is_there and issubclass(subclass, self._real)
+        return self.left and issubclass(subclass, self.real_thing)
 
     def __mro_entries__(self, bases: tuple[Any, ...]) -> tuple[type, ...]:
         del bases
-        return (self._real,)
+        return (self.real_thing,)
