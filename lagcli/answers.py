@@ -34,6 +34,7 @@ SECTIONS = (
     "modes",
     "reduction",
     "steady_motions",
+    "hamilton_jacobi",
     "model",
     "dimensions",
 )
@@ -370,6 +371,26 @@ class SteadySection:
 
 
 @record(kw_only=True)
+class HamiltonJacobiSection:
+    """H(q, dS/dq) = E with S = -E t + sum W_i(q_i), where it separates in the coordinates given.
+
+    `hamiltonian` has p for dS/dq.  `separable` is the verdict of Levi-Civita's test, `obstacle`
+    the first pair of coordinates at which it fails.  `equations` are the separated ones (= 0),
+    `derivatives` the W_i' with their positive roots; `constants` are E, the momenta of the
+    cyclic coordinates, and those of separation.
+    """
+
+    hamiltonian: Expression | None
+    energy: str
+    separable: bool | None
+    obstacle: tuple[str, ...] = ()
+    constants: tuple[str, ...] = ()
+    equations: Mapping[str, Expression] = field(default_factory=dict)
+    derivatives: Mapping[str, Expression] | None = None
+    reason: str = ""
+
+
+@record(kw_only=True)
 class ModelSection:
     """What a run keeps and drops, and why (by coordinate or parameter)."""
 
@@ -428,6 +449,7 @@ Section = (
     | ModesSection
     | ReductionSection
     | SteadySection
+    | HamiltonJacobiSection
     | ModelSection
     | DimensionsSection
 )

@@ -222,6 +222,14 @@ class ExpectSteady:
 
 
 @record(kw_only=True)
+class ExpectHamiltonJacobi:
+    """Whether the variables separate, and W' by coordinate, up to its sign."""
+
+    separable: bool | None = None
+    derivatives: Mapping[str, Expression] = field(default_factory=dict)
+
+
+@record(kw_only=True)
 class Expect:
     """The known answers, as the file gives them; None or empty: nothing expected."""
 
@@ -239,6 +247,7 @@ class Expect:
     find: Mapping[str, tuple[Expression, ...]] = field(default_factory=dict)
     reduction: ExpectReduction | None = None
     steady_motions: tuple[ExpectSteady, ...] = ()
+    hamilton_jacobi: ExpectHamiltonJacobi | None = None
     trajectory: Trajectory | None = None
     spans: Mapping[tuple[str, ...], Span] = field(default_factory=dict, compare=False)
     #: place of each expectation: ("accelerations", "x"), ("equations", "0"), …

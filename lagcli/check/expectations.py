@@ -286,6 +286,7 @@ _SECTIONS: Mapping[str, Callable[[Expect], object]] = {
     "modes": lambda expect: expect.modes is not None,
     "reduction": lambda expect: expect.reduction is not None,
     "steady_motions": lambda expect: expect.steady_motions,
+    "hamilton_jacobi": lambda expect: expect.hamilton_jacobi is not None,
 }
 
 

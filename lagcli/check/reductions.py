@@ -10,14 +10,20 @@ from typing import cast
 from sympy import Expr
 
 from lagcli.algebra import simplify
-from lagcli.answers import Answers, ReductionSection, SteadyMotion, SteadySection
+from lagcli.answers import (
+    Answers,
+    HamiltonJacobiSection,
+    ReductionSection,
+    SteadyMotion,
+    SteadySection,
+)
 from lagcli.check.comparison import Comparison
 from lagcli.expression import Expression, Name, Number, Power, Sum
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.readable import deciding
 from lagcli.problem import ExpectSteady, Inequality, Parameter, Problem
-from lagcli.reader.expected_reduction import AMPLITUDE_NAMES, ENERGY_NAMES
+from lagcli.reader.expected_reduction import CONSTANT_NAMES
 
 #: The path of an expectation, the verdict, what was expected and what was found.
 Judged = tuple[list[str], bool | None, str, str]
@@ -36,7 +42,7 @@ class Reductions:
         old = self.derivation.problem
         declared = {*(q.name for q in (*old.coordinates, *old.parameters)), *old.functions}
         extra = [f"p_{q.name}" for q in old.coordinates]
-        extra += [n for n in (*ENERGY_NAMES, *AMPLITUDE_NAMES) if n not in declared]
+        extra += [n for n in CONSTANT_NAMES if n not in declared]
         two = Number(Fraction(2))
         squares = [Power(Name(q.name, 1), two) for q in old.coordinates]
         free = Problem(
@@ -54,6 +60,7 @@ class Reductions:
         """Every expectation of these sections with its verdict."""
         yield from self._reduction()
         yield from self._steady_motions()
+        yield from self._hamilton_jacobi()
 
     def _reduction(self) -> Iterator[Judged]:
         expect = self.derivation.problem.expect.reduction
@@ -117,6 +124,25 @@ class Reductions:
         elif expected.stable is not None:
             verdicts.append(found.stable is expected.stable)
         return _conjunction(verdicts)
+
+    def _hamilton_jacobi(self) -> Iterator[Judged]:
+        expect = self.derivation.problem.expect.hamilton_jacobi
+        if expect is None:
+            return
+        section = cast(HamiltonJacobiSection, self.answers.sections["hamilton_jacobi"])
+        if expect.separable is not None:
+            found = section.separable
+            verdict = None if found is None else found is expect.separable
+            words = {True: "yes", False: "no", None: "not decided"}
+            yield ["hamilton_jacobi", "separable"], verdict, words[expect.separable], words[found]
+        for name, expected in expect.derivatives.items():
+            derivative = (section.derivatives or {}).get(name)
+            verdict = None
+            if derivative is not None:
+                build = self.comparison.build
+                verdict = self.comparison.vanishes(build(derivative) ** 2 - build(expected) ** 2)
+            path = ["hamilton_jacobi", "derivatives", name]
+            yield path, verdict, to_grammar(expected), _shown(derivative)
 
     def _same_conditions(self, found: SteadyMotion, expected: tuple[Inequality, ...]) -> bool:
         """Whether a minimum or the spectrum asks for the same, factors that are positive aside."""

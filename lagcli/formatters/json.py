@@ -27,6 +27,7 @@ from lagcli.answers import (
     Equilibrium,
     FindSection,
     HamiltonianSection,
+    HamiltonJacobiSection,
     LagrangeEquation,
     LagrangianSection,
     MatrixFormSection,
@@ -144,6 +145,8 @@ def _value(section: Section) -> Value:
             return _unless_none(section.modes, lambda each: [_mode(m) for m in each])
         case ReductionSection():
             return _unless_none(section.routhian, lambda _: _reduction(section))
+        case HamiltonJacobiSection():
+            return _hamilton_jacobi(section)
         case SteadySection():
             return _unless_none(section.motions, lambda each: [_steady(m) for m in each])
         case ModelSection():
@@ -265,6 +268,18 @@ def _period(period: PeriodSeries) -> Object:
         "order": period.order,
         "period": to_grammar(period.period),
         "where": [_above(each) for each in period.where],
+    }
+
+
+def _hamilton_jacobi(section: HamiltonJacobiSection) -> Object:
+    return {
+        "hamiltonian": _string(section.hamiltonian),
+        "separable": section.separable,
+        "obstacle": section.obstacle or None,
+        "constants": section.constants,
+        "equations": _by_name(section.equations),
+        "derivatives": _unless_none(section.derivatives, _by_name),
+        "reason": section.reason,
     }
 
 

@@ -18,6 +18,7 @@ from lagcli.answers import (
     EquilibriaSection,
     FindSection,
     HamiltonianSection,
+    HamiltonJacobiSection,
     LagrangianSection,
     MatrixFormSection,
     ModelSection,
@@ -49,6 +50,7 @@ from lagcli.formatters.findings import (
     mode_blocks,
 )
 from lagcli.formatters.reductions import reduction_blocks
+from lagcli.formatters.separation import hamilton_jacobi_blocks
 from lagcli.formatters.steady import steady_blocks
 
 _HEADINGS = {
@@ -70,6 +72,7 @@ _HEADINGS = {
     "modes": "Normal modes",
     "reduction": "Reduction",
     "steady_motions": "Steady motions",
+    "hamilton_jacobi": "Hamilton-Jacobi",
     "model": "Model",
     "dimensions": "Dimensions",
 }
@@ -134,6 +137,8 @@ def section_blocks(section: Section, answers: Answers) -> Iterable[Block]:
             return reduction_blocks(section)
         case SteadySection():
             return steady_blocks(section)
+        case HamiltonJacobiSection():
+            return hamilton_jacobi_blocks(section)
         case ModelSection():
             return _model(section)
         case DimensionsSection():

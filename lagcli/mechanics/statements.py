@@ -21,6 +21,7 @@ from lagcli.answers import (
     EquilibriaSection,
     FindSection,
     HamiltonianSection,
+    HamiltonJacobiSection,
     LagrangeEquation,
     LagrangianSection,
     MatrixFormSection,
@@ -94,6 +95,7 @@ class Statements(Stating):
             "modes": self._modes,
             "reduction": self._reduction,
             "steady_motions": self._steady_motions,
+            "hamilton_jacobi": self._hamilton_jacobi,
         }
 
     @property
@@ -351,6 +353,14 @@ class Statements(Stating):
         from lagcli.mechanics.reduction.statement import reduction
 
         section, missing = reduction(self.derivation)
+        for what, why in missing:
+            self._missing(what, why)
+        return section
+
+    def _hamilton_jacobi(self) -> HamiltonJacobiSection:
+        from lagcli.mechanics.reduction.separation_statement import hamilton_jacobi
+
+        section, missing = hamilton_jacobi(self.derivation)
         for what, why in missing:
             self._missing(what, why)
         return section

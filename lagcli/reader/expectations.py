@@ -9,6 +9,7 @@ from lagcli.problem import (
     Constraint,
     Contact,
     Expect,
+    ExpectHamiltonJacobi,
     ExpectReduction,
     ExpectSteady,
     Question,
@@ -17,7 +18,11 @@ from lagcli.problem import (
 )
 from lagcli.reader.columns import named_columns
 from lagcli.reader.dynamics import read_by_coordinate
-from lagcli.reader.expected_reduction import read_reduction, read_steady_motions
+from lagcli.reader.expected_reduction import (
+    read_hamilton_jacobi,
+    read_reduction,
+    read_steady_motions,
+)
 from lagcli.reader.nodes import Node, Scalar, Sequence
 from lagcli.reader.scope import CONSTANTS, EQUATION, PHASE_SPACE, STATE, Role
 from lagcli.reader.suggest import did_you_mean
@@ -31,7 +36,7 @@ if TYPE_CHECKING:
 _KEYS = (
     "degrees_of_freedom", "equations", "accelerations", "multipliers", "constraint_forces",
     "momenta", "hamiltonian", "energy", "charges", "discovered", "modes", "find", "trajectory",
-    "reduction", "steady_motions",
+    "reduction", "steady_motions", "hamilton_jacobi",
 )  # fmt: skip
 
 #: An answer holds what is left when accelerations and multipliers have been eliminated.
@@ -153,6 +158,9 @@ class ExpectReader:
 
     def _steady_motions(self, node: Node) -> tuple[ExpectSteady, ...]:
         return read_steady_motions(self.sections, node, self.spans)
+
+    def _hamilton_jacobi(self, node: Node) -> ExpectHamiltonJacobi:
+        return read_hamilton_jacobi(self.sections, node, self.spans)
 
     def _by_coordinate(self, node: Node, section: str, what: str) -> dict[str, Expression]:
         self._note(node, section)

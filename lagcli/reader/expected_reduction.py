@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from lagcli.problem import ExpectReduction, ExpectSteady
+from lagcli.problem import ExpectHamiltonJacobi, ExpectReduction, ExpectSteady
 from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.nodes import Node, Scalar, Sequence
 from lagcli.reader.scope import Role
@@ -17,9 +17,13 @@ if TYPE_CHECKING:
     from lagcli.problem import Inequality
     from lagcli.reader.sections import Sections
 
+#: What the answers call the constants of separation: alpha_1, alpha_2, …
+SEPARATION_NAMES = tuple(f"alpha_{number}" for number in range(1, 6))
 #: What the answers call the energy and the amplitude: the first that the file does not use.
 ENERGY_NAMES = ("E", "h", "E_0", "h_0")
 AMPLITUDE_NAMES = ("a", "A", "a_0", "A_0")
+
+CONSTANT_NAMES = (*ENERGY_NAMES, *AMPLITUDE_NAMES, *SEPARATION_NAMES)
 
 _REDUCED = Role(order=1, why="an answer is free of accelerations", momenta=True)
 _STEADY = ("at", "rates", "momenta", "frequencies_squared", "stable")
@@ -31,7 +35,7 @@ _KEYS = ("routhian", "effective_potential", "reconstruction", "turning_points", 
 def constants(sections: Sections) -> Iterator[None]:
     """Let the constants of the answers stand in expressions, where the file has no such name."""
     kinds = sections.scope.kinds
-    added = [name for name in (*ENERGY_NAMES, *AMPLITUDE_NAMES) if name not in kinds]
+    added = [name for name in CONSTANT_NAMES if name not in kinds]
     kinds.update(dict.fromkeys(added, "parameter"))
     try:
         yield
@@ -102,3 +106,24 @@ def _stable(sections: Sections, node: Node) -> bool | tuple[Inequality, ...] | N
         if each is not None and each.comparison not in (">", "<"):
             sections.error(f"{what} has > or <", item.span)
     return tuple(each for each in read if each is not None)
+
+
+def read_hamilton_jacobi(
+    sections: Sections, node: Node, spans: dict[tuple[str, ...], Span]
+) -> ExpectHamiltonJacobi:
+    """`expect: {hamilton_jacobi: {separable: yes, derivatives: {x: …}}}`."""
+    found: dict[str, Any] = {}
+    with constants(sections):
+        entries = sections.attributes(node, "'hamilton_jacobi'", ("separable", "derivatives"))
+        for name, (key, value) in entries.items():
+            spans["hamilton_jacobi", name] = key.span
+            if name == "derivatives":
+                what = "the expected derivative of W by '{}'"
+                found[name] = read_by_coordinate(sections, value, f"'{name}'", what, _REDUCED)
+                continue
+            text = sections.scalar(value, "'separable'")
+            if text is not None and text.value.strip() in _WORDS:
+                found[name] = _WORDS[text.value.strip()]
+            elif text is not None:
+                sections.error("'separable' is yes or no", text.span)
+    return ExpectHamiltonJacobi(**found)

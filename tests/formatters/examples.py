@@ -21,6 +21,7 @@ from lagcli.answers import (
     Equilibrium,
     FindSection,
     HamiltonianSection,
+    HamiltonJacobiSection,
     LagrangeEquation,
     LagrangianSection,
     MatrixFormSection,
@@ -278,6 +279,14 @@ HOOP = Answers(
             multipliers={"lambda_rolling": unit_of("V/(A m^2)")},
             charges={"slide": QuantityUnit(unit=Unit((), 1e-05), source="inferred")},
         ),
+        "hamilton_jacobi": HamiltonJacobiSection(
+            hamiltonian=minus_half,
+            energy="E",
+            separable=True,
+            constants=("E", "p_x", "alpha_1"),
+            equations={"theta": minus_half},
+            derivatives={"x": p_x, "theta": Call("sqrt", (plus(ell, Negative(g)),))},
+        ),
         "steady_motions": SteadySection(
             conditions={"theta": minus_half},
             motions=(
@@ -381,6 +390,13 @@ HOSTILE = Answers(
         "canonical_equations": CanonicalSection(equations=None, reason="no Hamiltonian"),
         "equilibria": EquilibriaSection(equilibria=None),
         "modes": ModesSection(modes=None),
+        "hamilton_jacobi": HamiltonJacobiSection(
+            hamiltonian=long_sum,
+            energy="E",
+            separable=False,
+            obstacle=("theta_1", "длина_волны"),
+            reason="x_1 <&> 100%",
+        ),
         "steady_motions": SteadySection(conditions={}, motions=None, reason="x_1 <&> 100%"),
         "reduction": ReductionSection(
             momenta={"phase": long_sum}, routhian=None, reason="x_1 & 100% <undecided>"

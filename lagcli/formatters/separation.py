@@ -1,0 +1,68 @@
+"""The wording of the Hamilton-Jacobi equation and its separation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagcli.answers import HamiltonJacobiSection
+from lagcli.document import (
+    Block,
+    Equations,
+    Formula,
+    Integral,
+    Label,
+    Paragraph,
+    Row,
+)
+from lagcli.expression import ZERO, Name, Negative, Product
+
+_NAMED = {
+    True: "It separates in these coordinates",
+    False: "It does not separate in these coordinates",
+    None: "Whether it separates in these coordinates is undecided",
+}
+
+
+def hamilton_jacobi_blocks(section: HamiltonJacobiSection) -> Iterator[Block]:
+    """Say the equation, whether it separates, and the parts of S."""
+    if section.hamiltonian is None:
+        yield Paragraph((f"Not found: {section.reason}.",))
+        return
+    yield Paragraph(("With each momentum the derivative of S by its coordinate:",))
+    yield Equations((Row(Name(section.energy), section.hamiltonian),))
+    parts: list[str | Formula] = [_NAMED[section.separable]]
+    if section.obstacle:
+        first, second = section.obstacle
+        parts += [": Levi-Civita's condition fails for ", Name(first), " and ", Name(second)]
+    elif section.separable:
+        parts += [" (Levi-Civita's condition holds)"]
+    yield Paragraph((*parts, "."))
+    if section.derivatives is None:
+        if section.reason:
+            yield Paragraph((f"Not found: {section.reason}.",))
+        return
+    yield from _solution(section)
+
+
+def _solution(section: HamiltonJacobiSection) -> Iterator[Block]:
+    assert section.derivatives is not None
+    if section.equations:
+        yield Paragraph(("The separated equations:",))
+        yield Equations(tuple(Row(ZERO, each) for each in section.equations.values()))
+    action: list[str | Formula] = ["S = ", Negative(Product((Name(section.energy), Name("t"))))]
+    rows = []
+    for name, derivative in section.derivatives.items():
+        if name in section.equations:
+            action += [" + ", Label("W", (name,))]
+            rows.append(Row(Label("W", (name,)), Integral(derivative, name)))
+        else:
+            action += [" + ", Product((derivative, Name(name)))]
+    checked = "each root with either sign; put back into the equation: checked exactly."
+    yield Paragraph((*action, f", {checked}"))
+    if rows:
+        yield Equations(tuple(rows))
+    if section.constants:
+        listed: list[str | Formula] = []
+        for position, constant in enumerate(section.constants):
+            listed += [", " if position else "Constants: ", Name(constant)]
+        yield Paragraph((*listed, "."))

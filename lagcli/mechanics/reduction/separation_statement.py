@@ -1,0 +1,78 @@
+"""The section `hamilton_jacobi` in the shape in which it is read."""
+
+from __future__ import annotations
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import shape, terms
+from lagcli.algebra.writing import Writer
+from lagcli.answers import HamiltonJacobiSection
+from lagcli.expression import Call, Expression, operation_count
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.reduction.separation import Separation
+from lagcli.mechanics.reduction.statement import Missing
+
+
+def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Missing]:
+    """The separation in the coordinates of the file, and what was not found."""
+    separation = Separation(derivation)
+    system, H = separation.system, separation.hamiltonian
+    separated = separation.separated
+    missing: Missing = []
+    if separation.reason:
+        missing.append(("the separation of the Hamilton-Jacobi equation", separation.reason))
+    elif separation.separable is None:
+        why = "Levi-Civita's test was not decided"
+        missing.append(("whether the Hamilton-Jacobi equation separates", why))
+    writer = _Writing(separation)
+    obstacle = separation.obstacle
+    return (
+        HamiltonJacobiSection(
+            hamiltonian=None if H is None else shape(H, writer.order),
+            energy=separation.E.name,
+            separable=separation.separable,
+            obstacle=() if obstacle is None else tuple(system.names[j] for j in obstacle),
+            constants=()
+            if separated is None
+            else tuple(constant.name for constant in separated.constants),
+            equations={}
+            if separated is None
+            else {system.names[j]: writer.sum(e) for j, e in sorted(separated.equations.items())},
+            derivatives=None
+            if separated is None
+            else {
+                system.names[j]: writer.derivative(e)
+                for j, e in sorted(separated.derivatives.items())
+            },
+            reason=separation.reason,
+        ),
+        missing,
+    )
+
+
+class _Writing:
+    """Formulas as sums over the constants of the motion."""
+
+    def __init__(self, separation: Separation) -> None:
+        system, found = separation.system, separation.separated
+        constants = () if found is None else tuple(c.name for c in found.constants)
+        moving = {p.name for p in system.momenta}
+        self.order = (*(n for n in system.order if n not in constants), *constants)
+        self.leading = moving | set(constants)
+
+    def sum(self, expression: Expr) -> Expression:
+        """The shorter of the terms by constants and the whole."""
+        by_terms = terms(expression, self.order, self.leading)
+        whole = shape(expression, self.order)
+        return whole if operation_count(whole) < operation_count(by_terms) - 2 else by_terms
+
+    def derivative(self, expression: Expr) -> Expression:
+        """A root with its radicand by terms."""
+        parts: list[Expression] = []
+        for part in sympy.Add.make_args(expression):
+            if isinstance(part, sympy.Pow) and part.exp == sympy.S.Half:
+                parts.append(Call("sqrt", (self.sum(part.base),)))
+            else:
+                parts.append(shape(part, self.order))
+        return Writer(self.order).sum(parts) if len(parts) > 1 else parts[0]

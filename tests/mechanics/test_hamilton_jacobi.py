@@ -1,0 +1,127 @@
+"""Separation of the Hamilton-Jacobi equation against textbooks and numbers."""
+
+from __future__ import annotations
+
+import mpmath
+import pytest
+from sympy import Symbol, diff, symbols
+
+from lagcli.algebra.build import Builder, symbol
+from lagcli.mechanics.reduction.separation import Separation
+from lagcli.mechanics.reduction.separation_statement import hamilton_jacobi
+
+from .derived import derive
+
+KEPLER = """
+coordinates: {r: POSITIVE, phi: {}}
+parameters: {m: POSITIVE, k: POSITIVE}
+T: m*(r'^2 + r^2*phi'^2)/2
+V: -k/r
+"""
+
+
+def section(text: str):
+    return hamilton_jacobi(derive(text.replace("POSITIVE", "{assume: positive}")))
+
+
+def test_the_derivative_of_S_by_a_constant_is_the_orbit():
+    """Jacobi: dW/dp_phi = const is the ellipse r = p²/(m k)/(1 + e cos phi)."""
+    found, missing = section(KEPLER)
+    assert not missing
+    assert found.constants == ("E", "p_phi")
+    names = {n: symbol(n) for n in ("m", "k", "E", "p_phi", "r")}
+    radial = Builder(names, {}, lambda e: e)(found.derivatives["r"])
+    m, k, E, p = 1.3, 0.8, -0.2, 0.9
+    numbers = {"m": m, "k": k, "E": E, "p_phi": p}
+    slope = diff(radial, names["p_phi"]).subs({names[n]: v for n, v in numbers.items()})
+    e = mpmath.sqrt(1 + 2 * E * p**2 / (m * k**2))
+    orbit = [p**2 / (m * k) / (1 + e * mpmath.cos(phi)) for phi in (0.4, 1.1)]
+    swept = mpmath.quad(lambda r: mpmath.mpf(str(slope.subs(names["r"], r).evalf(20))), orbit)
+    assert abs(-swept - 0.7) < 1e-8
+
+
+def test_a_cyclic_momentum_is_the_energy_of_a_free_particle():
+    found, missing = section("{coordinates: [x], parameters: {m: POSITIVE}, T: m*x'^2/2}")
+    assert not missing
+    assert found.equations == {}
+    assert found.constants == ("p_x",)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "{coordinates: [x, y], L: (x'^2 + y'^2)/2 - (x - y)^4}",
+        "{coordinates: [x, y], L: (x'^2 + y'^2)/2 + 1/sqrt(x^2 + y^2)}",
+        "{coordinates: [a, b], L: a'^2 + b'^2/2 + a'*b'*cos(a - b) + 2*cos(a) + cos(b)}",
+    ],
+)
+def test_what_does_not_separate_has_its_obstacle(text):
+    found, missing = section(text)
+    assert not missing
+    assert found.separable is False
+    assert len(found.obstacle) == 2
+    assert found.derivatives is None
+
+
+def test_rotated_by_an_eighth_of_a_turn_the_coupled_oscillators_separate():
+    found, _ = section("{coordinates: [u, v], L: (u'^2 + v'^2)/2 - u^2/2 - 3*v^2/2 - v^4}")
+    assert found.separable is True
+    assert found.constants == ("E", "alpha_1")
+
+
+def test_a_system_of_liouville_with_unspecified_functions():
+    """Whittaker, section 43: (f1 + f2)(q1'² + q2'²)/2 - (g1 + g2)/(f1 + f2)."""
+    found, missing = section("""
+coordinates: [x, y]
+functions: {f: [x], g: [y], a: [x], b: [y]}
+L: (f(x) + g(y))*(x'^2 + y'^2)/2 - (a(x) + b(y))/(f(x) + g(y))
+""")
+    assert not missing
+    assert found.separable is True
+    assert set(found.derivatives) == {"x", "y"}
+
+
+def test_a_coupling_by_the_momenta_separates_beside_a_cyclic_coordinate():
+    separation = Separation(derive("{coordinates: [x, y], L: x'^2/2 + y'^2/2 + y*x'*y'}"))
+    assert separation.separable is True
+    assert separation.separated is not None
+
+
+def test_an_explicit_time_is_not_tried():
+    found, missing = section("{coordinates: [x], parameters: [w], L: x'^2/2 - x*cos(w*t)}")
+    assert found.separable is None
+    assert missing
+    assert missing[0][1] == "H depends explicitly on the time"
+
+
+def test_a_force_without_a_potential_has_no_action():
+    _, missing = section("{coordinates: [x], parameters: [b], L: x'^2/2, dissipation: b*x'^2/2}")
+    assert missing[0][1] == "a force without a potential acts"
+
+
+def test_constants_get_names_that_are_free():
+    found, _ = section("""
+coordinates: [x, y]
+parameters: {alpha_1: POSITIVE, E: POSITIVE}
+L: (x'^2 + y'^2)/2 - alpha_1*x^2 - E*y^2
+""")
+    assert found.constants == ("h", "beta_1")
+
+
+def test_the_spherical_action_solves_the_equation_at_numbers():
+    found, _ = section("""
+coordinates: {r: POSITIVE, theta: {}, phi: {}}
+parameters: {m: POSITIVE, k: POSITIVE}
+T: m*(r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2
+V: k*r^2/2
+""")
+    names = {n: symbol(n) for n in ("m", "k", "E", "alpha_1", "p_phi", "r", "theta")}
+    build = Builder(names, {}, lambda e: Symbol(e.name + "'"))
+    values = dict(zip(names, (1.1, 0.7, 4.0, 1.9, 0.8, 1.3, 0.9), strict=True))
+    at = {names[n]: v for n, v in values.items()}
+    p = {n: build(found.derivatives[n]).subs(at) for n in ("r", "theta", "phi")}
+    m, k, r, theta = (values[n] for n in ("m", "k", "r", "theta"))
+    angular = p["theta"] ** 2 + p["phi"] ** 2 / mpmath.sin(theta) ** 2
+    energy = (p["r"] ** 2 + angular / r**2) / (2 * m) + k * r**2 / 2
+    assert abs(energy - values["E"]) < 1e-12
+    assert symbols("x") not in energy.free_symbols
