@@ -200,6 +200,16 @@ class ChargesSection:
 
 
 @record(kw_only=True)
+class SpecialValue:
+    """A parameter's value at which there are more charges: their number, and the new ones."""
+
+    parameter: str
+    value: Expression
+    number: int
+    charges: Mapping[str, Expression]
+
+
+@record(kw_only=True)
 class AlgebraSection:
     """The Lie algebra of the discovered symmetries; None: no brackets to find it by."""
 
@@ -209,6 +219,7 @@ class AlgebraSection:
     independent: int
     in_involution: int | None
     integrable: bool | None
+    special: tuple[SpecialValue, ...] = ()
 
 
 @record(kw_only=True)

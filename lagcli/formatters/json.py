@@ -136,6 +136,15 @@ def _value(section: Section) -> Value:
                 "independent": section.independent,
                 "in_involution": section.in_involution,
                 "integrable": section.integrable,
+                "special": [
+                    {
+                        "parameter": case.parameter,
+                        "value": to_grammar(case.value),
+                        "number": case.number,
+                        "charges": {n: to_grammar(Q) for n, Q in case.charges.items()},
+                    }
+                    for case in section.special
+                ],
             }
         case FindSection():
             return {name: _answer(answer) for name, answer in section.answers.items()}

@@ -49,6 +49,7 @@ from lagcli.formatters.findings import (
     find_blocks,
     mode_blocks,
 )
+from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.reductions import reduction_blocks
 from lagcli.formatters.separation import hamilton_jacobi_blocks
 from lagcli.formatters.steady import steady_blocks
@@ -306,6 +307,10 @@ def _algebra(section: AlgebraSection) -> Iterator[Block]:
         charges += f", {section.in_involution} in involution"
     yield Paragraph((f"Dimension {section.dimension}{named}; {charges}.",))
     yield Paragraph((integrable[section.integrable],))
+    for case in section.special:
+        where = f"{case.parameter} = {to_grammar(case.value)}"
+        yield Heading(f"Where {where}: {case.number} charges, of which new", 2)
+        yield _by_name(case.charges)
 
 
 def _model(section: ModelSection) -> Iterator[Block]:

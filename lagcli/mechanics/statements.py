@@ -32,6 +32,7 @@ from lagcli.answers import (
     ReductionSection,
     Section,
     Solutions,
+    SpecialValue,
     SteadySection,
 )
 from lagcli.expression import ZERO, Expression
@@ -41,6 +42,7 @@ from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
 from lagcli.problem import Problem
+from lagcli.record import replace
 
 NUMERIC_CHECK = "50 digits"
 
@@ -321,7 +323,17 @@ class Statements(Stating):
     def _algebra(self) -> AlgebraSection:
         from lagcli.mechanics.discovery.summary import algebra_section
 
-        return algebra_section(self.derivation.discovery)
+        discovery = self.derivation.discovery
+        special = tuple(
+            SpecialValue(
+                parameter=case.parameter.name,
+                value=self._as_written(case.value),
+                number=case.number,
+                charges={c.name: self._by_terms(c.charge) for c in case.charges},
+            )
+            for case in discovery.special
+        )
+        return replace(algebra_section(discovery), special=special)
 
     def _find(self) -> FindSection:
         from lagcli.mechanics.finding.find import answer_questions

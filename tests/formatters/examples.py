@@ -37,6 +37,7 @@ from lagcli.answers import (
     ReductionSection,
     Rewritten,
     Solutions,
+    SpecialValue,
     SteadyMotion,
     SteadySection,
     UnitSource,
@@ -209,6 +210,9 @@ HOOP = Answers(
             independent=2,
             in_involution=1,
             integrable=True,
+            special=(
+                SpecialValue(parameter="M", value=half_r, number=7, charges={"L_z": square(R)}),
+            ),
         ),
         "find": FindSection(
             answers={

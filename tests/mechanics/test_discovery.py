@@ -59,8 +59,28 @@ KNOWN = {
 }
 
 
-def test_special_parameters_with_more_symmetries_are_named():
-    assert "k2 = k1 (8)" in derived("particles/anisotropic-oscillator").discovery.ansatz
+# Jauch and Hill, Phys. Rev. 57 (1940) 641; Bertrand, C. R. Acad. Sci. 77 (1873) 849.
+SPECIAL = {
+    "particles/anisotropic-oscillator": {
+        ("k2", "k1"): (10, "L_z fradkin_xy"),
+        ("k2", "k1/4"): (7, "charge_1"),
+        ("k2", "4*k1"): (7, "charge_1"),
+    },
+    "discovery/power-law-potential": {
+        ("n", "2"): (10, "fradkin_xy conformal_sin"),
+        ("n", "-1"): (4, "runge_lenz_x runge_lenz_y"),
+        ("n", "-2"): (4, "dilation conformal"),
+    },
+}
+
+
+@pytest.mark.parametrize("name", SPECIAL)
+def test_special_parameters_are_told_with_the_charges_they_add(name):
+    cases = {(c.parameter.name, str(c.value)): c for c in derived(name).discovery.special}
+    assert set(SPECIAL[name]) == set(cases)
+    for key, (number, names) in SPECIAL[name].items():
+        assert cases[key].number == number
+        assert set(names.split()) <= {c.name for c in cases[key].charges}
 
 
 def derived(name):

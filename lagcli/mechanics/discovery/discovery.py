@@ -14,11 +14,12 @@ from functools import cached_property
 
 import mpmath
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
+from lagcli.diagnostics import ProblemError
 from lagcli.mechanics.discovery import point
 from lagcli.mechanics.discovery.ansatz import (
     Kinds,
@@ -33,13 +34,18 @@ from lagcli.mechanics.discovery.centralizer import centralized
 from lagcli.mechanics.discovery.constrained import tangent
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
-from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, SECONDS, Clock, OutOfTime
+from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Clock, OutOfTime
 from lagcli.mechanics.discovery.listing import led_momentum, more, rank_of, times
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.names import Naming, distinct
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.slots import Equations, point_slots
-from lagcli.mechanics.discovery.special import special_values
+from lagcli.mechanics.discovery.special import (
+    SpecialCase,
+    candidates,
+    new_charges,
+    problem_at,
+)
 from lagcli.mechanics.discovery.under_constraints import UnderConstraints
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
@@ -47,7 +53,8 @@ _MOST_COORDINATES = 9
 _DIGITS = 40
 _MOST_FOR_TENSORS = 6
 _FEW_TERMS = 3
-_QUICK = 2.0  # seconds of a search that is worth repeating at special parameters
+_MOST_FOR_SPECIAL = 3
+_SECONDS_FOR_SPECIAL = 6.0
 
 
 class Discovery:
@@ -218,25 +225,41 @@ class Discovery:
                 self.stopped.append("a symmetry whose charge was not proved is left out")
                 continue
             self._add(charge)
-        if not constraints:
-            self._special(len(transformations))
 
-    def _special(self, dimension: int) -> None:
-        """Look at special values of the parameters while there is ample time."""
-        used = SECONDS - self.clock.left
-        if used > _QUICK:
-            return
-        clock = self.clock.part(0.3)
-        found = special_values(
-            self.system.parameters,
-            self.equations,
-            self._accelerations,
-            dimension,
-            lambda equations, moved: len(self._search(equations, moved, clock)[0].kernel()),
-            clock,
-        )
-        if found:
-            self.words.append(f"there are more point symmetries for {', '.join(found)}")
+    # -- at special values of the parameters --------------------------------------------------
+
+    @cached_property
+    def special(self) -> tuple[SpecialCase, ...]:
+        """Values of parameters at which there are more charges, with these."""
+        system = self.system
+        if self.dynamics.constraints.equations or not 0 < len(system.q) <= _MOST_FOR_SPECIAL:
+            return ()
+        clock = Clock(_SECONDS_FOR_SPECIAL)
+        times = time_functions(self.equations, self._accelerations, potential=self.canonical)
+        found: list[SpecialCase] = []
+        for parameter, value in candidates(system, self.equations, times.exponents):
+            there = self._at(parameter, value)
+            if clock.left < 0:
+                self.words.append("not all special values of the parameters were tried")
+                break
+            if there is None or len(there.charges) <= len(self.charges):
+                continue
+            known = [c.charge.xreplace({parameter: value}) for c in self.charges]
+            variables = (system.t, *system.q, *system.qdot)
+            charges = new_charges(known, there.charges, variables, clock)
+            if charges:
+                found.append(SpecialCase(parameter, value, len(there.charges), charges))
+        return tuple(found)
+
+    def _at(self, parameter: Symbol, value: Expr) -> Discovery | None:
+        """The same search with a value in place of a parameter."""
+        from lagcli.mechanics.derivation import Derivation
+
+        problem = problem_at(self.system.problem, parameter, value)
+        try:
+            return None if problem is None else Derivation(problem).discovery
+        except (ProblemError, ZeroDivisionError):
+            return None
 
     @cached_property
     def _naming(self) -> Naming:
