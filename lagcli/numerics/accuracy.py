@@ -30,7 +30,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from lagcli.numerics.run import Mark, Run
-from lagcli.record import record
+from lagcli.record import record, replace
 
 #: The runs' tolerances lie this far apart.
 BETWEEN = 100.0
@@ -58,6 +58,7 @@ class Outcome:
     run: Run
     rows: list[list[Any]]
     errors: list[float]  # of each column, relative to max(1, its largest magnitude)
+    held: list[float]  # the same over the rows that are within the accuracy
     times: list[float]  # the errors of the times of the events
     good_rows: int  # so many rows from the beginning are within the accuracy
     reached: bool
@@ -65,6 +66,7 @@ class Outcome:
     runs: int
     evaluations: int
     tolerances: tuple[float, float]
+    controller: Controller  # what can look more closely at where it fails
 
 
 class Controller:
@@ -102,6 +104,8 @@ class Controller:
         self._longest = longest
         self.runs = self.evaluations = 0
         self._finer = 0
+        self._is_refused = False
+        self._level = 0
 
     def outcome(self) -> Outcome:
         """The first pair of runs that agrees, or the last that could be made."""
@@ -118,10 +122,11 @@ class Controller:
                     return found
                 if level + 1 < len(self._longest):  # something narrow: look again with short steps
                     level += 1
-                    self._finer = 0
+                    self._finer, self._level = 0, level
                     coarse, rows = self._run(tolerance, level, fine)
                     continue
-                return _refused(found, missed)
+                self._is_refused = True
+                return replace(found, reached=False, reason=missed, good_rows=1)
             if finer <= self.finest or _both_stop(coarse, fine, found.good_rows, self.accuracy):
                 return found
             tolerance = self._tightened(tolerance, finer, max(found.errors))
@@ -161,7 +166,7 @@ class Controller:
             max(1.0, *(abs(float(row[j])) for row in fine_rows if row[j] is not None), 1.0)
             for j in range(len(fine_rows[0]) - self.charges)
         ]
-        errors = [0.0] * len(scales)
+        errors, held = [0.0] * len(scales), [0.0] * len(scales)
         good = 0
         partner = Partners(coarse, fine)
         for place, (mark, fine_row) in enumerate(zip(fine.marks, fine_rows, strict=True)):
@@ -177,6 +182,7 @@ class Controller:
                 late = 2 * abs(coarse.marks[other].t - mark.t) / max(1.0, self.span)
             if good == place and max(*now, late) <= accuracy:
                 good += 1
+                held = [max(pair) for pair in zip(held, now, strict=True)]
             errors = [max(pair) for pair in zip(errors, now, strict=True)]
         same_end = (coarse.event is None) == (fine.event is None) and partner.agree
         reached = good == len(fine_rows) and same_end and fine.stop is None
@@ -185,6 +191,7 @@ class Controller:
             fine,
             fine_rows,
             errors,
+            held,
             partner.late,
             good,
             reached,
@@ -192,7 +199,28 @@ class Controller:
             self.runs,
             self.evaluations,
             tolerances,
+            self,
         )
+
+    def refined(self, found: Outcome, between: Callable[[float, float], None]) -> Outcome:
+        """The same pair of runs, compared more closely where the accuracy is lost.
+
+        `between` has later runs give rows up to a time, then densely up to another one.
+        """
+        fine, good = found.run, found.good_rows
+        if good < 2 or fine.steps >= fine.step_limit or self._is_refused:
+            return found
+        ends = [fine.marks[good].t] if good < len(fine.marks) else []
+        ends += [fine.stop.t] if fine.stop is not None else []
+        if not ends or min(ends) <= fine.marks[good - 1].t:
+            return found
+        between(fine.marks[good - 1].t, min(ends))
+        coarse, rows = self._run(found.tolerances[0], self._level, None)
+        again, fine_rows = self._run(found.tolerances[1], self._level, coarse)
+        closer = self._compared(coarse, rows, again, fine_rows, found.tolerances)
+        if closer.good_rows < good:
+            return found
+        return replace(closer, reached=False, reason=found.reason or closer.reason)
 
     def _missed(self, fine: Run, rows: list[list[Any]]) -> str:
         """What both runs may have stepped over."""
@@ -302,9 +330,3 @@ def stretches(run: Run, charge: int) -> Iterator[list[int]]:
             places = [place for place, mark in enumerate(run.marks) if mark.phase == number]
             if len(places) > 1:
                 yield places
-
-
-def _refused(found: Outcome, reason: str) -> Outcome:
-    from lagcli.record import replace
-
-    return replace(found, reached=False, reason=reason, good_rows=1)

@@ -34,7 +34,8 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
     for place, mark in enumerate(run.marks[:kept]):
         ends = run.event is not None and place == len(run.marks) - 1
         if mark.sample >= 0:
-            shown = mark.sample % simulation.every == 0
+            regular = mark.sample < simulation.regular and mark.sample % simulation.every == 0
+            shown = regular or (place == kept - 1 and not outcome.reached)
         else:
             shown = ends and (not rows or rows[-1][0] != mark.t)
         if shown:
@@ -56,7 +57,7 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
             reached=outcome.reached,
             holds_until=holds_until,
             global_error={
-                name: outcome.errors[j]
+                name: outcome.held[j]
                 for j, name in enumerate(names)
                 if asked.columns[j].expression is not None
             },
@@ -156,7 +157,9 @@ def _refusal(simulation: Simulation, motion: Motion, outcome: Outcome, holds_unt
     why = outcome.reason or f"the bound at the end is {bound:.1e}"
     told = f"the accuracy {asked.accuracy:g} is not reached until t = {asked.until:g}: {why}"
     held = f"it holds until t = {holds_until:.6g}"
-    more = "" if asked.digits is not None else "; --precision carries more digits"
+    more = "; --precision carries more digits"
+    if asked.digits is not None or simulation.goes_on:
+        more = ""
     return f"{told}; {held}{more}"
 
 

@@ -109,6 +109,8 @@ class Watch:
         rounding: Callable[[float], Sequence[float]],
     ) -> None:
         self._state_at, self._allowed, self._rounding = state_at, allowed, rounding
+        #: what is looked at in a few places is no longer than this
+        self.window = math.inf
         self.conditions: Sequence[Condition] = ()
         self._before: list[float] = []
         self._noise: list[float] = []
@@ -159,6 +161,21 @@ class Watch:
         """The first condition that fails or touches within a step."""
         if not self.conditions:
             return None
+        # a series takes long steps: it is looked at as closely as short ones
+        count = max(1, math.ceil(step.h / self.window))
+        for k in range(count):
+            part = step if count == 1 else self._part(step, k, count)
+            found = self._first(part)
+            if found is not None:
+                return found
+        return None
+
+    def _part(self, step: Step, k: int, count: int) -> Step:
+        start, end = step.start + step.h * k / count, step.start + step.h * (k + 1) / count
+        end = step.end if k == count - 1 else end
+        return Step(start, end - start, end, *self._state_at(step, end), step.inside)
+
+    def _first(self, step: Step) -> Occurrence | None:
         states: dict[float, tuple[float, State]] = {0.0: (step.start, ([], []))}
         for x in _PLACES:
             t = step.end if x == 1 else step.start + x * step.h

@@ -19,6 +19,8 @@ STEP_LIMIT = 200_000
 #: Weyl's sequence of the golden ratio: places as even as can be, the same in every run.
 _GOLDEN = 0.6180339887498949
 _EPSILON = 2.2e-16
+#: A step that is a larger part of the span is looked at in pieces.
+_WINDOWS = 200
 #: So many changes of mode at one time are an end.
 _AT_ONCE = 20
 
@@ -123,6 +125,7 @@ class Run:
     ) -> Run:
         """Run through the times, of which the last is the end."""
         self._times, self._pending = times, 0
+        self._watch.window = times[-1] / _WINDOWS
         self._probe_every, self._progress = probe_every, progress
         t = times[0]
         try:
@@ -184,11 +187,13 @@ class Run:
             self._see(step)
             found = self._watch.first(step)
             end = t if found is None else found.t
-            while self._pending < len(times) and times[self._pending] <= end:
-                at = times[self._pending]
-                self._mark(at, *self._state_in(step, at))
+            self._mark_until(step, end)
             if found is not None:
-                return end, self._turned(mode, found, *self._state_in(step, end))
+                following = self.transitions.after(mode, found, *self._state_in(step, end))
+                if following.mode is not None:  # a sample that nobody can tell from it: before it
+                    self._mark_until(step, end + self._allowed * max(1.0, end))
+                self._end(end, *self._state_in(step, end))
+                return end, following
             self._look(step)
         if method.reached is not None:
             self._end(t, q, v)
@@ -213,6 +218,13 @@ class Run:
     def _turned(self, mode: Mode, found: Occurrence, q: Vector, v: Vector) -> Turn:
         self._end(found.t, q, v)
         return self.transitions.after(mode, found, q, v)
+
+    def _mark_until(self, step: Step, end: float) -> None:
+        """The times that were asked for, up to one."""
+        times = self._times
+        while self._pending < len(times) and times[self._pending] <= end:
+            at = times[self._pending]
+            self._mark(at, *self._state_in(step, at))
 
     def _mark(self, t: float, q: Vector, v: Vector) -> None:
         """The next of the times that were asked for."""

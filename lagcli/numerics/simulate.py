@@ -31,6 +31,8 @@ from lagcli.problem import Problem, charge_of
 FINEST_DOUBLE = 1e-18
 #: The intervals at which two runs are compared are at least so many.
 _COMPARED = 100
+#: Where the accuracy is lost between two rows, so many are compared there.
+_CLOSER = 64
 #: Doubles that miss the accuracy, and are this good, miss it by their rounding.
 _ROUNDING_REACH = 1e-5
 #: Doubles claim nothing better: the parameters are rounded too, alike in all runs.
@@ -91,6 +93,8 @@ class Simulation:
         #: the rows asked for are those at multiples of this
         self.every = max(1, -(-_COMPARED // (asked.samples - 1)))
         self.times = self._times()
+        #: so many of the times are those asked for, and what lies between them
+        self.regular = len(self.times)
         self.finished = 0.0
         #: what is said beside the reason for the method
         self.remark = ""
@@ -176,7 +180,19 @@ class Simulation:
                 found = route(modes, q, v)
                 if found and (outcome is None or found.good_rows >= outcome.good_rows):
                     outcome = found
-        return result_of(self, motion, outcome or self._doubles(modes, q, v))
+        outcome = outcome or self._doubles(modes, q, v)
+        if not outcome.reached and isinstance(outcome.run.marks[0].t, float):
+            outcome = outcome.controller.refined(outcome, self._between)
+        return result_of(self, motion, outcome)
+
+    def _between(self, good: float, bad: float) -> None:
+        """Rows as they were up to a time, then many up to another."""
+        kept = [t for t in self.times if t <= good]
+        self.regular = len(kept)
+        step = (bad - good) / _CLOSER
+        self.times = [*kept, *(good + step * k for k in range(1, _CLOSER)), bad]
+        if bad < self.asked.until:
+            self.times.append(self.asked.until)
 
     def _routes(self) -> list[Callable[..., Outcome | None]]:
         """The ways to run it, each for what those before it do not reach."""
@@ -205,14 +221,15 @@ class Simulation:
         return self._compiled(modes, q, v) or self._doubles(modes, q, v)
 
     def _extended(self, modes: Modes, q: Sequence[float], v: Sequence[float]) -> Outcome | None:
-        if self._goes_on:
+        if self.goes_on:
             return None
         from lagcli.numerics.compiled.route import extended_outcome
 
         return extended_outcome(self, modes, q, v)
 
     def _precise(self, modes: Modes, q: Sequence[float], v: Sequence[float]) -> Outcome | None:
-        if self._goes_on:
+        if self.goes_on:
+            self.remark = "; after events only doubles go on"
             return None
         from lagcli.numerics.precise import precise_outcome
 
@@ -236,7 +253,7 @@ class Simulation:
             return None
 
     @property
-    def _goes_on(self) -> bool:
+    def goes_on(self) -> bool:
         """Whether the motion may go on in another mode than the first."""
         return bool(self.gaps) or any(c.on_loss == "release" for c in self.problem.constraints)
 
@@ -251,7 +268,7 @@ class Simulation:
             for s in self.problem.symmetries
             if s.gauge is None and s.name in shown and not kept.get(s.name, True)
         ]
-        if not self._goes_on:
+        if not self.goes_on:
             self.charges = {name: node for name, node in self.charges.items() if kept[name]}
             self.candidates = [name for name in self.candidates if kept[name]]
             del modes.first.conserved

@@ -93,3 +93,11 @@ def test_a_sign_that_an_impact_changes_stops_the_run():
     result = simulated(text, 10, stop="x'", samples=3)
     assert [event.what for event in result.events] == ["impact", "stopped"]
     assert result.rows[-1][0] == pytest.approx(2, abs=1e-9)
+
+
+def test_a_series_that_takes_long_steps_is_looked_at_closely():
+    """One step of the series is longer than the dip of the margin."""
+    text = "{coordinates: [x], L: x'^2/2 - x^2/2, initial: {x: 0, x': 1}}"
+    for method in ("taylor64", "taylor"):
+        result = simulated(text, 40, 1e-9, stop="x + 1 - 1e-4", method=method)
+        assert result.events[0].t == pytest.approx(math.pi + math.asin(1 - 1e-4), abs=1e-7)

@@ -96,7 +96,7 @@ def test_the_radial_fall_stops_in_the_centre():
     result = simulated("{coordinates: [r], L: r'^2/2 + 1/r, initial: {r: 1}}", 2, samples=21)
     assert not result.certificate.reached
     assert result.events[0].t == pytest.approx(math.pi / math.sqrt(8), abs=1e-12)
-    assert result.certificate.holds_until == pytest.approx(1.1)
+    assert 1.11 < result.certificate.holds_until < math.pi / math.sqrt(8)
     assert "without bound" in result.refusal
 
 
