@@ -40,6 +40,12 @@ KNOWN = {
     "discovery/bateman-oscillator": (8, "energy", "Heisenberg h(2)", True),
     "particles/anisotropic-oscillator": (5, "energy energy_x", None, True),
     "discovery/oscillator-equal-frequencies": (8, "energy L_z fradkin_xy", "sch(2)", True),
+    "discovery/smorodinsky-winternitz": (
+        3,
+        "energy conformal_cos energy_x charge_1 conformal_x_cos conformal_x_sin",
+        None,
+        True,
+    ),
     "particles/oscillator-one-to-two": (5, "energy energy_x charge_1", None, True),
     "discovery/oscillator-three-to-two": (5, "energy energy_x", None, True),
     "classics/spherical-pendulum": (2, "energy p_phi", "R^2", True),

@@ -244,10 +244,13 @@ def _times(times: TimeFunctions, slot: Slot, g: Expr, *, all_powers: bool) -> li
 
 
 def quadratic_unknowns(
-    pairs: Sequence[int], linear: Sequence[int], spaces: Sequence[Expr]
+    pairs: Sequence[int],
+    linear: Sequence[int],
+    spaces: Sequence[Expr],
+    times: Sequence[Expr] = (sympy.S.One,),
 ) -> list[Unknown]:
-    """g(q) for the components of a Killing tensor and of the linear part."""
-    return _ordered([Unknown(k, sympy.S.One, g) for k in (*pairs, *linear) for g in spaces])
+    """T(t) g(q) for the components of a Killing tensor and of the linear part."""
+    return _ordered([Unknown(k, T, g) for k in (*pairs, *linear) for g in spaces for T in times])
 
 
 def _ordered(unknowns: list[Unknown]) -> list[Unknown]:

@@ -46,6 +46,7 @@ from lagcli.mechanics.discovery.special import (
     new_charges,
     problem_at,
 )
+from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.discovery.under_constraints import UnderConstraints
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
@@ -337,29 +338,37 @@ class Discovery:
     def _hidden(self) -> None:
         if len(self.system.q) < 2 or not self._quadratic or not self.canonical:
             return
-        if self.system.t in self.equations_symbols:
-            return
         if len(self.system.q) > _MOST_FOR_TENSORS:
             self.words.append("no integrals of second degree, for so many coordinates")
             return
-        self.words.append(
-            "first integrals of second degree in the velocities without explicit time, "
-            "coefficients up to second degree in the coordinates"
-        )
-        integrals = QuadraticIntegrals(self.noether, self.equations, self._kinds, self.clock)
-        if not integrals.functions:
-            self.stopped.append("there are too many coordinates for the second degree")
-            return
-        found = integrals.found(self.point_charges)
+        if self.system.t not in self.equations_symbols:
+            self.words.append(
+                "first integrals of second degree in the velocities without explicit time, "
+                "coefficients up to second degree in the coordinates"
+            )
+            integrals = QuadraticIntegrals(self.noether, self.equations, self._kinds, self.clock)
+            if not integrals.functions:
+                self.stopped.append("there are too many coordinates for the second degree")
+                return
+            self._keep_hidden(integrals)
+        if TimedIntegrals.applies(self.equations, self._kinds, self.point_charges):
+            functions = time_functions(self.equations, self._accelerations, potential=True)
+            timed = TimedIntegrals(self.noether, self.equations, self._kinds, functions, self.clock)
+            if timed.functions:
+                self.words.append("and with the same functions of time as coefficients")
+                self._keep_hidden(timed)
+
+    def _keep_hidden(self, integrals: QuadraticIntegrals) -> None:
+        """Add what is found, with names."""
         naming = HiddenNames(self.system, self.equations, self._kinds)
+        found = integrals.found(self.charges)
         named = [(*naming.of(functions, charge), charge) for functions, charge in found]
         named.sort(key=lambda each: (not each[0], each[0]))
-        names = distinct([*(c.name for c in self.point_charges), *(name for name, _, _ in named)])
-        self.hidden_charges = tuple(
+        known = [c.name for c in self.charges]
+        names = distinct([*known, *(name for name, _, _ in named)])
+        self.hidden_charges += tuple(
             replace(times(charge, factor), name=name)
-            for name, (_, factor, charge) in zip(
-                names[len(self.point_charges) :], named, strict=True
-            )
+            for name, (_, factor, charge) in zip(names[len(known) :], named, strict=True)
         )
 
     @property

@@ -60,6 +60,8 @@ class QuadraticIntegrals:
         )
         self.linear = point_slots(equations)[1:] if gyroscopic else []
         slots = len(self.pairs) + len(self.linear)
+        self.times: tuple[Expr, ...] = (sympy.S.One,)
+        self._still = dict.fromkeys(equations.v, sympy.S.Zero)
         self.functions = quadratic(kinds, _MOST_UNKNOWNS // slots)
         if not self.functions and n * (n + 1) // 2 <= _MOST_UNKNOWNS:
             self.functions = [sympy.S.One]
@@ -67,7 +69,9 @@ class QuadraticIntegrals:
     def found(self, known: Sequence[NoetherCharge]) -> list[tuple[Slots, NoetherCharge]]:
         """The integrals that are no combinations of products of the known ones."""
         first, second = len(self.pairs), len(self.pairs) + len(self.linear)
-        unknowns = quadratic_unknowns(range(first), range(first, second), self.functions)
+        unknowns = quadratic_unknowns(
+            range(first), range(first, second), self.functions, self.times
+        )
         products = self._products(known)
         vectors = [slot.vector for slot in (*self.pairs, *self.linear)]
         search = Search(
@@ -90,9 +94,16 @@ class QuadraticIntegrals:
 
     def _products(self, known: Sequence[NoetherCharge]) -> list[tuple[Expr, ...]]:
         """The multipliers of the known integrals and of products of those of first degree."""
-        fixed = [c for c in known if self.equations.t not in c.charge.free_symbols]
+        t = self.equations.t
+        timed = len(self.times) > 1
+        fixed = [c for c in known if timed or t not in c.charge.free_symbols]
         eta = {id(c): self.noether.characteristic(c.transformation) for c in fixed}
-        linear = [c for c in fixed if c.transformation.time == 0]
+        v = set(self.equations.v)
+        linear = [
+            c for c in fixed
+            if c.transformation.time == 0
+            and not sympy.Tuple(*c.transformation.changes).free_symbols & v
+        ]  # fmt: skip
         return [
             *(eta[id(c)] for c in fixed),
             *(
@@ -143,26 +154,18 @@ class QuadraticIntegrals:
     # -- the charge -------------------------------------------------------------------------
 
     def _charge(self, functions: Slots) -> NoetherCharge | None:
-        equations = self.equations
-        eta = combined(functions, len(equations.q))
-        slot = Slot(("whole",), eta)
-        a, b = slot.a(equations), slot.b(equations)
-        still = dict.fromkeys(equations.v, sympy.S.Zero)
-        force = [
-            expanded((b.diff(v) - equations.convected(x)).xreplace(still))
-            for v, x in zip(equations.v, a, strict=True)
-        ]
-        scalar = self._potential(force, functions)
+        eta = combined(functions, len(self.equations.q))
+        second, first = self._kinetic(functions)
+        scalar = self._scalar(functions, eta, second + first)
         if scalar is None:
             return None
-        second, first = self._kinetic(functions)
         whole = second + first + scalar
         if not self._is_conserved(whole, eta):
             return None
         # p = M q' + A: sum p_j eta_j = 2 (second degree) + (first degree) + A . eta
         shift = sympy.Add(
             *(
-                p.xreplace(still) * x
+                p.xreplace(self._still) * x
                 for p, x in zip(self.noether.dynamics.lagrange.momenta, eta, strict=True)
             )
         )
@@ -177,6 +180,17 @@ class QuadraticIntegrals:
             verified="exact",
             broken_by="",
         )
+
+    def _scalar(self, functions: Slots, eta: Sequence[Expr], _: Expr, /) -> Expr | None:
+        """S(q) from its gradient."""
+        equations = self.equations
+        slot = Slot(("whole",), tuple(eta))
+        a, b = slot.a(equations), slot.b(equations)
+        force = [
+            expanded((b.diff(v) - equations.convected(x)).xreplace(self._still))
+            for v, x in zip(equations.v, a, strict=True)
+        ]
+        return self._potential(force, functions)
 
     def _is_conserved(self, charge: Expr, eta: Sequence[Expr]) -> bool:
         """Whether dQ/dt = sum eta_j (d/dt dL/dq_j' - dL/dq_j) identically: then 0 on the motion."""

@@ -3,6 +3,7 @@
 runge_lenz   A = p x L - m k r/|r|, whose part without velocities is m r V
 fradkin_xy   p_x p_y + m k x y of an oscillator
 energy_x     p_x^2/(2 m) + V_x of one separated coordinate
+dilation_x, conformal_x    those of the inverse square, in one separated coordinate
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ class HiddenNames:
     """Names by the shape of the Killing tensor and of the part without velocities."""
 
     def __init__(self, system: System, equations: Equations, kinds: Kinds) -> None:
+        self.t = equations.t
         self.q = equations.q
         self.mass = equations.mass
         rest = dict.fromkeys(equations.v, sympy.S.Zero)
@@ -32,6 +34,8 @@ class HiddenNames:
 
     def of(self, functions: Sequence[tuple[Slot, Expr]], charge: NoetherCharge) -> tuple[str, Expr]:
         """The name, empty for none, and the factor that makes the charge the textbook's."""
+        if any(self.t in f.free_symbols for _, f in functions):
+            return self._timed(functions), sympy.S.One
         if all(not (f.free_symbols & set(self.q)) for _, f in functions):
             return self._constant_tensor(functions)
         S = charge.charge.xreplace(self._rest)
@@ -40,6 +44,20 @@ class HiddenNames:
             if ratio is not None:
                 return f"runge_lenz_{name}", sympy.S.NegativeOne if ratio < 0 else sympy.S.One
         return "", sympy.S.One
+
+    def _timed(self, functions: Sequence[tuple[Slot, Expr]]) -> str:
+        """The dilation and the conformal integral of one separated coordinate."""
+        pairs = [(slot.kind[1:], f) for slot, f in functions if slot.kind[0] == "pair"]
+        if len(pairs) != 1:
+            return ""
+        [((i, j), f)] = pairs
+        if i != j or f.free_symbols & set(self.q):
+            return ""
+        x = self.q[int(i)].name
+        if f.has(sympy.sin) != f.has(sympy.cos):
+            return f"conformal_{x}_{'sin' if f.has(sympy.sin) else 'cos'}"
+        degree = sympy.degree(f, self.t) if f.is_polynomial(self.t) else 0
+        return {1: f"dilation_{x}", 2: f"conformal_{x}"}.get(degree, "")
 
     def _constant_tensor(self, functions: Sequence[tuple[Slot, Expr]]) -> tuple[str, Expr]:
         nothing = ("", sympy.S.One)
