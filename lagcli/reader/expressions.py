@@ -8,13 +8,12 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import TYPE_CHECKING, cast
 
-from lark.exceptions import UnexpectedInput
-
 from lagcli.diagnostics import ProblemError, Source
+from lagcli.reader.automaton import GaveUp
 from lagcli.reader.builder import excerpt_being_read, mistake
 from lagcli.reader.constants import check_constants
 from lagcli.reader.limits import EXPRESSION_CHARACTERS, thousands
-from lagcli.reader.parser import parser
+from lagcli.reader.parser import automaton, parser
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.text import Mistake
 
@@ -85,18 +84,32 @@ def _parse(excerpt: Excerpt, start: str) -> Expression | Equation | Inequality:
         message = f"an expression of {thousands(length)} characters, the limit is {bound}"
         raise mistake(message, excerpt.span(0, 1))
     reset = excerpt_being_read.set(excerpt)
+    quick = automaton()
     try:
-        return cast("Expression | Equation | Inequality", parser().parse(excerpt.value, start))
+        found = quick.parse(excerpt.value, start) if quick else _parse_by_lark(excerpt, start)
+    except GaveUp:
+        found = _parse_by_lark(excerpt, start)
+    finally:
+        excerpt_being_read.reset(reset)
+    return cast("Expression | Equation | Inequality", found)
+
+
+def _parse_by_lark(excerpt: Excerpt, start: str) -> object:
+    """The same by lark, which knows what is wrong with a text."""
+    from lark.exceptions import UnexpectedInput
+
+    try:
+        return parser().parse(excerpt.value, start)
     except UnexpectedInput as error:
         from lagcli.reader.syntax_errors import explain
 
         raise Mistake(explain(error, _tokens(excerpt.value), excerpt, start)) from None
-    finally:
-        excerpt_being_read.reset(reset)
 
 
 def _tokens(value: str) -> list[Token]:
     """The tokens up to the first character that begins none."""
+    from lark.exceptions import UnexpectedInput
+
     tokens: list[Token] = []
     with suppress(UnexpectedInput, Mistake):
         tokens.extend(parser().lex(value))
