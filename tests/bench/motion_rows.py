@@ -1,0 +1,97 @@
+"""Rows of `lagcli simulate` against scripts with SciPy, CasADi and heyoka.
+
+Each script is given the loosest tolerance at which its true error is the accuracy that is
+asked of lagcli; times are the CPU times of fresh processes, the certificate included.
+
+    LAGCLI_PEERS=/path/to/python    a Python that has sympy, scipy, casadi and heyoka
+    python tests/bench/motion_rows.py
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from functools import cache
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[2]))
+
+from tests.bench.measure import HERE, LAGCLI, Row, cost, show
+from tests.bench.motions import SYSTEMS, System
+
+#: script -> the most that lagcli may take, as a part of it
+BARS = {"scipy": 0.4, "heyoka": 1.0, "casadi": 2.5}
+_TOLERANCES = [10.0**-k for k in range(4, 16)]
+
+
+def rows(runs: int) -> Iterator[Row]:
+    """For each system and each script, the ratio of the total times."""
+    for name, system in SYSTEMS.items():
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "problem.yaml"
+            file.write_text(system.problem(), "utf-8")
+            yield from _system(name, system, str(file), runs)
+
+
+def _system(name: str, system: System, file: str, runs: int) -> Iterator[Row]:
+    command = [*LAGCLI, "simulate", file, "--until", repr(system.until), "-f", "json"]
+    best = json.loads(cost([*command, "--accuracy", "1e-12"], good=(0, 1)).out)
+    scales = [max(1.0, *map(abs, column)) for column in list(zip(*best["rows"], strict=True))[1:]]
+    true = best["rows"][-1][1:]
+    ours = [*command, "--accuracy", repr(system.accuracy)]
+    found = json.loads(cost(ours, good=(0, 1)).out)
+    error = _error(found["rows"][-1][1:], true, scales)
+    own = min(cost(ours, good=(0, 1)).cpu for _ in range(runs))
+    note = f"{own:.3f} s, error {error:.0e} of {system.accuracy:.0e}, {found['method']['name']}"
+    yield Row(f"simulate {name}", error / system.accuracy, "of the accuracy", 1.0, note=note)
+    for peer, bar in BARS.items():
+        python = peers(peer)
+        what = f"simulate {name}, total against {peer}"
+        if python is None:
+            yield Row(what, None, "x", note=f"{peer} is not installed")
+            continue
+        script = [python, str(HERE / "peers" / f"with_{peer}.py"), name]
+        tuned = _tuned(script, system, true, scales)
+        if tuned is None:
+            yield Row(what, 0.0, "x", bar, note="it does not reach the accuracy")
+            continue
+        runs_of = [cost(tuned) for _ in range(runs)]
+        theirs = min(run.cpu for run in runs_of)
+        alone = min(json.loads(run.out)["run"] for run in runs_of)
+        told = f"{theirs:.3f} s at {tuned[3]}, {alone * 1e3:.1f} ms of it integration"
+        yield Row(what, own / theirs, "x", bar, note=told)
+
+
+def _tuned(
+    script: Sequence[str], system: System, true: Sequence[float], scales: Sequence[float]
+) -> list[str] | None:
+    """The script with the loosest tolerance that reaches the accuracy."""
+    for tolerance in _TOLERANCES:
+        command = [*script, f"{tolerance:.0e}"]
+        run = cost(command, good=range(256))
+        if run.status:
+            continue
+        if _error(json.loads(run.out)["end"], true, scales) <= system.accuracy:
+            return command
+    return None
+
+
+def _error(found: Sequence[float], true: Sequence[float], scales: Sequence[float]) -> float:
+    return max(abs(a - b) / s for a, b, s in zip(found, true, scales, strict=True))
+
+
+@cache
+def peers(package: str) -> str | None:
+    """The Python that has a package."""
+    for python in (os.environ.get("LAGCLI_PEERS"), sys.executable):
+        if python and not cost([python, "-c", f"import {package}"], good=range(256)).status:
+            return python
+    return None
+
+
+if __name__ == "__main__":
+    for row in rows(3):
+        show(row)
