@@ -33,23 +33,29 @@ from lagcli.numerics.compiled.text import Text
 
 #: The place of the coefficient 0 in a row that is kept backwards; zeros stand from there on.
 LAST = STRIDE - 5
+#: Operations up to which the convolution is copied to where it is used.
+_COPIED = 40
+
 _FUNCTIONS = "sin cos sinh cosh tanh exp log pow asin acos atan asinh acosh atanh atan2".split()
 
 
-def head(numbers: Numbers) -> str:
-    """Declarations, and the convolution."""
+def head(numbers: Numbers, ops: int) -> str:
+    """Declarations, and the convolution: a call costs a tenth, a copy a millisecond to make."""
+    how = "alwaysinline" if ops <= _COPIED else "noinline"
     real, suffix = numbers.type, numbers.suffix
     lines = [f"declare {real} @llvm.{name}.{suffix}({real})" for name in ("sqrt", "fabs")]
     for name in _FUNCTIONS:
         given = f"{real}, {real}" if name in {"pow", "atan2"} else real
         lines.append(f"declare {real} {numbers.function(name)}({given})")
-    return "\n".join([*lines, _VECTOR_INNER if real == "double" else _inner(real)])
+    return "\n".join(
+        [*lines, _VECTOR_INNER.replace("{how}", how) if real == "double" else _inner(real, how)]
+    )
 
 
 _VECTOR_INNER = """
 declare <4 x double> @llvm.fmuladd.v4f64(<4 x double>, <4 x double>, <4 x double>)
 declare double @llvm.vector.reduce.fadd.v4f64(double, <4 x double>)
-define internal double @inner(ptr %a, ptr %b, i64 %n) noinline nounwind {
+define internal double @inner(ptr %a, ptr %b, i64 %n) {how} nounwind {
 entry:
   %any = icmp sgt i64 %n, 0
   br i1 %any, label %loop, label %none
@@ -72,8 +78,8 @@ end:
 }"""
 
 
-def _inner(real: str) -> str:
-    return f"""define internal {real} @inner(ptr %a, ptr %b, i64 %n) noinline nounwind {{
+def _inner(real: str, how: str) -> str:
+    return f"""define internal {real} @inner(ptr %a, ptr %b, i64 %n) {how} nounwind {{
 entry:
   %any = icmp sgt i64 %n, 0
   %zero = sitofp i64 0 to {real}

@@ -45,6 +45,7 @@ _INTERFACE: dict[str, tuple[Any, list[Any]]] = {
     "CreatePassBuilder": (c_void_p, [c_void_p, c_void_p]),
     "CreateNewModulePassManager": (c_void_p, []),
     "RunNewModulePassManager": (None, [c_void_p, c_void_p, c_void_p]),
+    "module_AddAlwaysInlinerPass": (None, [c_void_p]),
     "module_AddSROAPass": (None, [c_void_p]),
     "module_AddSimplifyCFGPass": (None, [c_void_p]),
     "module_AddInstCombinePass": (None, [c_void_p]),
@@ -61,7 +62,7 @@ _INTERFACE: dict[str, tuple[Any, list[Any]]] = {
 }
 
 #: What is done before code is made, by the time that the whole takes: mem2reg and little else.
-_PASSES = ("SROA", "InstCombine", "SimplifyCFG")
+_PASSES = ("AlwaysInliner", "SROA", "InstCombine", "SimplifyCFG")
 _CODE_LEVEL = 2
 _HOW = (_RELEASES, _PASSES, _CODE_LEVEL)
 

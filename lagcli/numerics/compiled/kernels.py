@@ -99,14 +99,15 @@ def rescale(peaks: Reals, scales: Reals, facts: Reals, n: int, top: float) -> No
 def length(rows: Reals, scales: Reals, both: int, order: int, tolerance: float) -> float:
     """The step after which the last terms are the tolerance times the scale."""
     h = LARGE
-    for k in range(order - 3, order + 1):
+    for k in range(order, order - 4, -1):
         largest = 0.0
         for i in range(both):
-            size = abs(rows[i * STRIDE + k]) / scales[i]
-            largest = max(largest, size)
-        if largest > 0:
-            room = exp(log(tolerance / largest) / k)
-            h = min(h, room)
+            largest = max(largest, abs(rows[i * STRIDE + k]) / scales[i])
+        power = h
+        for _ in range(1, k):
+            power = power * h
+        if largest * power > tolerance:
+            h = exp(log(tolerance / largest) / k)
     return SAFETY * h
 
 

@@ -76,7 +76,7 @@ class Machine:
             if any(op.name.endswith("_of") for op in tape.ops):
                 raise NotCompiled("the equations are not smooth")
             series = Series(numbers, tape, roots, eliminated.guards)
-            parts = [head(numbers), series.code()]
+            parts = [head(numbers, self.ops), series.code()]
             if equations.rows:
                 parts += self._constraints(inputs)
         except NoSeries as function:
