@@ -203,3 +203,11 @@ def test_a_run_takes_up_where_a_call_of_the_loop_ends(monkeypatch):
     whole = simulated(KEPLER, 10, 1e-9, samples=11)
     monkeypatch.setattr(method, "_CALL", 7)
     assert simulated(KEPLER, 10, 1e-9, samples=11).rows == whole.rows
+
+
+def test_a_long_run_is_not_cut_short():
+    """The steps of a run in Python end at 200,000; these are 4,000 periods of Kepler at e = 0.9."""
+    result = simulated(KEPLER, 8000 * math.pi, 1e-6)
+    assert result.certificate.reached
+    assert result.steps > 200_000
+    assert result.certificate.charges["energy"] < 1e-12

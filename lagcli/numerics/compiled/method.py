@@ -24,9 +24,9 @@ from lagcli.numerics.surface import Surface
 from lagcli.numerics.taylor import order_for
 
 _HIGHEST = LAST - 2
-#: Steps of one call, and of one run: some minutes.
+#: Steps of one call, and operations of one run: a minute or two.
 _CALL = 20_000
-STEP_LIMIT = 100_000_000
+_LIMIT = 1_000_000_000
 _FACTS, _COUNTS = 9, 10
 
 
@@ -202,7 +202,8 @@ class CompiledTaylor:
         drive = self.machine.kernel("drive")
         given = [self._rows, self._other, self._signs, state, self._lost, self._ahead, self._peaks]
         given += [self._scales, self._held, facts, counts, asked, out]
-        status, limit = k.MORE, min(run.step_limit, STEP_LIMIT)
+        status = k.MORE
+        limit = run.step_limit = _LIMIT // max(10, self.machine.ops)
         while status == k.MORE and counts[k.STEPS] < limit:
             counts[k.LIMIT] = min(_CALL, limit - counts[k.STEPS])
             status = drive(*map(pointer, given))
