@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -126,7 +127,13 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
     """The options as values; every mistake is told."""
     from lagcli.numerics.asked import Asked
     from lagcli.numerics.columns import Column
-    from lagcli.reader.columns import read_along, read_columns, read_number, usual_columns
+    from lagcli.reader.columns import (
+        pieces_of,
+        read_along,
+        read_columns,
+        read_number,
+        usual_columns,
+    )
 
     good = True
 
@@ -166,7 +173,10 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
     shown = list(wish.show)
     columns = usual_columns(problem)
     if shown:
-        columns = attempt(lambda: read_columns(problem, shown), columns)
+        found = dict(columns[:1])
+        for piece in pieces_of(shown):
+            found |= dict(attempt(partial(read_columns, problem, [piece]), columns[:0]))
+        columns = list(found.items())
     text = wish.stop_when
     stop = None if text is None else attempt(lambda: read_along(problem, text, "--stop-when"), None)
     if not good or until is None:

@@ -24,7 +24,7 @@ from lagcli.dimensions.forms import (
 from lagcli.dimensions.system import dimension_of
 from lagcli.dimensions.terms import Group, Reader, Term, representative
 from lagcli.expression import Equation, Expression, Name, Power, walk
-from lagcli.problem import Constraint, Point, Problem, Quantity, Symmetry, Where
+from lagcli.problem import Constraint, Contact, Point, Problem, Quantity, Symmetry, Where
 from lagcli.units import read_unit
 
 LAGRANGIAN = unknown("lagrangian")
@@ -90,8 +90,12 @@ class Demands:
             self._whole(force, along, f"the force along '{coordinate}'", is_force=True)
         if problem.dissipation is not None:
             self._whole(problem.dissipation, minus(LAGRANGIAN, TIME), "the dissipation function")
-        for constraint in problem.constraints:
+        holding: tuple[Constraint | Contact, ...] = (*problem.constraints, *problem.contacts)
+        for constraint in holding:
             self._constraint(constraint)
+            if constraint.restitution is not None:
+                what = f"the restitution of '{constraint.name}'"
+                self._whole(constraint.restitution, NUMBER, what)
         for constraint in problem.constraints:
             if (holds := constraint.holds_while) is not None:
                 self._agree(Equation(holds.left, holds.right, span=holds.span))
@@ -153,7 +157,7 @@ class Demands:
             along = minus(LAGRANGIAN, place)
             self._whole(component, along, f"the force on '{point.name}'", is_force=True)
 
-    def _constraint(self, constraint: Constraint) -> None:
+    def _constraint(self, constraint: Constraint | Contact) -> None:
         form = self._agree(constraint.equation)
         sides = (constraint.equation.left, constraint.equation.right)
         velocities = any(self._holds_velocity(side) for side in sides)

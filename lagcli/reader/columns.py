@@ -11,6 +11,7 @@ from lagcli.reader.expressions import read_expression
 from lagcli.reader.names import depends_on_time, derivative_order, name_mistakes
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.scope import ALONG, NUMBERS, Definition, Role, Scope
+from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.text import Mistake
 
 if TYPE_CHECKING:
@@ -39,9 +40,14 @@ def read_columns(problem: Problem, words: list[str]) -> list[Shown]:
     """
     scope = scope_of(problem)
     shown: dict[str, Expression | None] = {"t": None}
-    for word in (piece for text in words for piece in _split(text)):
+    for word in pieces_of(words):
         shown.update(_columns(problem, scope, word))
     return list(shown.items())
+
+
+def pieces_of(words: list[str]) -> list[str]:
+    """The pieces of `--show a,b,c --show d`."""
+    return [piece for text in words for piece in _split(text)]
 
 
 def usual_columns(problem: Problem) -> list[Shown]:
@@ -86,7 +92,15 @@ def _columns(problem: Problem, scope: Scope, word: str) -> Iterator[Shown]:
     if word in named:
         yield word, named[word]
         return
-    expression = _read(word, "--show", scope, ALONG)
+    try:
+        expression = _read(word, "--show", scope, ALONG)
+    except ProblemError as error:
+        hint = did_you_mean(word, [*named, *GROUPS])
+        if not hint or word in scope.kinds:
+            raise
+        [first, *_] = error.diagnostics
+        message = f"there is no column '{word}'"
+        raise ProblemError(error.source, (Diagnostic(message, first.span, hint),)) from None
     yield word, None if expression == Name("t") else expression
 
 
