@@ -81,6 +81,7 @@ def read_functions(sections: Sections, node: Node) -> dict[str, tuple[str, ...]]
         what = f"the arguments of '{key.label}'"
         if isinstance(value, Scalar) and not value.is_empty:
             sections.error(f"{what} must be a list", value.span, f"write [{value.value}]")
+            sections.scope.arity[key.label] = 1
             continue
         arguments = [sections.scalar(item, f"an argument of '{key.label}'")
                      for item in sections.items(value, what)]  # fmt: skip

@@ -67,6 +67,7 @@ FILES = [
     ("coordinates: [a-b]\nT: 1\n", "1:15", "letters, digits and underscores"),
     ("coordinates: [x]\nparameters: [p_x]\nT: x'^2\n", "2:14", "momentum"),
     ("coordinates: [x]\nparameters: [lambda_a]\nT: x'^2\nconstraints: {a: x}\n", "4:15", "twice"),
+    ("coordinates: [x]\nfunctions: {U: x}\nT: x'^2\nV: U(x)\n", "2:16", "write [x]"),
     # Attributes.
     ("coordinates: {x: {units: m}}\nT: x'^2\n", "1:19", "did you mean 'unit'"),
     ("coordinates: {x: {assume: positiv}}\nT: x'^2\n", "1:27", "did you mean 'positive'"),
