@@ -22,8 +22,7 @@ if TYPE_CHECKING:
     from lagcli.explanation import Explanation
     from lagcli.formatters import Options
     from lagcli.mechanics.derivation import Derivation
-    from lagcli.mechanics.large_statements import LargeStatements
-    from lagcli.mechanics.statements import Statements
+    from lagcli.mechanics.stating import Stating
     from lagcli.problem import Problem
 
 
@@ -127,6 +126,21 @@ def state(derivation: Derivation, request: Request) -> Answers:
     return replace(answers, sections=rewritten(answers.sections, with_decimals))
 
 
+def with_lagrangian(problem: Problem) -> Problem:
+    """The problem with the Lagrangian that follows from the H it gives, if it gives one.
+
+    Raises
+    ------
+    ProblemError
+        When that H has no Lagrangian.
+    """
+    if problem.hamiltonian is None:
+        return problem
+    from lagcli.mechanics.from_hamiltonian import with_lagrangian as transformed
+
+    return transformed(problem)
+
+
 def explain(derivation: Derivation) -> Explanation:
     """Derivation -> its account, step by step.
 
@@ -145,7 +159,11 @@ def explain(derivation: Derivation) -> Explanation:
     return explanation(derivation)
 
 
-def _statements(derivation: Derivation) -> Statements | LargeStatements:
+def _statements(derivation: Derivation) -> Stating:
+    if derivation.no_lagrangian:
+        from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
+
+        return PhaseSpaceStatements(derivation)
     large = derivation.large_form
     if large is not None:
         from lagcli.mechanics.large_statements import LargeStatements

@@ -257,8 +257,9 @@ class Expect:
 class Problem:
     """A checked problem: every name is known, every expression well formed.
 
-    Either `lagrangian` is given, or `kinetic` (None: the sum over `points`) and
-    `potential` (None: 0).  Maps keep the order of the file.
+    Either `lagrangian` is given, or `hamiltonian`, or `kinetic` (None: the sum over `points`)
+    and `potential` (None: 0).  A derivation adds the `lagrangian` that follows from a
+    `hamiltonian`.  Maps keep the order of the file.
     """
 
     source: Source
@@ -273,6 +274,7 @@ class Problem:
     kinetic: Expression | None = None
     potential: Expression | None = None
     lagrangian: Expression | None = None
+    hamiltonian: Expression | None = None  # of q, t and momenta `p_x`
     forces: Mapping[str, Expression] = field(default_factory=dict)
     dissipation: Expression | None = None
     constraints: tuple[Constraint, ...] = ()

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import time
 from itertools import chain
+from typing import TYPE_CHECKING
 
 from lagcli.check.findings import Finding, Outcome, Report
 from lagcli.diagnostics import ProblemError, Source
 from lagcli.pipeline import Read, Request, derive, read, state
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.derivation import Derivation
 
 
 def check_problem(name: str, data: bytes) -> Report:
@@ -38,17 +42,36 @@ def _check(found: Read) -> Report:
     sections = tuple(dict.fromkeys([*SECTIONS, *sections_expected(problem.expect)]))
     try:
         derivation = derive(problem)
+        if derivation.no_lagrangian:
+            return _check_phase_space(derivation, source)
         answers = state(derivation, Request(sections=sections))
         comparison = Comparison(derivation)
         results = list(
             chain(
                 Expectations(derivation, answers, comparison),
                 Laws(derivation, answers),
-                TrajectoryCheck(problem),
+                TrajectoryCheck(derivation.problem),
             )
         )
     except ProblemError as error:
         return Report(error.source, diagnostics=error.diagnostics)
+    findings = tuple(result for result in results if result is not None)
+    return Report(source, len(results), findings)
+
+
+def _check_phase_space(derivation: Derivation, source: Source) -> Report:
+    """A problem without a Lagrangian has no motion in q and q' to compare with."""
+    from lagcli.check.expectations import sections_expected
+    from lagcli.check.phase_space import PHASE_SPACE, PhaseSpace
+
+    expected = sections_expected(derivation.given.expect)
+    answers = state(derivation, Request(sections=tuple(PHASE_SPACE)))
+    results = list(PhaseSpace(derivation, answers))
+    results += [
+        Finding(Outcome.UNDECIDED, name, f"H gives no Lagrangian: {derivation.no_lagrangian}")
+        for name in expected
+        if name not in PHASE_SPACE
+    ]
     findings = tuple(result for result in results if result is not None)
     return Report(source, len(results), findings)
 

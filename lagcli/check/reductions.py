@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from fractions import Fraction
 from functools import cached_property
 from typing import cast
 
@@ -18,11 +17,12 @@ from lagcli.answers import (
     SteadySection,
 )
 from lagcli.check.comparison import Comparison
-from lagcli.expression import Expression, Name, Number, Power, Sum
+from lagcli.check.phase_space import free_comparison
+from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.readable import deciding
-from lagcli.problem import ExpectSteady, Inequality, Parameter, Problem
+from lagcli.problem import ExpectSteady, Inequality
 from lagcli.reader.expected_reduction import CONSTANT_NAMES
 
 #: The path of an expectation, the verdict, what was expected and what was found.
@@ -43,18 +43,7 @@ class Reductions:
         declared = {*(q.name for q in (*old.coordinates, *old.parameters)), *old.functions}
         extra = [f"p_{q.name}" for q in old.coordinates]
         extra += [n for n in CONSTANT_NAMES if n not in declared]
-        two = Number(Fraction(2))
-        squares = [Power(Name(q.name, 1), two) for q in old.coordinates]
-        free = Problem(
-            source=old.source,
-            title=old.title,
-            coordinates=old.coordinates,
-            parameters=(*old.parameters, *(Parameter(name=n) for n in extra)),
-            functions=old.functions,
-            definitions=old.definitions,
-            lagrangian=squares[0] if len(squares) == 1 else Sum(tuple(squares)),
-        )
-        return Comparison(Derivation(free))
+        return free_comparison(old, extra)
 
     def findings(self) -> Iterator[Judged]:
         """Every expectation of these sections with its verdict."""

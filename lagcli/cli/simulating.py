@@ -17,7 +17,7 @@ from lagcli.cli.telling import tell, tell_line
 from lagcli.decimals import value_of
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import Expression
-from lagcli.pipeline import Request, read
+from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
 
@@ -61,10 +61,15 @@ def simulate_file(wish: Wish) -> Status:
     tell(found.source, found.diagnostics)
     if found.problem is None:
         return Status.USAGE
-    asked = _asked(found.problem, wish)
+    try:
+        problem = with_lagrangian(found.problem)
+    except ProblemError as error:
+        tell(error.source, error.diagnostics)
+        return Status.USAGE
+    asked = _asked(problem, wish)
     if asked is None:
         return Status.USAGE
-    return _run(found.problem, asked, wish)
+    return _run(problem, asked, wish)
 
 
 def _run(problem: Problem, asked: Asked, wish: Wish) -> Status:

@@ -106,7 +106,7 @@ def _answer(
 ) -> Result | None:
     try:
         derivation = derive(problem)
-        _start_algebra(needed=derivation.large_form is None)
+        _start_algebra(needed=derivation.gives_hamiltonian or derivation.large_form is None)
         answers = work.make(derivation, request)
     except ProblemError as error:
         tally.said.append(tell(error.source, error.diagnostics))

@@ -102,7 +102,8 @@ class _Checker:
         advice = self._advice(node, form, ENERGY)
         named, energy = self._named(form), self._named(ENERGY)
         if self.problem.lagrangian is None:
-            message = f"{self._quoted(node)} is {named}, T must be {energy}"
+            letter = "T" if self.problem.hamiltonian is None else "H"
+            message = f"{self._quoted(node)} is {named}, {letter} must be {energy}"
             yield Diagnostic(message, _bare(node).span, advice)
         else:  # the length of a path has the same extremals as an energy
             message = f"L is usually {energy}, {self._quoted(node)} is {named}"

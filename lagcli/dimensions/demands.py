@@ -127,8 +127,11 @@ class Demands:
     def _energies(self) -> None:
         problem = self.problem
         parts = [problem.kinetic, problem.potential, problem.lagrangian]
+        if problem.hamiltonian is not None:  # L is made from it
+            parts = [problem.hamiltonian]
         terms = [t for part in parts if part is not None for t in self._reader.terms(part)]
-        if problem.kinetic is None and problem.lagrangian is None:
+        given = problem.kinetic, problem.lagrangian, problem.hamiltonian
+        if all(formula is None for formula in given):
             terms += self._kinetic_energies()
         if not terms:
             return

@@ -11,7 +11,7 @@ if TYPE_CHECKING:  # a large system is stated without SymPy, which these import
     from lagcli.mechanics.discovery.discovery import Discovery
     from lagcli.mechanics.dynamics import Dynamics
     from lagcli.mechanics.energy import EnergyFunction
-    from lagcli.mechanics.hamiltonian import Hamiltonian
+    from lagcli.mechanics.hamiltonian import GivenHamiltonian, Hamiltonian
     from lagcli.mechanics.matrix_form import MatrixForm
     from lagcli.mechanics.noether import Noether
     from lagcli.mechanics.system import System
@@ -28,11 +28,46 @@ class Derivation:
     """
 
     def __init__(self, problem: Problem) -> None:
-        self.problem = problem
+        self.given = problem
+
+    @property
+    def gives_hamiltonian(self) -> bool:
+        """Whether the file states H, and L is made from it."""
+        return self.given.hamiltonian is not None
+
+    @cached_property
+    def problem(self) -> Problem:
+        """The problem as given, with the Lagrangian where it gives H.
+
+        Raises
+        ------
+        NoLagrangian
+            Where there is none.
+        """
+        if not self.gives_hamiltonian:
+            return self.given
+        from lagcli.mechanics.from_hamiltonian import with_lagrangian
+
+        return with_lagrangian(self.given)
+
+    @cached_property
+    def no_lagrangian(self) -> str:
+        """Why the H of the file gives no Lagrangian; empty where all is well."""
+        if not self.gives_hamiltonian:
+            return ""
+        from lagcli.mechanics.from_hamiltonian import NoLagrangian
+
+        try:
+            self.problem  # noqa: B018 - made here
+        except NoLagrangian as error:
+            return error.reason
+        return ""
 
     @cached_property
     def large_form(self) -> MatrixForm | None:
         """The matrix form as structure, of a system too large for simplified formulas."""
+        if self.gives_hamiltonian:
+            return None
         from lagcli.mechanics.extent import large_form
 
         return large_form(self.problem)
@@ -59,10 +94,15 @@ class Derivation:
         return EnergyFunction(self.dynamics)
 
     @cached_property
-    def hamiltonian(self) -> Hamiltonian:
+    def hamiltonian(self) -> Hamiltonian | GivenHamiltonian:
         """The Legendre transform and the canonical equations."""
-        from lagcli.mechanics.hamiltonian import Hamiltonian
+        from lagcli.mechanics.hamiltonian import GivenHamiltonian, Hamiltonian
+        from lagcli.mechanics.system import System
 
+        if self.no_lagrangian:
+            return GivenHamiltonian(System(self.given), ())
+        if self.gives_hamiltonian:
+            return GivenHamiltonian(self.system, self.dynamics.constraints.equations)
         return Hamiltonian(self.dynamics, self.energy)
 
     @cached_property

@@ -137,7 +137,8 @@ class EnergyFunction:
     def _why_total(self) -> str:
         system = self.dynamics.system
         if system.T is None or system.V is None:
-            return "only L is given, so T + V is not known"
+            given = "L" if system.H is None else "H"
+            return f"only {given} is given, so T + V is not known"
         if self.is_total_energy:
             return "it is T + V"
         reasons = []

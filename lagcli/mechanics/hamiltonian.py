@@ -13,15 +13,18 @@ Landau, Lifshitz, *The Classical Theory of Fields*, 4th ed., sections 9 and 16.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 
 import sympy
 from sympy import Expr
 
 from lagcli.algebra import simplify
+from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.energy import EnergyFunction
 from lagcli.mechanics.legendre import LegendreTransform
+from lagcli.mechanics.system import System
 
 
 class Hamiltonian:
@@ -36,7 +39,7 @@ class Hamiltonian:
     @property
     def velocities(self) -> tuple[Expr, ...] | None:
         """q'(q, p, t), verified by substitution of p = dL/dq'; None where not inverted."""
-        return self.legendre.velocities
+        return self.legendre.inverted
 
     @cached_property
     def function(self) -> Expr | None:
@@ -57,9 +60,13 @@ class Hamiltonian:
                 )
             )
             return simplify(kinetic - system.L.xreplace(at_rest))
-        return self.legendre.in_phase_space(
+        return self.in_phase_space(
             sympy.Add(*(p * v for p, v in zip(system.momenta, system.qdot, strict=True))) - system.L
         )
+
+    def in_phase_space(self, expression: Expr) -> Expr:
+        """An expression in q, q', t as one in q, p, t; there must be velocities."""
+        return self.legendre.put_into(expression)
 
     @property
     def reason(self) -> str:
@@ -78,14 +85,56 @@ class Hamiltonian:
         system, h = self.system, self.function
         pairs = []
         for j, (q, p) in enumerate(zip(system.q, system.momenta, strict=True)):
-            force = system.applied_forces[j] + sympy.Add(
-                *(e.multiplier * e.row[j] for e in self.dynamics.constraints.equations)
-            )
+            force = _force(system, self.dynamics.constraints.equations, j)
             if self.legendre.is_quadratic:
-                force = self.legendre.in_phase_space(force)
+                force = self.in_phase_space(force)
                 pairs.append((simplify(h.diff(p)), simplify(force - h.diff(q))))
                 continue
             # dH/dp = q'(q, p) and -dH/dq = dL/dq, which spares a derivative of roots and signs
-            growth = self.legendre.in_phase_space(system.L.diff(q) + force)
+            growth = self.in_phase_space(system.L.diff(q) + force)
             pairs.append((self.velocities[j], growth))
         return tuple(pairs)
+
+
+class GivenHamiltonian:
+    """The Hamiltonian form of a system whose file gives H, with or without a Lagrangian.
+
+    Parameters
+    ----------
+    system
+        The system; its L is not looked at.
+    constraints
+        Those that act.
+    """
+
+    reason = ""
+
+    def __init__(self, system: System, constraints: Sequence[ConstraintEquation]) -> None:
+        assert system.H is not None
+        self.system = system
+        self.function: Expr = system.H
+        self._constraints = constraints
+
+    @cached_property
+    def velocities(self) -> tuple[Expr, ...]:
+        """q' = dH/dp."""
+        return tuple(simplify(self.function.diff(p)) for p in self.system.momenta)
+
+    def in_phase_space(self, expression: Expr) -> Expr:
+        """An expression in q, q', t as one in q, p, t."""
+        flow = dict(zip(self.system.qdot, self.velocities, strict=True))
+        return simplify(expression.xreplace(flow))
+
+    @cached_property
+    def canonical_equations(self) -> tuple[tuple[Expr, Expr], ...]:
+        """(q_j', p_j') by coordinate, with multipliers, forces and dissipation."""
+        growth = (
+            self.in_phase_space(_force(self.system, self._constraints, j) - self.function.diff(q))
+            for j, q in enumerate(self.system.q)
+        )
+        return tuple(zip(self.velocities, growth, strict=True))
+
+
+def _force(system: System, constraints: Sequence[ConstraintEquation], j: int) -> Expr:
+    """Q_j - dD/dq_j' + sum_k lambda_k a_kj."""
+    return system.applied_forces[j] + sympy.Add(*(e.multiplier * e.row[j] for e in constraints))

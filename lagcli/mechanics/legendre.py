@@ -5,6 +5,7 @@ inverted by itself: by linear algebra where its momenta are linear; where all th
 linear in it is one function of the velocities (the radical of a relativistic L, the square
 of a speed), by linear algebra and then for that function; and one velocity by inverting
 its momentum.  An inverse counts when it leads back to the velocities at random states.
+The way back, q_j' = dH/dp_j solved for p, is the same with the parts exchanged.
 
 References
 ----------
@@ -14,7 +15,7 @@ Landau, Lifshitz, *The Classical Theory of Fields*, 4th ed., sections 9 and 16.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -23,18 +24,18 @@ import sympy
 from mpmath import mpf
 from sympy import Expr, Pow, Symbol
 
-from lagcli.algebra import simplify, solve_linear
+from lagcli.algebra import rank, simplify, solve_linear
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.states import DIGITS, Contradiction
+from lagcli.mechanics.states import DIGITS, Contradiction, State
 
 Block = tuple[int, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Auxiliary:
-    """s = f(q, q')^(1/n), and what it is in the momenta."""
+    """s = f(q, v)^(1/n), and what it is in the images."""
 
     symbol: Symbol
     function: Expr
@@ -48,60 +49,84 @@ class Auxiliary:
 
 @dataclass(frozen=True, slots=True)
 class Inverse:
-    """The velocities of a block, which may contain the auxiliary quantity."""
+    """The variables of a block, which may contain the auxiliary quantity."""
 
-    velocities: tuple[Expr, ...]
+    values: tuple[Expr, ...]
     auxiliary: Auxiliary | None = None
 
     @property
     def explicit(self) -> tuple[Expr, ...]:
-        """The velocities in coordinates, momenta and t alone."""
+        """The variables in coordinates, images and t alone."""
         if self.auxiliary is None:
-            return self.velocities
+            return self.values
         known = {self.auxiliary.symbol: self.auxiliary.root}
-        return tuple(v.xreplace(known) for v in self.velocities)
+        return tuple(v.xreplace(known) for v in self.values)
 
 
-class LegendreTransform:
-    """q'(q, p, t) of a system."""
+class Inversion:
+    """The variables v from a gradient w_j = dF/dv_j(q, v, t), inverted block by block.
 
-    def __init__(self, dynamics: Dynamics) -> None:
-        self.dynamics = dynamics
-        self.system = dynamics.system
-        self.momenta = dynamics.lagrange.momenta
+    Parameters
+    ----------
+    gradient, hessian
+        dF/dv_j and d2F/dv_i dv_j in the variables.
+    variables, images
+        The symbols v and w.
+    states
+        So many random states that give q, v, t and the parameters numbers.
+    """
+
+    def __init__(
+        self,
+        gradient: Sequence[Expr],
+        hessian: Sequence[Sequence[Expr]],
+        variables: Sequence[Symbol],
+        images: Sequence[Symbol],
+        states: Callable[[int], Sequence[State]],
+    ) -> None:
+        self.gradient = gradient
+        self.variables = variables
+        self.images = images
+        self._given_hessian = hessian
+        self._states = states
 
     @cached_property
-    def velocities(self) -> tuple[Expr, ...] | None:
-        """q' by coordinate; None where the momenta were not inverted."""
+    def is_singular(self) -> bool:
+        """Whether the gradient does not determine the variables at any state."""
+        return rank(self._hessian) < len(self.variables)
+
+    @cached_property
+    def inverted(self) -> tuple[Expr, ...] | None:
+        """v by place; None where the gradient was not inverted."""
         if self._inverse is None:
             return None
         found = {j: v for block, x in self._inverse for j, v in zip(block, x.explicit, strict=True)}
         return tuple(simplify(found[j]) for j in range(len(found)))
 
-    def in_phase_space(self, expression: Expr) -> Expr:
-        """An expression in q, q', t as one in q, p, t; the momenta must have been inverted."""
+    def put_into(self, expression: Expr) -> Expr:
+        """An expression in v as one in w; the gradient must have been inverted."""
         assert self._inverse is not None
-        return self.with_momenta(expression, self._inverse)
+        return self.with_images(expression, self._inverse)
 
-    def with_momenta(self, expression: Expr, inverses: Sequence[tuple[Block, Inverse]]) -> Expr:
-        """An expression with the velocities of some blocks replaced by their momenta."""
+    def with_images(self, expression: Expr, inverses: Sequence[tuple[Block, Inverse]]) -> Expr:
+        """An expression with the variables of some blocks replaced by their images."""
         flow: dict[Expr, Expr] = {}
         roots: dict[Expr, Expr] = {}
         for block, inverse in inverses:
-            flow.update(zip((self.system.qdot[j] for j in block), inverse.velocities, strict=True))
+            flow.update(zip((self.variables[j] for j in block), inverse.values, strict=True))
             if inverse.auxiliary is not None:
                 expression = inverse.auxiliary.put_into(expression)
                 roots[inverse.auxiliary.symbol] = inverse.auxiliary.root
         return simplify(simplify(expression.xreplace(flow)).xreplace(roots))
 
     def inverse_of(self, block: Block) -> Inverse | None:
-        """The velocities of a block by its momenta and the other velocities."""
+        """The variables of a block by their images and the other variables."""
         candidates = self._inverses(block)
         return next((x for x in candidates if self._inverts(block, x.explicit)), None)
 
     @cached_property
     def _inverse(self) -> list[tuple[Block, Inverse]] | None:
-        if self.dynamics.degenerate:
+        if self.is_singular:
             return None
         found = []
         for block in self._blocks:
@@ -113,18 +138,18 @@ class LegendreTransform:
 
     @cached_property
     def is_quadratic(self) -> bool:
-        """Whether the Hessian of L is free of velocities."""
-        return all(free_of(entry, self.system.qdot) for row in self._hessian for entry in row)
+        """Whether the Hessian is free of the variables."""
+        return all(free_of(entry, self.variables) for row in self._hessian for entry in row)
 
     @cached_property
     def _hessian(self) -> list[list[Expr]]:
-        return [[simplify(entry) for entry in row] for row in self.dynamics.lagrange.mass_matrix]
+        return [[simplify(entry) for entry in row] for row in self._given_hessian]
 
     @cached_property
     def _blocks(self) -> list[Block]:
-        """The sets of velocities that the Hessian couples."""
+        """The sets of variables that the Hessian couples."""
         if self.is_quadratic:
-            return [tuple(range(len(self.momenta)))]  # one linear system
+            return [tuple(range(len(self.gradient)))]  # one linear system
         blocks: list[set[int]] = []
         for i, row in enumerate(self._hessian):
             joined = {i} | {j for j, entry in enumerate(row) if entry != 0}
@@ -133,39 +158,42 @@ class LegendreTransform:
         return [tuple(sorted(block)) for block in blocks]
 
     def _inverses(self, block: Block) -> Iterator[Inverse]:
-        momenta = [self.momenta[j] for j in block]
-        qdot = [self.system.qdot[j] for j in block]
-        if all(free_of(p.diff(v), qdot) for p in momenta for v in qdot) or self.is_quadratic:
+        momenta = [self.gradient[j] for j in block]
+        variables = [self.variables[j] for j in block]
+        if (
+            all(free_of(p.diff(v), variables) for p in momenta for v in variables)
+            or self.is_quadratic
+        ):
             linear = self._linear(block, momenta)
             if linear is not None:
                 yield Inverse(linear)
             return
         yield from self._through_one_function(block, momenta)
         if len(block) == 1:
-            for root in _real_inverses(momenta[0], qdot[0], self.system.momenta[block[0]]):
+            for root in _real_inverses(momenta[0], variables[0], self.images[block[0]]):
                 yield Inverse((root,))
 
     def _linear(self, block: Block, momenta: list[Expr]) -> tuple[Expr, ...] | None:
-        """Solve p = M q' + N for q'."""
-        qdot = [self.system.qdot[j] for j in block]
-        at_rest = dict.fromkeys(qdot, sympy.S.Zero)
-        matrix = [[momentum.diff(v) for v in qdot] for momentum in momenta]
+        """Solve w = M v + N for v."""
+        variables = [self.variables[j] for j in block]
+        at_rest = dict.fromkeys(variables, sympy.S.Zero)
+        matrix = [[momentum.diff(v) for v in variables] for momentum in momenta]
         right = [
-            self.system.momenta[j] - momentum.xreplace(at_rest)
+            self.images[j] - momentum.xreplace(at_rest)
             for j, momentum in zip(block, momenta, strict=True)
         ]
         solution = solve_linear(matrix, right, None)
         return None if solution is None or solution.singular else tuple(solution.values)
 
     def _through_one_function(self, block: Block, momenta: list[Expr]) -> Iterator[Inverse]:
-        """With s = f(q, q')^(1/n) the momenta are linear in q': solve, then s^n = f for s."""
-        qdot = [self.system.qdot[j] for j in block]
+        """With s = f(q, v)^(1/n) the images are linear in v: solve, then s^n = f for s."""
+        variables = [self.variables[j] for j in block]
         s = Symbol(f"s#{block[0]}", positive=True)  # no name of a file has a #
         functions = {
             power.base
             for momentum in momenta
             for power in _powers(momentum)
-            if isinstance(power.base, sympy.Add) and not free_of(power.base, qdot)
+            if isinstance(power.base, sympy.Add) and not free_of(power.base, variables)
         }
         for function in sorted(functions, key=sympy.default_sort_key):
             roots = [
@@ -178,39 +206,52 @@ class LegendreTransform:
             if any(n % q for q in roots):
                 continue
             replaced = [_with_root(momentum, function, s, n) for momentum in momenta]
-            if any(not free_of(m.diff(v), qdot) for m in replaced for v in qdot):
+            if any(not free_of(m.diff(v), variables) for m in replaced for v in variables):
                 continue
             linear = self._linear(block, replaced)
             if linear is None:
                 continue
-            closure = function.xreplace(dict(zip(qdot, linear, strict=True))) - s**n
+            closure = function.xreplace(dict(zip(variables, linear, strict=True))) - s**n
             for root in _positive_roots(closure, s):
                 yield Inverse(linear, Auxiliary(s, function, n, root))
 
-    def _inverts(self, block: Block, velocities: tuple[Expr, ...]) -> bool:
-        """Whether q'(q, dL/dq') = q' at random states."""
-        system = self.system
-        symbols = [system.momenta[j] for j in block]
-        momenta = Evaluator([self.momenta[j] for j in block], DIGITS + 10)
-        inverse = Evaluator(list(velocities), DIGITS + 10)
+    def _inverts(self, block: Block, found: tuple[Expr, ...]) -> bool:
+        """Whether v(q, dF/dv) = v at random states."""
+        images = [self.images[j] for j in block]
+        gradient = Evaluator([self.gradient[j] for j in block], DIGITS + 10)
+        inverse = Evaluator(list(found), DIGITS + 10)
         try:
-            states = self.dynamics.states.take(3)
+            states = self._states(3)
         except Contradiction:
             return False
         with mpmath.workdps(DIGITS + 10):
             for state in states:
                 full = dict(state)
-                full.update(zip(symbols, momenta(state), strict=True))
+                full.update(zip(images, gradient(state), strict=True))
                 try:
-                    found = inverse(full)
+                    values = inverse(full)
                 except (ArithmeticError, ValueError):
                     return False
                 if any(
-                    abs(value - state[system.qdot[j]]) > mpf(10) ** -(DIGITS - 15)
-                    for j, value in zip(block, found, strict=True)
+                    abs(value - state[self.variables[j]]) > mpf(10) ** -(DIGITS - 15)
+                    for j, value in zip(block, values, strict=True)
                 ):
                     return False
         return True
+
+
+class LegendreTransform(Inversion):
+    """q'(q, p, t) of a system."""
+
+    def __init__(self, dynamics: Dynamics) -> None:
+        lagrange, system = dynamics.lagrange, dynamics.system
+        super().__init__(
+            lagrange.momenta,
+            lagrange.mass_matrix,
+            system.qdot,
+            system.momenta,
+            dynamics.states.take,
+        )
 
 
 def _powers(expression: Expr) -> Iterator[Pow]:
@@ -246,7 +287,8 @@ def _positive_roots(closure: Expr, s: Symbol) -> list[Expr]:
         ratio = -polynomial.coeff_monomial(s**low) / polynomial.coeff_monomial(s**high)
         above, below = simplify(ratio).as_numer_denom()
         power = sympy.Rational(1, high - low)
-        return [(sign * above) ** power / (sign * below) ** power for sign in (1, -1)]
+        signed = [(sign * above) ** power / (sign * below) ** power for sign in (1, -1)]
+        return [root for root in signed if not root.has(sympy.I)]
     return list(sympy.roots(polynomial)) if polynomial.degree() <= 4 else []
 
 

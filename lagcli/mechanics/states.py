@@ -115,12 +115,12 @@ class RandomStates:
         state: State = {}
         system = self.system
         for parameter in system.parameters:
-            state[parameter] = _random_value(source, parameter, 0.6, 1.7)
+            state[parameter] = random_value(source, parameter, 0.6, 1.7)
         state[system.t] = mpf(source.randint(100, 900)) / 1009
         for q in system.q:
-            state[q] = _random_value(source, q, 0.3, 1.3)
+            state[q] = random_value(source, q, 0.3, 1.3)
         for v in system.qdot:
-            state[v] = _random_value(source, v, 0.1, 0.9) * scale
+            state[v] = random_value(source, v, 0.1, 0.9) * scale
         return state
 
     def _generate(self) -> Iterator[State]:
@@ -151,7 +151,7 @@ class RandomStates:
             values = self._lagrangian(state)
         except (ArithmeticError, ValueError):
             return False
-        return all(_is_real(v) for v in values)
+        return all(is_real(v) for v in values)
 
     def _project(self, state: State) -> int | None:
         """Move the state onto the constraints; the index of one that fails, or None."""
@@ -170,11 +170,11 @@ class RandomStates:
             return None
         for _ in range(_NEWTON_STEPS):
             values = self._f(state)
-            if not all(_is_real(v) for v in values):
+            if not all(is_real(v) for v in values):
                 return self._index(0)
             flat = self._f_rows(state)
             rows = [flat[i * n : (i + 1) * n] for i in range(len(values))]
-            if not all(_is_real(x) for x in flat):
+            if not all(is_real(x) for x in flat):
                 return self._index(0)
             elimination = independent_rows(rows, mpf(10) ** -12)
             kept = elimination.independent
@@ -206,7 +206,7 @@ class RandomStates:
             return None
         n = len(self.system.q)
         flat = self._a_rows(state)
-        if not all(_is_real(x) for x in flat):
+        if not all(is_real(x) for x in flat):
             return 0
         rows = [flat[i * (n + 1) : i * (n + 1) + n] for i in range(len(equations))]
         drift = [flat[i * (n + 1) + n] for i in range(len(equations))]
@@ -228,8 +228,8 @@ class RandomStates:
         return None
 
 
-def _random_value(source: random.Random, symbol: Symbol, low: float, high: float) -> mpf:
-    """A value within [low, high] of the sign that is assumed, either sign without one."""
+def random_value(source: random.Random, symbol: Symbol, low: float, high: float) -> mpf:
+    """Draw a value within [low, high] of the sign that is assumed, either sign without one."""
     if symbol.is_integer:
         return mpf(source.randint(2, 5))
     magnitude = mpf(source.randint(int(low * 10007), int(high * 10007))) / 10007
@@ -244,5 +244,6 @@ def _has_assumed_sign(symbol: Symbol, value: mpf) -> bool:
     return not (symbol.is_nonnegative and value <= 0) and not (symbol.is_negative and value >= 0)
 
 
-def _is_real(value: object) -> bool:
+def is_real(value: object) -> bool:
+    """Whether a value is a finite real number."""
     return isinstance(value, mpf) and bool(mpmath.isfinite(value))

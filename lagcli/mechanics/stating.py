@@ -71,7 +71,13 @@ class Stating:
         idle = set() if self.problem.constraints else {"multipliers", "constraint_forces"}
         if not self.problem.find:
             idle.add("find")
-        return [name for name in DEFAULT_SECTIONS if name not in idle]
+        usual = [name for name in DEFAULT_SECTIONS if name not in idle]
+        return [*usual, *self._asked_by_file()]
+
+    def _asked_by_file(self) -> list[str]:
+        """The sections that are shown because of what the file gives."""
+        given = self.problem
+        return ["hamiltonian", "canonical_equations"] if given.hamiltonian is not None else []
 
     def _missing(self, what: str, why: str = "") -> None:
         self.complete = False

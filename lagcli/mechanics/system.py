@@ -37,7 +37,7 @@ class System:
     L : Expr
         The Lagrangian L(q, q', t) = T - V, or as given.
     T, V : Expr or None
-        Kinetic and potential energy; None when only L is given.
+        Kinetic and potential energy; None when only L or H is given.
     D : Expr
         Rayleigh's dissipation function (0 without).
     forces : tuple of Expr
@@ -121,10 +121,15 @@ class System:
             None if point.force is None else tuple(map(self.build, point.force)),
         )
 
+    @property
+    def _is_whole(self) -> bool:
+        """L or H is given, and not its parts."""
+        return self.problem.lagrangian is not None or self.problem.hamiltonian is not None
+
     @cached_property
     def T(self) -> Expr | None:
         """The kinetic energy as given, or the sum of m v^2 / 2 over the points."""
-        if self.problem.lagrangian is not None:
+        if self._is_whole:
             return None
         if self.problem.kinetic is not None:
             return self.build(self.problem.kinetic)
@@ -140,9 +145,7 @@ class System:
     @cached_property
     def V(self) -> Expr | None:
         """The potential energy, which may depend on velocities and t; 0 when absent."""
-        return (
-            None if self.problem.lagrangian is not None else self._optional(self.problem.potential)
-        )
+        return None if self._is_whole else self._optional(self.problem.potential)
 
     @cached_property
     def L(self) -> Expr:
@@ -152,6 +155,12 @@ class System:
         assert self.T is not None
         assert self.V is not None
         return self.T - self.V
+
+    @cached_property
+    def H(self) -> Expr | None:
+        """The Hamiltonian as given; None where the file gives something else."""
+        given = self.problem.hamiltonian
+        return None if given is None else self.build(given)
 
     @cached_property
     def D(self) -> Expr:

@@ -19,20 +19,24 @@ _POINT_ATTRIBUTES = ("position", "mass", "force")
 
 
 def check_energies(sections: Sections, given: dict[str, Scalar]) -> None:
-    """The kinetic energy comes from one place: L, or T, or the masses of the points."""
-    for key in ("T", "V"):
-        if "L" in given and key in given:
-            related = ((given["L"].span, "L is given here"),)
-            message = f"both L and {key} are given"
-            sections.error(message, given[key].span, "give L, or T and V", related)
+    """The kinetic energy comes from one place: L, or H, or T, or the masses of the points."""
+    for whole, others in (("L", "TV"), ("H", "LTV")):
+        for key in others:
+            if whole in given and key in given:
+                related = ((given[whole].span, f"{whole} is given here"),)
+                message = f"both {whole} and {key} are given"
+                hint = "give L, or H" if key == "L" else f"give {whole}, or T and V"
+                sections.error(message, given[key].span, hint, related)
 
 
 def check_masses(sections: Sections, problem: Problem, span: Span) -> None:
     """Without T and L, the points give the kinetic energy, and every one needs a mass."""
-    if problem.kinetic is not None or problem.lagrangian is not None:
+    given = problem.kinetic, problem.lagrangian, problem.hamiltonian
+    if any(formula is not None for formula in given):
         return
     if not problem.points:
-        sections.error("there is no kinetic energy", span, "give T, or points with masses, or L")
+        hint = "give T, or points with masses, or L, or H"
+        sections.error("there is no kinetic energy", span, hint)
     for point in problem.points:
         if point.mass is None:
             message = f"the point '{point.name}' has no mass, and there is no T"

@@ -29,7 +29,7 @@ from lagcli.reader.quantities import (
 )
 from lagcli.reader.questions import read_find, read_initial, read_simulation
 from lagcli.reader.restrictions import declare_constraints, read_constraints, read_symmetries
-from lagcli.reader.scope import STATE
+from lagcli.reader.scope import PHASE_SPACE, STATE, Role
 from lagcli.reader.sections import Sections
 from lagcli.reader.text import Mistake, Text, decode
 from lagcli.record import record
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 KEYS = (
     "title", "source", "description", "coordinates", "parameters", "functions", "definitions",
-    "points", "T", "V", "L", "forces", "dissipation", "constraints", "contacts", "symmetries",
+    "points", "T", "V", "L", "H", "forces", "dissipation", "constraints", "contacts", "symmetries",
     "initial", "find", "simulation", "expect",
 )  # fmt: skip
 
@@ -108,8 +108,8 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
         """The node at a key, or a map without entries."""
         return given[key][1] if key in given else Mapping(root.text, 0, 0, [])
 
-    def formula(key: str) -> Expression | None:
-        return sections.expression(given[key][1], key, STATE) if key in given else None
+    def formula(key: str, role: Role = STATE) -> Expression | None:
+        return sections.expression(given[key][1], key, role) if key in given else None
 
     def text(key: str) -> str | None:
         scalar = sections.scalar(given[key][1], f"'{key}'") if key in given else None
@@ -145,6 +145,7 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
         kinetic=formula("T"),
         potential=formula("V"),
         lagrangian=formula("L"),
+        hamiltonian=formula("H", PHASE_SPACE),
         forces=read_forces(sections, section("forces")),
         dissipation=formula("dissipation"),
         constraints=constraints_read,

@@ -31,6 +31,14 @@ def one_sided(attributes: str) -> str:
 
 
 FILES = [
+    # H instead of T and V.
+    (after("H: p_x^2/2\n"), "5:1", "both H and T"),
+    ("coordinates: [x]\nL: x'^2\nH: p_x^2\n", "2:1", "both H and L"),
+    ("coordinates: [x]\nV: x^2\nH: p_x^2\n", "2:1", "both H and V"),
+    ("coordinates: [x]\nH: p_x^2/2 + x'\n", "2:14", "the velocity x' cannot stand in H"),
+    ("coordinates: [x]\ndefinitions: {v: x'}\nH: p_x^2/2 + v\n", "3:14", "contains a velocity"),
+    ("coordinates: [x]\nH: p_y^2/2\n", "2:4", "unknown name 'p_y' in H"),
+    ("coordinates: [x]\nH: p_x'^2/2\n", "2:4", "a momentum has no primes"),
     # The file as a whole.
     ("", "1:1", "empty"),
     ("# nothing\n", "1:1", "empty"),

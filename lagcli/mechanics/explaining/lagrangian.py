@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 import sympy
+from sympy import Expr
 
-from lagcli.algebra import is_zero
+from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.document import Block, Equations, Label, Row
 from lagcli.expression import Diff, Name, Negative, Number, Power
@@ -30,7 +31,9 @@ def lagrangian(teller: Teller) -> Iterator[Block]:
     if problem.definitions:
         yield says("The file abbreviates")
         yield Equations(tuple(Row(Name(n), formula) for n, formula in problem.definitions.items()))
-    if system.T is None or system.V is None:
+    if system.H is not None:
+        yield from _hamiltonian(teller, system.H)
+    elif system.T is None or system.V is None:
         yield says("The Lagrangian is given:")
         yield shows(letters.L, by_terms(system.L, as_given=True))
     else:
@@ -47,6 +50,25 @@ def lagrangian(teller: Teller) -> Iterator[Block]:
             yield says("so that the Lagrangian ", difference(letters.T, letters.V), " is")
             yield shows(letters.L, by_terms(system.L, as_given=True))
     yield from _beside(teller)
+
+
+def _hamiltonian(teller: Teller, H: Expr) -> Iterator[Block]:
+    """The transform of Legendre from H to L."""
+    system, letters, readable = teller.system, teller.letters, teller.readable
+    yield says("The Hamiltonian is given:")
+    yield shows(letters.free("H"), readable.as_written(H))
+    yield says("Its derivatives by the momenta are the velocities:")
+    yield Equations(
+        tuple(
+            Row(name, readable.as_written(simplify(H.diff(p))))
+            for name, p in zip(teller.velocities, system.momenta, strict=True)
+        )
+    )
+    yield says(
+        "Solved for the momenta and put into the sum of p q', of all coordinates, less the "
+        "Hamiltonian, this gives the Lagrangian"
+    )
+    yield shows(letters.L, readable.by_terms(system.L, as_given=True))
 
 
 def _points(teller: Teller) -> Iterator[Block]:

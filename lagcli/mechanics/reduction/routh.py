@@ -105,7 +105,7 @@ class Routh:
         flow = (self.system.qdot[j] for j in self.cyclic)
         action = sympy.Add(*(p * v for p, v in zip(self.momenta, flow, strict=True)))
         legendre = LegendreTransform(self.full.dynamics)
-        return legendre.with_momenta(self.system.L - action, [(self.cyclic, self._inverse)])
+        return legendre.with_images(self.system.L - action, [(self.cyclic, self._inverse)])
 
     @cached_property
     def reduced(self) -> Derivation | None:

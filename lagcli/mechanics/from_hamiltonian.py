@@ -1,0 +1,107 @@
+"""The Lagrangian of a problem that gives H: q_j' = dH/dp_j solved for p, then
+
+    L(q, q', t) = sum_j p_j q_j' - H.
+
+References
+----------
+Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., section 8.1: the transform of
+Legendre is its own inverse.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+
+import mpmath
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import simplify, to_expression
+from lagcli.algebra.numeric import Evaluator
+from lagcli.diagnostics import Diagnostic, ProblemError
+from lagcli.mechanics.legendre import Inversion
+from lagcli.mechanics.states import DIGITS, Contradiction, State, is_real, random_value
+from lagcli.mechanics.system import System
+from lagcli.problem import Problem
+from lagcli.record import replace
+
+_ATTEMPTS = 60
+
+
+class NoLagrangian(ProblemError):
+    """H has no Lagrangian, or none in closed form; `reason` is a sentence without its end."""
+
+    def __init__(self, problem: Problem, reason: str) -> None:
+        assert problem.hamiltonian is not None
+        message = f"this H gives no Lagrangian: {reason}"
+        hint = "--show hamiltonian,canonical_equations needs none"
+        super().__init__(problem.source, (Diagnostic(message, problem.hamiltonian.span, hint),))
+        self.reason = reason
+
+
+def with_lagrangian(problem: Problem) -> Problem:
+    """The problem with the L of its H; one that gives L, or T and V, is left as it is.
+
+    Raises
+    ------
+    NoLagrangian
+        Where d2H/dp2 is singular, or q' = dH/dp was not solved for the momenta.
+    """
+    if problem.hamiltonian is None or problem.lagrangian is not None:
+        return problem
+    system = System(problem)
+    return replace(problem, lagrangian=to_expression(_lagrangian(system), system.order))
+
+
+def _lagrangian(system: System) -> Expr:
+    assert system.H is not None
+    H = simplify(system.H)  # its radicals are those of its derivatives
+    velocities = [simplify(H.diff(p)) for p in system.momenta]
+    hessian = [[v.diff(p) for p in system.momenta] for v in velocities]
+    inversion = Inversion(
+        velocities, hessian, system.momenta, system.qdot, _States(system, [H, *velocities]).take
+    )
+    if inversion.is_singular:
+        raise NoLagrangian(
+            system.problem,
+            "the matrix of its second derivatives by the momenta is singular: the velocities "
+            "do not determine the momenta",
+        )
+    if inversion.inverted is None:
+        raise NoLagrangian(
+            system.problem, "q' = dH/dp could not be solved for the momenta in closed form"
+        )
+    work = sympy.Add(*(p * v for p, v in zip(system.momenta, system.qdot, strict=True)))
+    return inversion.put_into(work - H)
+
+
+class _States:
+    """Random q, p, t and parameters at which H and its derivatives are finite and real."""
+
+    def __init__(self, system: System, needed: Sequence[Expr]) -> None:
+        self._system = system
+        self._needed = Evaluator(list(needed), DIGITS + 10)
+
+    def take(self, count: int) -> list[State]:
+        """So many states, always the same ones."""
+        source = random.Random("lagcli")
+        found: list[State] = []
+        for _ in range(_ATTEMPTS):
+            with mpmath.workdps(DIGITS + 10):
+                state = self._drawn(source)
+                try:
+                    good = all(map(is_real, self._needed(state)))
+                except (ArithmeticError, ValueError):
+                    continue
+            found += [state] if good else []
+            if len(found) == count:
+                return found
+        raise Contradiction(-1)
+
+    def _drawn(self, source: random.Random) -> State:
+        system = self._system
+        state = {p: random_value(source, p, 0.6, 1.7) for p in system.parameters}
+        state[system.t] = random_value(source, system.t, 0.1, 0.9)
+        state |= {q: random_value(source, q, 0.3, 1.3) for q in system.q}
+        return state | {p: random_value(source, p, 0.1, 0.9) for p in system.momenta}

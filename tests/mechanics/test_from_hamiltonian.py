@@ -1,0 +1,123 @@
+"""A file that gives H: its Lagrangian, and what is left where there is none."""
+
+from __future__ import annotations
+
+import pytest
+
+from lagcli.diagnostics import ProblemError
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.legendre import LegendreTransform
+from lagcli.pipeline import Request, state, with_lagrangian
+from lagcli.reader import read_problem
+
+from .derived import derive, same
+
+FREE = "coordinates: [x, y]\nparameters: {m: {assume: positive}, c: {assume: positive}, w: {}}\n"
+
+POLAR = (
+    "coordinates: {r: {assume: positive}, phi: {}}\nparameters: {m: {assume: positive}, k: {}}\n"
+)
+
+CASES = {
+    # Goldstein 3rd ed., (8.44) and section 8.1
+    "central force": (
+        POLAR + "H: p_r^2/(2*m) + p_phi^2/(2*m*r^2) - k/r",
+        "m*(r'^2 + r^2*phi'^2)/2 + k/r",
+    ),
+    # Landau, Lifshitz, Fields, 4th ed., section 9
+    "relativistic": (
+        FREE + "functions: {U: [x, y]}\nH: c*sqrt(p_x^2 + p_y^2 + m^2*c^2) + U(x, y)",
+        "-m*c^2*sqrt(1 - (x'^2 + y'^2)/c^2) - U(x, y)",
+    ),
+    # Landau, Lifshitz, Mechanics, 3rd ed., section 39: a rotating frame
+    "linear in the momenta": (
+        FREE + "H: (p_x^2 + p_y^2)/(2*m) + w*(y*p_x - x*p_y)",
+        "m*((x' - w*y)^2 + (y' + w*x)^2)/2",
+    ),
+    "coupled": (
+        FREE + "H: (p_x^2 + p_y^2 - p_x*p_y)/m + t*x*p_x",
+        "m*((x' - t*x)^2 + (x' - t*x)*y' + y'^2)/3",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_lagrangian(name: str):
+    text, expected = CASES[name]
+    d = derive(text)
+    assert same(d, d.system.L, expected)
+
+
+@pytest.mark.parametrize("name", [name for name in CASES if name != "relativistic"])
+def test_back_and_forth(name: str):
+    """The Hamiltonian of the Lagrangian is the one of the file, and so are its equations."""
+    d = derive(CASES[name][0])
+    transform = LegendreTransform(d.dynamics)
+    work = sum(p * v for p, v in zip(d.system.momenta, d.system.qdot, strict=True))
+    assert d.system.H is not None
+    assert (transform.put_into(work - d.system.L) - d.system.H).equals(0)
+    lagrangian = Derivation(with_lagrangian(d.given))
+    assert lagrangian.dynamics.motion is not None
+    flow = dict(zip(d.system.qdot, d.hamiltonian.velocities, strict=True))
+    for p, (_, growth) in zip(
+        d.dynamics.lagrange.momenta, d.hamiltonian.canonical_equations, strict=True
+    ):
+        motion = dict(zip(d.system.qddot, d.dynamics.motion.accelerations, strict=True))
+        rate = d.system.total_derivative(p).xreplace(motion).xreplace(flow)
+        assert (rate - growth).equals(0)
+
+
+def test_forces_and_dissipation_act():
+    d = derive(
+        "coordinates: [x]\nparameters: {m: {assume: positive}, b: {}, F: {}}\n"
+        "H: p_x^2/(2*m)\nforces: {x: F}\ndissipation: b*x'^2/2"
+    )
+    [(velocity, growth)] = d.hamiltonian.canonical_equations
+    assert same(d, velocity, "p_x/m")
+    assert same(d, growth, "F - b*p_x/m")
+    assert same(d, d.dynamics.motion.accelerations[0], "(F - b*x')/m")
+
+
+def test_multipliers_of_constraints():
+    d = derive(
+        "coordinates: {r: {assume: positive}, theta: {}}\n"
+        "parameters: {m: {assume: positive}, g: {}, l: {assume: positive}}\n"
+        "H: (p_r^2 + p_theta^2/r^2)/(2*m) - m*g*r*cos(theta)\nconstraints: {rod: r = l}"
+    )
+    on_rod = d.dynamics.shapes.simplify(d.dynamics.motion.multipliers[0])
+    assert same(d, on_rod, "-m*(l*theta'^2 + g*cos(theta))")
+
+
+SINGULAR = FREE + "H: c*sqrt(p_x^2 + p_y^2)"
+
+
+def test_canonical_equations_without_lagrangian():
+    """A ray of light (Landau, Lifshitz, Fields, section 53): its speed is c."""
+    d = derive(SINGULAR)
+    assert "singular" in d.no_lagrangian
+    answers = state(d, Request())
+    assert list(answers.sections) == ["lagrangian", "hamiltonian", "canonical_equations"]
+    assert answers.sections["lagrangian"].lagrangian is None
+    assert not answers.complete
+    (u, _), (v, _) = d.hamiltonian.canonical_equations
+    c = next(p for p in d.hamiltonian.system.parameters if p.name == "c")
+    assert (u**2 + v**2 - c**2).equals(0)
+
+
+@pytest.mark.parametrize("text", [SINGULAR, "coordinates: [x]\nH: p_x^2/2 + p_x^7 + sin(p_x)"])
+def test_no_lagrangian_is_told_at_its_place(text: str):
+    problem = read_problem("test.yaml", text.encode()).checked()
+    with pytest.raises(ProblemError) as raised:
+        with_lagrangian(problem)
+    [mistake] = raised.value.diagnostics
+    assert mistake.span.line == text[: text.index("H:")].count("\n") + 1
+    assert mistake.span.column == 4
+
+
+def test_constraints_need_a_lagrangian():
+    d = derive(SINGULAR + "\nconstraints: {line: x = y}")
+    with pytest.raises(ProblemError) as raised:
+        state(d, Request())
+    [mistake] = raised.value.diagnostics
+    assert "constraint 'line'" in mistake.message
+    assert mistake.span.line == 4
