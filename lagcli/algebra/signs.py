@@ -41,10 +41,18 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
         result *= 1 if int(content) > 0 else -1
         for factor, exponent in factors:
             found = _of_factor(field, factor, known)
-            if found is None:
+            if found is not None:
+                result *= found if exponent % 2 else 1
+                continue
+            # a square is positive where it is not 0, as what is divided by is not
+            never_zero = poly is element.denominator or _is_nonzero(field, factor)
+            if exponent % 2 or not never_zero:
                 return None
-            result *= found**exponent
     return result
+
+
+def _is_nonzero(field: Field, factor: Poly) -> bool:
+    return field.polynomial_to_sympy(factor).is_nonzero is True
 
 
 def sign_of_circle(factor: Expr) -> int | None:

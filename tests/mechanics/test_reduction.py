@@ -153,6 +153,31 @@ V: a*(x^2/2 + E*x^4)
     assert [p.amplitude for p in motion.periods] == ["A"]
 
 
+def test_what_the_assumptions_rule_out_is_not_listed():
+    """A charge about a field line: one radius for each sign of q B p, no negative ones."""
+    section, missing = reduced("""
+coordinates: {r: POSITIVE, phi: {}}
+parameters: {m: POSITIVE, b: {assume: nonzero}}
+L: m*(r'^2 + r^2*phi'^2)/2 + b*r^2*phi'/2
+""")
+    assert not missing
+    motion = section.one_freedom
+    assert motion is not None
+    assert [[str(to_grammar(w.left)) for w in p.where] for p in motion.periods] == [
+        ["b*p_phi"],
+        ["0"],
+    ]
+    assert len(motion.turning_points or ()) == 2
+    assert all(not to_grammar(x).startswith("-") for x in motion.turning_points or ())
+
+
+def test_a_hill_has_no_period():
+    section, missing = reduced("{coordinates: [r], parameters: {w: {}}, L: r'^2/2 + w^2*r^2/2}")
+    assert not missing
+    assert section.one_freedom is not None
+    assert section.one_freedom.periods == ()
+
+
 def test_a_free_motion_turns_nowhere():
     section, missing = reduced(
         "{coordinates: [x, y], parameters: [m], L: m*x'^2*(1 + y^2)/2 + y'^2}"

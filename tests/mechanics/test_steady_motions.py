@@ -201,3 +201,15 @@ V: k*(r - l)^2/2 - m*g*r*cos(theta)
         hessian = Matrix(2, 2, lambda i, j: mpmath.diff(U, place, orders[i][j]))
     stiffness = Matrix(2, 2, lambda i, j: value(family.stiffness[i][j]))
     assert max(abs(x) for x in hessian - stiffness) < 1e-8
+
+
+@pytest.mark.parametrize(
+    ("potential", "stable", "minimum"),
+    [("w^2*x^2/2", None, ["w^2 > 0"]), ("-w^2*x^2/2", None, None), ("k*x^2/2", True, [])],
+)
+def test_a_square_that_may_vanish_proves_nothing(potential, stable, minimum):
+    parameters = "parameters: {w: {}, k: POSITIVE}"
+    [found] = motions(f"{{coordinates: [x], {parameters}, L: x'^2/2 - ({potential})}}")
+    assert found.stable is stable
+    assert (None if found.minimum is None else conditions(found.minimum)) == minimum
+    assert found.stable is not None or minimum or found.reason

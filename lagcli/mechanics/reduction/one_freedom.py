@@ -25,6 +25,7 @@ from lagcli.algebra.equations import solve_for
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.parameter_values import DIGITS, admissible_values
+from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 
 _ZERO = mpf(10) ** -(DIGITS - 15)
@@ -82,7 +83,7 @@ class OneFreedom:
 
     def _excluded(self, root: Expr) -> bool:
         """Whether the assumptions on the coordinate rule the value out."""
-        if self.q.is_nonnegative and root.is_negative:
+        if self.q.is_nonnegative and weak_sign(root) == -1:
             return True
         return bool(self.q.is_nonzero and root.is_zero)
 

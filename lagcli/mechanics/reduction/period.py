@@ -29,6 +29,7 @@ from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reduction.one_freedom import OneFreedom
+from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.record import record
 
 #: T/T0 is given to this order in the amplitude.
@@ -112,7 +113,8 @@ class Periods:
         slopes = [at(motion.potential.diff(q, k), {q: place}) for k in range(2, ORDER + 3)]
         curvature = slopes[0]
         known = sign(curvature, point.positive)
-        if known in (0, -1):
+        never = -1 in map(weak_sign, (*point.positive, curvature))
+        if known in (0, -1) or never:
             return None
         masses = [at(motion.mass.diff(q, k), {q: place}) for k in range(ORDER + 1)]
         if is_zero(masses[0]) is not False or sign(masses[0], point.positive) == -1:
@@ -126,15 +128,21 @@ class Periods:
         root = _root(masses[0], curvature)
         where = (*point.positive, *(() if known == 1 else (curvature,)))
         series = PeriodSeries(point, root, coefficients, where)
-        if self._agrees(series):
+        agrees = self._agrees(series)
+        if agrees:
             return series
+        if agrees is None:
+            return None
         self.reason, self.failed = "a series did not agree with its integral", True
         return None
 
     # -- the integral itself ----------------------------------------------------------------------
 
-    def _agrees(self, series: PeriodSeries) -> bool:
-        """Whether the series is the integral at an amplitude of 1e-8, to 40 digits."""
+    def _agrees(self, series: PeriodSeries) -> bool | None:
+        """Whether the series is the integral at an amplitude of 1e-8, to 40 digits.
+
+        None where no values of the parameters were found at which it is there.
+        """
         for values in admissible_values(self.motion.system, _TRIED):
             with mpmath.workdps(_WORKING):
                 try:
@@ -143,7 +151,7 @@ class Periods:
                     continue  # no real motion there
                 # the next coefficient times the next even power of a
                 return bool(off < _MARGIN * _AMPLITUDE ** (len(series.coefficients) + 2))
-        return False
+        return None
 
     def _ratio(self, series: PeriodSeries, values: Mapping[Symbol, mpf]) -> mpf:
         motion = self.motion
@@ -151,6 +159,8 @@ class Periods:
         [place] = series.point.values.values()
         evaluate = Evaluator([place, series.root, *series.coefficients, *series.where], _WORKING)
         middle, root, *others = evaluate(values)
+        if motion.q.is_positive and not middle > 0:
+            raise ValueError
         n = len(series.coefficients)
         if not all(isinstance(x, mpf) for x in (middle, root, *others)):
             raise ValueError

@@ -60,18 +60,59 @@ def _squares(expression: Expr, momenta: Sequence[Symbol]) -> list[Expr] | None:
 
 
 def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
-    """A polynomial with the sign of the expression: factors of known sign are left out.
+    """A polynomial that is positive just where the expression is.
 
-    Squares are taken as positive: what is divided by, or asked to be positive, is not 0.
+    Factors of known sign are left out, and squares that are divided by, which are not 0.
     """
     kept, direction = S.One, 1
     for factor, power in factors_of(expression):
-        known = sign(factor, positive) or sign_of_circle(factor)
-        if known is None:
-            kept *= factor if power % 2 else S.One
+        known = sign(factor**2 if power % 2 == 0 else factor, positive)
+        if known is None and power < 0:
+            known = _beside_zero(factor)
+        if known is not None:
+            direction *= known if power % 2 else 1
+        elif power % 2 == 0:
+            kept *= factor**2 if power > 0 else S.One
+        elif isinstance(factor, sympy.Abs):
+            kept *= factor.args[0] ** 2
+        elif factor.is_Pow and factor.exp == S.Half:
+            kept *= S.One if sign(factor.base, positive) == 1 else factor.base
         else:
-            direction *= known**power
+            kept *= factor
     return direction * kept
+
+
+def weak_sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
+    """1 or -1 where the expression has no other sign, though it may be 0; else None."""
+    result = 1
+    for factor, power in factors_of(expression):
+        if power % 2:
+            known = sign(factor, positive) or _beside_zero(factor)
+            if known is None:
+                return None
+            result *= known
+    return result
+
+
+def _beside_zero(factor: Expr) -> int | None:
+    """The sign of what has only one beside 0: roots, moduli, cos - 1 and cos + 1."""
+    if isinstance(factor, sympy.Abs) or (factor.is_Pow and factor.exp == S.Half):
+        return 1
+    return sign_of_circle(factor)
+
+
+def conditions(
+    expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
+) -> tuple[Above, ...]:
+    """What must be positive, without what the earlier ones imply."""
+    known = list(positive)
+    found: list[Above] = []
+    for expression in expressions:
+        each = above(expression, order, known)
+        if each is not None:
+            found.append(each)
+            known.append(deciding(expression))
+    return tuple(dict.fromkeys(found))
 
 
 def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ()) -> Above | None:

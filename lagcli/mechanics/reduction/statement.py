@@ -24,7 +24,7 @@ from lagcli.mechanics.reduction.one_freedom import OneFreedom as Motion
 from lagcli.mechanics.reduction.one_freedom import free_name
 from lagcli.mechanics.reduction.period import Periods
 from lagcli.mechanics.reduction.period import PeriodSeries as Found
-from lagcli.mechanics.reduction.readable import above, effective_potential
+from lagcli.mechanics.reduction.readable import conditions, effective_potential
 from lagcli.mechanics.reduction.routh import Routh
 
 #: What was asked for and not found, and why.
@@ -168,7 +168,6 @@ class _Statement:
         if corrections:
             period = Product((period, Sum((ONE, *corrections))))
         q = self.routh.reduced.system.q[0] if self.routh.reduced else None
-        where = (above(e, self.order) for e in found.where)
         return PeriodSeries(
             at={}
             if found.point is None
@@ -179,7 +178,7 @@ class _Statement:
             amplitude=name if corrections else "",
             order=len(found.coefficients) if corrections else 0,
             period=period,
-            where=tuple(each for each in where if each is not None),
+            where=conditions(found.where, self.order),
         )
 
 

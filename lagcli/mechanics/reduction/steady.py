@@ -28,7 +28,7 @@ from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, factors_of, solve_system
 from lagcli.mechanics.oscillations.characteristic import determinant
 from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
-from lagcli.mechanics.reduction.readable import deciding
+from lagcli.mechanics.reduction.readable import deciding, weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.record import record
 
@@ -122,7 +122,7 @@ class SteadyMotions:
         return [
             Steady(point.values, self._rates(point.values), point.positive)
             for point in points or ()
-            if self._regular(point.values)
+            if self._regular(point.values) and -1 not in map(weak_sign, point.positive)
         ]
 
     def _given(self) -> Steady | None:
@@ -261,7 +261,7 @@ class SteadyMotions:
             for p, by_rate in chart.items():
                 momenta[p] = at(by_rate.xreplace({**momenta, **rates_given}), state)
             whole = {**state, **momenta}
-            if not self._regular(state):
+            if not self._regular(state) or -1 in map(weak_sign, positive):
                 return []
             if not all(is_zero(at(c, whole)) is True for c in self.conditions):
                 self.complete = False

@@ -13,7 +13,7 @@ from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
-from lagcli.mechanics.reduction.readable import above
+from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.statement import Missing
 from lagcli.mechanics.reduction.steady import Steady, SteadyMotions
@@ -110,9 +110,7 @@ class _Statement:
     ) -> tuple[Above, ...] | None:
         if expressions is None:
             return None
-        known = () if given else motion.positive
-        found = [above(e, self.order, known) for e in expressions]
-        return tuple(dict.fromkeys(each for each in found if each is not None))
+        return conditions(expressions, self.order, () if given else motion.positive)
 
     def _free(self, motion: Steady) -> tuple[str, ...]:
         """Coordinates, rates and momenta that the state is a function of."""

@@ -16,7 +16,6 @@ Landau, Lifshitz, *Mechanics*, 3rd ed., section 35, problem 1(c): the sleeping t
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
 
 import sympy
 from sympy import Expr, S, Symbol
@@ -24,13 +23,12 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import Field, simplify
 from lagcli.algebra.equations import coefficients
 from lagcli.algebra.signs import sign
-from lagcli.algebra.systems import factors_of
 from lagcli.mechanics.oscillations.characteristic import Characteristic, determinant_in
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
+from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.record import record
 
-#: What makes it stable: a minimum of U_eff, or the spectrum with its gyroscopic terms.
-Kind = Literal["minimum", "spectrum"]
+_UNLESS = "U_eff has no minimum of second order, and is flat where a parameter or momentum is 0"
 
 
 @record
@@ -75,7 +73,8 @@ def verdict(linear: Linearization) -> Verdict:
     if 0 in (_sign(e, positive) for e in elementary):
         return _because(undecided, "neutral to first order in some direction")
     if not linear.gyroscopic:
-        return Verdict(minimum, None, fails, squares)
+        found = Verdict(minimum, None, fails, squares)
+        return found if fails or minimum is not None else _because(found, _UNLESS)
     if _sign(elementary[-1], positive) == -1:
         return Verdict(None, None, True, squares)
     spectrum = _spectrum(Characteristic(linear))
@@ -95,7 +94,8 @@ def curvature(potential: Expr, mass: Expr, positive: Sequence[Expr] = ()) -> Ver
             None, None, False, (square,), "the kinetic energy is not known to be positive definite"
         )
     minimum, fails = _open([square], positive)
-    return Verdict(minimum, None, fails, (square,))
+    found = Verdict(minimum, None, fails, (square,))
+    return found if fails or minimum is not None else _because(found, _UNLESS)
 
 
 def _because(found: Verdict, reason: str) -> Verdict:
@@ -107,27 +107,22 @@ def _open(
 ) -> tuple[tuple[Expr, ...] | None, bool]:
     """Those whose sign is open, None where one is not positive; whether one is negative."""
     signs = [_sign(e, positive) for e in expressions]
-    if -1 in signs or 0 in signs:
+    weak = [weak_sign(e, positive) for e in expressions]
+    if -1 in signs or 0 in signs or -1 in weak:
         return None, -1 in signs
     return tuple(e for e, s in zip(expressions, signs, strict=True) if s is None), False
 
 
 def _sign(expression: Expr, positive: Sequence[Expr]) -> int | None:
     known = sign(expression, positive)
-    if known is not None:
-        return known
-    # a square that is divided by is not 0
-    squares = [f**-k for f, k in factors_of(expression) if k < 0 and k % 2 == 0]
-    cleared = simplify(expression * sympy.Mul(*squares))
-    known = sign(cleared, positive)
-    return _on_the_circle(cleared, positive) if known is None else known
+    return _on_the_circle(expression, positive) if known is None else known
 
 
 def _on_the_circle(expression: Expr, positive: Sequence[Expr]) -> int | None:
     """1 for a + b cos(x) with a > 0 and squares at cos = 1 and cos = -1, over a positive."""
     field = Field([expression])
     element = field(expression)
-    below = sign(field.to_sympy(field.polynomial(element.denominator)), positive)
+    below = sign(1 / field.to_sympy(field.polynomial(element.denominator)), positive)
     if below is None:
         return None
     poly = element.numerator * below
