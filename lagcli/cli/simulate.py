@@ -71,6 +71,13 @@ StopWhen = Annotated[
     str | None,
     typer.Option("--stop-when", metavar="EXPRESSION", help="Stop where it changes its sign."),
 ]
+WholeModel = Annotated[
+    bool,
+    typer.Option(
+        "--whole-model",
+        help="Integrate every coordinate of the file: eliminate none, leave none out.",
+    ),
+]
 
 
 def simulate(
@@ -86,6 +93,7 @@ def simulate(
     precision: Precision = None,
     method: Method = "auto",
     stop_when: StopWhen = None,
+    whole_model: WholeModel = False,
 ) -> int:
     """Compute the motion to a stated accuracy, with a certificate.
 
@@ -117,5 +125,6 @@ def simulate(
         precision=precision,
         method=method,
         stop_when=stop_when,
+        whole=whole_model,
     )
     return simulate_file(wish)

@@ -17,6 +17,7 @@ from lagcli.cli.telling import tell, tell_line
 from lagcli.decimals import value_of
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import Expression
+from lagcli.formatters.grammar import to_grammar
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
@@ -46,6 +47,7 @@ class Wish:
     precision: int | None
     method: str
     stop_when: str | None
+    whole: bool
 
 
 def simulate_file(wish: Wish) -> Status:
@@ -196,6 +198,8 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
         stop_name=wish.stop_when or "",
         method=method,
         digits=wish.precision,
+        whole=wish.whole,
+        written=to_grammar,
     )
 
 

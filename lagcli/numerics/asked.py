@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from lagcli.expression import Expression
 from lagcli.numerics.columns import Column
 from lagcli.numerics.events import Event
+from lagcli.numerics.scene import Cut
 from lagcli.record import field, record
 
 
@@ -31,6 +32,10 @@ class Asked:
     digits : int or None
         How many may be carried where doubles do not suffice; None leaves it at doubles,
         and at what lies within their rounding.
+    whole : bool
+        Integrate the model as the file has it, nothing eliminated and nothing left out.
+    written : function
+        Writes a formula of the cut model as text of the grammar.
     """
 
     until: float
@@ -43,6 +48,8 @@ class Asked:
     stop_name: str = ""
     method: str = "auto"
     digits: int | None = None
+    whole: bool = False
+    written: Callable[[Expression], str] = str
 
 
 @record(kw_only=True)
@@ -71,4 +78,5 @@ class Result:
     evaluations: int
     events: tuple[Event, ...] = ()
     warnings: tuple[str, ...] = field(default=())
+    cut: Cut | None = None  # what the model was cut by
     refusal: str = ""  # why not all is there; empty when it is

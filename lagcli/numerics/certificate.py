@@ -63,7 +63,7 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
             },
             estimated_by=_estimated_by(outcome),
             charges=_drifts(simulation, outcome, kept),
-            constraints=_residuals(outcome),
+            constraints=_residuals(outcome, simulation),
         ),
         method=run.method_name or "dop853",
         reason=REASONS[run.method_name or "dop853"] + simulation.remark,
@@ -71,6 +71,7 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
         evaluations=outcome.evaluations,
         events=tuple(events),
         warnings=tuple(_warnings(simulation, rows, events)),
+        cut=simulation.cut,
         refusal=refusal,
     )
 
@@ -132,9 +133,13 @@ def _drifts(simulation: Simulation, outcome: Outcome, kept: int) -> dict[str, fl
     return drifts
 
 
-def _residuals(outcome: Outcome) -> dict[str, tuple[float | None, float]]:
-    """The largest residual of each constraint while it acts, and of its rate."""
-    found: dict[str, tuple[float | None, float]] = {}
+def _residuals(outcome: Outcome, simulation: Simulation) -> dict[str, tuple[float | None, float]]:
+    """The largest residual of each constraint while it acts, and of its rate.
+
+    One that was solved for a coordinate holds by itself.
+    """
+    solved = simulation.cut.eliminated if simulation.cut else ()
+    found: dict[str, tuple[float | None, float]] = {s.constraint: (0.0, 0.0) for s in solved}
     for phase in outcome.run.phases:
         if phase.surface is None:
             continue

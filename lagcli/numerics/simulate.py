@@ -21,6 +21,7 @@ from lagcli.numerics.modes import Mode, Modes
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import Refusal, told
 from lagcli.numerics.run import Run
+from lagcli.numerics.scene import Cut, cut_simulation
 from lagcli.numerics.start import initial_state, rounded_components
 from lagcli.numerics.steps import Method, Tolerance
 from lagcli.numerics.surface import ROUNDING, Surface
@@ -99,6 +100,8 @@ class Simulation:
         #: what is said beside the reason for the method
         self.remark = ""
         self.notes: list[str] = []
+        #: what the model was cut by
+        self.cut: Cut | None = None
 
     def _column(self, column: Column) -> Node:
         if column.expression is None:
@@ -174,6 +177,15 @@ class Simulation:
         self.start = q, v = initial_state(motion, project=self.asked.project)
         self._check_start(motion, q, v)
         self._keep_conserved(modes)
+        reduced = None if self.asked.whole else cut_simulation(self, modes, q, v)
+        if reduced is not None:
+            return reduced.run(Modes(reduced, constants, arithmetic, dop853, ROUNDING))
+        return self.run(modes)
+
+    def run(self, modes: Modes) -> Result:
+        """The table, from the state at the beginning."""
+        motion = modes.first.motion
+        q, v = self.start
         outcome: Outcome | None = None
         for route in self._routes():
             if outcome is None or self._beyond(outcome):

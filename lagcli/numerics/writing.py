@@ -9,6 +9,7 @@ from typing import Any
 
 from lagcli.numerics.asked import Result
 from lagcli.numerics.events import Event
+from lagcli.numerics.scene import Cut
 
 #: Of many events so many are told at the beginning and at the end of the list.
 _LISTED = 5
@@ -50,8 +51,22 @@ def document_of(result: Result) -> dict[str, Any]:
             "evaluations": result.evaluations,
         },
         "events": [_event(event) for event in result.events],
-        "model": {},
+        "model": {} if result.cut is None else _model(result.cut),
         "warnings": list(result.warnings),
+    }
+
+
+def _model(cut: Cut) -> dict[str, Any]:
+    return {
+        "kept": list(cut.kept),
+        "eliminated": {each.coordinate: each.formula for each in cut.eliminated},
+        "dropped": list(cut.dropped),
+        "ignorable": list(cut.ignorable),
+        "reason": {
+            **{each.coordinate: f"constraint {each.constraint}" for each in cut.eliminated},
+            **dict.fromkeys(cut.dropped, "no column depends on it"),
+            **dict.fromkeys(cut.ignorable, "kept: its velocity is needed, Routh spares nothing"),
+        },
     }
 
 
@@ -84,7 +99,7 @@ def to_table(result: Result) -> str:
     digits = _digits(result)
     cells = [list(result.columns)]
     cells += [
-        ["–" if x is None else f"{x:.{d}g}" for x, d in zip(row, digits, strict=True)]
+        ["–" if x is None else f"{x + 0.0:.{d}g}" for x, d in zip(row, digits, strict=True)]
         for row in result.rows
     ]
     widths = [max(len(row[j]) for row in cells) for j in range(len(result.columns))]
@@ -102,11 +117,23 @@ def to_table(result: Result) -> str:
     for name, (position, rate) in held.constraints.items():
         told = "" if position is None else f"residual {position:.1e}, "
         lines.append(f"constraint {name}: {told}residual of its rate {rate:.1e}")
+    if result.cut is not None:
+        lines += _model_lines(result.cut)
     work = f"{result.steps} steps, {result.evaluations} evaluations"
     lines.append(f"method {result.method}: {work}")
     lines.append(f"  {result.reason}")
     lines += [f"warning: {warning}" for warning in result.warnings]
     return "".join(f"{line}\n" for line in lines)
+
+
+def _model_lines(cut: Cut) -> list[str]:
+    lines = [
+        f"model: {each.coordinate} = {each.formula} by constraint {each.constraint}"
+        for each in cut.eliminated
+    ]
+    if cut.dropped:
+        lines.append(f"model: without {', '.join(cut.dropped)}, which no column depends on")
+    return lines
 
 
 def _told(events: Sequence[Event]) -> list[str]:
