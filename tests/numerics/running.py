@@ -5,7 +5,7 @@ from pathlib import Path
 from lagcli.numerics.asked import Asked
 from lagcli.numerics.columns import Column
 from lagcli.numerics.simulate import simulate
-from lagcli.pipeline import Request, read
+from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.reader.columns import read_along, read_columns, usual_columns
 
 ROOT = Path(__file__).parents[2]
@@ -18,7 +18,7 @@ def problem_of(text, *settings):
 
 
 def simulated(text, until, accuracy=1e-9, show=None, samples=2, settings=(), stop=None, **asked):
-    problem = problem_of(text, *settings)
+    problem = with_lagrangian(problem_of(text, *settings))
     shown = usual_columns(problem) if show is None else read_columns(problem, [show])
     return simulate(
         problem,
