@@ -9,19 +9,14 @@ from typing import cast
 from sympy import Expr
 
 from lagcli.algebra import simplify
-from lagcli.answers import (
-    Answers,
-    HamiltonJacobiSection,
-    ReductionSection,
-    SteadyMotion,
-    SteadySection,
-)
+from lagcli.answers import Answers, ReductionSection
 from lagcli.check.comparison import Comparison
 from lagcli.check.phase_space import free_comparison
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.readable import deciding
+from lagcli.motions import HamiltonJacobiSection, SteadyMotion, SteadySection
 from lagcli.problem import ExpectSteady, Inequality
 from lagcli.reader.expected_reduction import CONSTANT_NAMES
 

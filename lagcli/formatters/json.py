@@ -12,7 +12,6 @@ from typing import TypeVar
 
 from lagcli.answers import (
     SECTIONS,
-    Above,
     AccelerationsSection,
     AlgebraSection,
     Answers,
@@ -27,7 +26,6 @@ from lagcli.answers import (
     Equilibrium,
     FindSection,
     HamiltonianSection,
-    HamiltonJacobiSection,
     LagrangeEquation,
     LagrangianSection,
     MatrixFormSection,
@@ -36,19 +34,23 @@ from lagcli.answers import (
     ModesSection,
     MomentaSection,
     MultipliersSection,
-    OneFreedom,
-    PeriodSeries,
     QuantityUnit,
     ReductionSection,
     Rewritten,
     Section,
     Solutions,
-    SteadyMotion,
-    SteadySection,
 )
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.options import Options
+from lagcli.motions import (
+    Above,
+    HamiltonJacobiSection,
+    OneFreedom,
+    PeriodSeries,
+    SteadyMotion,
+    SteadySection,
+)
 
 #: The version of the contract.
 SCHEMA = 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from lagcli.answers import Above, OneFreedom, PeriodSeries, ReductionSection
+from lagcli.answers import ReductionSection
 from lagcli.document import (
     Block,
     Equations,
@@ -17,6 +17,7 @@ from lagcli.document import (
 )
 from lagcli.expression import ZERO, Name
 from lagcli.formatters.findings import state_blocks
+from lagcli.motions import Above, OneFreedom, PeriodSeries
 
 POTENTIAL = Label("U", ("eff",))
 

@@ -18,7 +18,6 @@ from lagcli.answers import (
     EquilibriaSection,
     FindSection,
     HamiltonianSection,
-    HamiltonJacobiSection,
     LagrangianSection,
     MatrixFormSection,
     ModelSection,
@@ -27,7 +26,6 @@ from lagcli.answers import (
     MultipliersSection,
     ReductionSection,
     Section,
-    SteadySection,
     Verification,
 )
 from lagcli.document import (
@@ -53,6 +51,7 @@ from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.reductions import reduction_blocks
 from lagcli.formatters.separation import hamilton_jacobi_blocks
 from lagcli.formatters.steady import steady_blocks
+from lagcli.motions import HamiltonJacobiSection, SteadySection
 
 _HEADINGS = {
     "lagrangian": "Lagrangian",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from lagcli.answers import HamiltonJacobiSection
 from lagcli.document import (
     Block,
     Equations,
@@ -15,6 +14,7 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Name, Negative, Product
+from lagcli.motions import HamiltonJacobiSection
 
 _NAMED = {
     True: "It separates in these coordinates",

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from lagcli.answers import SteadyMotion, SteadySection
 from lagcli.document import (
     Block,
     Equations,
@@ -18,6 +17,7 @@ from lagcli.document import (
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.formatters.reductions import POTENTIAL, conditions
+from lagcli.motions import SteadyMotion, SteadySection
 
 _SQUARED = Power(Name("omega"), Number(Fraction(2)))
 

@@ -21,7 +21,6 @@ from lagcli.answers import (
     EquilibriaSection,
     FindSection,
     HamiltonianSection,
-    HamiltonJacobiSection,
     LagrangeEquation,
     LagrangianSection,
     MatrixFormSection,
@@ -33,7 +32,6 @@ from lagcli.answers import (
     Section,
     Solutions,
     SpecialValue,
-    SteadySection,
 )
 from lagcli.expression import ZERO, Expression
 from lagcli.mechanics.constraint_force import forces_on_points
@@ -41,6 +39,7 @@ from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
+from lagcli.motions import HamiltonJacobiSection, SteadySection
 from lagcli.problem import Problem
 from lagcli.record import replace
 

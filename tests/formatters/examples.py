@@ -5,7 +5,6 @@ from __future__ import annotations
 from fractions import Fraction
 
 from lagcli.answers import (
-    Above,
     AccelerationsSection,
     AlgebraSection,
     Answers,
@@ -21,7 +20,6 @@ from lagcli.answers import (
     Equilibrium,
     FindSection,
     HamiltonianSection,
-    HamiltonJacobiSection,
     LagrangeEquation,
     LagrangianSection,
     MatrixFormSection,
@@ -31,15 +29,11 @@ from lagcli.answers import (
     MomentaSection,
     Multiplier,
     MultipliersSection,
-    OneFreedom,
-    PeriodSeries,
     QuantityUnit,
     ReductionSection,
     Rewritten,
     Solutions,
     SpecialValue,
-    SteadyMotion,
-    SteadySection,
     UnitSource,
 )
 from lagcli.expression import (
@@ -54,6 +48,14 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+)
+from lagcli.motions import (
+    Above,
+    HamiltonJacobiSection,
+    OneFreedom,
+    PeriodSeries,
+    SteadyMotion,
+    SteadySection,
 )
 from lagcli.units import Unit, read_unit
 

@@ -16,8 +16,8 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.signs import sign, sign_of_circle
 from lagcli.algebra.systems import factors_of
 from lagcli.algebra.writing import Writer
-from lagcli.answers import Above
 from lagcli.expression import Expression, operation_count
+from lagcli.motions import Above
 
 
 def effective_potential(

@@ -7,11 +7,11 @@ from sympy import Expr
 
 from lagcli.algebra import shape, terms
 from lagcli.algebra.writing import Writer
-from lagcli.answers import HamiltonJacobiSection
 from lagcli.expression import Call, Expression, operation_count
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.separation import Separation
 from lagcli.mechanics.reduction.statement import Missing
+from lagcli.motions import HamiltonJacobiSection
 
 
 def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Missing]:

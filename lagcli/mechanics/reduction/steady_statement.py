@@ -8,7 +8,6 @@ from sympy import Expr
 
 from lagcli.algebra import shape
 from lagcli.algebra.equations import written
-from lagcli.answers import Above, SteadyMotion, SteadySection
 from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.equilibria import at
@@ -18,6 +17,7 @@ from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.statement import Missing
 from lagcli.mechanics.reduction.steady import Steady, SteadyMotions
 from lagcli.mechanics.reduction.verdict import Verdict, curvature, verdict
+from lagcli.motions import Above, SteadyMotion, SteadySection
 
 
 def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:

@@ -1,0 +1,106 @@
+"""Statements on one degree of freedom, steady motions, and the separated action."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from lagcli.expression import Expression
+from lagcli.record import field, record
+
+
+@record
+class Above:
+    """`left > right`, the condition for what it stands beside."""
+
+    left: Expression
+    right: Expression
+
+
+@record(kw_only=True)
+class PeriodSeries:
+    """T about one minimum of U_eff.
+
+    `amplitude` is the name in `period` of half the distance of the turning points, empty
+    where the period is that of small oscillations alone; `order` is its highest power.
+    A minimum that is not solved for is where `root_of` vanishes, `at` is empty then.
+    """
+
+    at: Mapping[str, Expression]
+    amplitude: str
+    period: Expression
+    order: int = 0
+    root_of: Expression | None = None
+    where: tuple[Above, ...] = ()
+
+
+@record(kw_only=True)
+class OneFreedom:
+    """The one remaining coordinate: E = `energy`, dt = `rate` dq, T = 2 int `rate` dq.
+
+    `turning_points` are the roots of U_eff = E, None where that has no closed solution.
+    """
+
+    coordinate: str
+    constant: str
+    energy: Expression
+    turning_points: tuple[Expression, ...] | None
+    rate: Expression
+    periods: tuple[PeriodSeries, ...]
+    reason: str = ""
+
+
+@record(kw_only=True)
+class SteadyMotion:
+    """The cyclic coordinates turn at constant `rates`, the others rest `at` their values.
+
+    `free` may have any value.  It is there where each of `where` holds, and with all rates
+    and momenta reversed where it is `mirrored`.  `rates` None: the axes of two rotations
+    coincide, so only the momenta are known.  `minimum` and `spectrum` say where U_eff has a
+    minimum, and where the spectrum lies on the imaginary axis: empty for always, None for
+    never or not decided.  `stable` None: it depends on these, or was not decided.
+    """
+
+    at: Mapping[str, Expression]
+    free: tuple[str, ...]
+    rates: Mapping[str, Expression] | None
+    momenta: Mapping[str, Expression]
+    where: tuple[Above, ...]
+    mirrored: bool
+    stable: bool | None
+    minimum: tuple[Above, ...] | None
+    spectrum: tuple[Above, ...] | None
+    frequencies_squared: tuple[Expression, ...]
+    mass: tuple[tuple[Expression, ...], ...] = ()
+    velocity: tuple[tuple[Expression, ...], ...] = ()
+    stiffness: tuple[tuple[Expression, ...], ...] = ()
+    reason: str = ""
+
+
+@record(kw_only=True)
+class SteadySection:
+    """The conditions dU_eff/dq = 0 by coordinate, and the motions; None with a `reason`."""
+
+    conditions: Mapping[str, Expression]
+    motions: tuple[SteadyMotion, ...] | None
+    complete: bool = True
+    reason: str = ""
+
+
+@record(kw_only=True)
+class HamiltonJacobiSection:
+    """H(q, dS/dq) = E with S = -E t + sum W_i(q_i), where it separates in the coordinates given.
+
+    `hamiltonian` has p for dS/dq.  `separable` is the verdict of Levi-Civita's test, `obstacle`
+    the first pair of coordinates at which it fails.  `equations` are the separated ones (= 0),
+    `derivatives` the W_i' with their positive roots; `constants` are E, the momenta of the
+    cyclic coordinates, and those of separation.
+    """
+
+    hamiltonian: Expression | None
+    energy: str
+    separable: bool | None
+    obstacle: tuple[str, ...] = ()
+    constants: tuple[str, ...] = ()
+    equations: Mapping[str, Expression] = field(default_factory=dict)
+    derivatives: Mapping[str, Expression] | None = None
+    reason: str = ""
