@@ -1,0 +1,154 @@
+"""Constraints that are redundant, become dependent, or are lost."""
+
+import mpmath
+import pytest
+from mpmath import mp, mpf
+
+TWICE = """
+coordinates: [x, y]
+T: (x'^2 + y'^2)/2
+V: y
+constraints: {rod: x^2 + y^2 = 1, again: %s}
+initial: {x: sqrt(3)/2, y: -1/2}
+"""
+
+
+@pytest.mark.parametrize("again", ["x^2 + y^2 = 1", "2*x^2 + 2*y^2 = 2"])
+def test_a_constraint_twice(simulate, again):
+    """The plane pendulum; neither multiplier is told, for they are not determined."""
+    until = mpmath.nstr(4 * mpmath.ellipk(mpf(1) / 4), 17)
+    run = simulate(TWICE % again, until, show="atan2(x, -y),lambda_rod")
+    assert run.status == 0
+    assert run.last["atan2(x, -y)"] == pytest.approx(float(mp.pi / 3), abs=1e-9)
+    assert run.last["lambda_rod"] is None
+    assert "lambda_rod is not determined: redundant constraints" in run.warnings
+
+
+LINKAGE = """
+coordinates: [x, y, u, v]
+T: (x'^2 + y'^2 + u'^2 + v'^2)/2
+constraints:
+  crank: x^2 + y^2 = 1
+  rocker: (u - 2)^2 + v^2 = 1
+  coupler: (u - x)^2 + (v - y)^2 = 4
+initial:
+  {x: cos(1), y: sin(1), u: 2 + cos(1), v: sin(1), x': -sin(1), y': cos(1), u': -sin(1), v': cos(1)}
+"""
+
+
+def test_a_four_bar_linkage_through_its_flat_positions(simulate):
+    """The parallelogram turns evenly; flat at t = pi - 1 and 2 pi - 1, it could fold there."""
+    run = simulate(LINKAGE, 8, accuracy=1e-6, samples=9)
+    held = run.held["holds_until"]
+    if run.status:
+        assert run.err
+    for row in run.rows:
+        if row["t"] <= held:
+            assert row["x"] == pytest.approx(float(mp.cos(1 + row["t"])), abs=1e-6)
+            assert row["u"] == pytest.approx(float(2 + mp.cos(1 + row["t"])), abs=1e-6)
+    assert held > 2
+
+
+def test_a_double_parallelogram_moves_in_spite_of_gruebler(lagcli, simulate):
+    """Three equal cranks on one coupler: by count it is rigid, yet it is a pendulum."""
+    text = """
+coordinates: [a, x, y, u, v]
+T: (x'^2 + y'^2)/2 + (u'^2 + v'^2)/2 + a'^2/2
+V: y + v - cos(a)
+constraints:
+  first_x: x = 1 + sin(a)
+  first_y: y = -cos(a)
+  second_x: u = 2 + sin(a)
+  second_y: v = -cos(a)
+  coupler: (u - x)^2 + (v - y)^2 = 1
+initial: {a: 1, x: 1 + sin(1), y: -cos(1), u: 2 + sin(1), v: -cos(1)}
+"""
+    until = mpmath.nstr(4 * mpmath.ellipk(mp.sin(0.5) ** 2), 17)
+    run = simulate(text, until)
+    assert run.status == 0
+    assert run.last["a"] == pytest.approx(1, abs=1e-9)
+    solved = lagcli("solve", text, "--show", "equations")
+    assert "1 degree of freedom" in solved.out
+
+
+SPHERE = """
+coordinates: {r: {assume: positive}, th: {assume: nonnegative}}
+L: (r'^2 + r^2*th'^2)/2 - r*cos(th)
+constraints: {surface: {equation: r = 1, multiplier: N, holds_while: N >= 0}}
+initial: {r: 1, th: %s, th': %s}
+"""
+
+
+@pytest.mark.parametrize("start", ["1e-8", "1e-3"])
+def test_sliding_off_a_sphere(simulate, start):
+    """cos(th) = 2 cos(th0)/3: 48.189685104221 degrees from rest at the top."""
+    run = simulate(SPHERE % (start, 0), 40, "--precision", 40, show="th*180/pi")
+    exact = float(mp.acos(2 * mp.cos(mpf(start)) / 3) * 180 / mp.pi)
+    if start == "1e-8":
+        assert exact == pytest.approx(48.189685104221, abs=1e-12)
+    assert run.events[0]["what"] == "contact lost"
+    assert run.last["th*180/pi"] == pytest.approx(exact, abs=1e-6)
+
+
+def test_a_string_that_goes_slack(simulate):
+    """v0^2 = 4 g l: the tension 2 + 3 cos(th) vanishes at acos(-2/3)."""
+    text = """
+coordinates: {r: {assume: positive}, th: {}}
+L: (r'^2 + r^2*th'^2)/2 + r*cos(th)
+constraints: {string: {equation: r = 1, multiplier: S, holds_while: S <= 0}}
+initial: {r: 1, th: 0, th': 2}
+"""
+    run = simulate(text, 10)
+    assert run.events[0]["what"] == "contact lost"
+    assert run.last["th"] == pytest.approx(2.300523983022, abs=1e-9)
+
+
+TOP = """
+coordinates: [ph, th, ps]
+parameters: {I: 1, J: %s}
+T: I*(th'^2 + sin(th)^2*ph'^2)/2 + J*(ps' + ph'*cos(th))^2/2
+V: %s
+initial: %s
+"""
+
+
+def test_a_top_rises_to_gimbal_lock(simulate):
+    """p_phi = p_psi = 3/2: 1 - cos(th) = (7/8) sech(k t)^2, k^2 = 7/16, which only tends to 0."""
+    state = "{th: acos(1/8), th': 0, ph': 1.5/(1 + 1/8), ps': 3 - 1.5/9}"
+    run = simulate(TOP % ("1/2", "cos(th)", state), 5, show="1 - cos(th)", accuracy=1e-8)
+    exact = mpf(7) / 8 * mp.sech(5 * mp.sqrt(7) / 4) ** 2
+    assert run.status == 0
+    assert run.last["1 - cos(th)"] == pytest.approx(float(exact), abs=1e-8)
+
+
+def test_upright_the_euler_angles_are_refused(simulate):
+    run = simulate(TOP % ("1/2", "cos(th)", "{th: 0, ps': 5}"), 1)
+    assert run.status == 1
+    assert "mass matrix" in run.err
+
+
+def test_a_free_top_next_to_gimbal_lock(simulate):
+    """The axis turns at the rate 1 about L, tilted by 1/2: it meets the vertical at t = pi.
+
+    cos(th) = cos(1/2)^2 - sin(1/2)^2 cos(t); 1.4e-3 before it the mass matrix is nearly singular.
+    """
+    state = "{th: 1, th': 0, ph': 1/(2*cos(1/2)), ps': 2*cos(1/2) - cos(1)/(2*cos(1/2))}"
+    run = simulate(TOP % ("1/2", 0, state), "pi - 3e-3", show="cos(th)", accuracy=1e-8)
+    assert run.status == 0
+    exact = mp.cos(0.5) ** 2 + mp.sin(0.5) ** 2 * mp.cos(mpf("3e-3"))
+    assert run.last["cos(th)"] == pytest.approx(float(exact), abs=1e-8)
+
+
+def test_a_top_with_vanishing_inertia(simulate):
+    """J = 1e-12: a spherical pendulum; the cone ph'^2 = 1/cos(pi - th) is kept."""
+    state = "{th: pi - 1, ph': 1/sqrt(cos(1)), ps': 1}"
+    run = simulate(TOP % ("1e-12", "cos(th)", state), 10, show="th,ph")
+    assert run.status == 0
+    assert run.last["th"] == pytest.approx(float(mp.pi - 1), abs=1e-9)
+    assert run.last["ph"] == pytest.approx(float(10 / mp.sqrt(mp.cos(1))), abs=1e-9)
+
+
+def test_a_top_without_inertia_about_its_axis_is_refused(simulate):
+    run = simulate(TOP % (0, "cos(th)", "{th: 2, ph': 1}"), 1)
+    assert run.status == 1
+    assert "mass matrix" in run.err
