@@ -5,7 +5,10 @@ from __future__ import annotations
 #: The forms of a table of `simulate`, those of them that are no text, and its methods.
 TABLES = ("table", "json", "csv", "npz", "parquet")
 BINARY = ("npz", "parquet")
-METHODS = ("auto", "taylor64", "taylor80", "taylor", "dop853")
+METHODS = ("auto", "taylor64", "taylor80", "taylor", "dop853", "radau5", "gauss8", "yoshida8")
+#: The forms of a study of `tradeoff`, and what it weighs.
+STUDIES = ("text", "json", "csv")
+COSTS = ("total", "integration", "evaluations")
 
 #: What `simulate --show` knows besides the names of the file.
 _SHOWN = (
@@ -55,3 +58,19 @@ def complete_page_format(incomplete: str) -> list[str]:
     from lagcli.formatters.explaining import FORMATS
 
     return [name for name in FORMATS if name.startswith(incomplete)]
+
+
+def complete_study(incomplete: str) -> list[str]:
+    """The forms of a study that begin so."""
+    return [name for name in STUDIES if name.startswith(incomplete)]
+
+
+def complete_cost(incomplete: str) -> list[str]:
+    """What a study may weigh that begins so."""
+    return [name for name in COSTS if name.startswith(incomplete)]
+
+
+def complete_methods(incomplete: str) -> list[str]:
+    """The methods that the last word of `a,b,c` may become."""
+    before, comma, word = incomplete.rpartition(",")
+    return [before + comma + name for name in METHODS[1:] if name.startswith(word)]

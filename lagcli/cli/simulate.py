@@ -63,7 +63,8 @@ Method = Annotated[
     typer.Option(
         "--method",
         metavar="NAME",
-        help="auto, taylor64, taylor80, taylor (any number of digits) or dop853.",
+        help="auto, taylor64, taylor80, taylor (any number of digits), dop853, radau5 "
+        "(stiff), gauss8 or yoshida8 (symplectic).",
         autocompletion=complete_method,
     ),
 ]

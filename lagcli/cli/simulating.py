@@ -52,7 +52,7 @@ class Wish:
 
 def simulate_file(wish: Wish) -> Status:
     """Run, write, and say how it ended."""
-    known = _known("--format", wish.format_name, TABLES)
+    known = is_known("--format", wish.format_name, TABLES)
     if not (known and _can_be_written(wish)) & has_place(wish.output):
         return Status.USAGE
     try:
@@ -157,7 +157,7 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
         formula = given
         if text is not None:
             formula = attempt(lambda: read_number(text, option), None)
-        return None if formula is None else _value(formula)
+        return None if formula is None else number_of(formula)
 
     run = problem.simulation
     until = number(wish.until, run.until, "--until")
@@ -176,7 +176,7 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
         tell_line(f"lagcli: error: --accuracy: it lies between 0 and 1, not {accuracy:g}")
         good = False
     method = run.method if wish.method == "auto" and run.method else wish.method
-    good = _known("--method", method, METHODS) and good
+    good = is_known("--method", method, METHODS) and good
     shown = list(wish.show)
     columns = usual_columns(problem)
     if shown:
@@ -203,7 +203,7 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
     )
 
 
-def _value(formula: Expression) -> float:
+def number_of(formula: Expression) -> float:
     """A number; nan, which no option takes, where it is none."""
     try:
         return float(value_of(formula) or 0)
@@ -211,7 +211,8 @@ def _value(formula: Expression) -> float:
         return float("nan")
 
 
-def _known(option: str, name: str, names: tuple[str, ...]) -> bool:
+def is_known(option: str, name: str, names: tuple[str, ...]) -> bool:
+    """Whether a name is one of those that there are; told where it is not."""
     if name in names:
         return True
     advice = did_you_mean(name, names) or f"there are {', '.join(names)}"

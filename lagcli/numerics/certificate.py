@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from lagcli.numerics.accuracy import Outcome, stretches
 from lagcli.numerics.asked import Certificate, Result
 from lagcli.numerics.events import Event
+from lagcli.numerics.methods import METHODS
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import told
 from lagcli.numerics.steps import CannotGoOn
@@ -15,14 +16,6 @@ from lagcli.record import replace
 
 if TYPE_CHECKING:
     from lagcli.numerics.simulate import Simulation
-
-REASONS = {
-    "dop853": "explicit, of order 8: the cheapest that reaches the accuracy without stiffness",
-    "taylor64": "power series in machine code: the cheapest of any order where it is compiled",
-    "taylor80": "power series in machine code of 80 bits: the accuracy lies within the rounding "
-    "of doubles",
-    "taylor": "power series with more digits than doubles: the accuracy lies within their rounding",
-}
 
 
 def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Result:
@@ -48,7 +41,7 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
         refusal = _refusal(simulation, motion, outcome, holds_until)
         if run.stop is not None:
             what = "grazes" if run.stop.reason.startswith("it grazes") else "singularity"
-            events.append(Event(run.stop.t, what, _why_stopped(motion, run.stop)))
+            events.append(Event(run.stop.t, what, why_stopped(motion, run.stop)))
     return Result(
         columns=names,
         rows=tuple(rows),
@@ -66,7 +59,7 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
             constraints=_residuals(outcome, simulation),
         ),
         method=run.method_name or "dop853",
-        reason=REASONS[run.method_name or "dop853"] + simulation.remark,
+        reason=METHODS[run.method_name or "dop853"].reason + simulation.remark,
         steps=run.steps,
         evaluations=outcome.evaluations,
         events=tuple(events),
@@ -156,7 +149,7 @@ def _residuals(outcome: Outcome, simulation: Simulation) -> dict[str, tuple[floa
 def _refusal(simulation: Simulation, motion: Motion, outcome: Outcome, holds_until: float) -> str:
     asked, stop = simulation.asked, outcome.run.stop
     if stop is not None:
-        why = _why_stopped(motion, stop)
+        why = why_stopped(motion, stop)
         return f"the motion stops at t = {stop.t:.13g}: {why}; shown until t = {holds_until:.6g}"
     bound = max(outcome.errors)
     why = outcome.reason or f"the bound at the end is {bound:.1e}"
@@ -168,7 +161,7 @@ def _refusal(simulation: Simulation, motion: Motion, outcome: Outcome, holds_unt
     return f"{told}; {held}{more}"
 
 
-def _why_stopped(motion: Motion, stop: CannotGoOn) -> str:
+def why_stopped(motion: Motion, stop: CannotGoOn) -> str:
     """What ends the motion."""
     if stop.reason.startswith(("it ", "a force", "an impact", "event")):
         return stop.reason

@@ -17,15 +17,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from lagcli.numerics.kinks import Kinks
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import told
-from lagcli.numerics.steps import CannotGoOn, Step, Tolerance
+from lagcli.numerics.steps import CannotGoOn, Method, Step, Tolerance
 from lagcli.numerics.straight_line import run_generated
 from lagcli.numerics.surface import Surface
 from lagcli.numerics.tableau_853 import DENSE, ERROR_3, ERROR_5, NODES, STAGES, Row
+
+if TYPE_CHECKING:
+    from lagcli.numerics.modes import Mode
 
 ORDER = 8
 _END = 13  # the stage at the end of the step
@@ -93,7 +96,7 @@ class Dop853:
                 tolerance.see(q, v, change)
                 error = self._error(h, five, three, tolerance)
                 if error <= 1:
-                    end_q, end_v, left = _added(q, v, change, lost)
+                    end_q, end_v, left = added(q, v, change, lost)
                     if self.surface is not None:
                         end_q, end_v = self.surface.project(t + h, end_q, end_v)
                         next_rate = self._rate(t + h, end_q, end_v)
@@ -214,7 +217,7 @@ def _interpolated(coefficients: Sequence[float], x: float) -> tuple[float, float
     return value, slope
 
 
-def _added(
+def added(
     q: Sequence[float], v: Sequence[float], change: Sequence[float], lost: Sequence[float]
 ) -> tuple[list[float], list[float], list[float]]:
     """State + change, and what the rounding of the sums has taken."""
@@ -226,6 +229,13 @@ def _added(
         left.append(d - (s - x) if abs(x) >= abs(d) else x - (s - d))
     n = len(q)
     return total[:n], total[n:], left
+
+
+def dop853(mode: Mode, surface: Surface | None) -> Method:
+    """The method of a mode."""
+    if mode.generated is None:
+        mode.generated = generated_step(mode.motion.n, mode.motion.accelerations)
+    return Dop853(mode.motion, surface, mode.generated)
 
 
 def generated_step(n: int, accelerations: Callable[..., Any]) -> tuple[Any, Any]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from lagcli.numerics.accuracy import Controller, Outcome
 from lagcli.numerics.arithmetic import Balls
 from lagcli.numerics.constants import constants_of
+from lagcli.numerics.methods import Prepared
 from lagcli.numerics.modes import Mode, Modes
 from lagcli.numerics.refusal import Refusal
 from lagcli.numerics.run import Run
@@ -21,53 +22,72 @@ from lagcli.numerics.transitions import Transitions
 if TYPE_CHECKING:
     from lagcli.numerics.simulate import Simulation
 
+_DIGITS = 30
 _GUARD_BITS = 40
 _LONGEST = (10.0,)  # a part of the span: a series knows what lies within its step
 #: Steps of one run, when nobody has asked for more digits and when somebody has.
 _UNASKED, _ASKED = 20_000, 500_000
 
 
-def precise_outcome(
-    simulation: Simulation, doubles: Modes, q: Sequence[float], v: Sequence[float], digits: int
-) -> Outcome | None:
-    """The outcome with up to so many digits; None where only doubles can do it."""
+@contextmanager
+def precision(digits: int) -> Iterator[None]:
+    """So many digits, and some more for rounding."""
     from flint import ctx
 
-    equations, asked = simulation.equations, simulation.asked
-    if equations.kinks:
-        return None
     usual = ctx.prec
     ctx.prec = math.ceil(digits * math.log2(10)) + _GUARD_BITS
     try:
-        arithmetic = Balls()
-        constants = constants_of(equations, simulation.all_nodes, arithmetic)
-        rounding = 10.0**-digits
-        modes = Modes(simulation, constants, arithmetic, _taylor, rounding)
-        modes.first.conserved = doubles.first.conserved
-        motion = modes.first.motion
-        exact_q, exact_v = refined_state(
-            motion, modes.first.surface(), q, v, anew=not asked.project
-        )
-        limit = _UNASKED if asked.digits is None else _ASKED
-
-        def runner(tolerance: float, longest: float, peaks: Sequence[float] | None, _: int) -> Run:
-            bound = Tolerance(tolerance, motion.n, asked.until, longest, peaks, math.sqrt(rounding))
-            run = Run(Transitions(modes, asked.accuracy, asked.until), bound, asked.accuracy)
-            run.step_limit = limit
-            return run.go(exact_q, exact_v, simulation.times, progress=simulation.progress)
-
-        return Controller(
-            runner,
-            accuracy=asked.accuracy,
-            finest=rounding,
-            span=asked.until,
-            charges=len(simulation.charges),
-            longest=_LONGEST,
-        ).outcome()
-    except Refusal:
-        return None
+        yield
     finally:
         ctx.prec = usual
+
+
+def prepared(simulation: Simulation, doubles: Modes, digits: int | None = None) -> Prepared | str:
+    """Power series with so many digits made ready, or why only doubles can do it.
+
+    Parameters
+    ----------
+    simulation, doubles
+        What is asked, and the modes in doubles.
+    digits
+        Those asked for, or 30, without it.
+    """
+    equations, asked = simulation.equations, simulation.asked
+    if equations.kinks:
+        return "abs and sign have no power series"
+    if simulation.goes_on:
+        return "contacts that close or are released are followed in doubles only"
+    limit = _UNASKED if asked.digits is None and digits is None else _ASKED
+    carried = digits or asked.digits or _DIGITS
+    rounding = 10.0**-carried
+    try:
+        with precision(carried):
+            arithmetic = Balls()
+            constants = constants_of(equations, simulation.all_nodes, arithmetic)
+            modes = Modes(simulation, constants, arithmetic, _taylor, rounding)
+            modes.first.conserved = doubles.first.conserved
+            surface = modes.first.surface()
+            state = refined_state(
+                modes.first.motion, surface, *simulation.start, anew=not asked.project
+            )
+    except Refusal as refusal:
+        return str(refusal)
+
+    def run(
+        bound: Tolerance, every: int, progress: Callable[[float], None] | None, *, moved: bool
+    ) -> Run:
+        del every, moved  # nothing lies between its stages, and its rounding is its own
+        made = Run(Transitions(modes, asked.accuracy, asked.until), bound, asked.accuracy)
+        made.step_limit = limit
+        return made.go(*state, simulation.times, progress=progress)
+
+    return Prepared(
+        run=run,
+        finest=rounding,
+        longest=_LONGEST,
+        floor=math.sqrt(rounding),
+        precision=lambda: precision(carried),
+    )
 
 
 def _taylor(mode: Mode, surface: Surface | None) -> Method:

@@ -4,32 +4,32 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext, suppress
 from itertools import pairwise
 from typing import Any
 
 from lagcli.graph.nodes import Node
-from lagcli.numerics.accuracy import LONGEST, Controller, Outcome
+from lagcli.numerics.accuracy import Outcome
 from lagcli.numerics.arithmetic import Doubles
 from lagcli.numerics.asked import Asked, Result
 from lagcli.numerics.certificate import result_of
 from lagcli.numerics.columns import Column, Reading
 from lagcli.numerics.constants import constants_of
 from lagcli.numerics.contact import one_sided, with_contacts
-from lagcli.numerics.dop853 import Dop853, generated_step
+from lagcli.numerics.dop853 import dop853
 from lagcli.numerics.equations import Equations
-from lagcli.numerics.modes import Mode, Modes
+from lagcli.numerics.methods import AUTO, METHODS, STIFF, Precision, outcome_of
+from lagcli.numerics.modes import Modes
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import Refusal, told
-from lagcli.numerics.run import Run
 from lagcli.numerics.scene import Cut, cut_simulation
-from lagcli.numerics.start import initial_state, rounded_components
-from lagcli.numerics.steps import Method, Tolerance
-from lagcli.numerics.surface import ROUNDING, Surface
-from lagcli.numerics.transitions import Transitions
+from lagcli.numerics.start import initial_state
+from lagcli.numerics.steps import NotPossible
+from lagcli.numerics.stiffness import STIFF as STIFFNESS
+from lagcli.numerics.stiffness import decay
+from lagcli.numerics.surface import ROUNDING
 from lagcli.problem import Problem, charge_of
 
-#: Local tolerances below this change nothing: an estimate is rounded at h |rate| 1e-16.
-FINEST_DOUBLE = 1e-18
 #: The intervals at which two runs are compared are at least so many.
 _COMPARED = 100
 #: Where the accuracy is lost between two rows, so many are compared there.
@@ -39,9 +39,6 @@ _ROUNDING_REACH = 1e-5
 #: Doubles claim nothing better: the parameters are rounded too, alike in all runs.
 _LEAST_DOUBLE = 1e-13
 
-_DIGITS = 30
-
-State = tuple[list[float], list[float]]
 Progress = Callable[[float], None]
 
 
@@ -96,7 +93,7 @@ class Simulation:
         self.times = self._times()
         #: so many of the times are those asked for, and what lies between them
         self.regular = len(self.times)
-        self.finished = 0.0
+        self.finished = 0
         #: what is said beside the reason for the method
         self.remark = ""
         self.notes: list[str] = []
@@ -166,36 +163,47 @@ class Simulation:
             *(e.form.read(c.restitution) for c in self.contacts.values() if c.restitution),
         ]
 
-    # -- in doubles ------------------------------------------------------------------------------
+    # -- the run ---------------------------------------------------------------------------------
 
     def result(self) -> Result:
         """The table."""
-        arithmetic = Doubles()
-        constants = constants_of(self.equations, self.all_nodes, arithmetic)
-        modes = Modes(self, constants, arithmetic, dop853, ROUNDING)
-        motion = modes.first.motion
-        self.start = q, v = initial_state(motion, project=self.asked.project)
-        self._check_start(motion, q, v)
-        self._keep_conserved(modes)
-        reduced = None if self.asked.whole else cut_simulation(self, modes, q, v)
-        if reduced is not None:
-            return reduced.run(Modes(reduced, constants, arithmetic, dop853, ROUNDING))
-        return self.run(modes)
+        simulation, modes = self.ready()
+        return simulation.run(modes)
 
     def run(self, modes: Modes) -> Result:
         """The table, from the state at the beginning."""
-        motion = modes.first.motion
-        q, v = self.start
         outcome: Outcome | None = None
-        for route in self._routes():
+        digits: Precision = nullcontext
+        if self.asked.method == "auto" and decay(self, modes) > STIFFNESS:
+            found, digits = self._first_possible(STIFF, modes)
+            if found and found.reached:
+                return result_of(self, modes.first.motion, found)
+        for group in self._groups():
             if outcome is None or self._beyond(outcome):
-                found = route(modes, q, v)
+                found, with_digits = self._first_possible(group, modes)
                 if found and (outcome is None or found.good_rows >= outcome.good_rows):
-                    outcome = found
-        outcome = outcome or self._doubles(modes, q, v)
-        if not outcome.reached and isinstance(outcome.run.marks[0].t, float):
-            outcome = outcome.controller.refined(outcome, self._between)
-        return result_of(self, motion, outcome)
+                    outcome, digits = found, with_digits
+        if outcome is None:
+            outcome, digits = self._first_possible(("dop853",), modes)
+        if outcome is None:
+            raise Refusal(f"no method for this problem{self.remark}", mistake=False)
+        if not outcome.reached:
+            with digits(), suppress(NotPossible):
+                outcome = outcome.controller.refined(outcome, self._between)
+        return result_of(self, modes.first.motion, outcome)
+
+    def ready(self) -> tuple[Simulation, Modes]:
+        """What is integrated, this or less, in doubles; the initial state is found and tried."""
+        arithmetic = Doubles()
+        constants = constants_of(self.equations, self.all_nodes, arithmetic)
+        modes = Modes(self, constants, arithmetic, dop853, ROUNDING)
+        self.start = initial_state(modes.first.motion, project=self.asked.project)
+        self._check_start(modes.first.motion, *self.start)
+        self._keep_conserved(modes)
+        reduced = None if self.asked.whole else cut_simulation(self, modes, *self.start)
+        if reduced is None:
+            return self, modes
+        return reduced, Modes(reduced, constants, arithmetic, dop853, ROUNDING)
 
     def _between(self, good: float, bad: float) -> None:
         """Rows as they were up to a time, then many up to another."""
@@ -206,20 +214,31 @@ class Simulation:
         if bad < self.asked.until:
             self.times.append(self.asked.until)
 
-    def _routes(self) -> list[Callable[..., Outcome | None]]:
-        """The ways to run it, each for what those before it do not reach."""
-        match self.asked.method:
-            case "dop853":
-                return [self._doubles]
-            case "taylor64":
-                return [self._compiled]
-            case "taylor80":
-                return [self._extended]
-            case "taylor":
-                return [self._precise]
-        if self.asked.accuracy < _LEAST_DOUBLE:
-            return [self._extended, self._precise]
-        return [self._in_doubles, self._extended, self._precise]
+    def _groups(self) -> Sequence[Sequence[str]]:
+        """The methods, each group for what those before it do not reach."""
+        if self.asked.method != "auto":
+            return ((self.asked.method,),)
+        return AUTO[1:] if self.asked.accuracy < _LEAST_DOUBLE else AUTO
+
+    def _first_possible(
+        self, group: Sequence[str], modes: Modes
+    ) -> tuple[Outcome | None, Precision]:
+        """What the first method gives that is possible, and its digits; why others are not."""
+        remark = ""
+        for name in group:
+            made = METHODS[name].prepare(self, modes)
+            if not isinstance(made, str):
+                try:
+                    found = outcome_of(self, made)
+                except NotPossible as reason:
+                    made = str(reason)
+                else:
+                    self.remark += remark
+                    return found, made.precision
+            remark += f"; not {name}: {made}"
+        if len(self._groups()) == 1:
+            self.remark += remark
+        return None, nullcontext
 
     def _beyond(self, outcome: Outcome) -> bool:
         """Whether more digits may reach what was not reached."""
@@ -228,41 +247,6 @@ class Simulation:
         stopped = outcome.run.stop is not None
         close = max(outcome.errors) <= _ROUNDING_REACH
         return self.asked.digits is not None or (close and not stopped)
-
-    def _in_doubles(self, modes: Modes, q: list[float], v: list[float]) -> Outcome:
-        return self._compiled(modes, q, v) or self._doubles(modes, q, v)
-
-    def _extended(self, modes: Modes, q: Sequence[float], v: Sequence[float]) -> Outcome | None:
-        if self.goes_on:
-            return None
-        from lagcli.numerics.compiled.route import extended_outcome
-
-        return extended_outcome(self, modes, q, v)
-
-    def _precise(self, modes: Modes, q: Sequence[float], v: Sequence[float]) -> Outcome | None:
-        if self.goes_on:
-            self.remark = "; after events only doubles go on"
-            return None
-        from lagcli.numerics.precise import precise_outcome
-
-        return precise_outcome(self, modes, q, v, self.asked.digits or _DIGITS)
-
-    def _compiled(self, doubles: Modes, q: list[float], v: list[float]) -> Outcome | None:
-        """In machine code; None where there is none, with a remark."""
-        from lagcli.numerics.compiled.method import PivotVanishes
-        from lagcli.numerics.compiled.route import LONGEST as LONG
-        from lagcli.numerics.compiled.route import Runs, double_machine
-
-        machine = double_machine(doubles.first.motion)
-        if isinstance(machine, str):
-            self.remark = f"; not compiled: {machine}"
-            return None
-        runs = Runs(self, doubles, machine, dop853)
-        try:
-            return self._outcome(runs.modes, q, v, runs.run, LONG)
-        except PivotVanishes:
-            self.remark = "; not compiled: the constraints become dependent"
-            return None
 
     @property
     def goes_on(self) -> bool:
@@ -285,59 +269,6 @@ class Simulation:
             self.candidates = [name for name in self.candidates if kept[name]]
             del modes.first.conserved
 
-    def _doubles(self, modes: Modes, q: list[float], v: list[float]) -> Outcome:
-        """In Python."""
-
-        def run(state: State, bound: Tolerance, every: int, told: Any) -> Run:
-            transitions = Transitions(modes, self.asked.accuracy, self.asked.until)
-            run = Run(transitions, bound, self.asked.accuracy)
-            return run.go(*state, self.times, probe_every=every, progress=told)
-
-        return self._outcome(modes, q, v, run, LONGEST)
-
-    def _outcome(
-        self,
-        modes: Modes,
-        q: list[float],
-        v: list[float],
-        one_run: Callable[..., Run],
-        longest_steps: Sequence[float],
-    ) -> Outcome:
-        asked, motion = self.asked, modes.first.motion
-        # every other run begins at the next double: what the initial values are rounded by
-        # must not matter either
-        rounded = rounded_components(motion, q, v)
-        moved = [
-            math.nextafter(x, math.inf) if inexact else x
-            for x, inexact in zip((*q, *v), rounded, strict=True)
-        ]
-        nudged = (moved[: motion.n], moved[motion.n :])
-        total = 2  # runs that progress is told of
-
-        def runner(
-            tolerance: float, longest: float, peaks: Sequence[float] | None, every: int
-        ) -> Run:
-            bound = Tolerance(tolerance, motion.n, asked.until, longest, peaks)
-            done = self.finished
-
-            def told(part: float) -> None:
-                if self.progress is not None:
-                    self.progress((done + part) / max(total, done + 1))
-
-            state = (q, v) if self.finished % 2 else nudged
-            run = one_run(state, bound, every, told)
-            self.finished += 1
-            return run
-
-        return Controller(
-            runner,
-            accuracy=asked.accuracy,
-            finest=FINEST_DOUBLE,
-            span=asked.until,
-            charges=len(self.charges),
-            longest=longest_steps,
-        ).outcome()
-
     def _check_start(self, motion: Motion, q: list[float], v: list[float]) -> None:
         """Whether anything moves at all: the accelerations at t = 0."""
         try:
@@ -348,10 +279,3 @@ class Simulation:
         except (ArithmeticError, ValueError) as error:
             reason = told(error)
         raise Refusal(f"at t = 0 the accelerations are not determined: {reason}", mistake=False)
-
-
-def dop853(mode: Mode, surface: Surface | None) -> Method:
-    """The method for doubles."""
-    if mode.generated is None:
-        mode.generated = generated_step(mode.motion.n, mode.motion.accelerations)
-    return Dop853(mode.motion, surface, mode.generated)

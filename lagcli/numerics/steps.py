@@ -15,7 +15,10 @@ _LEAST_FLOOR, _ROUNDING = 1e-6, 1e-16
 
 
 class Step(NamedTuple):
-    """From `start` over h to `end`; q and v are the state at the end."""
+    """From `start` over h to `end`; q and v are the state at the end.
+
+    `probe` is `inside` with a slope that is not that of the equations themselves.
+    """
 
     start: float
     h: float
@@ -23,6 +26,7 @@ class Step(NamedTuple):
     q: list[Any]
     v: list[Any]
     inside: Inside
+    probe: Inside | None = None
 
 
 class CannotGoOn(ArithmeticError):
@@ -31,6 +35,10 @@ class CannotGoOn(ArithmeticError):
     def __init__(self, t: float, q: Sequence[Any], v: Sequence[Any], reason: str) -> None:
         super().__init__(reason)
         self.t, self.q, self.v, self.reason = t, list(q), list(v), reason
+
+
+class NotPossible(Exception):
+    """The method is not for this problem, which it finds out on the way; the sentence says why."""
 
 
 class Tolerance:
@@ -108,8 +116,11 @@ class Method(Protocol):
     """An integrator."""
 
     name: str
-    evaluations: int
     reached: int | None  # the kink at which friction has stopped the steps
+
+    @property
+    def evaluations(self) -> int:
+        """Of the accelerations, so far."""
 
     def steps(
         self,

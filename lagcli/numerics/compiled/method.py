@@ -19,7 +19,7 @@ from lagcli.numerics.compiled.numbers import EXTENDED
 from lagcli.numerics.compiled.text import exact
 from lagcli.numerics.kinks import Kinks
 from lagcli.numerics.run import Mark, Run
-from lagcli.numerics.steps import CannotGoOn, Step, Tolerance
+from lagcli.numerics.steps import CannotGoOn, NotPossible, Step, Tolerance
 from lagcli.numerics.surface import Surface
 from lagcli.numerics.taylor import order_for
 
@@ -30,8 +30,11 @@ _LIMIT = 1_000_000_000
 _FACTS, _COUNTS = 9, 10
 
 
-class PivotVanishes(Exception):
+class PivotVanishes(NotPossible):
     """The written-out elimination divides by nothing: only `dependent` goes on from here."""
+
+    def __init__(self) -> None:
+        super().__init__("the constraints become dependent")
 
 
 class CompiledTaylor:

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from lagcli.numerics.accuracy import Controller, Outcome
 from lagcli.numerics.compiled.engine import NoCompiler, engine
 from lagcli.numerics.compiled.machine import Machine, NotCompiled
-from lagcli.numerics.compiled.method import CompiledTaylor, PivotVanishes
+from lagcli.numerics.compiled.method import CompiledTaylor
 from lagcli.numerics.compiled.numbers import DOUBLE, EXTENDED
 from lagcli.numerics.constants import constants_of
+from lagcli.numerics.methods import Prepared, Progress, nudged
 from lagcli.numerics.modes import MakeMethod, Mode, Modes
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import Refusal
 from lagcli.numerics.run import Phase, Run
 from lagcli.numerics.start import refined_state, rounded_components
-from lagcli.numerics.steps import Method, Tolerance
+from lagcli.numerics.steps import Method, NotPossible, Tolerance
 from lagcli.numerics.surface import Surface
 from lagcli.numerics.transitions import Transitions
 
@@ -97,54 +98,72 @@ class Runs:
         return method.go(run, q, v, times, probes=_PROBES if every else 0, progress=progress)
 
 
-def extended_outcome(
-    simulation: Simulation, doubles: Modes, q: Sequence[float], v: Sequence[float]
-) -> Outcome | None:
-    """The outcome with numbers of 80 bits; None where there are none, or they do not do."""
-    from flint import ctx
+def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
+    """Machine code in doubles made ready, or why there is none."""
+    machine = double_machine(doubles.first.motion)
+    if isinstance(machine, str):
+        return machine
+    runs = Runs(simulation, doubles, machine, doubles.make_method)
+    q, v = simulation.start
+    states = (q, v), nudged(simulation, doubles)
 
+    def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
+        return runs.run(states[moved], bound, every, progress)
+
+    return Prepared(run=run, longest=LONGEST)
+
+
+def prepared_extended(simulation: Simulation, doubles: Modes) -> Prepared | str:
+    """Machine code in numbers of 80 bits made ready, or why there is none."""
+    equations, asked = simulation.equations, simulation.asked
+    if equations.kinks or doubles.first.conditions or simulation.goes_on:
+        return "events and kinks are followed in doubles only"
+    if asked.accuracy < _LEAST_EXTENDED:
+        return "80 bits claim nothing better than 1e-14"
+    try:
+        with precision():
+            return _extended(simulation, doubles)
+    except (Refusal, NoCompiler, NotCompiled, OverflowError) as reason:
+        return str(reason)
+
+
+def _extended(simulation: Simulation, doubles: Modes) -> Prepared | str:
     from lagcli.numerics.arithmetic import Balls
 
+    if not engine().extended:
+        return "this processor has no numbers of 80 bits"
     equations, asked = simulation.equations, simulation.asked
-    if equations.kinks or doubles.first.conditions or asked.accuracy < _LEAST_EXTENDED:
-        return None
+    arithmetic = Balls()
+    constants = constants_of(equations, simulation.all_nodes, arithmetic)
+    modes = Modes(simulation, constants, arithmetic, doubles.make_method, 2.0**-_BITS)
+    modes.first.conserved = doubles.first.conserved
+    motion = modes.first.motion
+    runs = Runs(simulation, modes, Machine(motion, EXTENDED))
+    q, v = simulation.start
+    exact_q, exact_v = refined_state(motion, modes.first.surface(), q, v, anew=not asked.project)
+    inexact = rounded_components(motion, q, v)
+    beside = [
+        x * (1 + arithmetic.ball(EXTENDED.rounding) * 2) if each else x
+        for x, each in zip((*exact_q, *exact_v), inexact, strict=True)
+    ]
+    states = (exact_q, exact_v), (beside[: motion.n], beside[motion.n :])
+
+    def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
+        try:
+            return runs.run(states[moved], bound, every, progress)
+        except OverflowError as reason:
+            raise NotPossible(str(reason)) from None
+
+    return Prepared(run=run, finest=_FINEST_EXTENDED, longest=LONGEST, precision=precision)
+
+
+@contextmanager
+def precision() -> Iterator[None]:
+    """The bits of what stands behind numbers of 80."""
+    from flint import ctx
+
     usual, ctx.prec = ctx.prec, _BITS
     try:
-        if not engine().extended:
-            return None
-        arithmetic = Balls()
-        constants = constants_of(equations, simulation.all_nodes, arithmetic)
-        modes = Modes(simulation, constants, arithmetic, doubles.make_method, 2.0**-_BITS)
-        modes.first.conserved = doubles.first.conserved
-        motion = modes.first.motion
-        runs = Runs(simulation, modes, Machine(motion, EXTENDED))
-        surface = modes.first.surface()
-        exact_q, exact_v = refined_state(motion, surface, q, v, anew=not asked.project)
-        inexact = rounded_components(motion, q, v)
-        moved = [
-            x * (1 + arithmetic.ball(EXTENDED.rounding) * 2) if each else x
-            for x, each in zip((*exact_q, *exact_v), inexact, strict=True)
-        ]
-        states = (moved[: motion.n], moved[motion.n :]), (exact_q, exact_v)
-        made = 0
-
-        def runner(
-            tolerance: float, longest: float, peaks: Sequence[float] | None, every: int
-        ) -> Run:
-            nonlocal made
-            bound = Tolerance(tolerance, motion.n, asked.until, longest, peaks)
-            made += 1
-            return runs.run(states[1 - made % 2], bound, every, simulation.progress)
-
-        return Controller(
-            runner,
-            accuracy=asked.accuracy,
-            finest=_FINEST_EXTENDED,
-            span=asked.until,
-            charges=len(simulation.charges),
-            longest=LONGEST,
-        ).outcome()
-    except (Refusal, NoCompiler, NotCompiled, PivotVanishes, OverflowError):
-        return None
+        yield
     finally:
         ctx.prec = usual

@@ -1,0 +1,106 @@
+"""`lagcli tradeoff`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lagcli.cli.choices import complete_cost, complete_methods, complete_study
+from lagcli.cli.simulate import File, Project, Set, Until
+
+Output = Annotated[
+    Path | None, typer.Option("--output", "-o", metavar="PATH", help="Write to a file instead.")
+]
+Format = Annotated[
+    str,
+    typer.Option(
+        "--format",
+        "-f",
+        metavar="NAME",
+        help="text, json or csv.",
+        autocompletion=complete_study,
+    ),
+]
+Samples = Annotated[
+    int, typer.Option("--samples", metavar="N", min=2, help="Times at which errors are taken.")
+]
+Plot = Annotated[
+    Path | None,
+    typer.Option("--plot", metavar="FILE.svg", help="Draw error against cost, a line a method."),
+]
+Methods = Annotated[
+    str | None,
+    typer.Option(
+        "--methods",
+        metavar="A,B,C",
+        help="Only these.  [default: all]",
+        autocompletion=complete_methods,
+    ),
+]
+CostOption = Annotated[
+    str,
+    typer.Option(
+        "--cost",
+        metavar="NAME",
+        help="What the front and the plot weigh: total, integration or evaluations.",
+        autocompletion=complete_cost,
+    ),
+]
+Repeat = Annotated[
+    int,
+    typer.Option("--repeat", metavar="N", min=1, help="Make each run so often; the best counts."),
+]
+Limit = Annotated[
+    float,
+    typer.Option("--limit", metavar="SECONDS", min=0.1, help="Processor time of one run."),
+]
+
+
+def tradeoff(
+    file: File,
+    until: Until = None,
+    settings: Set = None,
+    samples: Samples = 51,
+    methods: Methods = None,
+    cost: CostOption = "total",
+    repeat: Repeat = 1,
+    limit: Limit = 10.0,
+    project: Project = False,
+    format_name: Format = "text",
+    output: Output = None,
+    plot: Plot = None,
+) -> int:
+    """Measure what accuracy costs: every method against a known reference.
+
+    Each run is made in a fresh process; times are the processor's.  The error is the
+    largest of any coordinate or velocity, relative to its largest magnitude, or absolute
+    where that is below 1.  For 1e-3, 1e-6, 1e-9 and 1e-12 it names the cheapest method
+    with its certificate, and the one that lagcli simulate takes by itself.
+
+    The exit status is 0; 1 when there is no reference to measure against, or a certificate
+    promises more than is true; 2 when the command line or the file is wrong.
+
+    \b
+    Examples:
+      lagcli tradeoff problems/pendulums/plane-pendulum.yaml
+      lagcli tradeoff problems/central/kepler.yaml --until 60 --plot kepler.svg -f csv -o kepler.csv
+    """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.weighing import Wish, weigh_file
+
+    wish = Wish(
+        file=file,
+        until=until,
+        settings=tuple(settings or ()),
+        samples=samples,
+        methods=methods,
+        cost=cost,
+        repeat=repeat,
+        limit=limit,
+        project=project,
+        format_name=format_name,
+        output=None if output is None or str(output) == "-" else output,
+        plot=plot,
+    )
+    return weigh_file(wish)

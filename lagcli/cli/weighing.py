@@ -1,0 +1,181 @@
+"""One file to one study: options read, runs made, tables and plot written whole."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lagcli.cli.choices import COSTS, METHODS, STUDIES
+from lagcli.cli.delivering import has_place
+from lagcli.cli.files import print_result, read_input, reason, write_output
+from lagcli.cli.simulating import is_known, number_of
+from lagcli.cli.status import Status
+from lagcli.cli.telling import tell, tell_line
+from lagcli.diagnostics import ProblemError
+from lagcli.pipeline import Request, read
+from lagcli.reader.suggest import did_you_mean
+from lagcli.record import record
+
+if TYPE_CHECKING:
+    from lagcli.problem import Problem
+    from lagcli.tradeoff.study import Progress, Study
+    from lagcli.tradeoff.trial import Given
+
+
+@record(kw_only=True)
+class Wish:
+    """The command line, as it was written."""
+
+    file: str
+    until: str | None
+    settings: tuple[str, ...]
+    samples: int
+    methods: str | None
+    cost: str
+    repeat: int
+    limit: float
+    project: bool
+    format_name: str
+    output: Path | None
+    plot: Path | None
+
+
+def weigh_file(wish: Wish) -> Status:
+    """Run, write, and say how it ended."""
+    good = is_known("--format", wish.format_name, STUDIES) & is_known("--cost", wish.cost, COSTS)
+    methods = _methods(wish.methods)
+    good = good & (methods is not None) & _is_svg(wish.plot)
+    good = good & has_place(wish.output) & has_place(wish.plot)
+    try:
+        data = read_input(wish.file)
+    except OSError as error:
+        tell_line(f"{wish.file}: error: {reason(error)}")
+        return Status.USAGE
+    found = read(wish.file, data, Request(settings=wish.settings))
+    tell(found.source, found.diagnostics)
+    if found.problem is None:
+        return Status.USAGE
+    until = _until(found.problem, wish)
+    if until is None or not good or methods is None:
+        return Status.USAGE
+    from lagcli.tradeoff.trial import Given
+
+    given = Given(
+        name=found.source.name,
+        text=found.source.text,
+        settings=wish.settings,
+        until=until,
+        samples=wish.samples,
+        project=wish.project,
+        method="auto",
+        tolerance=None,
+        accuracy=None,
+        limit=wish.limit,
+    )
+    return _study(found.problem, given, methods, wish)
+
+
+def _study(problem: Problem, given: Given, methods: tuple[str, ...], wish: Wish) -> Status:
+    from lagcli.numerics.refusal import Refusal
+    from lagcli.tradeoff.study import study
+
+    try:
+        with _progress() as progress:
+            made = study(given, methods, cost=wish.cost, repeat=wish.repeat, progress=progress)
+    except Refusal as refusal:
+        tell(problem.source, refusal.diagnostics)
+        return Status.USAGE if refusal.mistake else Status.NOT_FOUND
+    if not _written(made, wish):
+        return Status.USAGE
+    return Status.NOT_FOUND if made.broken else Status.WELL
+
+
+def _written(made: Study, wish: Wish) -> bool:
+    from lagcli.tradeoff.writing import WRITERS
+
+    texts: list[tuple[Path | None, str]] = [(wish.output, WRITERS[wish.format_name](made))]
+    if wish.plot is not None:
+        from lagcli.tradeoff.plot import to_svg
+
+        try:
+            texts.insert(0, (wish.plot, to_svg(made)))
+        except ValueError as error:
+            tell_line(f"{wish.plot}: warning: nothing to draw: {error}")
+    for path, text in texts:
+        data = text.encode()
+        if path is None:
+            print_result(data)
+            continue
+        try:
+            write_output(path, data)
+        except OSError as error:
+            tell_line(f"{path}: error: {reason(error)}")
+            return False
+    return True
+
+
+# -- options -------------------------------------------------------------------------------------
+
+
+def _until(problem: Problem, wish: Wish) -> float | None:
+    """The end; None where there is none, which is told."""
+    from lagcli.reader.columns import read_number
+
+    formula = problem.simulation.until
+    try:
+        if wish.until is not None:
+            formula = read_number(wish.until, "--until")
+    except ProblemError as error:
+        tell(error.source, error.diagnostics)
+        return None
+    if formula is None:
+        tell_line(
+            f"{wish.file}: error: when does it end? give --until T, or simulation: {{until: T}}"
+        )
+        return None
+    until = number_of(formula)
+    if not 0 < until < math.inf:
+        tell_line(f"lagcli: error: --until: the end must be a time after 0, not {until:g}")
+        return None
+    return until
+
+
+def _methods(text: str | None) -> tuple[str, ...] | None:
+    """Those asked for, in their usual order; None where one is unknown."""
+    every = METHODS[1:]  # without auto
+    if text is None:
+        return every
+    asked = [word.strip() for word in text.split(",")]
+    wrong = [word for word in asked if word not in every]
+    for word in wrong:
+        advice = did_you_mean(word, every) or f"there are {', '.join(every)}"
+        tell_line(f"lagcli: error: --methods: unknown name '{word}': {advice}")
+    return None if wrong else tuple(name for name in every if name in asked)
+
+
+def _is_svg(path: Path | None) -> bool:
+    if path is None or path.suffix.lower() == ".svg":
+        return True
+    tell_line(
+        f"lagcli: error: --plot: '{path}' is no SVG: name it {path.with_suffix('.svg')}; "
+        "rsvg-convert, Inkscape or any browser makes a PNG of it"
+    )
+    return False
+
+
+@contextmanager
+def _progress() -> Iterator[Progress | None]:
+    """A bar on standard error, where someone is there to see it."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import Progress as Bar
+
+    with Bar(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("measuring", total=None)
+        yield lambda made, total: bar.update(task, completed=made, total=total)

@@ -1,0 +1,279 @@
+"""The methods by name: what each is good for, and how it is made ready for a problem.
+
+`simulate --method`, its choice `auto` and `tradeoff` know a method from here only: one that
+is registered is offered by all three.  A module is imported when its method is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from typing import TYPE_CHECKING, Any, Protocol
+
+from lagcli.numerics.accuracy import LONGEST, Controller, Outcome
+from lagcli.numerics.run import Run
+from lagcli.numerics.start import rounded_components
+from lagcli.numerics.steps import Tolerance
+from lagcli.numerics.transitions import Transitions
+from lagcli.record import record
+
+if TYPE_CHECKING:
+    from lagcli.numerics.modes import MakeMethod, Modes
+    from lagcli.numerics.simulate import Simulation
+
+Vector = list[Any]
+Progress = Callable[[float], None]
+Precision = Callable[[], AbstractContextManager[None]]
+
+#: Local tolerances below this change nothing: an estimate is rounded at h |rate| 1e-16.
+FINEST_DOUBLE = 1e-18
+
+
+class OneRun(Protocol):
+    """Makes a run: from the initial state, or from one a rounding beside it (`moved`)."""
+
+    def __call__(
+        self, bound: Tolerance, every: int, progress: Progress | None, *, moved: bool
+    ) -> Run:
+        """One run."""
+
+
+@record(kw_only=True)
+class Prepared:
+    """A method made ready for one problem.
+
+    Attributes
+    ----------
+    run : OneRun
+        Makes a run.
+    finest
+        No tolerance below this makes sense.
+    longest : tuple of float
+        The longest step as parts of the span: at first, and where something was missed.
+    floor
+        A component smaller than this part of the largest is taken for rounding.
+    precision
+        The digits within which runs are made and their rows worked out.
+    """
+
+    run: OneRun
+    finest: float = FINEST_DOUBLE
+    longest: Sequence[float] = LONGEST
+    floor: float = 0.0
+    precision: Precision = nullcontext
+
+
+#: Makes a method ready, or says why it is not for this problem.
+Prepare = Callable[["Simulation", "Modes"], "Prepared | str"]
+
+
+@record(kw_only=True)
+class Entry:
+    """A method as it is known before any problem.
+
+    Attributes
+    ----------
+    name
+        That of `--method`.
+    order
+        Of its global error in the step; None where it follows from the tolerance.
+    properties : tuple of str
+        Out of explicit, implicit, stiff, symplectic, fixed step, smooth (needs analytic
+        equations), compiled, any precision.
+    reason
+        What it is taken for.
+    prepare : Prepare
+        Makes it ready.
+    """
+
+    name: str
+    order: int | None
+    properties: tuple[str, ...]
+    reason: str
+    prepare: Prepare
+
+
+def nudged(simulation: Simulation, modes: Modes) -> tuple[Vector, Vector]:
+    """The next doubles to the initial state.
+
+    Every other run begins there: what the initial values are rounded by must not matter.
+    """
+    motion, (q, v) = modes.first.motion, simulation.start
+    rounded = rounded_components(motion, q, v)
+    moved = [
+        math.nextafter(x, math.inf) if inexact else x
+        for x, inexact in zip((*q, *v), rounded, strict=True)
+    ]
+    return moved[: motion.n], moved[motion.n :]
+
+
+def in_doubles(make: MakeMethod, simulation: Simulation, modes: Modes) -> Prepared:
+    """A method of the usual kind made ready: steps in Python, one state after the other.
+
+    Parameters
+    ----------
+    make
+        Makes the method of a mode.
+    simulation, modes
+        What is asked, and the modes in doubles.
+    """
+    asked, beside = simulation.asked, nudged(simulation, modes)
+    modes = modes.by(make)
+    states = simulation.start, beside
+
+    def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
+        made = Run(Transitions(modes, asked.accuracy, asked.until), bound, asked.accuracy)
+        q, v = states[moved]
+        return made.go(q, v, simulation.times, probe_every=every, progress=progress)
+
+    return Prepared(run=run)
+
+
+def outcome_of(simulation: Simulation, made: Prepared) -> Outcome:
+    """The runs of a method, compared until they agree within the accuracy."""
+    asked = simulation.asked
+    total = 2  # runs that progress is told of
+    count = 0
+
+    def runner(tolerance: float, longest: float, peaks: Sequence[float] | None, every: int) -> Run:
+        n = len(simulation.equations.q)
+        bound = Tolerance(tolerance, n, asked.until, longest, peaks, made.floor)
+        nonlocal count
+        done = simulation.finished
+
+        def told(part: float) -> None:
+            if simulation.progress is not None:
+                simulation.progress((done + part) / max(total, done + 1))
+
+        run = made.run(bound, every, told, moved=count % 2 == 0)
+        count += 1
+        simulation.finished += 1
+        return run
+
+    with made.precision():
+        return Controller(
+            runner,
+            accuracy=asked.accuracy,
+            finest=made.finest,
+            span=asked.until,
+            charges=len(simulation.charges),
+            longest=made.longest,
+        ).outcome()
+
+
+def _dop853(simulation: Simulation, modes: Modes) -> Prepared | str:
+    from lagcli.numerics.dop853 import dop853
+
+    return in_doubles(dop853, simulation, modes)
+
+
+def _radau5(simulation: Simulation, modes: Modes) -> Prepared | str:
+    from lagcli.numerics.radau5 import radau5
+
+    return _without_kinks(simulation) or in_doubles(radau5, simulation, modes)
+
+
+def _gauss8(simulation: Simulation, modes: Modes) -> Prepared | str:
+    from lagcli.numerics.gauss8 import gauss8
+
+    return _without_kinks(simulation) or in_doubles(gauss8, simulation, modes)
+
+
+def _yoshida8(simulation: Simulation, modes: Modes) -> Prepared | str:
+    from lagcli.numerics.yoshida8 import separates, yoshida8
+
+    if not separates(simulation.equations) or simulation.contacts:
+        return "it does not separate: it needs a constant M, forces of q and t, no constraints"
+    return _without_kinks(simulation) or in_doubles(yoshida8, simulation, modes)
+
+
+def _without_kinks(simulation: Simulation) -> str:
+    return "it does not stop at the kinks of abs and sign" if simulation.equations.kinks else ""
+
+
+def _taylor64(simulation: Simulation, modes: Modes) -> Prepared | str:
+    from lagcli.numerics.compiled.route import prepared_doubles
+
+    return prepared_doubles(simulation, modes)
+
+
+def _taylor80(simulation: Simulation, modes: Modes) -> Prepared | str:
+    from lagcli.numerics.compiled.route import prepared_extended
+
+    return prepared_extended(simulation, modes)
+
+
+def _taylor(simulation: Simulation, modes: Modes) -> Prepared | str:
+    from lagcli.numerics.precise import prepared
+
+    return prepared(simulation, modes)
+
+
+METHODS: dict[str, Entry] = {
+    entry.name: entry
+    for entry in (
+        Entry(
+            name="dop853",
+            order=8,
+            properties=("explicit",),
+            reason="explicit, of order 8: the cheapest that reaches the accuracy without stiffness",
+            prepare=_dop853,
+        ),
+        Entry(
+            name="radau5",
+            order=5,
+            properties=("implicit", "stiff"),
+            reason="implicit, of order 5: something dies away so quickly that explicit methods "
+            "would need more steps than it costs",
+            prepare=_radau5,
+        ),
+        Entry(
+            name="gauss8",
+            order=8,
+            properties=("implicit", "symplectic", "fixed step"),
+            reason="implicit, symplectic, of order 8: keeps charges for long times",
+            prepare=_gauss8,
+        ),
+        Entry(
+            name="yoshida8",
+            order=8,
+            properties=("explicit", "symplectic", "fixed step"),
+            reason="explicit, symplectic, of order 8: keeps charges for long times",
+            prepare=_yoshida8,
+        ),
+        Entry(
+            name="taylor64",
+            order=None,
+            properties=("explicit", "smooth", "compiled"),
+            reason="power series in machine code: the cheapest of any order where it is compiled",
+            prepare=_taylor64,
+        ),
+        Entry(
+            name="taylor80",
+            order=None,
+            properties=("explicit", "smooth", "compiled"),
+            reason="power series in machine code of 80 bits: the accuracy lies within the "
+            "rounding of doubles",
+            prepare=_taylor80,
+        ),
+        Entry(
+            name="taylor",
+            order=None,
+            properties=("explicit", "smooth", "any precision"),
+            reason="power series with more digits than doubles: the accuracy lies within their "
+            "rounding",
+            prepare=_taylor,
+        ),
+    )
+}
+
+#: What `auto` tries before all others where the motion is stiff.
+STIFF = ("radau5",)
+#: What `auto` tries: of each group the first that is possible, the next group where more
+#: digits may reach what was not reached.
+AUTO: tuple[tuple[str, ...], ...] = (
+    ("taylor64", "dop853"),
+    ("taylor80",),
+    ("taylor",),
+)

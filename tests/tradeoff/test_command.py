@@ -1,0 +1,121 @@
+"""`lagcli tradeoff` as a process."""
+
+import csv
+import io
+import json
+import subprocess
+import sys
+from xml.etree import ElementTree as ET
+
+import pytest
+
+OSCILLATOR = """
+coordinates: [x]
+parameters: {w: 2}
+T: x'^2/2
+V: w^2*x^2/2
+initial: {x: 1}
+simulation: {until: 3}
+expect: {trajectory: {x: EXPECTED}}
+"""
+
+
+def run(*arguments, stdin=None):
+    done = subprocess.run(
+        [sys.executable, "-m", "lagcli", "tradeoff", *arguments],
+        capture_output=True, text=True, input=stdin, check=False,
+    )  # fmt: skip
+    assert "Traceback" not in done.stderr
+    return done
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    plot = tmp_path_factory.mktemp("plot") / "o.svg"
+    text = OSCILLATOR.replace("EXPECTED", "cos(w*t)")
+    done = run("-", "-f", "json", "--methods", "dop853,taylor", "--plot", str(plot), stdin=text)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout), plot.read_text()
+
+
+def test_errors_are_against_the_exact_solution(made):
+    document, _ = made
+    assert document["reference"]["kind"].startswith("the exact solution")
+    assert document["reference"]["error_bound"] < 1e-35
+    errors = [each["error"] for each in document["runs"] if each["method"] == "taylor"]
+    assert errors == sorted(errors, reverse=True)
+    assert errors[-1] < 1e-20
+
+
+def test_certificates_keep_their_promise_and_auto_is_judged(made):
+    document, _ = made
+    for each in document["certified"]:
+        if each["reached"]:
+            assert each["error"] <= each["accuracy"]
+    assert [each["accuracy"] for each in document["cheapest"]] == [1e-3, 1e-6, 1e-9, 1e-12]
+    assert all(each["auto"] for each in document["cheapest"])
+    assert {trade["name"] for trade in document["trades"]} == {"digits"}
+
+
+def test_the_plot_shows_the_runs(made):
+    document, plot = made
+    root = ET.fromstring(plot)
+    lines = {
+        line.get("id"): len(line.get("points").split())
+        for line in root.iter("{http://www.w3.org/2000/svg}polyline")
+    }
+    runs = [each["method"] for each in document["runs"]]
+    assert lines == {name: runs.count(name) for name in ("dop853", "taylor")}
+
+
+def test_a_wrong_formula_is_no_reference():
+    text = OSCILLATOR.replace("EXPECTED", "cos(3*t)")
+    done = run("-", "-f", "json", "--methods", "dop853", stdin=text)
+    document = json.loads(done.stdout)
+    assert "does not follow" in document["warnings"][0]
+    assert document["reference"]["kind"].startswith("power series")
+
+
+def test_kinks_have_no_power_series():
+    text = "coordinates: [x]\nT: x'^2/2\nV: abs(x)\ninitial: {x: 1}\n"
+    done = run("-", "--until", "2", "-f", "csv", "--methods", "dop853,taylor", stdin=text)
+    assert done.returncode == 0
+    rows = list(csv.DictReader(io.StringIO(done.stdout)))
+    assert {row["method"] for row in rows if row["kind"] == "single"} == {"dop853"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["--until", "-1"], "must be a time after 0"),
+        (["-f", "jsn"], "did you mean 'json'"),
+        (["--cost", "money"], "there are total, integration, evaluations"),
+        (["--methods", "dop85"], "did you mean 'dop853'"),
+        (["--plot", "x.png"], "is no SVG"),
+        (["--plot", "nowhere/x.svg"], "there is no directory"),
+        (["--set", "q=1"], "q"),
+    ],
+)
+def test_bad_options(arguments, told):
+    done = run("-", *arguments, stdin=OSCILLATOR.replace("EXPECTED", "cos(w*t)"))
+    assert done.returncode == 2
+    assert told in done.stderr
+    assert done.stdout == ""
+
+
+def test_all_mistakes_at_once(tmp_path):
+    done = run(str(tmp_path / "none.yaml"), "-f", "jsn", "--cost", "money")
+    assert done.returncode == 2
+    assert all(word in done.stderr for word in ("jsn", "money", "none.yaml"))
+
+
+def test_no_end_is_told():
+    done = run("-", stdin="coordinates: [x]\nT: x'^2/2\ninitial: {x: 1}\n")
+    assert done.returncode == 2
+    assert "when does it end?" in done.stderr
+
+
+def test_no_values_is_told():
+    done = run("-", "--until", "1", stdin="coordinates: [x]\nparameters: [m]\nT: m*x'^2/2\n")
+    assert done.returncode == 2
+    assert "the parameter 'm' has no value" in done.stderr
