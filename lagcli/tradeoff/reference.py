@@ -53,6 +53,8 @@ class Reference:
         How it is known.
     seconds
         What it took.
+    cut
+        Whether a run integrates less than the file has.
     warnings
         What was noticed on the way.
     """
@@ -61,6 +63,7 @@ class Reference:
     bound: float
     kind: str
     seconds: float
+    cut: bool = False
     warnings: tuple[str, ...] = ()
 
     def error(self, rows: Sequence[Sequence[Decimal | None]]) -> float:
@@ -108,11 +111,14 @@ def reference(problem: Problem, asked: Asked, limit: float) -> Reference:
     begun = process_time()
     # of the model as it stands in the file: what was cut from it is checked too
     simulation, modes = Simulation(problem, replace(asked, whole=True)).ready()
+    less, _ = Simulation(problem, asked).ready()
+    cut = len(less.equations.q) < len(simulation.equations.q)
     warnings: list[str] = []
     found = _exact(simulation, modes, warnings) or _precise(simulation, modes, limit, warnings)
     if found is None:
         found = _doubles(problem, asked, limit)
-    return replace(found, seconds=process_time() - begun, warnings=tuple(warnings))
+    seconds = process_time() - begun
+    return replace(found, seconds=seconds, cut=cut, warnings=tuple(warnings))
 
 
 # -- many digits ---------------------------------------------------------------------------------

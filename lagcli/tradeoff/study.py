@@ -42,6 +42,8 @@ class Study:
         Single runs.
     certified
         Runs with their certificates, those of `auto` among them.
+    whole
+        Runs of one method without anything cut from the model; none where nothing is.
     unsuited
         Method -> why it is not for this problem.
     cost
@@ -54,6 +56,7 @@ class Study:
     reference: Reference
     points: tuple[Point, ...]
     certified: tuple[Point, ...]
+    whole: tuple[Point, ...] = ()
     unsuited: Mapping[str, str]
     cost: str
 
@@ -124,10 +127,12 @@ def study(
                 unsuited[name] = point.why
             else:
                 points.append(point)
+    suited = [name for name in methods if name not in unsuited]
+    whole: list[Point] = []
+    if known.cut and suited:
+        whole = list(maker.sweep(METHODS[suited[0]], whole=True))
     certified = [
-        maker.certified(name, accuracy)
-        for accuracy in ACCURACIES
-        for name in ("auto", *(name for name in methods if name not in unsuited))
+        maker.certified(name, accuracy) for accuracy in ACCURACIES for name in ("auto", *suited)
     ]
     return Study(
         name=given.name,
@@ -136,6 +141,7 @@ def study(
         reference=known,
         points=tuple(points),
         certified=tuple(certified),
+        whole=tuple(whole),
         unsuited=unsuited,
         cost=cost,
     )
@@ -163,13 +169,15 @@ class _Maker:
         self.unsuited = False
         self._too_long: dict[str, float] = {}  # the accuracy that took too long
 
-    def sweep(self, entry: Entry) -> Iterator[Point]:
+    def sweep(self, entry: Entry, *, whole: bool = False) -> Iterator[Point]:
         """One method over its tolerances, until more of them say nothing."""
         finer = _FINER if "any precision" in entry.properties else ()
         last: Point | None = None
         begun = self.made
         for tolerance in (*_TOLERANCES, *finer):
-            point = self._point(replace(self.given, method=entry.name, tolerance=tolerance))
+            point = self._point(
+                replace(self.given, method=entry.name, tolerance=tolerance, whole=whole)
+            )
             yield point
             if self.unsuited or point.error is None:
                 break

@@ -44,6 +44,8 @@ class Given:
         A single run with this local tolerance, or a run with its certificate.
     limit
         Seconds of processor time.
+    whole
+        Integrate the model as it stands in the file, nothing cut from it.
     """
 
     name: str
@@ -56,6 +58,7 @@ class Given:
     tolerance: float | None
     accuracy: float | None
     limit: float
+    whole: bool = False
 
 
 class TooLong(Exception):
@@ -106,6 +109,7 @@ def asked_of(given: Given) -> tuple[Problem, Asked]:
         columns=tuple(Column(*column) for column in usual_columns(problem)),
         project=given.project,
         method=given.method,
+        whole=given.whole,
     )
     return problem, asked
 

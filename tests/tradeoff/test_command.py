@@ -119,3 +119,19 @@ def test_no_values_is_told():
     done = run("-", "--until", "1", stdin="coordinates: [x]\nparameters: [m]\nT: m*x'^2/2\n")
     assert done.returncode == 2
     assert "the parameter 'm' has no value" in done.stderr
+
+
+def test_a_cut_model_is_weighed_against_the_whole():
+    text = """
+coordinates: [x, y]
+T: x'^2/2 + y'^2
+V: 3*x^2/2 + y^4/2
+constraints: {rope: x + y = 1}
+initial: {x: 0.5}
+"""
+    done = run("-", "--until", "2", "-f", "json", "--methods", "dop853", stdin=text)
+    assert done.returncode == 0
+    document = json.loads(done.stdout)
+    [trade] = [each for each in document["trades"] if each["name"].startswith("minimal")]
+    assert trade["faster"] > 1
+    assert all(each["residual"] is None for each in document["runs"])
