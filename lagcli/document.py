@@ -56,7 +56,15 @@ class Integral:
     times: int = 1
 
 
-Formula = Expression | Label | Integral | Unit
+@record
+class Bracket:
+    """The Poisson bracket {left, right}."""
+
+    left: Expression
+    right: Expression
+
+
+Formula = Expression | Label | Integral | Bracket | Unit
 
 
 @record

@@ -114,6 +114,31 @@ class Symmetry:
     span: Span = field(default=NOWHERE, compare=False)
 
 
+GeneratingKind = Literal["F1", "F2", "F3", "F4"]
+
+
+@record(kw_only=True)
+class Transformation:
+    """New coordinates Q and, by the same names, their momenta `p_Q`, in q, p and t."""
+
+    name: str
+    coordinates: Mapping[str, Expression]
+    momenta: Mapping[str, Expression]
+    kind: GeneratingKind = "F1"  # of the function below
+    generating: Expression | None = None
+    span: Span = field(default=NOWHERE, compare=False)
+
+
+@record(kw_only=True)
+class BracketQuestion:
+    """`{left, right}` of functions of q, p, t, of observables and of charges by name."""
+
+    name: str
+    left: Expression
+    right: Expression
+    span: Span = field(default=NOWHERE, compare=False)
+
+
 #: sum q' dL/dq' - L, whatever the file calls `energy`: no name of a file has blanks.
 JACOBI_FUNCTION = Name("the energy function")
 
@@ -229,6 +254,19 @@ class ExpectHamiltonJacobi:
     derivatives: Mapping[str, Expression] = field(default_factory=dict)
 
 
+CanonicalKind = Literal["canonical", "extended canonical", "not canonical"]
+
+
+@record(kw_only=True)
+class ExpectCanonical:
+    """What is known of one transformation; `generates`: whether its function does."""
+
+    kind: CanonicalKind | None = None
+    valence: Expression | None = None
+    generates: bool | None = None
+    hamiltonian: Expression | None = None
+
+
 @record(kw_only=True)
 class Expect:
     """The known answers, as the file gives them; None or empty: nothing expected."""
@@ -248,6 +286,8 @@ class Expect:
     reduction: ExpectReduction | None = None
     steady_motions: tuple[ExpectSteady, ...] = ()
     hamilton_jacobi: ExpectHamiltonJacobi | None = None
+    brackets: Mapping[str, Expression] = field(default_factory=dict)
+    canonical: Mapping[str, ExpectCanonical] = field(default_factory=dict)
     trajectory: Trajectory | None = None
     spans: Mapping[tuple[str, ...], Span] = field(default_factory=dict, compare=False)
     #: place of each expectation: ("accelerations", "x"), ("equations", "0"), …
@@ -280,6 +320,9 @@ class Problem:
     constraints: tuple[Constraint, ...] = ()
     contacts: tuple[Contact, ...] = ()
     symmetries: tuple[Symmetry, ...] = ()
+    observables: Mapping[str, Expression] = field(default_factory=dict)
+    brackets: tuple[BracketQuestion, ...] = ()
+    canonical_transformations: tuple[Transformation, ...] = ()
     initial: Mapping[Name, Expression] = field(default_factory=dict)  # Name("x", primes=0 or 1)
     find: tuple[Question, ...] = ()
     simulation: Simulation = field(default_factory=Simulation)

@@ -73,7 +73,10 @@ def _root(field: Field, base: Element, index: int) -> Element:
 
 
 def _note_scale(field: Field, above: Poly, below: Poly) -> None:
-    """Remember that sqrt(above/d²) was asked for: it may read better than sqrt(above)/d."""
+    """Remember that sqrt(above/d²) was asked for: it may read better than sqrt(above)/d.
+
+    Only for d >= 0: it is sqrt(above)/|d| otherwise.
+    """
     if len(below) != 1 or below.leading_coefficient() != 1:
         return
     ring = field.ring
@@ -81,6 +84,8 @@ def _note_scale(field: Field, above: Poly, below: Poly) -> None:
     if not monomial or any(e % 2 for _, e in monomial):
         return
     scale = ring.build([(tuple((g, e // 2) for g, e in monomial), 1)])
+    if not is_nonnegative(field, scale):
+        return
     for number, generator in enumerate(field.generators):
         if generator.kind == "root" and ring.lift(generator.radicand) == ring.lift(above):
             field.root_scales[number] = scale

@@ -23,6 +23,7 @@ from lagcli.answers import (
 from lagcli.check.comparison import Comparison
 from lagcli.check.findings import Finding, Outcome
 from lagcli.check.following import follows
+from lagcli.check.phase_space import PhaseSpace
 from lagcli.check.reductions import Reductions
 from lagcli.diagnostics import NOWHERE, Span
 from lagcli.expression import Expression
@@ -60,6 +61,9 @@ class Expectations:
         yield from self._discovered()
         yield from self._modes()
         yield from self._find()
+        phase_space = PhaseSpace(self.derivation, self.answers)
+        yield from phase_space.of_brackets()
+        yield from phase_space.of_transformations()
         for path, verdict, expected, found in Reductions(self.derivation, self.answers).findings():
             yield self._judge(path, verdict, expected, found)
 
@@ -286,6 +290,8 @@ _SECTIONS: Mapping[str, Callable[[Expect], object]] = {
     "modes": lambda expect: expect.modes is not None,
     "reduction": lambda expect: expect.reduction is not None,
     "steady_motions": lambda expect: expect.steady_motions,
+    "brackets": lambda expect: expect.brackets,
+    "canonical": lambda expect: expect.canonical,
     "hamilton_jacobi": lambda expect: expect.hamilton_jacobi is not None,
 }
 

@@ -30,8 +30,9 @@ Show = Annotated[
         metavar="A,B,C",
         help="Only these sections.  There are: lagrangian, equations, matrix_form, accelerations, "
         "multipliers, constraint_forces, momenta, energy, hamiltonian, canonical_equations, "
-        "charges, discovered, algebra, find, equilibria, modes, reduction, steady_motions, "
-        "hamilton_jacobi, model, dimensions.  Without it: those that a first look needs.",
+        "brackets, canonical, charges, discovered, algebra, find, equilibria, modes, reduction, "
+        "steady_motions, hamilton_jacobi, model, dimensions.  "
+        "Without it: those that a first look needs.",
         autocompletion=complete_section,
     ),
 ]

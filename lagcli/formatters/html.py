@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from lagcli.answers import Answers
 from lagcli.document import (
     Block,
+    Bracket,
     Document,
     Equations,
     Formula,
@@ -171,6 +172,9 @@ def _show(formula: Formula, printer: MathmlPrinter) -> str:
             return printer.label(formula)
         case Integral():
             return printer.integral(formula)
+        case Bracket(left=left, right=right):
+            inner = f"{printer.show(left)}<mo>,</mo>{printer.show(right)}"
+            return enclosed("{", inner, "}")
         case Unit():
             return mathml_unit(formula)
         case _:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
-from lagcli.document import Equations, Formula, Integral, Label, Matrix, Row
+from lagcli.document import Bracket, Equations, Formula, Integral, Label, Matrix, Row
 from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.latex_width import QUAD, RELATION, TEXT_WIDTH, text_width
+from lagcli.formatters.layout import COMMA, Layout, Piece, break_lines, joined, width_of
 from lagcli.formatters.layout import RELATION as RELATION_RANK
-from lagcli.formatters.layout import Layout, Piece, break_lines, joined, width_of
 from lagcli.formatters.precedence import Level
 from lagcli.formatters.units import latex_unit
 from lagcli.record import record
@@ -50,6 +50,11 @@ class LatexDisplay:
             return (Piece(text, width),)
         if isinstance(formula, Integral):
             return self._integral(formula)
+        if isinstance(formula, Bracket):
+            left, right = (self.printer.show(f).pieces for f in (formula.left, formula.right))
+            comma = Piece(r",\ ", 8.0, rank=COMMA, tail=",")
+            opening, closing = Piece(r"\{", 5.0, nesting=1), Piece(r"\}", 5.0, nesting=-1)
+            return (opening, *left, comma, *right, closing)
         if isinstance(formula, Unit):
             return (Piece(*latex_unit(formula)),)
         return self.printer.show(formula).pieces

@@ -9,6 +9,7 @@ from lagcli.answers import (
     AccelerationsSection,
     AlgebraSection,
     Answers,
+    BracketsSection,
     CanonicalSection,
     ChargesSection,
     ConstraintForcesSection,
@@ -26,6 +27,7 @@ from lagcli.answers import (
     MultipliersSection,
     ReductionSection,
     Section,
+    TransformationsSection,
     Verification,
 )
 from lagcli.document import (
@@ -40,6 +42,7 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import Expression, Name
+from lagcli.formatters.canonical import bracket_blocks, transformation_blocks
 from lagcli.formatters.dimensions import dimension_blocks
 from lagcli.formatters.findings import (
     charge_blocks,
@@ -64,6 +67,8 @@ _HEADINGS = {
     "energy": "Energy",
     "hamiltonian": "Hamiltonian",
     "canonical_equations": "Canonical equations",
+    "brackets": "Poisson brackets",
+    "canonical": "Canonical transformations",
     "charges": "Charges",
     "discovered": "Discovered symmetries",
     "algebra": "Algebra of symmetries",
@@ -123,6 +128,10 @@ def section_blocks(section: Section, answers: Answers) -> Iterable[Block]:
             return [_equation(Label("H"), hamiltonian)]
         case CanonicalSection():
             return _canonical(section)
+        case BracketsSection():
+            return bracket_blocks(section)
+        case TransformationsSection():
+            return transformation_blocks(section)
         case ChargesSection():
             return charge_blocks(section)
         case AlgebraSection():

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from lagcli.answers import Answers
 from lagcli.document import (
     Block,
+    Bracket,
     Document,
     Equations,
     Formula,
@@ -21,6 +22,7 @@ from lagcli.document import (
 from lagcli.formatters.display_width import display_width
 from lagcli.formatters.greek import romanized
 from lagcli.formatters.layout import (
+    COMMA,
     RELATION,
     Layout,
     Piece,
@@ -55,6 +57,11 @@ def pages(documents: Sequence[Document], options: Options) -> str:
     """Set documents, one under another."""
     page = _TextPage(options.width, unicode=options.unicode)
     return "\n\n".join("\n".join(page.lines(each)) for each in documents) + "\n"
+
+
+OPENING_BRACE = Piece("{", 1, nesting=1)
+CLOSING_BRACE = Piece("}", 1, nesting=-1)
+COMMA_PIECE = Piece(", ", 2, rank=COMMA, broken="", tail=",")
 
 
 class _TextPage:
@@ -133,6 +140,13 @@ class _TextPage:
             return self.printer.label(formula)
         if isinstance(formula, Integral):
             return self.printer.integral(formula)
+        if isinstance(formula, Bracket):
+            inner = (
+                *self.printer.show(formula.left),
+                COMMA_PIECE,
+                *self.printer.show(formula.right),
+            )
+            return (OPENING_BRACE, *inner, CLOSING_BRACE)
         if isinstance(formula, Unit):
             shown = unicode_unit(formula) if self.unicode else romanized(str(formula))
             return (Piece(shown, display_width(shown)),)

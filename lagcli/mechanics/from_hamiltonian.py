@@ -10,23 +10,16 @@ Legendre is its own inverse.
 
 from __future__ import annotations
 
-import random
-from collections.abc import Sequence
-
-import mpmath
 import sympy
 from sympy import Expr
 
 from lagcli.algebra import simplify, to_expression
-from lagcli.algebra.numeric import Evaluator
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.legendre import Inversion
-from lagcli.mechanics.states import DIGITS, Contradiction, State, is_real, random_value
+from lagcli.mechanics.phase_states import PhaseStates
 from lagcli.mechanics.system import System
 from lagcli.problem import Problem
 from lagcli.record import replace
-
-_ATTEMPTS = 60
 
 
 class NoLagrangian(ProblemError):
@@ -60,7 +53,7 @@ def _lagrangian(system: System) -> Expr:
     velocities = [simplify(H.diff(p)) for p in system.momenta]
     hessian = [[v.diff(p) for p in system.momenta] for v in velocities]
     inversion = Inversion(
-        velocities, hessian, system.momenta, system.qdot, _States(system, [H, *velocities]).take
+        velocities, hessian, system.momenta, system.qdot, PhaseStates(system, [H, *velocities]).take
     )
     if inversion.is_singular:
         raise NoLagrangian(
@@ -74,34 +67,3 @@ def _lagrangian(system: System) -> Expr:
         )
     work = sympy.Add(*(p * v for p, v in zip(system.momenta, system.qdot, strict=True)))
     return inversion.put_into(work - H)
-
-
-class _States:
-    """Random q, p, t and parameters at which H and its derivatives are finite and real."""
-
-    def __init__(self, system: System, needed: Sequence[Expr]) -> None:
-        self._system = system
-        self._needed = Evaluator(list(needed), DIGITS + 10)
-
-    def take(self, count: int) -> list[State]:
-        """So many states, always the same ones."""
-        source = random.Random("lagcli")
-        found: list[State] = []
-        for _ in range(_ATTEMPTS):
-            with mpmath.workdps(DIGITS + 10):
-                state = self._drawn(source)
-                try:
-                    good = all(map(is_real, self._needed(state)))
-                except (ArithmeticError, ValueError):
-                    continue
-            found += [state] if good else []
-            if len(found) == count:
-                return found
-        raise Contradiction(-1)
-
-    def _drawn(self, source: random.Random) -> State:
-        system = self._system
-        state = {p: random_value(source, p, 0.6, 1.7) for p in system.parameters}
-        state[system.t] = random_value(source, system.t, 0.1, 0.9)
-        state |= {q: random_value(source, q, 0.3, 1.3) for q in system.q}
-        return state | {p: random_value(source, p, 0.1, 0.9) for p in system.momenta}

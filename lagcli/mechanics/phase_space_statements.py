@@ -8,14 +8,17 @@ from sympy import Expr
 
 from lagcli.algebra import shape
 from lagcli.answers import (
+    BracketsSection,
     CanonicalPair,
     CanonicalSection,
     HamiltonianSection,
     LagrangianSection,
     Section,
+    TransformationsSection,
 )
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.expression import Expression
+from lagcli.mechanics.canonical.statement import PhaseSpace
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.hamiltonian import GivenHamiltonian
 from lagcli.mechanics.stating import Stating
@@ -36,6 +39,7 @@ class PhaseSpaceStatements(Stating):
         found = derivation.hamiltonian
         assert isinstance(found, GivenHamiltonian)
         self.hamiltonian = found
+        self._phase_space = PhaseSpace(derivation)
         if self.problem.constraints:
             raise ProblemError(
                 self.problem.source,
@@ -57,6 +61,8 @@ class PhaseSpaceStatements(Stating):
             "lagrangian": self._lagrangian,
             "hamiltonian": self._hamiltonian,
             "canonical_equations": self._canonical_equations,
+            "brackets": self._brackets,
+            "canonical": self._canonical,
         }
 
     @property
@@ -85,3 +91,9 @@ class PhaseSpaceStatements(Stating):
                 for name, (q, p) in zip(names, self.hamiltonian.canonical_equations, strict=True)
             }
         )
+
+    def _brackets(self) -> BracketsSection:
+        return self._of_phase_space(self._phase_space, PhaseSpace.brackets)
+
+    def _canonical(self) -> TransformationsSection:
+        return self._of_phase_space(self._phase_space, PhaseSpace.transformations)

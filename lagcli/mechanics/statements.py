@@ -11,6 +11,7 @@ from lagcli.answers import (
     AccelerationsSection,
     AlgebraSection,
     Answers,
+    BracketsSection,
     CanonicalPair,
     CanonicalSection,
     Charge,
@@ -32,6 +33,7 @@ from lagcli.answers import (
     Section,
     Solutions,
     SpecialValue,
+    TransformationsSection,
 )
 from lagcli.expression import ZERO, Expression
 from lagcli.mechanics.constraint_force import forces_on_points
@@ -88,6 +90,8 @@ class Statements(Stating):
             "energy": self._energy,
             "hamiltonian": self._hamiltonian,
             "canonical_equations": self._canonical_equations,
+            "brackets": self._brackets,
+            "canonical": self._canonical,
             "charges": self._charges,
             "discovered": self._discovered,
             "algebra": self._algebra,
@@ -282,6 +286,16 @@ class Statements(Stating):
                 for name, (q, p) in zip(self.system.names, pairs, strict=True)
             }
         )
+
+    def _brackets(self) -> BracketsSection:
+        from lagcli.mechanics.canonical.statement import PhaseSpace
+
+        return self._of_phase_space(PhaseSpace(self.derivation), PhaseSpace.brackets)
+
+    def _canonical(self) -> TransformationsSection:
+        from lagcli.mechanics.canonical.statement import PhaseSpace
+
+        return self._of_phase_space(PhaseSpace(self.derivation), PhaseSpace.transformations)
 
     def _charges(self) -> ChargesSection:
         return ChargesSection(charges=tuple(map(self._charge, self.derivation.noether.charges)))

@@ -3,9 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol, TypeVar
 
 from lagcli.answers import DEFAULT_SECTIONS, SECTIONS, Answers, DimensionsSection, Section
 from lagcli.problem import Problem
+
+
+class HasMissing(Protocol):
+    """What gathers (what, why) while it makes a section."""
+
+    missing: list[tuple[str, str]]
+
+
+Phase = TypeVar("Phase", bound=HasMissing)
+Stated = TypeVar("Stated")
 
 
 class Stating:
@@ -77,7 +88,16 @@ class Stating:
     def _asked_by_file(self) -> list[str]:
         """The sections that are shown because of what the file gives."""
         given = self.problem
-        return ["hamiltonian", "canonical_equations"] if given.hamiltonian is not None else []
+        asked = ["hamiltonian", "canonical_equations"] if given.hamiltonian is not None else []
+        asked += ["brackets"] if given.brackets else []
+        return [*asked, "canonical"] if given.canonical_transformations else asked
+
+    def _of_phase_space(self, phase: Phase, state: Callable[[Phase], Stated]) -> Stated:
+        """A section of phase space, and what is missing there."""
+        section = state(phase)
+        for what, why in phase.missing:
+            self._missing(what, why)
+        return section
 
     def _missing(self, what: str, why: str = "") -> None:
         self.complete = False

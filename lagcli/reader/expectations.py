@@ -6,15 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 from lagcli.problem import (
     NOT_CONSERVED,
+    BracketQuestion,
     Constraint,
     Contact,
     Expect,
+    ExpectCanonical,
     ExpectHamiltonJacobi,
     ExpectReduction,
     ExpectSteady,
     Question,
     Symmetry,
     Trajectory,
+    Transformation,
 )
 from lagcli.reader.columns import named_columns
 from lagcli.reader.dynamics import read_by_coordinate
@@ -24,6 +27,7 @@ from lagcli.reader.expected_reduction import (
     read_steady_motions,
 )
 from lagcli.reader.nodes import Node, Scalar, Sequence
+from lagcli.reader.phase_space import read_expected_brackets, read_expected_canonical
 from lagcli.reader.scope import CONSTANTS, EQUATION, PHASE_SPACE, STATE, Role
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.trajectory import TrajectoryReader
@@ -36,7 +40,7 @@ if TYPE_CHECKING:
 _KEYS = (
     "degrees_of_freedom", "equations", "accelerations", "multipliers", "constraint_forces",
     "momenta", "hamiltonian", "energy", "charges", "discovered", "modes", "find", "trajectory",
-    "reduction", "steady_motions", "hamilton_jacobi",
+    "reduction", "steady_motions", "hamilton_jacobi", "brackets", "canonical",
 )  # fmt: skip
 
 #: An answer holds what is left when accelerations and multipliers have been eliminated.
@@ -53,12 +57,16 @@ class ExpectReader:
         contacts: tuple[Contact, ...],
         symmetries: tuple[Symmetry, ...],
         find: tuple[Question, ...],
+        brackets: tuple[BracketQuestion, ...],
+        transformations: tuple[Transformation, ...],
     ) -> None:
         self.sections = sections
         self.constraints = [constraint.name for constraint in constraints]
         self.holding = [*self.constraints, *(contact.name for contact in contacts)]
         self.columns = named_columns(sections.scope, (*constraints, *contacts), symmetries)
         self.symmetries = [symmetry.name for symmetry in symmetries]
+        self.brackets = [bracket.name for bracket in brackets]
+        self.transformations = transformations
         self.questions = [question.name for question in find]
         self.spans: dict[tuple[str, ...], Span] = {}
 
@@ -161,6 +169,15 @@ class ExpectReader:
 
     def _hamilton_jacobi(self, node: Node) -> ExpectHamiltonJacobi:
         return read_hamilton_jacobi(self.sections, node, self.spans)
+
+    def _brackets(self, node: Node) -> dict[str, Expression]:
+        known = self._known(node, "brackets", self.brackets, "bracket")
+        return read_expected_brackets(self.sections, known)
+
+    def _canonical(self, node: Node) -> dict[str, ExpectCanonical]:
+        names = [each.name for each in self.transformations]
+        known = self._known(node, "canonical", names, "transformation")
+        return read_expected_canonical(self.sections, known, self.transformations, self.spans)
 
     def _by_coordinate(self, node: Node, section: str, what: str) -> dict[str, Expression]:
         self._note(node, section)

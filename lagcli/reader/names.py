@@ -107,6 +107,12 @@ def _name(
                 yield Diagnostic(f"'{name}' cannot stand in {what}", node.span, hint)
             elif node.primes:
                 yield Diagnostic("a multiplier has no primes", node.span)
+        case "observable":
+            if not role.observables:
+                hint = "an observable stands in other observables and in brackets"
+                yield Diagnostic(f"'{name}' cannot stand in {what}", node.span, hint)
+            elif node.primes:
+                yield Diagnostic("an observable has no primes", node.span)
         case "function":
             hint = f"write {node}(…)"
             yield Diagnostic(f"'{name}' is a function and needs arguments", node.span, hint)

@@ -21,6 +21,7 @@ from lagcli.reader.dynamics import (
 from lagcli.reader.expectations import ExpectReader
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.nodes import Mapping, Node, kind
+from lagcli.reader.phase_space import read_brackets, read_observables, read_transformations
 from lagcli.reader.quantities import (
     declare_parameters,
     read_coordinates,
@@ -40,7 +41,8 @@ if TYPE_CHECKING:
 KEYS = (
     "title", "source", "description", "coordinates", "parameters", "functions", "definitions",
     "points", "T", "V", "L", "H", "forces", "dissipation", "constraints", "contacts", "symmetries",
-    "initial", "find", "simulation", "expect",
+    "observables", "brackets", "canonical_transformations", "initial", "find", "simulation",
+    "expect",
 )  # fmt: skip
 
 
@@ -131,7 +133,18 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
     symmetries = read_symmetries(sections, section("symmetries"))
     questions = read_find(sections, section("find"))
     contacts_read = read_contacts(sections, contacts)
-    expect = ExpectReader(sections, constraints_read, contacts_read, symmetries, questions)
+    observables = read_observables(sections, section("observables"))
+    brackets = read_brackets(sections, section("brackets"), symmetries)
+    transformations = read_transformations(sections, section("canonical_transformations"))
+    expect = ExpectReader(
+        sections,
+        constraints_read,
+        contacts_read,
+        symmetries,
+        questions,
+        brackets,
+        transformations,
+    )
     problem = Problem(
         source=source,
         title=text("title") or _stem(source.name),
@@ -151,6 +164,9 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
         constraints=constraints_read,
         contacts=contacts_read,
         symmetries=symmetries,
+        observables=observables,
+        brackets=brackets,
+        canonical_transformations=transformations,
         initial=read_initial(sections, section("initial")),
         find=questions,
         simulation=read_simulation(sections, section("simulation")),

@@ -12,7 +12,9 @@ if TYPE_CHECKING:
 
     from lagcli.diagnostics import Span
 
-Kind = Literal["coordinate", "parameter", "function", "definition", "multiplier", "contact force"]
+Kind = Literal[
+    "coordinate", "parameter", "function", "definition", "multiplier", "contact force", "observable"
+]
 
 #: The derivative order of what depends on no coordinate.
 CONSTANT = -1
@@ -33,6 +35,7 @@ class Role(NamedTuple):
     multipliers: bool = False
     momenta: bool = False
     contact_forces: bool = False
+    observables: bool = False
 
 
 #: Terms of the Lagrangian, forces, definitions, constraints, transformations.
@@ -95,6 +98,7 @@ class Scope:
             "definition": role.definitions,
             "multiplier": role.multipliers,
             "contact force": role.contact_forces,
+            "observable": role.observables,
         }
         names = [name for name, kind in self.kinds.items() if allowed[kind]]
         if role.momenta:

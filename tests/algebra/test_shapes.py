@@ -99,6 +99,14 @@ def test_simplify_leaves_what_it_does_not_know() -> None:
     assert simplify(piecewise * sin(x) ** 2 + piecewise * cos(x) ** 2) == piecewise
 
 
+def test_a_root_of_a_quotient_keeps_its_sign() -> None:
+    """sqrt(1 + y²/x²) is sqrt(x² + y²)/|x|, and x may be negative."""
+    slope = sp.atan(y / x)
+    expression = sin(slope) + cos(slope) / (x * sp.sqrt(1 + y**2 / x**2))
+    at = {x: -2, y: 3}
+    assert abs(sp.N((simplify(expression) - expression).subs(at))) < 1e-12
+
+
 SCRIPT = """
 import sympy as sp
 from lagcli.algebra import shape, simplify

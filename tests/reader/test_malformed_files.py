@@ -30,7 +30,39 @@ def one_sided(attributes: str) -> str:
     return GOOD.replace("{line: x + y}", f"{{line: {{equation: x + y, {attributes}}}}}")
 
 
+CANONICAL = "coordinates: [x]\nL: x'^2\ncanonical_transformations: {a: {Q: x, p_Q: p_x}}\n"
+
 FILES = [
+    # Phase space.
+    (after("observables: {A: x*p_y - y*px}\n"), "9:28", "unknown name 'px'"),
+    (after("observables: {A: x*p_y, B: A'}\n"), "9:28", "no primes"),
+    (after("observables: {A: x'}\n"), "9:18", "no velocities"),
+    (after("observables: {p_x: x}\n"), "9:15", "the momentum of the coordinate 'x'"),
+    (after("observables: {x: y}\n"), "9:15", "declared twice"),
+    (after("observables: {A: x}\nV: A\n"), "10:4", "'A' cannot stand in V"),
+    (after("brackets: {a: [x]}\n"), "9:15", "has 1 functions, not 2"),
+    (after("brackets: {a: [x, shft]}\n"), "9:19", "did you mean 'shift'"),
+    (after("brackets: {a: x}\n"), "9:15", "must be a list"),
+    (after("canonical_transformations: {a: {Q: x, p_Q: p_x}}\n"), "9:29", "has 1 new coordinate,"),
+    (after("canonical_transformations: {a: {Q: x, R: y, p_R: p_y}}\n"), "9:33", "'p_Q' of 'Q' is"),
+    (after("canonical_transformations: {a: {p_Q: x}}\n"), "9:33", "no coordinate 'Q'"),
+    (after("canonical_transformations: {a: {x: p_x, p_x: -x}}\n"), "9:33", "already"),
+    (after("canonical_transformations: {a: {Q: x'}}\n"), "9:36", "no velocities"),
+    (
+        "coordinates: [x]\nL: x'^2\ncanonical_transformations:\n  a: {Q: p_x, p_Q: -x, F1: x*p_Q}\n",
+        "4:30",
+        "F1 is a function of coordinates and new coordinates",
+    ),
+    (
+        "coordinates: [x]\nL: x'^2\ncanonical_transformations:\n  a: {Q: p_x, p_Q: -x, F1: x*Q, F2: 1}\n",
+        "4:33",
+        "two generating functions",
+    ),
+    (
+        CANONICAL + "expect: {canonical: {a: {kind: canonicle}}}\n",
+        "4:32",
+        "did you mean 'canonical'",
+    ),
     # H instead of T and V.
     (after("H: p_x^2/2\n"), "5:1", "both H and T"),
     ("coordinates: [x]\nL: x'^2\nH: p_x^2\n", "2:1", "both H and L"),

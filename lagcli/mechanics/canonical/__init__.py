@@ -1,0 +1,1 @@
+"""Phase space: Poisson brackets and canonical transformations."""

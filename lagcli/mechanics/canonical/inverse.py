@@ -1,0 +1,120 @@
+"""The old variables from the new ones: Q(q, p) = Q, P(q, p) = P solved, one after another.
+
+A variable is solved for where an equation can be peeled: what stands around it is undone
+step by step, at the end a polynomial of second degree or one with two powers.  Every branch
+of a root is a candidate, so whoever uses one has to test it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
+
+import sympy
+from sympy import Expr, Pow, Symbol
+
+from lagcli.algebra import simplify
+from lagcli.algebra.build import free_of
+
+_MOST_CANDIDATES = 16
+_MOST_OPERATIONS = 300
+
+_INVERSES = {
+    sympy.sin: sympy.asin,
+    sympy.cos: sympy.acos,
+    sympy.tan: sympy.atan,
+    sympy.cot: lambda value: sympy.atan(1 / value),
+    sympy.asin: sympy.sin,
+    sympy.acos: sympy.cos,
+    sympy.atan: sympy.tan,
+    sympy.sinh: sympy.asinh,
+    sympy.cosh: sympy.acosh,
+    sympy.tanh: sympy.atanh,
+    sympy.asinh: sympy.sinh,
+    sympy.acosh: sympy.cosh,
+    sympy.atanh: sympy.tanh,
+    sympy.exp: sympy.log,
+    sympy.log: sympy.exp,
+}
+
+#: (a function of the unknowns, its value)
+Known = tuple[Expr, Expr]
+
+
+def candidates(
+    equations: Sequence[Known], unknowns: Sequence[Symbol]
+) -> Iterator[Mapping[Symbol, Expr]]:
+    """Solutions for the unknowns, some of which may belong to other branches."""
+    yield from islice(_solutions(list(equations), list(unknowns)), _MOST_CANDIDATES)
+
+
+def _solutions(equations: list[Known], unknowns: list[Symbol]) -> Iterator[dict[Symbol, Expr]]:
+    if not unknowns:
+        yield {}
+        return
+    for place, unknown, roots in _steps(equations, unknowns):
+        others = [each for i, each in enumerate(equations) if i != place]
+        left = [u for u in unknowns if u != unknown]
+        for root in roots:
+            reduced = [(simplify(f.xreplace({unknown: root})), value) for f, value in others]
+            if any(sympy.count_ops(f) > _MOST_OPERATIONS for f, _ in reduced):
+                continue
+            for solution in _solutions(reduced, left):
+                yield {**solution, unknown: simplify(root.xreplace(solution))}
+        return
+
+
+def _steps(
+    equations: list[Known], unknowns: list[Symbol]
+) -> Iterator[tuple[int, Symbol, list[Expr]]]:
+    """An equation with an unknown it can be solved for: one unknown and one root first."""
+    found = []
+    for place, (f, value) in enumerate(equations):
+        present = [u for u in unknowns if not free_of(f, [u])]
+        for unknown in present:
+            roots = undone(f, unknown, value)
+            if roots:
+                found.append((len(present), len(roots), place, unknown, roots))
+    found.sort(key=lambda step: (step[0] > 1, step[1], step[0], step[2]))
+    for _, _, place, unknown, roots in found:
+        yield place, unknown, roots
+
+
+def undone(expression: Expr, x: Symbol, value: Expr) -> list[Expr]:
+    """The x with expression = value that peeling gives; none where it does not end."""
+    if expression == x:
+        return [value]
+    if expression.is_Add or expression.is_Mul:
+        apart, within = expression.as_independent(x, as_Add=expression.is_Add)
+        if not (within.is_Add and expression.is_Add) and not (within.is_Mul and expression.is_Mul):
+            rest = value - apart if expression.is_Add else value / apart
+            return undone(within, x, rest)
+        return _of_polynomial(expression - value, x)
+    if isinstance(expression, Pow) and free_of(expression.exp, [x]):
+        root = value ** (1 / expression.exp)
+        even = expression.exp.is_Integer and expression.exp % 2 == 0
+        signs = (1, -1) if even else (1,)
+        return [x0 for sign in signs for x0 in undone(expression.base, x, sign * root)]
+    inverse = _INVERSES.get(expression.func)
+    if inverse is None or len(expression.args) != 1:
+        return []
+    return undone(expression.args[0], x, inverse(value))
+
+
+def _of_polynomial(expression: Expr, x: Symbol) -> list[Expr]:
+    above = sympy.numer(sympy.together(expression))
+    if not above.is_polynomial(x):
+        return []
+    polynomial = sympy.Poly(above, x)
+    powers = sorted(monomial[0] for monomial in polynomial.monoms())
+    coefficient = polynomial.coeff_monomial
+    if len(powers) <= 2 and powers[0] == 0:
+        ratio = simplify(-coefficient(1) / coefficient(x ** powers[-1]))
+        return undone(x ** powers[-1], x, ratio) if powers[-1] else []
+    if polynomial.degree() == 1:
+        return [simplify(-coefficient(1) / coefficient(x))]
+    if polynomial.degree() == 2:
+        a, b, c = (coefficient(x**k) for k in (2, 1, 0))
+        root = sympy.sqrt(simplify(b**2 - 4 * a * c))
+        return [(-b + sign * root) / (2 * a) for sign in (1, -1)]
+    return []

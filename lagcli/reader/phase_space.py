@@ -1,0 +1,234 @@
+"""Functions on phase space: `observables`, `brackets`, `canonical_transformations`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from lagcli.expression import Name, walk
+from lagcli.problem import BracketQuestion, ExpectCanonical, Transformation
+from lagcli.reader.nodes import Node, Scalar, Sequence
+from lagcli.reader.scope import PHASE_SPACE, Kind, name_mistake
+from lagcli.reader.suggest import did_you_mean
+
+if TYPE_CHECKING:
+    from lagcli.diagnostics import Span
+    from lagcli.expression import Expression
+    from lagcli.problem import Symmetry
+    from lagcli.reader.sections import Sections
+
+_FUNCTION = PHASE_SPACE._replace(why="a function on phase space has momenta p_x, no velocities")
+_BRACKETED = _FUNCTION._replace(observables=True)
+_KINDS = {
+    "F1": "coordinates and new coordinates",
+    "F2": "coordinates and new momenta",
+    "F3": "momenta and new coordinates",
+    "F4": "momenta and new momenta",
+}
+_EXPECTED = ("kind", "valence", "generates", "hamiltonian")
+_VERDICTS = ("canonical", "extended canonical", "not canonical")
+_WRITE = "write name: {Q: p_x, p_Q: -x}"
+
+#: What a bracket calls the Hamiltonian, where the file has no such name.
+HAMILTONIAN = "H"
+
+
+def read_observables(sections: Sections, node: Node) -> dict[str, Expression]:
+    """Functions of q, p and t, each of which may use earlier ones."""
+    found = {}
+    for key, value in sections.entries(node, "observables", "write A: x*p_y - y*p_x"):
+        what = f"the observable '{key.label}'"
+        expression = sections.expression(value, what, _BRACKETED)
+        if not _is_momentum(sections, key) and sections.declare(key.label, "observable", key.span):
+            found[key.label] = expression
+    return found
+
+
+def _is_momentum(sections: Sections, key: Scalar) -> bool:
+    coordinate = sections.scope.coordinate_of_momentum(key.label)
+    if coordinate is not None:
+        message = f"'{key.label}' is the momentum of the coordinate '{coordinate}'"
+        sections.error(message, key.span, "choose another name")
+    return coordinate is not None
+
+
+@contextmanager
+def _also(sections: Sections, names: Iterable[str], kind: Kind) -> Iterator[None]:
+    """Let names stand in expressions that mean something there only."""
+    kinds = sections.scope.kinds
+    added = [n for n in dict.fromkeys(names) if n not in kinds and name_mistake(n) is None]
+    kinds.update(dict.fromkeys(added, kind))
+    try:
+        yield
+    finally:
+        for name in added:
+            del kinds[name]
+
+
+def read_brackets(
+    sections: Sections, node: Node, symmetries: Iterable[Symmetry]
+) -> tuple[BracketQuestion, ...]:
+    """Pairs of functions; the charges of symmetries and H may stand in them by name."""
+    found = []
+    hint = "write name: [x, p_x]"
+    names = [HAMILTONIAN, *(symmetry.name for symmetry in symmetries)]
+    with _also(sections, names, "observable"):
+        for key, value in sections.entries(node, "brackets", hint):
+            what = f"the bracket '{key.label}'"
+            items = sections.items(value, what, hint)
+            if isinstance(value, Sequence) and len(items) != 2:
+                sections.error(f"{what} has {len(items)} functions, not 2", value.span, hint)
+            read = [sections.expression(item, what, _BRACKETED) for item in items]
+            if len(read) == 2:
+                left, right = read
+                found.append(BracketQuestion(name=key.label, left=left, right=right, span=key.span))
+    return tuple(found)
+
+
+def read_transformations(sections: Sections, node: Node) -> tuple[Transformation, ...]:
+    """New variables in the old ones, with a generating function or without."""
+    entries = sections.entries(node, "canonical_transformations", _WRITE)
+    return tuple(_transformation(sections, key, value) for key, value in entries)
+
+
+def _transformation(sections: Sections, key: Scalar, node: Node) -> Transformation:
+    what = f"the transformation '{key.label}'"
+    entries = list(sections.entries(node, what, _WRITE))
+    labels = {name.label for name, _ in entries} - _KINDS.keys()
+    coordinates: dict[str, Expression] = {}
+    momenta: dict[str, Expression] = {}
+    generating: list[tuple[Scalar, Node]] = []
+    for name, value in entries:
+        label = name.label
+        if label in _KINDS:
+            generating.append((name, value))
+            continue
+        expression = sections.expression(value, f"the new variable '{label}'", _FUNCTION)
+        rest = label.removeprefix("p_")
+        if rest != label and rest in labels:
+            momenta[rest] = expression
+            continue
+        _check_new(sections, name, what)
+        coordinates[label] = expression
+    _check_complete(sections, key, what, coordinates, momenta, entries)
+    given: dict[str, Any] = {}
+    with _also(sections, coordinates, "coordinate"):
+        for place, (name, value) in enumerate(generating):
+            if place:
+                sections.error(f"{what} has two generating functions", name.span, "give one")
+            given = {
+                "kind": name.label,
+                "generating": _generating(sections, name.label, value, coordinates),
+            }
+    return Transformation(
+        name=key.label, coordinates=coordinates, momenta=momenta, span=key.span, **given
+    )
+
+
+def _check_new(sections: Sections, name: Scalar, what: str) -> None:
+    """A new coordinate, whose momentum gets the prefix p_, needs a name of its own."""
+    label, scope = name.label, sections.scope
+    wrong = name_mistake(label)
+    taken = next((n for n in (label, f"p_{label}") if n in scope.kinds), None)
+    if wrong is not None:
+        sections.error(wrong[0], name.span, wrong[1])
+    elif label.startswith("p_") and scope.coordinate_of_momentum(label) is None:
+        coordinate = label.removeprefix("p_")
+        message = f"{what} has a momentum '{label}' and no coordinate '{coordinate}'"
+        sections.error(message, name.span, _WRITE)
+    elif taken is not None or scope.coordinate_of_momentum(label) is not None:
+        kind = scope.kinds.get(taken or "", "momentum")
+        message = f"the new variable '{taken or label}' is a {kind} of the file already"
+        sections.error(message, name.span, "choose another name")
+
+
+def _check_complete(
+    sections: Sections,
+    key: Scalar,
+    what: str,
+    coordinates: dict[str, Expression],
+    momenta: dict[str, Expression],
+    entries: list[tuple[Scalar, Node]],
+) -> None:
+    spans = {name.label: name.span for name, _ in entries}
+    for name in coordinates.keys() - momenta.keys():
+        if not name.startswith("p_"):
+            message = f"the momentum 'p_{name}' of '{name}' is missing in {what}"
+            sections.error(message, spans[name], _WRITE)
+    number = sum(1 for _ in sections.scope.of_kind("coordinate"))
+    if len(coordinates) != number and not any(name.startswith("p_") for name in coordinates):
+        plural = "" if len(coordinates) == 1 else "s"
+        message = (
+            f"{what} has {len(coordinates) or 'no'} new coordinate{plural}, the file has {number}"
+        )
+        sections.error(message, key.span, _WRITE)
+
+
+def _generating(sections: Sections, kind: str, node: Node, new: Iterable[str]) -> Expression:
+    """F, in the variables of its kind."""
+    expression = sections.expression(node, kind, _FUNCTION)
+    new = set(new)
+    old = set(sections.scope.of_kind("coordinate")) - new
+    forbidden = {f"p_{n}" for n in old} if kind in ("F1", "F2") else set(old)
+    forbidden |= {f"p_{n}" for n in new} if kind in ("F1", "F3") else new
+    for part in walk(expression):
+        if isinstance(part, Name) and part.name in forbidden:
+            hint = f"{kind} is a function of {_KINDS[kind]}"
+            sections.error(f"'{part.name}' cannot stand in {kind}", part.span, hint)
+    return expression
+
+
+# -- expectations --------------------------------------------------------------------------
+
+
+def read_expected_brackets(
+    sections: Sections, entries: Iterable[tuple[Scalar, Node]]
+) -> dict[str, Expression]:
+    """`expect: {brackets: {name: value}}`; observables may stand in the values."""
+    return {
+        key.label: sections.expression(value, f"the expected bracket '{key.label}'", _BRACKETED)
+        for key, value in entries
+    }
+
+
+def read_expected_canonical(
+    sections: Sections,
+    entries: Iterable[tuple[Scalar, Node]],
+    transformations: Iterable[Transformation],
+    spans: dict[tuple[str, ...], Span],
+) -> dict[str, ExpectCanonical]:
+    """`expect: {canonical: {name: {kind, valence, generates, hamiltonian}}}`."""
+    by_name = {each.name: each for each in transformations}
+    found = {}
+    for key, node in entries:
+        values: dict[str, Any] = {}
+        what = f"the expected '{key.label}'"
+        for name, (_, value) in sections.attributes(node, what, _EXPECTED).items():
+            spans["canonical", key.label, name] = value.span
+            match name:
+                case "kind":
+                    values[name] = _word(sections, value, _VERDICTS)
+                case "generates":
+                    word = _word(sections, value, ("yes", "no"))
+                    values[name] = None if word is None else word == "yes"
+                case "valence":
+                    values[name] = sections.expression(value, "the expected valence", _FUNCTION)
+                case _:
+                    with _also(sections, by_name[key.label].coordinates, "coordinate"):
+                        what = "the expected new Hamiltonian"
+                        values[name] = sections.expression(value, what, _FUNCTION)
+        found[key.label] = ExpectCanonical(**values)
+    return found
+
+
+def _word(sections: Sections, node: Node, words: tuple[str, ...]) -> str | None:
+    text = sections.scalar(node, "this")
+    if text is None:
+        return None
+    found = " ".join(text.value.split())
+    if found in words:
+        return found
+    hint = did_you_mean(found, words) or f"write {' or '.join(words)}"
+    sections.error(f"'{found}' is none of {', '.join(words)}", text.span, hint)
+    return None
