@@ -9,18 +9,17 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import cast
 
-from lagcli.answers import (
-    Answers,
-    BracketsSection,
-    HamiltonianSection,
-    TransformationsSection,
-)
+from lagcli.answers import Answers, HamiltonianSection
 from lagcli.check.comparison import Comparison
 from lagcli.check.findings import Finding, Outcome
 from lagcli.diagnostics import NOWHERE
 from lagcli.expression import Expression, Name, Number, Power, Sum
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
+from lagcli.phase_space import (
+    BracketsSection,
+    TransformationsSection,
+)
 from lagcli.problem import Parameter, Problem
 from lagcli.values import substituted
 

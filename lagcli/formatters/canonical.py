@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from lagcli.answers import (
+from lagcli.document import Block, Bracket, Equations, Formula, Heading, Label, Paragraph, Row
+from lagcli.expression import Name, Number
+from lagcli.phase_space import (
     BracketsSection,
     ExaminedTransformation,
     GeneratingFunction,
     TransformationsSection,
 )
-from lagcli.document import Block, Bracket, Equations, Formula, Heading, Label, Paragraph, Row
-from lagcli.expression import Name, Number
 
 _CHECKED = {"exact": "checked exactly", "50 digits": "checked at random states to 50 digits"}
 _ONE = Number(Fraction(1))
@@ -27,7 +27,7 @@ def bracket_blocks(section: BracketsSection) -> Iterator[Block]:
     for each in section.brackets:
         left = Bracket(each.left, each.right)
         if each.value is None:
-            yield Paragraph((left, ": not found."))
+            yield Paragraph((f"{each.name}: not found.",))
         elif each.named is None:
             rows.append(Row(left, each.value))
         else:
@@ -81,7 +81,7 @@ def _verdict(each: ExaminedTransformation) -> list[str | Formula]:
         case "not canonical":
             values = {f.expected for f in each.failing}
             wanted: list[str | Formula] = ["what they should be"]
-            if len(values) == 1:
+            if len(values) == 1 and all(isinstance(value, Number) for value in values):
                 wanted = [values.pop()]
             plural = "this bracket is" if len(each.failing) == 1 else "these brackets are"
             return [f"Not canonical: {plural} not ", *wanted, "."]

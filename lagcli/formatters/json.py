@@ -15,7 +15,6 @@ from lagcli.answers import (
     AccelerationsSection,
     AlgebraSection,
     Answers,
-    BracketsSection,
     CanonicalSection,
     Charge,
     ChargesSection,
@@ -25,9 +24,7 @@ from lagcli.answers import (
     EquationsSection,
     EquilibriaSection,
     Equilibrium,
-    ExaminedTransformation,
     FindSection,
-    GeneratingFunction,
     HamiltonianSection,
     LagrangeEquation,
     LagrangianSection,
@@ -37,16 +34,15 @@ from lagcli.answers import (
     ModesSection,
     MomentaSection,
     MultipliersSection,
-    PoissonBracket,
     QuantityUnit,
     ReductionSection,
     Rewritten,
     Section,
     Solutions,
-    TransformationsSection,
 )
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.json_phase_space import of_phase_space
 from lagcli.formatters.options import Options
 from lagcli.motions import (
     Above,
@@ -55,6 +51,10 @@ from lagcli.motions import (
     PeriodSeries,
     SteadyMotion,
     SteadySection,
+)
+from lagcli.phase_space import (
+    BracketsSection,
+    TransformationsSection,
 )
 
 #: The version of the contract.
@@ -133,14 +133,8 @@ def _value(section: Section) -> Value:
                     for coordinate, pair in pairs.items()
                 },
             )
-        case BracketsSection():
-            return {
-                "observables": _by_name(section.observables),
-                "brackets": [_bracket(each) for each in section.brackets],
-                "rates": _unless_none(section.rates, _by_name),
-            }
-        case TransformationsSection():
-            return [_transformation(each) for each in section.transformations]
+        case BracketsSection() | TransformationsSection():
+            return of_phase_space(section)
         case ChargesSection():
             return [_charge(each) for each in section.charges]
         case AlgebraSection():
@@ -221,48 +215,6 @@ def _constraint_forces(section: ConstraintForcesSection) -> Object:
             for constraint, by_point in section.on_points.items()
         }
     return result
-
-
-def _bracket(each: PoissonBracket) -> Object:
-    return {
-        "name": each.name,
-        "left": to_grammar(each.left),
-        "right": to_grammar(each.right),
-        "value": _string(each.value),
-        "named": _string(each.named),
-    }
-
-
-def _transformation(each: ExaminedTransformation) -> Object:
-    return {
-        "name": each.name,
-        "variables": _by_name(each.variables),
-        "kind": each.kind,
-        "valence": _string(each.valence),
-        "failing": [
-            {
-                "left": bracket.left,
-                "right": bracket.right,
-                "value": to_grammar(bracket.value),
-                "expected": to_grammar(bracket.expected),
-            }
-            for bracket in each.failing
-        ],
-        "generator": _unless_none(each.generator, _generator),
-        "hamiltonian": _string(each.hamiltonian),
-        "reason": each.reason,
-    }
-
-
-def _generator(generator: GeneratingFunction) -> Object:
-    return {
-        "kind": generator.kind,
-        "function": to_grammar(generator.function),
-        "generates": generator.generates,
-        "failing": [
-            f"{to_grammar(left)} = {to_grammar(right)}" for left, right in generator.failing
-        ],
-    }
 
 
 def _charge(charge: Charge) -> Object:

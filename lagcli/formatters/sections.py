@@ -9,7 +9,6 @@ from lagcli.answers import (
     AccelerationsSection,
     AlgebraSection,
     Answers,
-    BracketsSection,
     CanonicalSection,
     ChargesSection,
     ConstraintForcesSection,
@@ -27,7 +26,6 @@ from lagcli.answers import (
     MultipliersSection,
     ReductionSection,
     Section,
-    TransformationsSection,
     Verification,
 )
 from lagcli.document import (
@@ -55,6 +53,10 @@ from lagcli.formatters.reductions import reduction_blocks
 from lagcli.formatters.separation import hamilton_jacobi_blocks
 from lagcli.formatters.steady import steady_blocks
 from lagcli.motions import HamiltonJacobiSection, SteadySection
+from lagcli.phase_space import (
+    BracketsSection,
+    TransformationsSection,
+)
 
 _HEADINGS = {
     "lagrangian": "Lagrangian",

@@ -8,13 +8,11 @@ from sympy import Expr
 
 from lagcli.algebra import shape
 from lagcli.answers import (
-    BracketsSection,
     CanonicalPair,
     CanonicalSection,
     HamiltonianSection,
     LagrangianSection,
     Section,
-    TransformationsSection,
 )
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.expression import Expression
@@ -22,6 +20,10 @@ from lagcli.mechanics.canonical.statement import PhaseSpace
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.hamiltonian import GivenHamiltonian
 from lagcli.mechanics.stating import Stating
+from lagcli.phase_space import (
+    BracketsSection,
+    TransformationsSection,
+)
 
 
 class PhaseSpaceStatements(Stating):

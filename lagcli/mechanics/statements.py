@@ -11,7 +11,6 @@ from lagcli.answers import (
     AccelerationsSection,
     AlgebraSection,
     Answers,
-    BracketsSection,
     CanonicalPair,
     CanonicalSection,
     Charge,
@@ -33,7 +32,6 @@ from lagcli.answers import (
     Section,
     Solutions,
     SpecialValue,
-    TransformationsSection,
 )
 from lagcli.expression import ZERO, Expression
 from lagcli.mechanics.constraint_force import forces_on_points
@@ -42,6 +40,10 @@ from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
 from lagcli.motions import HamiltonJacobiSection, SteadySection
+from lagcli.phase_space import (
+    BracketsSection,
+    TransformationsSection,
+)
 from lagcli.problem import Problem
 from lagcli.record import replace
 

@@ -57,6 +57,14 @@ from lagcli.motions import (
     SteadyMotion,
     SteadySection,
 )
+from lagcli.phase_space import (
+    BracketsSection,
+    ExaminedTransformation,
+    FailingBracket,
+    GeneratingFunction,
+    PoissonBracket,
+    TransformationsSection,
+)
 from lagcli.units import Unit, read_unit
 
 
@@ -174,6 +182,28 @@ HOOP = Answers(
                     q=Quotient(p_theta, times(M, square(R))), p=Negative(times(R, lam))
                 ),
             }
+        ),
+        "brackets": BracketsSection(
+            observables={"A": times(M, p_x)},
+            brackets=(
+                PoissonBracket(name="one", left=Name("x"), right=Name("A"), value=M),
+                PoissonBracket(name="two", left=p_x, right=p_theta, value=M, named=Name("A")),
+            ),
+            rates={"A": times(M, g)},
+        ),
+        "canonical": TransformationsSection(
+            transformations=(
+                ExaminedTransformation(
+                    name="scale",
+                    variables={"X": times(M, Name("x")), "p_X": p_x},
+                    kind="extended canonical",
+                    valence=M,
+                    verified="exact",
+                    generator=GeneratingFunction(kind="F2", function=p_x, generates=True),
+                    hamiltonian=times(M, g),
+                    hamiltonian_verified="50 digits",
+                ),
+            )
         ),
         "charges": ChargesSection(
             charges=(
@@ -394,6 +424,38 @@ HOSTILE = Answers(
         ),
         "hamiltonian": HamiltonianSection(hamiltonian=None, reason="p_x' = {x} is cubic"),
         "canonical_equations": CanonicalSection(equations=None, reason="no Hamiltonian"),
+        "brackets": BracketsSection(
+            observables={},
+            brackets=(
+                PoissonBracket(name="x_1 <&>", left=long_sum, right=long_sum, value=None),
+                PoissonBracket(name="%", left=long_sum, right=long_sum, value=long_sum),
+            ),
+            rates=None,
+            reason="x_1 <&> 100%",
+        ),
+        "canonical": TransformationsSection(
+            transformations=(
+                ExaminedTransformation(
+                    name="x_1 <&> 100%",
+                    variables={"длина_волны": long_sum},
+                    kind="not canonical",
+                    valence=None,
+                    verified=None,
+                    failing=(
+                        FailingBracket(
+                            left="theta_1", right="phase", value=long_sum, expected=long_sum
+                        ),
+                    ),
+                    generator=GeneratingFunction(
+                        kind="F1",
+                        function=long_sum,
+                        generates=False,
+                        failing=((long_sum, long_sum),),
+                    ),
+                    reason="x_1 <&> 100%",
+                ),
+            )
+        ),
         "equilibria": EquilibriaSection(equilibria=None),
         "modes": ModesSection(modes=None),
         "hamilton_jacobi": HamiltonJacobiSection(

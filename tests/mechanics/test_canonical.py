@@ -5,11 +5,15 @@ from __future__ import annotations
 import pytest
 import sympy
 
-from lagcli.answers import BracketsSection, ExaminedTransformation, TransformationsSection
 from lagcli.mechanics.canonical.inverse import undone
 from lagcli.mechanics.canonical.poisson import poisson, rate
 from lagcli.mechanics.canonical.transformation import CanonicalTest
 from lagcli.mechanics.derivation import Derivation
+from lagcli.phase_space import (
+    BracketsSection,
+    ExaminedTransformation,
+    TransformationsSection,
+)
 from lagcli.pipeline import Request, state
 from lagcli.reader import parse_text
 

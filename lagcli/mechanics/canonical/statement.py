@@ -10,19 +10,19 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, shape, simplify
 from lagcli.algebra.build import Builder, free_of
-from lagcli.answers import (
+from lagcli.answers import Verification
+from lagcli.expression import Expression, Name, walk
+from lagcli.mechanics.canonical.poisson import poisson, rate
+from lagcli.mechanics.canonical.transformation import CanonicalTest
+from lagcli.mechanics.derivation import Derivation
+from lagcli.phase_space import (
     BracketsSection,
     ExaminedTransformation,
     FailingBracket,
     GeneratingFunction,
     PoissonBracket,
     TransformationsSection,
-    Verification,
 )
-from lagcli.expression import Expression, Name, walk
-from lagcli.mechanics.canonical.poisson import poisson, rate
-from lagcli.mechanics.canonical.transformation import CanonicalTest
-from lagcli.mechanics.derivation import Derivation
 from lagcli.problem import BracketQuestion, CanonicalKind, Problem
 
 #: What could not be found, and why.
