@@ -245,3 +245,10 @@ def test_a_bead_at_the_critical_rate_of_rotation(simulate):
         )
     assert run.status == 0
     assert run.events[0]["t"] == pytest.approx(float(exact), rel=1e-8)
+
+
+def test_the_energy_above_the_rest_is_known_to_its_last_digit(simulate):
+    """1 - cos(th) = 2 sin(th/2)^2 is 0 in doubles for th = 1e-9."""
+    text = "{coordinates: [th], L: th'^2/2 - 1e20*(1 - cos(th)), initial: {th: 1e-9}}"
+    run = simulate(text, "1e-12", show="1e20*(1 - cos(th))", accuracy=1e-6)
+    assert run.rows[0]["1e20*(1 - cos(th))"] == pytest.approx(50, rel=1e-14)

@@ -33,3 +33,11 @@ def test_at_c_and_above_is_refused(simulate, speed, word):
     run = simulate(text, 1)
     assert run.status == 1
     assert word in run.err
+
+
+def test_the_kinetic_energy_at_1e_minus_9_c(simulate):
+    """gamma - 1 = v^2/2 + 3 v^4/8: 5e-19, of which nothing is left in 1/sqrt(1 - v^2) - 1."""
+    text = "{coordinates: [x], L: -sqrt(1 - x'^2), initial: {x': 1e-9}}"
+    run = simulate(text, 1, show="1e19*(1/sqrt(1 - x'^2) - 1)")
+    assert run.status == 0
+    assert run.last["1e19*(1/sqrt(1 - x'^2) - 1)"] == pytest.approx(5, rel=1e-12)

@@ -1,0 +1,53 @@
+"""Stable forms: equal as mathematics, and right in doubles where the plain form is not."""
+
+import math
+
+import mpmath
+import pytest
+
+from lagcli.graph.nodes import Graph
+from lagcli.graph.reading import GraphReader
+from lagcli.graph.stable import Stable
+from lagcli.numerics.arithmetic import Doubles
+from lagcli.numerics.straight_line import straight_line
+
+from .running import problem_of
+
+EXACT = mpmath.mp.clone()
+EXACT.dps = 60
+CASES = {
+    "1 - cos(x)": lambda x: 1 - EXACT.cos(x),
+    "1 + cos(x)": lambda x: 1 + EXACT.cos(x),
+    "3*x*cos(x) - 3*x": lambda x: 3 * x * (EXACT.cos(x) - 1),
+    "y - y*cos(x) + x^2": lambda x: 2 * (1 - EXACT.cos(x)) + x**2,
+    "cosh(x) - 1": lambda x: EXACT.cosh(x) - 1,
+    "exp(x) - 1": lambda x: EXACT.exp(x) - 1,
+    "sqrt(1 + x^2) - 1": lambda x: EXACT.sqrt(1 + x**2) - 1,
+    "1/sqrt(1 - x^2) - 1": lambda x: 1 / EXACT.sqrt(1 - x**2) - 1,
+    "y*sqrt(1 + x)/2 - y/2": lambda x: EXACT.sqrt(1 + x) - 1,
+}
+
+
+def values(formula, *, stable):
+    """f(x) for y = 2, in doubles."""
+    problem = problem_of(f"{{coordinates: [x, y], T: x'^2/2 + y'^2/2, V: {formula}}}")
+    graph = Graph()
+    node = GraphReader(graph, ("x", "y"), {})(problem.potential)
+    node = Stable(graph)(node) if stable else node
+    function = straight_line([graph.symbol("x"), graph.symbol("y")], [node], {}, Doubles())
+    return lambda x: function(x, 2.0)[0]
+
+
+@pytest.mark.parametrize("formula", CASES)
+@pytest.mark.parametrize("x", [1e-9, 1e-4, 0.3, -0.7])
+def test_the_stable_form_keeps_its_digits(formula, x):
+    assert values(formula, stable=True)(x) == pytest.approx(
+        float(CASES[formula](EXACT.mpf(x))), rel=2e-15, abs=0
+    )
+
+
+@pytest.mark.parametrize("formula", ["1 - cos(x)", "1/sqrt(1 - x^2) - 1", "cosh(x) - 1"])
+def test_the_plain_form_does_not(formula):
+    exact = float(CASES[formula](EXACT.mpf(1e-9)))
+    assert math.isclose(values(formula, stable=False)(1e-9), 0.0, abs_tol=0.0)
+    assert exact > 4e-19
