@@ -131,7 +131,6 @@ class Statements(Stating):
         }
 
     # -- sections ---------------------------------------------------------------------------
-
     def _lagrangian(self) -> LagrangianSection:
         return LagrangianSection(lagrangian=self._by_terms(self.system.L, as_given=True))
 
