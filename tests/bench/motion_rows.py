@@ -4,7 +4,7 @@ Each script is given the loosest tolerance at which its true error is the accura
 asked of lagcli; times are the CPU times of fresh processes, the certificate included.
 
     LAGCLI_PEERS=/path/to/python    a Python that has sympy, scipy, casadi and heyoka
-    python tests/bench/motion_rows.py
+    python tests/bench/motion_rows.py [SYSTEM]...
 """
 
 from __future__ import annotations
@@ -24,12 +24,14 @@ from tests.bench.motions import SYSTEMS, System
 
 #: script -> the most that lagcli may take, as a part of it
 BARS = {"scipy": 0.4, "heyoka": 1.0, "casadi": 2.5}
+_LIMIT = 60  # CPU seconds of a script
 _TOLERANCES = [10.0**-k for k in range(4, 16)]
 
 
-def rows(runs: int) -> Iterator[Row]:
-    """For each system and each script, the ratio of the total times."""
-    for name, system in SYSTEMS.items():
+def rows(runs: int, names: Sequence[str] = ()) -> Iterator[Row]:
+    """For each system (or those named) and each script, the ratio of the total times."""
+    for name in names or SYSTEMS:
+        system = SYSTEMS[name]
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "problem.yaml"
             file.write_text(system.problem(), "utf-8")
@@ -71,7 +73,7 @@ def _tuned(
     """The script with the loosest tolerance that reaches the accuracy."""
     for tolerance in _TOLERANCES:
         command = [*script, f"{tolerance:.0e}"]
-        run = cost(command, good=range(256))
+        run = cost(command, limit=_LIMIT)
         if run.status:
             continue
         if _error(json.loads(run.out)["end"], true, scales) <= system.accuracy:
@@ -93,5 +95,5 @@ def peers(package: str) -> str | None:
 
 
 if __name__ == "__main__":
-    for row in rows(3):
+    for row in rows(3, sys.argv[1:]):
         show(row)

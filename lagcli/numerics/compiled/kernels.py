@@ -28,6 +28,7 @@ from lagcli.numerics.compiled.intrinsics import (
     positions,
     series,
     sizes,
+    sqrt,
     velocities,
 )
 
@@ -69,16 +70,15 @@ FIRST = 1e-3
 LARGE = 1e300
 
 
-def see(rows: Reals, peaks: Reals, scales: Reals, facts: Reals, n: int) -> None:
-    """Note where the motion is and, for what begins at 0, where it goes at first."""
-    h = FIRST * facts[LONGEST]
+def see(rows: Reals, peaks: Reals, scales: Reals, facts: Reals, counts: Ints) -> None:
+    """Note where the motion is and, for what has been at 0 so far, where it goes at first."""
+    n = counts[N]
     higher = False
     top = 0.0
     for i in range(2 * n):
-        c = at(rows, i * STRIDE)
-        size = abs(c[0])
-        later = abs(c[0] + h * (c[1] + h * c[2]))
-        size = max(size, later)
+        size = abs(rows[i * STRIDE])
+        if size == 0 and peaks[i] == 0:
+            size = leading(at(rows, i * STRIDE), counts[ORDER], sudden(rows, facts, n))
         if size > peaks[i]:
             peaks[i] = size
             higher = True
@@ -87,12 +87,34 @@ def see(rows: Reals, peaks: Reals, scales: Reals, facts: Reals, n: int) -> None:
         rescale(peaks, scales, facts, n, top)
 
 
+def leading(c: Reals, order: int, h: float) -> float:
+    """The first term of a series that is not 0, after a time h."""
+    power = 1.0
+    for k in range(1, order + 1):
+        power = power * h
+        if c[k] != 0:
+            return abs(c[k]) * power
+    return 0.0
+
+
+def sudden(rows: Reals, facts: Reals, n: int) -> float:
+    """A time in which nothing that is not 0 changes by more than itself."""
+    h = FIRST * facts[LONGEST]
+    for i in range(2 * n):
+        c = at(rows, i * STRIDE)
+        if c[0] != 0:
+            if abs(c[1]) * h > abs(c[0]):
+                h = abs(c[0] / c[1])
+            if abs(c[2]) * h * h > abs(c[0]):
+                h = sqrt(abs(c[0] / c[2]))
+    return h
+
+
 def rescale(peaks: Reals, scales: Reals, facts: Reals, n: int, top: float) -> None:
-    """The peaks; a velocity's is at least its coordinate's over the span, and back."""
-    least = facts[FLOOR] * top
-    least = max(least, 1e-300)
+    """The peaks; a velocity's is at least its coordinate's over the span."""
+    least = max(facts[FLOOR] * top, 1e-300)
     for j in range(n):
-        scales[j] = max(peaks[j], least, 1e-3 * facts[LONGEST] * peaks[n + j])
+        scales[j] = max(peaks[j], least)
         scales[n + j] = max(peaks[n + j], least, peaks[j] / facts[SPAN])
 
 
@@ -121,7 +143,7 @@ def expand(
         rows[i * STRIDE] = state[i]
     if series(rows, signs, counts[ORDER]) == 0:
         return PIVOT
-    see(rows, peaks, scales, facts, n)
+    see(rows, peaks, scales, facts, counts)
     h = length(rows, scales, both, counts[ORDER], facts[TOLERANCE])
     h = min(h, facts[LONGEST])
     facts[H] = h

@@ -80,9 +80,10 @@ class CompiledTaylor:
         facts[k.SHORTEST] = 4 * self.machine.numbers.rounding
         counts[k.N], counts[k.ORDER] = self.n, self.order
         counts[k.HOLONOMIC], counts[k.CONSTRAINTS] = len(motion.equations.holonomic), motion.m
-        for i, peak in enumerate(bound.peaks):
+        n, peaks = self.n, bound.peaks
+        for i, peak in enumerate(peaks):
             self._peaks[i] = peak
-            self._scales[i] = bound.scales[i]
+            self._scales[i] = max(peak, 1e-300, peaks[i - n] / bound.span if i >= n else 0.0)
         state = self._array([*map(exact, q), *map(exact, v), 0.0])
         if self.surface is not None:
             for i, scale in enumerate(self.surface.scales):
