@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from math import lcm
+from operator import itemgetter
 
 from flint import Ordering, fmpq_mpoly_ctx
 
@@ -20,6 +21,8 @@ from lagcli.algebra.ring import Poly
 _MAX_BASIS = 24
 _MAX_TERMS = 60
 _MAX_PAIRS = 120
+_SHORT = 20  # terms of a polynomial whose remainder is found anew each time
+_RECENT = 8  # others whose remainders are kept
 
 
 class Ideal:
@@ -50,11 +53,17 @@ class Ideal:
 
     def remainder(self, poly: Poly) -> Element:
         """The remainder of a polynomial."""
+        poly = self.field.ring.lift(poly)
         if self.field.ring.capacity != self._capacity:
             basis = [self._outside(b).numerator for b in self.basis]
             self._open()
             self.basis = [self._inside(b) for b in basis]
-        return self._outside(_remainder(self._inside(poly), self.basis))
+        known = next((rest for other, rest in self._recent if other == poly), None)
+        if known is None:
+            known = self._outside(_remainder(self._inside(poly), self.basis))
+            if len(poly) > _SHORT:
+                self._recent.append((poly, known))
+        return known
 
     def touches(self, poly: Poly) -> bool:
         """Whether some term is divisible by a leading term: else it is its own remainder."""
@@ -68,29 +77,28 @@ class Ideal:
     def _open(self) -> None:
         ring = self.field.ring
         self._capacity = ring.capacity
+        self._recent: deque[tuple[Poly, Element]] = deque(maxlen=_RECENT)
         rest = [n for n in reversed(range(ring.capacity)) if n not in self._ranked]
         self._order = [*self._ranked, *rest]
         self.context = fmpq_mpoly_ctx.get([f"g{n}" for n in self._order], Ordering.lex)
+        last = ring.capacity - 1
+        self._permuted = itemgetter(*(last - n for n in self._order), 0)
+        place = {n: position for position, n in enumerate(self._order)}
+        self._restored = itemgetter(*(place[last - i] for i in range(ring.capacity)), 0)
 
     def _inside(self, poly: Poly) -> Poly:
         """The polynomial in the order of the ideal."""
-        ring = self.field.ring
-        last = ring.capacity - 1
-        data = {
-            tuple(exponents[last - n] for n in self._order): coefficient
-            for exponents, coefficient in ring.lift(poly).to_dict().items()
-        }
-        return self.context.from_dict(data)
+        terms = self.field.ring.lift(poly).to_dict()
+        permuted = self._permuted
+        return self.context.from_dict({permuted(e)[:-1]: c for e, c in terms.items()})
 
     def _outside(self, poly: Poly) -> Element:
         terms = poly.to_dict()
         common = lcm(*(int(c.q) for c in terms.values())) if terms else 1
-        ring = self.field.ring
-        above = ring.build(
-            (tuple((n, int(e)) for n, e in zip(self._order, exponents, strict=True) if e),
-             int(c.p) * (common // int(c.q)))
-            for exponents, c in terms.items()
-        )  # fmt: skip
+        ring, restored = self.field.ring, self._restored
+        above = ring.context.from_dict(
+            {restored(e)[:-1]: int(c.p) * (common // int(c.q)) for e, c in terms.items()}
+        )
         return self.field.element(above, ring.constant(common))
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from time import monotonic
 
 from sympy import Expr
 
@@ -47,7 +46,7 @@ class LinearSolution:
 
 
 _READ = 3000  # terms of a value; the triple pendulum has 255, that of four links 15 000
-_COMPUTED = 30_000  # terms of an entry on the way
+_COMPUTED = 8_000  # terms of an entry on the way
 
 
 class _TooLong(Exception):
@@ -58,7 +57,7 @@ def solve_linear(
     A: Matrix,
     b: Sequence[Expr] | Matrix,
     relations: Relations | None = None,
-    budget: float = 20.0,
+    budget: int = 300_000,
     shapes: Shapes | None = None,
 ) -> LinearSolution | None:
     """Solve A x = b exactly.
@@ -72,7 +71,8 @@ def solve_linear(
         shorten only the result: used while eliminating, they would leave factors below
         that vanish where det A does not, as x does in x'/x for y y' = -x x'.
     budget
-        Seconds after which None is returned; it is also where a value is too long to be read.
+        Products of terms after which None is returned: no time is measured, so that an
+        answer is the same on every machine.  None also where a value is too long to be read.
     shapes
         Where the values are to be written as they were found here; then its relations count.
     """
@@ -83,7 +83,7 @@ def solve_linear(
     n, width = len(A), len(columns[0]) if columns else 1
     rows, field = _enter([[*row, *more] for row, more in zip(A, columns, strict=True)], relations)
     try:
-        found = _eliminate(field, rows, n, None, monotonic() + budget)
+        found = _eliminate(field, rows, n, None, budget)
     except _TooLong:
         return None
     if len(found.pivots) < n:
@@ -175,7 +175,7 @@ def _eliminate(
     rows: _Rows,
     width: int,
     relations: Relations | None,
-    deadline: float = float("inf"),
+    budget: float = float("inf"),
 ) -> _Elimination:
     """Gauss and Jordan: afterwards each pivot is 1 and alone in its column."""
     pivots: list[tuple[int, int]] = []
@@ -201,7 +201,8 @@ def _eliminate(
             for j, x in rows[r].items():
                 if j == c:
                     continue
-                if monotonic() > deadline:
+                budget -= factor.size() * x.size() + (row[j].size() if j in row else 0)
+                if budget < 0:
                     raise _TooLong
                 y = row[j] + factor * x if j in row else factor * x
                 if y.size() > _COMPUTED:

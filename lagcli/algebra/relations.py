@@ -6,15 +6,21 @@ denominators are then taken modulo the ideal of the relations (a Gröbner basis 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Container, Sequence
+from collections.abc import Collection, Container, Iterator, Sequence
 from functools import cached_property
+from itertools import islice
+from math import gcd
+from operator import mul
+from typing import TypeAlias
 
 from sympy import Expr, Symbol
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.ideal import Ideal
-from lagcli.algebra.ring import Monomial, Poly
+from lagcli.algebra.ring import Poly
+
+Exponents: TypeAlias = tuple[int, ...]
 
 _IDEALS = 8  # ideals in all
 _READ = 3  # reductions that are shaped
@@ -56,7 +62,7 @@ class Relations:
         self._direction = 1 if eliminate else -1
         self._welcome = list(eliminate) or _dynamic(symbols) or symbols
         self._moving = frozenset(moving)
-        self._ideals: dict[int, tuple[Field, list[Ideal]]] = {}
+        self._ideals: dict[int, tuple[Field, list[Ideal], Iterator[Ideal]]] = {}
         for expression in expressions:
             self._add(expression)
         # a relation that came before the solution of one of its symbols
@@ -85,7 +91,8 @@ class Relations:
                     g for g in field.ring.used(element.numerator)
                     if not field.generators[g].expression.free_symbols & moving
                 ]  # fmt: skip
-                if len(_by_outside(field, element.numerator, static)) > 1:
+                parts = _by_outside(field, element.numerator, static)
+                if sum(len(outside) for outside, _ in parts) > 1:
                     found.append((symbol, element))
         return sorted(found, key=lambda pair: pair[0].name)
 
@@ -143,16 +150,18 @@ class Relations:
         return len(slope) == 1 or all(g.nonnegative for g in generators)
 
     @cached_property
-    def generic(self) -> Relations:
+    def generic(self) -> Generic:
         """The same relations solved for anything, parameters too, that has a slope at all.
 
         For the decision whether a formula is 0, which generic points make: with d for
         l1 cos a + l2 cos b it is a question about rational functions.
         """
-        if not self.remaining:
-            return self
-        symbols = {s for e in self.remaining for s in e.free_symbols} - {*self._welcome}
-        return _Generic(self.remaining, [*self._welcome, *sorted(symbols, key=lambda s: s.name)])
+        # velocities before coordinates: these then stay in relations among themselves
+        welcome = sorted(
+            self._welcome, key=lambda s: sum(s in e.free_symbols for e in self.remaining)
+        )
+        symbols = {s for e in self.remaining for s in e.free_symbols} - {*welcome}
+        return Generic(self.remaining, [*welcome, *sorted(symbols, key=lambda s: s.name)])
 
     def reductions(self, field: Field, element: Element) -> list[Element]:
         """Equal elements on the relations: numerator and denominator modulo an ideal.
@@ -192,7 +201,7 @@ class Relations:
                     rest = ideal.remainder(inner)
                     if rest.denominator == 1 and len(rest.numerator) < len(inner):
                         inner = ring.lift(rest.numerator)
-                total = total + inner * ring.build([(outside, 1)])
+                total = total + inner * outside
             poly = total
         return ring.reduce(poly)
 
@@ -215,18 +224,24 @@ class Relations:
 
     def contain(self, field: Field, poly: Poly) -> bool:
         """Whether the polynomial is found to lie in the ideal of the relations."""
-        for ideal in self._ideals_in(field)[:1]:
+        for ideal in self._ideals_in(field, 1):
             # coefficient by coefficient of what the relations do not have in them
             parts = _by_outside(field, poly, ideal.inside)
             return all(ideal.remainder(inner).is_zero() for _, inner in parts)
         return False
 
-    def _ideals_in(self, field: Field) -> list[Ideal]:
+    def _ideals_in(self, field: Field, count: int = _IDEALS) -> list[Ideal]:
+        """The first ideals, made when they are asked for."""
         if not self.remaining:
             return []
         known = self._ideals.get(id(field))
-        if known is not None and known[0] is field:
-            return known[1]
+        if known is None or known[0] is not field:
+            self._ideals = {id(field): (field, [], self._ideals_of(field))}
+        _, ideals, source = self._ideals[id(field)]
+        ideals.extend(islice(source, max(0, count - len(ideals))))
+        return ideals[:count]
+
+    def _ideals_of(self, field: Field) -> Iterator[Ideal]:
         polys = [field(e).numerator for e in self.remaining]
         ring = field.ring
         variables = [
@@ -238,35 +253,90 @@ class Relations:
         squares = [n for n in variables if any(ring.degree(p, n) > 1 for p in polys)]
         # the ideal of all, of those between the squared ones, of single ones: using fewer can
         # leave less, as x² + y² = l² without x x' + y y' = 0
-        pure = [p for p in polys if not {*variables} - {*squares} & {*ring.used(p)}]
+        pure = [p for p in polys if not ({*variables} - {*squares}) & {*ring.used(p)}]
         subsets = [polys, *([pure] if 1 < len(pure) < len(polys) else [])]
         subsets += [[p] for p in sorted(polys, key=len) if len(polys) > 1]
-        ideals: list[Ideal] = []
         for subset in subsets:
-            within = [n for n in squares or variables if any(ring.degree(p, n) for p in subset)]
+            used = {n for p in subset for n in ring.used(p)}
+            within = [n for n in squares or variables if n in used]
             orders = [within, within[::-1]] if len(within) > 1 else [within]
             for first in orders:
-                if len(ideals) < _IDEALS:
-                    rest = [n for n in reversed(variables) if n not in first]
-                    ideals.append(Ideal(field, subset, [*rest, *first]))
-        self._ideals = {id(field): (field, ideals)}
-        return ideals
+                rest = [n for n in reversed(variables) if n not in first]
+                yield Ideal(field, subset, [*rest, *first])
 
 
-class _Generic(Relations):
+class Generic(Relations):
     """Relations solved by division by anything that is not identically 0."""
+
+    def vanish(self, field: Field, poly: Poly) -> bool | None:
+        """Whether a polynomial is 0 at generic points, by its remainders.
+
+        For y = a/b, sum c_k y^k is 0 where sum c_k a^k b^(K - k) is.  None where a symbol
+        that was solved for stands inside a function.
+        """
+        ring = field.ring
+        values = [(field.number_of(s), field(value)) for s, value in self.solved.items()]
+        hidden = {
+            s for g in field.generators if g.kind != "symbol" for s in g.expression.free_symbols
+        }
+        if hidden & self.solved.keys():
+            return None
+        ideals = self._ideals_in(field, 1)
+        solved = [(number, value) for number, value in values if number is not None]
+        below = [field.ring.lift(value.denominator) for _, value in solved]
+        if any(ideal.remainder(each).is_zero() for ideal in ideals for each in below):
+            return None
+        inside = {number for number, _ in solved}.union(*(ideal.inside for ideal in ideals))
+        for _, value in solved:
+            inside.update(ring.used(value.numerator), ring.used(value.denominator))
+        inside |= {field.generators[number].partner for number in inside}
+        parts = _by_outside(field, poly, inside)
+        return all(self._vanishes(field, part, solved, ideals) for _, part in parts)
+
+    def _vanishes(
+        self,
+        field: Field,
+        poly: Poly,
+        solved: Sequence[tuple[int, Element]],
+        ideals: Sequence[Ideal],
+    ) -> bool:
+        ring = field.ring
+        for number, value in solved:
+            for ideal in ideals:
+                poly = ring.lift(ideal.remainder(poly).numerator)
+            degree = ring.degree(ring.lift(poly), number)
+            if degree:
+                above, below = ring.lift(value.numerator), ring.lift(value.denominator)
+                total = ring.zero
+                for power, coefficient in ring.coefficients(poly, number).items():
+                    total = total + coefficient * above**power * below ** (degree - power)
+                poly = ring.reduce(total)
+        return bool(poly == 0) or self.contain(field, poly)
 
     def _divides(self, _field: Field, _slope: Poly) -> bool:
         return True
 
 
-def _by_outside(field: Field, poly: Poly, inside: Container[int]) -> list[tuple[Monomial, Poly]]:
-    """The coefficients, polynomials in some generators, of the monomials in the others."""
-    groups: dict[Monomial, list[tuple[Monomial, int]]] = {}
-    for monomial, value in field.ring.terms(poly):
-        outside = tuple(p for p in monomial if p[0] not in inside)
-        groups.setdefault(outside, []).append((tuple(p for p in monomial if p[0] in inside), value))
-    return [(outside, field.ring.build(terms)) for outside, terms in groups.items()]
+def _by_outside(field: Field, poly: Poly, inside: Container[int]) -> list[tuple[Poly, Poly]]:
+    """The polynomial as a sum of products: one in some generators by one in the others.
+
+    The second factors, in the generators `inside`, differ by more than a number.
+    """
+    ring = field.ring
+    within = [int(ring.capacity - 1 - i in inside) for i in range(ring.capacity)]
+    without = [1 - each for each in within]
+    groups: dict[Exponents, dict[Exponents, int]] = {}
+    for exponents, value in ring.lift(poly).to_dict().items():
+        group = groups.setdefault(tuple(map(mul, exponents, without)), {})
+        group[tuple(map(mul, exponents, within))] = int(value)
+    factors: dict[tuple[tuple[Exponents, int], ...], dict[Exponents, int]] = {}
+    for outside, terms in groups.items():
+        inner = sorted(terms.items())
+        number = gcd(*terms.values()) * (1 if inner[0][1] > 0 else -1)
+        factor = tuple((exponents, value // number) for exponents, value in inner)
+        factors.setdefault(factor, {})[outside] = number
+    build = ring.context.from_dict
+    return [(build(first), build(dict(second))) for second, first in factors.items()]
 
 
 def _dynamic(symbols: Sequence[Symbol]) -> list[Symbol]:

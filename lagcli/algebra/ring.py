@@ -91,6 +91,17 @@ class Ring:
             pairs.reverse()
             yield tuple(pairs), int(coefficient)
 
+    def coefficients(self, poly: Poly, generator: int) -> dict[int, Poly]:
+        """The coefficients of the powers of a generator that occur."""
+        poly = self.lift(poly)
+        position = self.capacity - 1 - generator
+        groups: dict[int, dict[tuple[int, ...], int]] = {}
+        for exponents, coefficient in poly.to_dict().items():
+            power = int(exponents[position])
+            rest = (*exponents[:position], 0, *exponents[position + 1 :])
+            groups.setdefault(power, {})[rest] = coefficient
+        return {power: self.context.from_dict(terms) for power, terms in groups.items()}
+
     def build(self, terms: Iterable[tuple[Monomial, int]]) -> Poly:
         """The polynomial with the given terms; equal monomials add up."""
         last = self.capacity - 1

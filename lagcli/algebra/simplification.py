@@ -92,12 +92,13 @@ def is_zero(expression: Expr, relations: Relations | None = None) -> bool | None
         return True
     if relations and relations.remaining:
         generic = relations.generic
-        above = field.polynomial_to_sympy(element.numerator)
-        if not generic.remaining:
-            return is_zero(above, generic)
         if relations.contain(field, element.numerator):
             return True
-        return True if generic.solved and is_zero(above, generic) else None
+        found = generic.vanish(field, element.numerator)
+        if found is None:
+            found = is_zero(field.polynomial_to_sympy(element.numerator), generic)
+        if found is not False or generic.remaining:
+            return found or None
     return None if field.doubtful else False
 
 

@@ -248,7 +248,7 @@ def _by_multipliers(teller: Teller, kept: Sequence[ConstraintEquation]) -> list[
         return [force / M[i][i] for i, force in enumerate(right)]
     if len(right) > _COUPLED:
         return None
-    solution = solve_linear(M, right, budget=5.0)
+    solution = solve_linear(M, right)
     return None if solution is None or solution.singular else list(solution.values)
 
 

@@ -15,12 +15,10 @@ from lagcli.algebra import Field, solve_linear
 from lagcli.algebra.equations import coefficients, factor_roots
 from lagcli.mechanics.oscillations.linearization import Linearization
 
-_BUDGET = 6.0
-
 
 def determinant(matrix: Sequence[Sequence[Expr]]) -> Expr | None:
-    """The determinant; None where it was not found in time, 0 for a singular matrix."""
-    solution = solve_linear(matrix, [S.Zero] * len(matrix), budget=_BUDGET)
+    """The determinant; None where it is too long, 0 for a singular matrix."""
+    solution = solve_linear(matrix, [S.Zero] * len(matrix))
     if solution is None:
         return None
     return S.Zero if solution.determinant is None else solution.determinant
