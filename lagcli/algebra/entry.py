@@ -11,7 +11,7 @@ from sympy import Add, Expr, Mul, Pow, Rational, Symbol
 from lagcli.algebra.field import Element, FractionField, Generator
 from lagcli.algebra.multiples import Multiples
 from lagcli.algebra.ring import Poly
-from lagcli.algebra.roots import absolute, make_radical, rational_power
+from lagcli.algebra.roots import absolute, make_radical, rational_power, sign
 
 _CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
@@ -147,6 +147,8 @@ class Field(FractionField):
             return self.exponential.power(argument)
         if isinstance(node, sympy.Abs):
             return absolute(self, self(argument))
+        if isinstance(node, sympy.sign):
+            return sign(self, self(argument))
         value = node.func(*[self.to_sympy(self(a)) for a in node.args])
         # SymPy may have evaluated the function of the normalized arguments
         return self.opaque(value) if value.func is node.func else self(value)
@@ -179,6 +181,19 @@ class Field(FractionField):
             number = self.add_generator(Generator("abs", expression, nonnegative=True))
             self._numbers[expression] = number
             self.ring.rule(number, 2, self.ring.lift(factor) ** 2)
+            self.doubtful = True
+        return self.generator(self._numbers[expression])
+
+    def signum(self, factor: Poly) -> Element:
+        """The generator s = sign(f), with s*f = |f|, s*|f| = f and s³ = s, at f = 0 too."""
+        expression = sympy.sign(self.to_sympy(self.polynomial(factor)))
+        if expression not in self._numbers:
+            size = self.modulus(factor).numerator
+            number = self.add_generator(Generator("sign", expression))
+            self._numbers[expression] = number
+            one = self.ring.generator(number)
+            for other, value in ((factor, size), (size, factor), (one**2, one)):
+                self.ring.rule_of_product(number, other, value)
             self.doubtful = True
         return self.generator(self._numbers[expression])
 

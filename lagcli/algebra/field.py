@@ -20,7 +20,7 @@ from lagcli.algebra.ring import Poly, Ring
 class Generator:
     """What a generator of the field stands for.
 
-    `kind` is symbol, cos, sin, cosh, sinh, exp, power, root, abs or opaque; `partner`
+    `kind` is symbol, cos, sin, cosh, sinh, exp, power, root, abs, sign or opaque; `partner`
     is the sine of a cosine and the other way round; `argument` the argument of which
     the angles are integer multiples; `index` and `radicand` belong to a root.
     """

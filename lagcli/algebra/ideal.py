@@ -44,7 +44,8 @@ class Ideal:
                 partner = field.generators[number].partner
                 self.inside.update((number, partner) if partner >= 0 else (number,))
         self._open()
-        rules = [rule for _, rule in field.ring.rules.values()]
+        ring = field.ring
+        rules = [rule for _, rule in (*ring.rules.values(), *ring.mixed)]
         self.basis = _completed([self._inside(p) for p in [*polys, *rules]])
         self._leading = [
             {n: int(e) for n, e in zip(self._order, b.monomial(0), strict=True) if e}

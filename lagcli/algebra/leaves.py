@@ -42,12 +42,17 @@ class Translator:
             known = self._memo[node] = self._tree(node)
         return known
 
-    def count(self, node: Expr) -> int | None:
-        """The operations of the expression as it stands; None where it has no tree."""
+    def given(self, node: Expr) -> Expression | None:
+        """The tree of the expression as it stands; None where it has none."""
         try:
-            return operation_count(self.tree(node))
+            return self.tree(node)
         except TypeError:
             return None
+
+    def count(self, node: Expr) -> int | None:
+        """The operations of the expression as it stands; None where it has no tree."""
+        tree = self.given(node)
+        return None if tree is None else operation_count(tree)
 
     def _tree(self, node: Expr) -> Expression:
         if node.is_Symbol:

@@ -45,8 +45,9 @@ class LinearSolution:
     rank: int
 
 
-_READ = 3000  # terms of a value; the triple pendulum has 255, that of four links 15 000
+_READ = 1500  # terms of a value; the triple pendulum has 255, that of four links 15 000
 _COMPUTED = 8_000  # terms of an entry on the way
+_ADDED = 2_000_000  # products of terms of two fractions that are added
 
 
 class _TooLong(Exception):
@@ -57,7 +58,7 @@ def solve_linear(
     A: Matrix,
     b: Sequence[Expr] | Matrix,
     relations: Relations | None = None,
-    budget: int = 300_000,
+    budget: int = 1_000_000,
     shapes: Shapes | None = None,
 ) -> LinearSolution | None:
     """Solve A x = b exactly.
@@ -204,7 +205,11 @@ def _eliminate(
                 budget -= factor.size() * x.size() + (row[j].size() if j in row else 0)
                 if budget < 0:
                     raise _TooLong
-                y = row[j] + factor * x if j in row else factor * x
+                y = factor * x
+                if j in row:
+                    if row[j].size() * y.size() > _ADDED:
+                        raise _TooLong
+                    y = row[j] + y
                 if y.size() > _COMPUTED:
                     raise _TooLong
                 if _vanishes(field, y, relations):

@@ -25,6 +25,7 @@ class Ring:
     def __init__(self, capacity: int = _SPARE) -> None:
         self.count = 0
         self.rules: dict[int, tuple[int, Poly]] = {}  # g -> (q, g^q - P)
+        self.mixed: list[tuple[int, Poly]] = []  # (g, g*A - B)
         self._open(max(capacity, 1))
 
     def _open(self, capacity: int) -> None:
@@ -39,6 +40,7 @@ class Ring:
         if self.count == self.capacity:
             self._open(self.capacity + max(_SPARE, self.capacity // 2))
             self.rules = {g: (q, self.lift(rule)) for g, (q, rule) in self.rules.items()}
+            self.mixed = [(g, self.lift(rule)) for g, rule in self.mixed]
         self.count += 1
         return self.count - 1
 
@@ -46,6 +48,11 @@ class Ring:
         """Let generator^power = value hold; value has only older generators."""
         left = self.generator(generator) ** power
         self.rules[generator] = (power, left - self.lift(value))
+
+    def rule_of_product(self, generator: int, factor: Poly, value: Poly) -> None:
+        """Let generator*factor = value hold, with no newer generator in either."""
+        left = self.generator(generator) * self.lift(factor)
+        self.mixed.append((generator, left - self.lift(value)))
 
     def generator(self, index: int) -> Poly:
         """The polynomial g_index."""
@@ -70,6 +77,11 @@ class Ring:
             power, rule = self.rules[generator]
             if self.degree(poly, generator) >= power:
                 poly = poly % rule
+        for generator, rule in self.mixed:
+            if self.degree(poly, generator):
+                rest = poly % rule
+                if rest != poly:
+                    return self.reduce(rest)
         return poly
 
     def degree(self, poly: Poly, generator: int) -> int:

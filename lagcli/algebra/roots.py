@@ -49,6 +49,25 @@ def _absolute(field: Field, poly: Poly) -> Element:
     return result
 
 
+def sign(field: Field, element: Element) -> Element:
+    """sign(element), factor by factor."""
+    return _sign(field, element.numerator) * _sign(field, element.denominator)
+
+
+def _sign(field: Field, poly: Poly) -> Element:
+    if poly == 0:
+        return field.rational(0)
+    content, factors = poly.factor()
+    result = field.rational(1 if int(content) > 0 else -1)
+    for factor, exponent in factors:
+        expression = field.polynomial_to_sympy(factor)
+        if expression.is_positive is not True:
+            base = -1 if expression.is_negative else 1
+            one = field.rational(base) if base < 0 else field.signum(factor)
+            result = result * one ** int(exponent)
+    return result
+
+
 def rational_power(field: Field, base: Element, exponent: Fraction) -> Element:
     """base^exponent."""
     if exponent.denominator == 1:

@@ -22,6 +22,7 @@ from lagcli.expression import Expression, operation_count
 _LONG = 60  # terms of an element of which ...
 _OF_LONG = 2  # ... no more than these equal forms are shaped
 _EQUAL = 3  # numerators that are shaped
+_MAX_SHAPED = 1500  # terms; beyond, a formula is written as it was found
 
 
 def shape(
@@ -63,10 +64,11 @@ def shaped(
         element = field(expression)
     except ZeroDivisionError:
         return expression, None
+    given = Translator(writer).given(expression)
+    if given is not None and element.size() > _MAX_SHAPED:
+        return expression, given
     tree, shaper = Readable(field, writer, relations).shortest(element)
-    try:
-        given = Translator(writer).tree(expression)
-    except TypeError:
+    if given is None:
         return shaper.to_sympy(tree), tree
     if operation_count(given) < operation_count(tree):
         return expression, given

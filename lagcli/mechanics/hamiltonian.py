@@ -84,15 +84,14 @@ class Hamiltonian:
             return None
         system, h = self.system, self.function
         pairs = []
-        for j, (q, p) in enumerate(zip(system.q, system.momenta, strict=True)):
+        for j, (q, velocity) in enumerate(zip(system.q, self.velocities, strict=True)):
             force = _force(system, self.dynamics.constraints.equations, j)
             if self.legendre.is_quadratic:
                 force = self.in_phase_space(force)
-                pairs.append((simplify(h.diff(p)), simplify(force - h.diff(q))))
+                pairs.append((velocity, simplify(force - h.diff(q))))
                 continue
-            # dH/dp = q'(q, p) and -dH/dq = dL/dq, which spares a derivative of roots and signs
-            growth = self.in_phase_space(system.L.diff(q) + force)
-            pairs.append((self.velocities[j], growth))
+            # -dH/dq = dL/dq, which spares a derivative of roots and signs
+            pairs.append((velocity, self.in_phase_space(system.L.diff(q) + force)))
         return tuple(pairs)
 
 

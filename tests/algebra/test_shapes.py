@@ -64,6 +64,15 @@ TEXTBOOK: list[tuple[Expr, str]] = [
         2 * k * (dx**2 - 2 * g * k * x**2) / (4 * k**2 * x**2 + 1),
         "(2*k*x'^2 + g)/(4*k^2*x^2 + 1) - g",
     ),
+    # signs: each holds at x = 0 too, where sign(x)^2 is 0
+    (sp.sign(x) * sp.Abs(x), "x"),
+    (x * sp.sign(x), "abs(x)"),
+    (sp.sign(x) ** 3 - 2 * sp.sign(-x), "3*sign(x)"),
+    (sp.sign(x) ** 2, "sign(x)^2"),
+    (
+        (x - sp.Abs(x) * sp.sign(x) ** 3 / 4) * sp.cbrt(sp.Abs(x)) * sp.sign(x),
+        "3*abs(x)^(4/3)/4",
+    ),
     # the tangent of a parameter, but of no coordinate: it is infinite where nothing happens
     ((g * cos(alpha) + k * sin(alpha)) * cos(alpha), "(g + k*tan(alpha))*cos(alpha)^2"),
     ((g * cos(theta) + k * sin(theta)) * cos(theta), "(g*cos(theta) + k*sin(theta))*cos(theta)"),

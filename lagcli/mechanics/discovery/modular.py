@@ -69,6 +69,9 @@ class ModularPoints:
             g: (power, self._terms(-(rule - field.ring.generator(g) ** power)))
             for g, (power, rule) in field.ring.rules.items()
         }
+        self._signs: dict[int, _Terms] = {}  # s f - |f|
+        for g, rule in reversed(field.ring.mixed):
+            self._signs[g] = self._terms(rule)
         self.constants = self._drawn({}, wanted=True)
 
     def point(self) -> list[int]:
@@ -121,6 +124,11 @@ class ModularPoints:
                 return False
             values[g] = root
             return True
+        if g in self._signs:
+            point = [values.get(k, 0) for k in range(len(self.field.generators))]
+            size = -_evaluated(self._signs[g], point)  # at s = 0
+            point[g] = 1
+            u = size * pow(_evaluated(self._signs[g], point) + size, -1, PRIME) % PRIME
         values[g] = u
         return True
 
