@@ -68,11 +68,11 @@ def test_rank_on_a_circle() -> None:
     assert rank(matrix, relations) == 1
 
 
-def test_no_time_no_answer() -> None:
+def test_the_work_is_bounded_by_a_count() -> None:
     n = 6
     symbols = sp.symbols(f"a:{n * n}", real=True)
     matrix = [list(symbols[i * n : (i + 1) * n]) for i in range(n)]
-    assert solve_linear(matrix, [ONE] * n, budget=0.05) is None
+    assert solve_linear(matrix, [ONE] * n, budget=1_000) is None
 
 
 @pytest.mark.parametrize("n", [2, 5, 9])

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from time import process_time
+
 import pytest
+import sympy as sp
 
 from .derived import derive, same
 
@@ -93,3 +96,42 @@ def test_a_singular_lagrangian_has_no_hamiltonian_and_says_why():
     d = derive("coordinates: [x, y]\nL: x*y' - y*x'")
     assert d.hamiltonian.function is None
     assert "singular" in d.hamiltonian.reason
+
+
+ARM = """coordinates: [q1, q2, q3]
+parameters: [m1, m2, m3, l1, l2, l3, I1, I2, I3, tau1]
+definitions:
+  x2: l1*cos(q1) + l2/2*cos(q1 + q2)
+  y2: l1*sin(q1) + l2/2*sin(q1 + q2)
+  x3: l1*cos(q1) + l2*cos(q1 + q2) + l3/2*cos(q1 + q2 + q3)
+  y3: l1*sin(q1) + l2*sin(q1 + q2) + l3/2*sin(q1 + q2 + q3)
+T: (m1*l1^2*q1'^2/4 + m2*(x2'^2 + y2'^2) + m3*(x3'^2 + y3'^2) + I1*q1'^2
+  + I2*(q1' + q2')^2 + I3*(q1' + q2' + q3')^2)/2
+forces: {q1: tau1}
+"""
+
+
+def test_canonical_equations_of_a_three_link_arm_come_in_time() -> None:
+    """What has more terms than a shape is worth is written as it was differentiated."""
+    derivation = derive(ARM)
+    system = derivation.system
+    began = process_time()
+    pairs = derivation.hamiltonian.canonical_equations
+    assert process_time() - began < 20
+    assert pairs is not None
+    # p' = dL/dq + Q at a random state, q' from p = dL/dq'
+    state = {
+        s: sp.Rational(k * k + 3, 7 + k) for k, s in enumerate((*system.parameters, *system.q))
+    }
+    rates = {v: sp.Rational(k + 1, 3) for k, v in enumerate(system.qdot)}
+    momenta = {
+        p: system.L.diff(v).xreplace({**state, **rates}).evalf(30)
+        for p, v in zip(system.momenta, system.qdot, strict=True)
+    }
+    for (velocity, growth), q, v, force in zip(
+        pairs, system.q, system.qdot, system.applied_forces, strict=True
+    ):
+        expected = (system.L.diff(q) + force).xreplace({**state, **rates}).evalf(30)
+        found = growth.xreplace({**state, **momenta}).evalf(30)
+        assert abs(found - expected) < 1e-20 * (1 + abs(expected))
+        assert abs(velocity.xreplace({**state, **momenta}).evalf(30) - rates[v]) < 1e-20
