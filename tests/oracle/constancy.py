@@ -22,7 +22,6 @@ from lagcli.pipeline import load, solve
 from lagcli.problem import Problem
 from lagcli.reader import parse_text
 
-from .evaluate import evaluate
 from .jets import real_part
 from .motion import NoMotion, motion
 from .reference import Reference
@@ -37,18 +36,16 @@ def digits_kept(problem: Problem, charges: Sequence[Mapping[str, Any]]) -> dict[
         return {}
     with mp.workdps(DIGITS):
         reference = Reference(problem)
+        values = {c["name"]: reference.of(parse_text(c["charge"])) for c in conserved}
         try:
-            first, *later = motion(reference)
+            moments = motion(reference, list(values.values()))
         except NoMotion:
             return {}
         kept = {}
-        for charge in conserved:
-            node = parse_text(charge["charge"])
-            start, *rest = (
-                real_part(evaluate(node, reference.setting, m)) for m in (first, *later)
-            )
-            change = max(abs(value - start) for value in rest) / (1 + abs(start))
-            kept[charge["name"]] = float(-mp.log10(change + mpf(10) ** -DIGITS))
+        for name, value in values.items():
+            start, *rest = (real_part(value(m)) for m in moments)
+            change = max(abs(x - start) for x in rest) / (1 + abs(start))
+            kept[name] = float(-mp.log10(change + mpf(10) ** -DIGITS))
         return kept
 
 
@@ -64,20 +61,19 @@ def main(arguments: Sequence[str]) -> None:
     """One line for each problem, then the worst figures."""
     paths = [Path(a) for a in arguments]
     files = [f for p in paths for f in (sorted(p.rglob("*.yaml")) if p.is_dir() else [p])]
-    number, least, longest = 0, mp.inf, 0.0
+    number, untested, least, longest = 0, 0, mp.inf, 0.0
     for path in files:
         problem = load(path)
         charges, seconds = discovered(problem)
         kept = digits_kept(problem, charges)
         number += len(kept)
+        untested += sum(bool(c["conserved"]) for c in charges) - len(kept)
         worst = min(kept.values(), default=mp.inf)
         least, longest = min(least, worst), max(longest, seconds)
-        print(
-            f"{seconds:6.1f} s {len(kept):3} charges {float(worst):6.1f} digits  {path}", flush=True
-        )
-    print(
-        f"{len(files)} problems, {number} charges, least {float(least):.1f} digits, longest {longest:.1f} s"
-    )
+        line = f"{seconds:6.1f} s {len(kept):3} charges {float(worst):6.1f} digits  {path}"
+        print(line, flush=True)
+    print(f"{len(files)} problems, {number} charges, {untested} without a motion")
+    print(f"least {float(least):.1f} digits, longest {longest:.1f} s")
 
 
 if __name__ == "__main__":

@@ -15,10 +15,11 @@ from mpmath import mpf
 
 from .evaluate import Moment
 from .jets import OutsideDomain
-from .reference import Reference
+from .reference import Reference, Scalar
 from .states import random_moments, with_motion
 
 STAGES = 10
+STARTS = 24
 SPAN = mpf(1) / 4
 FIRST_STEP = SPAN / 8
 #: The difference of the last two extrapolations, of which the better one is kept.
@@ -33,18 +34,27 @@ class NoMotion(Exception):
     """The equations do not determine the accelerations, or every motion ends too soon."""
 
 
-def motion(reference: Reference) -> list[Moment]:
+def motion(reference: Reference, needed: Sequence[Scalar] = ()) -> list[Moment]:
     """Moments along a motion on the constraints, of length SPAN.
+
+    Parameters
+    ----------
+    reference
+        The problem.
+    needed
+        Functions that are real at the start: parameters of either sign may make them not.
 
     Raises
     ------
     NoMotion
-        Where the accelerations are not determined.
+        Where the accelerations are not determined, or no such start was found.
     """
-    for start in random_moments(reference, 6, seed=5):
+    for start in random_moments(reference, STARTS, seed=5):
         if not with_motion(reference, start).regular:
             raise NoMotion
         try:
+            for function in needed:
+                function(start)
             return _from(reference, start)
         except (OutsideDomain, ZeroDivisionError, NoMotion):
             continue

@@ -14,14 +14,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import mpmath
 import sympy
 from sympy import Expr
 
+from lagcli.algebra.numeric import Evaluator
+from lagcli.mechanics.discovery.brackets import rank
 from lagcli.mechanics.discovery.limits import Clock
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.surface import relations_on_surface
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.noether import Transformation
+
+_DIGITS = 40
 
 
 def tangent(
@@ -52,3 +57,21 @@ def tangent(
         found.append(Transformation(tuple(changes), time))
     found.reverse()
     return found
+
+
+def rank_on_surface(dynamics: Dynamics, charges: Sequence[Expr]) -> int:
+    """How many of the functions are independent on the surface, at a time: rank of gradients."""
+    system, constraints = dynamics.system, dynamics.constraints
+    relations = [*(e.f for e in constraints.equations if e.holonomic), *constraints.velocity_forms]
+    variables = (*system.q, *system.qdot)
+    evaluate = Evaluator([e.diff(x) for e in (*relations, *charges) for x in variables], _DIGITS)
+    with mpmath.workdps(_DIGITS):
+        for state in dynamics.states.take(3):
+            try:
+                values = evaluate(state)
+            except (ArithmeticError, ValueError):
+                continue
+            width = len(variables)
+            rows = [values[k : k + width] for k in range(0, len(values), width)]
+            return rank(rows) - rank(rows[: len(relations)])
+    return min(1, len(charges))

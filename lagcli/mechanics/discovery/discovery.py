@@ -31,7 +31,7 @@ from lagcli.mechanics.discovery.ansatz import (
 )
 from lagcli.mechanics.discovery.brackets import rank
 from lagcli.mechanics.discovery.centralizer import centralized
-from lagcli.mechanics.discovery.constrained import tangent
+from lagcli.mechanics.discovery.constrained import rank_on_surface, tangent
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
 from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Clock, OutOfTime
@@ -313,8 +313,12 @@ class Discovery:
         self.words.append(
             "on the constraints, first integrals of first degree in the velocities "
             "along admissible displacements"
+            + (" with the exponents of the linear part" if times.exponents else "")
         )
-        if self.dynamics.degrees_of_freedom > 1 and self.system.t not in self.equations_symbols:
+        freedom = self.dynamics.degrees_of_freedom
+        if freedom > 1 and rank_on_surface(self.dynamics, self._values()) == 2 * freedom:
+            self.words.append("all others are functions of these")
+        elif freedom > 1 and self.system.t not in self.equations_symbols:
             found = search.quadratic(self.point_charges)
             names = distinct([*(c.name for c in self.point_charges), *("" for _ in found)])
             self.hidden_charges = tuple(

@@ -9,7 +9,8 @@ import sympy
 from sympy import Expr
 
 from lagcli.answers import AlgebraSection
-from lagcli.mechanics.discovery.brackets import Brackets, NoState, rank
+from lagcli.mechanics.discovery.brackets import Brackets, NoState
+from lagcli.mechanics.discovery.constrained import rank_on_surface
 from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.lie_algebra import name_of
 from lagcli.mechanics.discovery.limits import OutOfTime
@@ -134,28 +135,6 @@ def _nonholonomic(discovery: Discovery) -> Summary:
     """Counts on the constraint surface: the motion is no Hamiltonian flow there."""
     dynamics = discovery.dynamics
     charges = [c.charge for c in discovery.charges]
-    relations = [e.f for e in dynamics.constraints.equations if e.holonomic]
-    relations += list(dynamics.constraints.velocity_forms)
-    independent = _rank_on_surface(discovery, charges, relations)
+    independent = rank_on_surface(dynamics, charges)
     note = "velocity constraints leave no Poisson brackets to compare charges by"
     return Summary(len(discovery.point_charges), None, independent, None, None, (note,))
-
-
-def _rank_on_surface(discovery: Discovery, charges: list[Expr], relations: list[Expr]) -> int:
-    import mpmath
-
-    from lagcli.algebra.numeric import Evaluator
-
-    system = discovery.system
-    variables = (*system.q, *system.qdot)
-    evaluate = Evaluator([e.diff(x) for e in (*relations, *charges) for x in variables], 40)
-    with mpmath.workdps(40):
-        for state in discovery.dynamics.states.take(3):
-            try:
-                values = evaluate(state)
-            except (ArithmeticError, ValueError):
-                continue
-            width = len(variables)
-            rows = [values[k : k + width] for k in range(0, len(values), width)]
-            return rank(rows) - rank(rows[: len(relations)])
-    return min(1, len(charges))

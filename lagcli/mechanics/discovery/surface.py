@@ -290,6 +290,8 @@ def independent_on_surface(
     charges: Sequence[Expr], dynamics: Dynamics, clock: Clock, same: Sequence[Expr] = ()
 ) -> list[int]:
     """Which functions are no combinations of earlier ones and of 1, over the constants."""
+    if not charges:
+        return []
     relations = dynamics.constraints.relations
     assert relations is not None
     values = [[relations.substitute(Q)] for Q in charges]
@@ -306,6 +308,8 @@ def relations_on_surface(
     In each the last vectors are used as seldom as may be; what has no simple coefficients
     is left out.
     """
+    if not any(vectors):
+        return []
     relations = dynamics.constraints.relations
     assert relations is not None
     order = list(reversed(range(len(vectors))))
