@@ -44,7 +44,7 @@ def test_a_nearly_radial_ellipse_in_doubles(simulate, nearness):
     assert row["x"] == pytest.approx(float(x), abs=1e-9)
 
 
-@pytest.mark.parametrize("periods", [20, pytest.param(1000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("periods", [20, pytest.param(1000, marks=pytest.mark.long)])
 def test_kepler_keeps_its_charges(simulate, periods):
     text = (KEPLER % "0.9") + "symmetries: {rotation: {x: -y, y: x}}\n"
     run = simulate(text, f"{2 * periods}*pi", "--precision", 30, accuracy=1e-9)
@@ -130,7 +130,7 @@ def test_the_pythagorean_problem_in_doubles_says_until_when(simulate):
     assert run.held["holds_until"] < 65
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_pythagorean_problem_to_its_end(simulate):
     run = simulate(THREE % (3, 4, 5, PYTHAGOREAN), 65, "--precision", 40)
     assert run.status == 0

@@ -89,7 +89,7 @@ initial: {x: sqrt(3)/2, y: -1/2}
 
 
 @pytest.mark.parametrize(
-    "periods", [100, pytest.param(10**4, marks=pytest.mark.slow)]
+    "periods", [100, pytest.param(10**4, marks=pytest.mark.long)]
 )  # fmt: skip
 def test_the_constraint_is_held_over_many_periods(simulate, periods):
     """After n periods it is back at rest; the rod has kept its length."""
