@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import Literal
 
 from lagcli.expression import Expression
-from lagcli.motions import HamiltonJacobiSection, OneFreedom, SteadySection
+from lagcli.motions import Above, HamiltonJacobiSection, OneFreedom, SteadySection
 from lagcli.phase_space import BracketsSection, TransformationsSection
 from lagcli.record import field, record
 from lagcli.units import Unit
@@ -182,7 +182,8 @@ class Charge:
     """A symmetry with its charge; `rate` is dQ/dt on the motion, None if undecided.
 
     `transformation` holds Delta q by coordinate and Delta t under "t", zeros left out.
-    `broken_by` says in words which terms make the rate, empty when conserved.
+    `broken_by` says in words which terms make the rate, empty when conserved.  The charge is
+    real where each of `where` holds (square roots of parameters).
     """
 
     name: str
@@ -194,6 +195,7 @@ class Charge:
     rate: Expression | None
     verified: Verification | None = None
     broken_by: str = ""
+    where: tuple[Above, ...] = ()
 
 
 @record(kw_only=True)

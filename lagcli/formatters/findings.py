@@ -26,6 +26,7 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power, operation_count
+from lagcli.formatters.conditions import conditions
 
 _SOURCES = {
     "candidate": "candidate",
@@ -63,6 +64,9 @@ def charge_blocks(section: ChargesSection) -> Iterator[Block]:
         if rows:
             yield Equations(tuple(rows))
         yield Paragraph((_verdict(charge),))
+        if charge.where:
+            rest = "; elsewhere its real and its imaginary part are conserved."
+            yield Paragraph(("Real where ", *conditions(charge.where), rest))
 
 
 def _verdict(charge: Charge) -> str:

@@ -218,7 +218,8 @@ def _constraint_forces(section: ConstraintForcesSection) -> Object:
 
 
 def _charge(charge: Charge) -> Object:
-    return {
+    where: Object = {"where": [_above(each) for each in charge.where]} if charge.where else {}
+    return where | {
         "name": charge.name,
         "source": charge.source,
         "transformation": _by_name(charge.transformation),

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from lagcli.answers import ReductionSection
 from lagcli.document import (
     Block,
     Equations,
-    Formula,
     Heading,
     Integral,
     Label,
@@ -16,8 +15,9 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Name
+from lagcli.formatters.conditions import conditions
 from lagcli.formatters.findings import state_blocks
-from lagcli.motions import Above, OneFreedom, PeriodSeries
+from lagcli.motions import OneFreedom, PeriodSeries
 
 POTENTIAL = Label("U", ("eff",))
 
@@ -116,11 +116,3 @@ def _period(period: PeriodSeries, coordinate: str) -> Iterator[Block]:
     )
     if period.where:
         yield Paragraph(("where ", *conditions(period.where), "."))
-
-
-def conditions(where: Sequence[Above]) -> list[str | Formula]:
-    """Inequalities within a sentence."""
-    parts: list[str | Formula] = []
-    for position, each in enumerate(where):
-        parts += [" and " if position else "", each.left, " > ", each.right]
-    return parts

@@ -16,7 +16,8 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power
-from lagcli.formatters.reductions import POTENTIAL, conditions
+from lagcli.formatters.conditions import conditions
+from lagcli.formatters.reductions import POTENTIAL
 from lagcli.motions import SteadyMotion, SteadySection
 
 _SQUARED = Power(Name("omega"), Number(Fraction(2)))

@@ -40,10 +40,7 @@ from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
 from lagcli.motions import HamiltonJacobiSection, SteadySection
-from lagcli.phase_space import (
-    BracketsSection,
-    TransformationsSection,
-)
+from lagcli.phase_space import BracketsSection, TransformationsSection
 from lagcli.problem import Problem
 from lagcli.record import replace
 
@@ -329,10 +326,16 @@ class Statements(Stating):
         )
 
     def _discovered(self) -> ChargesSection:
+        from lagcli.mechanics.discovery.reality import real_where
+
         discovery = self.derivation.discovery
         self.warnings.extend(discovery.stopped)
         listed = (*discovery.charges, *discovery.momentum_equations)
-        return ChargesSection(charges=tuple(map(self._charge, listed)))
+        return ChargesSection(
+            charges=tuple(
+                replace(self._charge(c), where=real_where(c, self.system)) for c in listed
+            )
+        )
 
     def _algebra(self) -> AlgebraSection:
         from lagcli.mechanics.discovery.summary import algebra_section
@@ -378,23 +381,14 @@ class Statements(Stating):
     def _reduction(self) -> ReductionSection:
         from lagcli.mechanics.reduction.statement import reduction
 
-        section, missing = reduction(self.derivation)
-        for what, why in missing:
-            self._missing(what, why)
-        return section
+        return self._noted(reduction(self.derivation))
 
     def _hamilton_jacobi(self) -> HamiltonJacobiSection:
         from lagcli.mechanics.reduction.separation_statement import hamilton_jacobi
 
-        section, missing = hamilton_jacobi(self.derivation)
-        for what, why in missing:
-            self._missing(what, why)
-        return section
+        return self._noted(hamilton_jacobi(self.derivation))
 
     def _steady_motions(self) -> SteadySection:
         from lagcli.mechanics.reduction.steady_statement import steady_motions
 
-        section, missing = steady_motions(self.derivation)
-        for what, why in missing:
-            self._missing(what, why)
-        return section
+        return self._noted(steady_motions(self.derivation))

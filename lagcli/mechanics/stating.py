@@ -77,6 +77,13 @@ class Stating:
 
         return dimensions_section(self.problem)
 
+    def _noted(self, found: tuple[Stated, Sequence[tuple[str, str]]]) -> Stated:
+        """The section of (section, what is missing and why)."""
+        section, missing = found
+        for what, why in missing:
+            self._missing(what, why)
+        return section
+
     def _usual(self) -> list[str]:
         """The default sections, without those that have nothing to say here."""
         idle = set() if self.problem.constraints else {"multipliers", "constraint_forces"}

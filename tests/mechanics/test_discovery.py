@@ -14,9 +14,10 @@ from pathlib import Path
 
 import pytest
 
+from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.discovery.summary import summary
-from lagcli.pipeline import load
+from lagcli.pipeline import load, solve
 
 LIBRARY = Path(__file__).parents[2] / "problems"
 
@@ -91,6 +92,17 @@ def test_special_parameters_are_told_with_the_charges_they_add(name):
 
 def derived(name):
     return Derivation(load(LIBRARY / f"{name}.yaml"))
+
+
+def test_charges_say_where_they_are_real():
+    """exp(nu t) on a rotating saddle: nu^2 = k/m - w^2 (Kirillov, section 1.2), of either sign."""
+    problem = load(LIBRARY / "steady/rotating-saddle.yaml")
+    charges = solve(problem, ["discovered"]).sections["discovered"].charges
+    timed = [c for c in charges if "exp(" in to_grammar(c.charge)]
+    assert len(timed) == 2
+    for charge in charges:
+        where = [(to_grammar(w.left), to_grammar(w.right)) for w in charge.where]
+        assert where == ([("k", "m*w^2")] if charge in timed else [])
 
 
 @pytest.mark.parametrize("name", KNOWN)

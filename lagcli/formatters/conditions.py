@@ -1,0 +1,16 @@
+"""Inequalities in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lagcli.document import Formula
+from lagcli.motions import Above
+
+
+def conditions(where: Sequence[Above]) -> list[str | Formula]:
+    """Inequalities within a sentence."""
+    parts: list[str | Formula] = []
+    for position, each in enumerate(where):
+        parts += [" and " if position else "", each.left, " > ", each.right]
+    return parts
