@@ -54,7 +54,7 @@ def discovered(problem: Problem) -> tuple[list[dict[str, Any]], float]:
     begun = time.process_time()
     answers = solve(problem, ["discovered", "algebra"])
     seconds = time.process_time() - begun
-    return json.loads(json.dumps(to_object(answers)))["discovered"], seconds
+    return json.loads(json.dumps(to_object(answers))).get("discovered") or [], seconds
 
 
 def main(arguments: Sequence[str]) -> None:

@@ -135,12 +135,18 @@ def named_multipliers(reference: Reference, moment: Moment, values: Sequence[mpf
 
 def examine(problem: Problem, sheet: Sheet, count: int = 3, seed: int = 1) -> list[Finding]:
     """Check every claim of a sheet (the JSON of `lagcli solve`) at random states."""
-    from . import dynamics_checks, find_checks, legendre_checks, noether_checks
+    from . import dynamics_checks, find_checks, legendre_checks, noether_checks, phase_checks
 
     with mp.workdps(DIGITS):
         reference = Reference(problem)
+        if problem.hamiltonian is not None and phase_checks.is_singular(reference):
+            examination = Examination(problem, sheet, reference, [])
+            phase_checks.check_without_lagrangian(examination)
+            return examination.findings
         states = random_states(reference, count, seed)
         examination = Examination(problem, sheet, reference, states)
         for module in (dynamics_checks, legendre_checks, noether_checks, find_checks):
             module.check(examination)
+        if problem.hamiltonian is not None and "hamiltonian" in sheet:
+            phase_checks.check(examination)
         return examination.findings

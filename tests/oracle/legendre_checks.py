@@ -38,7 +38,7 @@ def _energy(x: Examination) -> None:
         conserved = vanishes([real_part(rate(x.reference.energy, s.moment)) for s in x.states])
         _verdict(x, "energy.conserved", claim["conserved"], conserved)
     total: bool | None = None
-    if x.problem.lagrangian is None:
+    if x.problem.lagrangian is None and x.problem.hamiltonian is None:
         total = all(
             agree(
                 real_part(x.reference.energy(s.moment)),

@@ -19,6 +19,7 @@ from lagcli.problem import Constraint, Problem
 from .evaluate import Moment, Setting, evaluate
 from .functions import StandIn
 from .jets import Number, coefficient, family, infinitesimal
+from .legendre_inverse import Inverse
 
 Scalar = Callable[[Moment], Number]
 Vector = Callable[[Moment], list[Number]]
@@ -70,6 +71,7 @@ class Reference:
             problem.definitions,
             {name: StandIn(name, len(args)) for name, args in problem.functions.items()},
         )
+        self._inverse = Inverse(self.hamiltonian, self.names)
 
     def of(self, node: Expression) -> Scalar:
         """An expression as a function of the moment."""
@@ -95,10 +97,17 @@ class Reference:
         return mpf(0) if potential is None else evaluate(potential, self.setting, moment)
 
     def lagrangian(self, moment: Moment) -> Number:
-        """L as given, or T - V."""
+        """L as given, or T - V, or the transform of H."""
         if self.problem.lagrangian is not None:
             return evaluate(self.problem.lagrangian, self.setting, moment)
+        if self.problem.hamiltonian is not None:
+            return self._inverse.lagrangian(moment)
         return self.kinetic(moment) - self.potential(moment)
+
+    def hamiltonian(self, moment: Moment) -> Number:
+        """H as given, at a moment that names the momenta `p_x`."""
+        assert self.problem.hamiltonian is not None
+        return evaluate(self.problem.hamiltonian, self.setting, moment)
 
     def momenta(self, moment: Moment) -> list[Number]:
         """p_j = dL/dq_j'."""

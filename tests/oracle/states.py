@@ -67,7 +67,7 @@ def random_moments(
         # Real quantities take either sign, but a problem may need them positive after all.
         negative = 0.4 if len(found) % 2 and attempt < ATTEMPTS // 2 else 0.0
         try:
-            moment = _anywhere(reference.problem, random, negative)
+            moment = anywhere(reference.problem, random, negative)
             if constrained:
                 moment = on_constraints(reference, moment)
             reference.inertia(_with_accelerations(moment, random))  # real there?
@@ -77,7 +77,8 @@ def random_moments(
     raise AssertionError(f"{len(found)} of {count} states found on the constraints")
 
 
-def _anywhere(problem: Problem, random: Random, negative: float) -> Moment:
+def anywhere(problem: Problem, random: Random, negative: float) -> Moment:
+    """A moment with random parameters; a share of the unrestricted ones is negative."""
     constants = {p.name: _value(p, random, negative) for p in problem.parameters}
     q = tuple(_value(c, random, 0.5 if negative else 0.1) for c in problem.coordinates)
     v = tuple(_decimal(random, -1.2, 1.2) for _ in q)
