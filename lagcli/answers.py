@@ -311,12 +311,18 @@ class ReductionSection:
 
 @record(kw_only=True)
 class ModelSection:
-    """What a run keeps and drops, and why (by coordinate or parameter)."""
+    """What a run that shows every coordinate keeps and drops, and why.
 
-    kept: tuple[str, ...]
-    eliminated: Mapping[str, Expression]
-    ignorable: tuple[str, ...]
-    reason: Mapping[str, str]
+    `ignorable` ones are kept, though their momenta are conserved; `dropped` are the
+    parameters without influence.  A reason is that of a coordinate, constraint or parameter.
+    `kept` is None where there is no such model.
+    """
+
+    kept: tuple[str, ...] | None
+    eliminated: Mapping[str, Expression] = field(default_factory=dict)
+    ignorable: tuple[str, ...] = ()
+    dropped: tuple[str, ...] = ()
+    reason: Mapping[str, str] = field(default_factory=dict)
 
 
 UnitSource = Literal["given", "inferred", "undetermined"]

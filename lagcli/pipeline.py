@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 from unicodedata import normalize
@@ -18,7 +19,7 @@ from lagcli.record import record
 if TYPE_CHECKING:
     from os import PathLike
 
-    from lagcli.answers import Answers
+    from lagcli.answers import Answers, ModelSection
     from lagcli.explanation import Explanation
     from lagcli.formatters import Options
     from lagcli.mechanics.derivation import Derivation
@@ -164,14 +165,31 @@ def _statements(derivation: Derivation) -> Stating:
         from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
 
         return PhaseSpaceStatements(derivation)
+    stating: Stating
     large = derivation.large_form
     if large is not None:
         from lagcli.mechanics.large_statements import LargeStatements
 
-        return LargeStatements(large)
-    from lagcli.mechanics.statements import Statements
+        stating = LargeStatements(large)
+    else:
+        from lagcli.mechanics.statements import Statements
 
-    return Statements(derivation)
+        stating = Statements(derivation)
+    stating.others["model"] = partial(_model, stating)
+    return stating
+
+
+def _model(stating: Stating) -> ModelSection:
+    """What a numerical run keeps of the model."""
+    from lagcli.answers import ModelSection
+    from lagcli.numerics.model import model_section
+    from lagcli.numerics.refusal import Refusal
+
+    try:
+        return model_section(stating.problem)
+    except Refusal as refusal:
+        stating.lacks("the model of a numerical run", str(refusal))
+        return ModelSection(kept=None)
 
 
 def render(answers: Sequence[Answers], format_name: str, options: Options) -> str:

@@ -168,12 +168,17 @@ def _value(section: Section) -> Value:
         case SteadySection():
             return _unless_none(section.motions, lambda each: [_steady(m) for m in each])
         case ModelSection():
-            return {
-                "kept": section.kept,
-                "eliminated": _by_name(section.eliminated),
-                "ignorable": section.ignorable,
-                "reason": dict(section.reason),
-            }
+            return (
+                None
+                if section.kept is None
+                else {
+                    "kept": section.kept,
+                    "eliminated": _by_name(section.eliminated),
+                    "ignorable": section.ignorable,
+                    "dropped": section.dropped,
+                    "reason": dict(section.reason),
+                }
+            )
         case DimensionsSection():
             return _dimensions(section)
         case _:

@@ -324,15 +324,19 @@ def _algebra(section: AlgebraSection) -> Iterator[Block]:
 
 
 def _model(section: ModelSection) -> Iterator[Block]:
-    if section.kept:
-        yield Paragraph(("Kept: ", *_listed(section.kept), "."))
+    if section.kept is None:
+        yield _not_found()
+        return
+    yield Paragraph(("Integrated: ", *_listed(section.kept), "."))
     if section.eliminated:
         yield Paragraph(("Eliminated:",))
         yield _by_name(section.eliminated)
     if section.ignorable:
-        yield Paragraph(("Without influence: ", *_listed(section.ignorable), "."))
+        yield Paragraph(("Ignorable: ", *_listed(section.ignorable), "."))
+    if section.dropped:
+        yield Paragraph(("Without influence: ", *_listed(section.dropped), "."))
     for name, reason in section.reason.items():
-        yield Paragraph((Name(name), f": {reason}"))
+        yield Paragraph((Name(name), f": {reason}."))
 
 
 def _checked(level: Verification | None, symbols: Iterable[str] = ()) -> Iterator[Paragraph]:

@@ -36,6 +36,8 @@ class Stating:
         self.problem = problem
         self.warnings: list[str] = []
         self.complete = True
+        #: makers of sections that are none of mechanics
+        self.others: dict[str, Callable[[], Section]] = {}
         self._why_missing = why_missing
 
     @property
@@ -51,7 +53,7 @@ class Stating:
     def answers(self, sections: Sequence[str] | None) -> Answers:
         """The asked sections (the usual ones for None), in their fixed order."""
         problem = self.problem
-        makers = {**self.makers, "dimensions": self._dimensions}
+        makers = {**self.makers, "dimensions": self._dimensions, **self.others}
         asked = self._usual() if sections is None else sections
         made: dict[str, Section] = {}
         for name in SECTIONS:
@@ -105,6 +107,10 @@ class Stating:
         for what, why in phase.missing:
             self._missing(what, why)
         return section
+
+    def lacks(self, what: str, why: str) -> None:
+        """Note that an answer was asked for and not found."""
+        self._missing(what, why)
 
     def _missing(self, what: str, why: str = "") -> None:
         self.complete = False

@@ -34,7 +34,7 @@ from lagcli.record import record
 
 #: More coordinates than these are held by their constraints as they are: eliminated, they
 #: would couple all with all.
-_MOST = 24
+MOST = 24
 
 
 @record
@@ -57,10 +57,16 @@ class Reduction:
         The values of the parameters.
     wanted
         Places of coordinates that are better kept: the file gives their initial state.
+    most
+        How many at most; all, without it.
     """
 
     def __init__(
-        self, equations: Equations, constants: Mapping[Symbol, Any], wanted: frozenset[int]
+        self,
+        equations: Equations,
+        constants: Mapping[Symbol, Any],
+        wanted: frozenset[int],
+        most: int | None = None,
     ) -> None:
         self.equations, self.constants = equations, constants
         self.graph = equations.graph
@@ -68,7 +74,7 @@ class Reduction:
         for symbol in equations.state:
             self._varying |= symbol.mask
         self.solved: list[Solved] = []
-        for k in equations.holonomic:
+        for k in equations.holonomic[:most]:
             self._solve(k, wanted)
         gone = {each.coordinate for each in self.solved}
         self.kept = [j for j in range(len(equations.q)) if j not in gone]
@@ -103,13 +109,13 @@ class Reduction:
 
     def _value(self, factor: Node) -> float:
         """A factor of parameters in numbers; 0 where it has none."""
-        from lagcli.numerics.arithmetic import Doubles
+        from lagcli.numerics.arithmetic import Doubles, UndefinedFunction
         from lagcli.numerics.straight_line import straight_line
 
         try:
             known = {s: float(x) for s, x in self.constants.items()}
             return float(straight_line((), [factor], known, Doubles())()[0])
-        except (ArithmeticError, ValueError, KeyError):
+        except (ArithmeticError, ValueError, KeyError, UndefinedFunction):
             return 0.0
 
     # -- formulas ----------------------------------------------------------------------------
@@ -293,21 +299,21 @@ def cut(
     given
         The coordinates whose initial state the file gives.
     """
-    if len(equations.q) > _MOST:
+    if len(equations.q) > MOST:
         return None
     reduction = Reduction(equations, constants, given)
     mass, forcing = reduction.matrices()
     rows = reduction.rows()
-    needed = _needed(reduction, mass, forcing, rows, [reduction.put(node) for node in asked])
-    if not reduction.solved and all(needed):
+    wanted = needed(reduction, mass, forcing, rows, [reduction.put(node) for node in asked])
+    if not reduction.solved and all(wanted):
         return None
-    reduced = CutEquations(reduction, mass, forcing, rows, needed)
+    reduced = CutEquations(reduction, mass, forcing, rows, wanted)
     if not reduced.q or _operations(reduced) > _operations(equations):
         return None
     return reduced, reduction
 
 
-def _needed(
+def needed(
     reduction: Reduction,
     mass: Sequence[Sequence[Node]],
     forcing: Sequence[Node],

@@ -360,8 +360,9 @@ HOOP = Answers(
         "model": ModelSection(
             kept=("x",),
             eliminated={"theta": Quotient(x, R)},
-            ignorable=("l",),
-            reason={"theta": "the constraint 'rolling' gives it"},
+            ignorable=("x",),
+            dropped=("l",),
+            reason={"theta": "the constraint rolling gives it", "l": "nothing depends on it"},
         ),
     },
 )

@@ -1,0 +1,102 @@
+"""What `solve --show model` says is what a run does, and what is without influence has none."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from lagcli import load
+from lagcli.mechanics.derivation import Derivation
+from lagcli.numerics.model import model_section
+from lagcli.pipeline import Request, solve, state
+
+
+def lagcli(*arguments, status=0):
+    run = subprocess.run(
+        [sys.executable, "-m", "lagcli", *arguments], capture_output=True, text=True, check=False
+    )
+    assert run.returncode == status, run.stderr
+    return run.stdout
+
+
+def model_of(path):
+    return json.loads(lagcli("solve", str(path), "--show", "model", "-f", "json"))["model"]
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["hoop", "pendulums/pendulum-with-rod", "pulleys/atwood-with-heavy-pulley", "central/kepler"],
+)
+def test_it_is_the_model_of_a_run(name):
+    path = f"problems/{name}.yaml"
+    run = json.loads(lagcli("simulate", path, "--until", "0.1", "-f", "json"))["model"]
+    said = model_of(path)
+    if not run:
+        assert said["eliminated"] == {}
+        return
+    assert said["kept"] == run["kept"]
+    assert said["eliminated"] == run["eliminated"]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "central/kepler",
+        "classics/spherical-pendulum",
+        "pendulums/pendulum-on-sliding-support",
+        "rigid/heavy-symmetric-top",
+        "oscillations/masses-joined-by-damper",
+        "discovery/uniform-magnetic-field-space",
+        "steady/elastic-conical-pendulum",
+    ],
+)
+def test_ignorable_are_the_cyclic_coordinates_with_a_conserved_momentum(name):
+    """Against the algebra's charges, which know nothing of the numbers."""
+    problem = load(f"problems/{name}.yaml")
+    sections = solve(problem, ["momenta", "charges"]).sections
+    broken = {c.name for c in sections["charges"].charges if not c.conserved}
+    cyclic = {x for x in sections["momenta"].cyclic if f"p_{x}" not in broken}
+    assert set(model_section(problem).ignorable) == cyclic
+
+
+@pytest.mark.parametrize("name", ["hoop", "pulleys/atwood"])
+def test_what_is_dropped_has_no_influence(name):
+    path = f"problems/{name}.yaml"
+    [dropped] = model_of(path)["dropped"]
+    rows = [
+        json.loads(
+            lagcli("simulate", path, "--until", "1", "-f", "json", "--set", f"{dropped}={value}")
+        )["rows"]
+        for value in ("3", "77")
+    ]
+    assert rows[0] == rows[1]
+
+
+def test_a_coefficient_of_restitution_has_influence():
+    assert "e" not in model_section(load("problems/impact/two-carts-collide.yaml")).reason
+
+
+def test_constraints_that_stay_say_why():
+    reason = model_section(load("problems/chains/slider-crank.yaml")).reason
+    assert "constant factor" in reason["height"]
+    assert "stroke" in reason["x"]
+    reason = model_section(load("problems/contact/mass-sliding-off-sphere.yaml")).reason
+    assert "contact" in reason["surface"]
+    reason = model_section(load("problems/nonholonomic/rolling-vertical-disk.yaml")).reason
+    assert "velocities" in reason["roll_x"]
+
+
+def test_coordinates_that_move_alone_are_named():
+    reason = model_section(load("problems/rigid/rolling-race.yaml")).reason
+    assert all("no other coordinate" in reason[f"theta{k}"] for k in (1, 2, 3))
+
+
+def test_what_cannot_be_run_has_no_model():
+    """A ray of light has no Lagrangian."""
+    answers = state(
+        Derivation(load("problems/hamiltonian/ray-of-light.yaml")), Request(sections=("model",))
+    )
+    assert "model" not in answers.sections
+    assert not answers.complete
+    assert any("model" in warning for warning in answers.warnings)
