@@ -11,8 +11,10 @@ from collections.abc import Mapping
 from typing import Literal
 
 from lagcli.expression import Expression
+from lagcli.forces import ForcesSection
 from lagcli.motions import Above, HamiltonJacobiSection, OneFreedom, SteadySection
 from lagcli.phase_space import BracketsSection, TransformationsSection
+from lagcli.questions import FindSection
 from lagcli.record import field, record
 from lagcli.units import Unit
 
@@ -24,6 +26,7 @@ SECTIONS = (
     "accelerations",
     "multipliers",
     "constraint_forces",
+    "forces",
     "momenta",
     "energy",
     "hamiltonian",
@@ -229,31 +232,6 @@ class AlgebraSection:
 
 
 @record(kw_only=True)
-class Solutions:
-    """The answer to `where ... for ...`: the roots the motion can reach; None: not found."""
-
-    unknown: str
-    solutions: tuple[Expression, ...] | None
-    note: str = ""
-
-
-@record(kw_only=True)
-class Rewritten:
-    """The answer to `value ... in_terms_of ...`; None: not found."""
-
-    value: Expression | None
-    subject: Expression | None = None
-    note: str = ""
-
-
-@record(kw_only=True)
-class FindSection:
-    """The answers to the file's questions, by name."""
-
-    answers: Mapping[str, Solutions | Rewritten]
-
-
-@record(kw_only=True)
 class Equilibrium:
     """A state of rest; `stable` None where undecided."""
 
@@ -363,6 +341,7 @@ Section = (
     | AccelerationsSection
     | MultipliersSection
     | ConstraintForcesSection
+    | ForcesSection
     | MomentaSection
     | EnergySection
     | HamiltonianSection

@@ -12,6 +12,7 @@ from lagcli.record import field, record
 Assumption = Literal["real", "positive", "nonnegative", "nonzero", "negative"]
 Comparison = Literal[">=", "<=", ">", "<"]
 OnLoss = Literal["stop", "release"]
+ForceKind = Literal["normal", "friction", "tension"]
 
 
 @record(kw_only=True)
@@ -71,6 +72,7 @@ class Constraint:
     holds_while: Inequality | None = None
     on_loss: OnLoss = "stop"  # what a numerical run does where holds_while fails
     restitution: Expression | None = None  # of the impact that closes it again; None: stop
+    acts_as: ForceKind | None = None  # what its force is called
     span: Span = field(default=NOWHERE, compare=False)
 
 
@@ -276,6 +278,11 @@ class Expect:
     accelerations: Mapping[str, Expression] = field(default_factory=dict)
     multipliers: Mapping[str, Expression] = field(default_factory=dict)  # by constraint name
     constraint_forces: Mapping[str, Mapping[str, Expression]] = field(default_factory=dict)
+    #: constraint -> point -> the signed force, or its Cartesian components
+    forces: Mapping[str, Mapping[str, Expression | tuple[Expression, ...]]] = field(
+        default_factory=dict
+    )
+    friction_needed: Mapping[str, Expression] = field(default_factory=dict)  # by normal force
     momenta: Mapping[str, Expression] = field(default_factory=dict)
     hamiltonian: Expression | None = None
     energy: Expression | None = None

@@ -12,24 +12,24 @@ from lagcli.answers import (
     ChargesSection,
     ConstraintForcesSection,
     EnergySection,
-    FindSection,
     HamiltonianSection,
     Mode,
     ModesSection,
     MomentaSection,
     MultipliersSection,
-    Solutions,
 )
 from lagcli.check.comparison import Comparison
 from lagcli.check.findings import Finding, Outcome
 from lagcli.check.following import follows
 from lagcli.check.phase_space import PhaseSpace
+from lagcli.check.real_forces import expected_forces
 from lagcli.check.reductions import Reductions
 from lagcli.diagnostics import NOWHERE, Span
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.problem import NOT_CONSERVED, Expect
+from lagcli.questions import FindSection, Solutions
 
 #: What a comparison yields: nothing when it holds.
 Found = Iterator[Finding | None]
@@ -54,6 +54,8 @@ class Expectations:
         yield from self._accelerations()
         yield from self._multipliers()
         yield from self._constraint_forces()
+        for path, found, expected in expected_forces(self.expect, self.answers):
+            yield self._compare(path, found, expected)
         yield from self._momenta()
         yield from self._hamiltonian()
         yield from self._energy()
@@ -64,8 +66,8 @@ class Expectations:
         phase_space = PhaseSpace(self.derivation, self.answers)
         yield from phase_space.of_brackets()
         yield from phase_space.of_transformations()
-        for path, verdict, expected, found in Reductions(self.derivation, self.answers).findings():
-            yield self._judge(path, verdict, expected, found)
+        for path, verdict, wanted, shown in Reductions(self.derivation, self.answers).findings():
+            yield self._judge(path, verdict, wanted, shown)
 
     # -- one comparison --------------------------------------------------------------------
 
@@ -281,6 +283,7 @@ _SECTIONS: Mapping[str, Callable[[Expect], object]] = {
     "accelerations": lambda expect: expect.accelerations,
     "multipliers": lambda expect: expect.multipliers,
     "constraint_forces": lambda expect: expect.constraint_forces,
+    "forces": lambda expect: expect.forces or expect.friction_needed,
     "momenta": lambda expect: expect.momenta,
     "energy": lambda expect: expect.energy is not None,
     "hamiltonian": lambda expect: expect.hamiltonian is not None,

@@ -29,9 +29,9 @@ Show = Annotated[
         "--show",
         metavar="A,B,C",
         help="Only these sections.  There are: lagrangian, equations, matrix_form, accelerations, "
-        "multipliers, constraint_forces, momenta, energy, hamiltonian, canonical_equations, "
-        "brackets, canonical, charges, discovered, algebra, find, equilibria, modes, reduction, "
-        "steady_motions, hamilton_jacobi, model, dimensions.  "
+        "multipliers, constraint_forces, forces, momenta, energy, hamiltonian, "
+        "canonical_equations, brackets, canonical, charges, discovered, algebra, find, "
+        "equilibria, modes, reduction, steady_motions, hamilton_jacobi, model, dimensions.  "
         "Without it: those that a first look needs.",
         autocompletion=complete_section,
     ),

@@ -10,11 +10,8 @@ from lagcli.answers import (
     ChargesSection,
     EquilibriaSection,
     Equilibrium,
-    FindSection,
     Mode,
     ModesSection,
-    Rewritten,
-    Solutions,
 )
 from lagcli.document import (
     Block,
@@ -27,6 +24,7 @@ from lagcli.document import (
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power, operation_count
 from lagcli.formatters.conditions import conditions
+from lagcli.questions import FindSection, Rewritten, Solutions
 
 _SOURCES = {
     "candidate": "candidate",

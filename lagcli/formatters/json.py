@@ -24,7 +24,6 @@ from lagcli.answers import (
     EquationsSection,
     EquilibriaSection,
     Equilibrium,
-    FindSection,
     HamiltonianSection,
     LagrangeEquation,
     LagrangianSection,
@@ -36,12 +35,12 @@ from lagcli.answers import (
     MultipliersSection,
     QuantityUnit,
     ReductionSection,
-    Rewritten,
     Section,
-    Solutions,
 )
 from lagcli.expression import Expression
+from lagcli.forces import ForcesSection
 from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.json_forces import of_forces
 from lagcli.formatters.json_phase_space import of_phase_space
 from lagcli.formatters.options import Options
 from lagcli.motions import (
@@ -56,6 +55,7 @@ from lagcli.phase_space import (
     BracketsSection,
     TransformationsSection,
 )
+from lagcli.questions import FindSection, Rewritten, Solutions
 
 #: The version of the contract.
 SCHEMA = 1
@@ -114,6 +114,8 @@ def _value(section: Section) -> Value:
                 "constraint_bias": _strings(section.constraint_bias),
                 "shared": _by_name(section.shared),
             }
+        case ForcesSection():
+            return of_forces(section)
         case MomentaSection():
             return _unless_none(section.momenta, _by_name)
         case EnergySection():

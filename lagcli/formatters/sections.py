@@ -16,7 +16,6 @@ from lagcli.answers import (
     EnergySection,
     EquationsSection,
     EquilibriaSection,
-    FindSection,
     HamiltonianSection,
     LagrangianSection,
     MatrixFormSection,
@@ -40,6 +39,7 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import Expression, Name
+from lagcli.forces import ForcesSection
 from lagcli.formatters.canonical import bracket_blocks, transformation_blocks
 from lagcli.formatters.dimensions import dimension_blocks
 from lagcli.formatters.findings import (
@@ -48,6 +48,7 @@ from lagcli.formatters.findings import (
     find_blocks,
     mode_blocks,
 )
+from lagcli.formatters.forces import force_blocks
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.reductions import reduction_blocks
 from lagcli.formatters.separation import hamilton_jacobi_blocks
@@ -57,6 +58,7 @@ from lagcli.phase_space import (
     BracketsSection,
     TransformationsSection,
 )
+from lagcli.questions import FindSection
 
 _HEADINGS = {
     "lagrangian": "Lagrangian",
@@ -65,6 +67,7 @@ _HEADINGS = {
     "accelerations": "Accelerations",
     "multipliers": "Multipliers",
     "constraint_forces": "Constraint forces",
+    "forces": "Forces",
     "momenta": "Momenta",
     "energy": "Energy",
     "hamiltonian": "Hamiltonian",
@@ -120,6 +123,8 @@ def section_blocks(section: Section, answers: Answers) -> Iterable[Block]:
             return _multipliers(section)
         case ConstraintForcesSection():
             return _constraint_forces(section)
+        case ForcesSection():
+            return force_blocks(section)
         case MomentaSection():
             return _momenta(section)
         case EnergySection():

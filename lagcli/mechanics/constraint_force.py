@@ -1,7 +1,9 @@
 """The real force behind a multiplier: what a constraint does to each point.
 
-Where the positions r(q) of the points determine the coordinates, the generalized force
-lambda a_j = sum_i R_i . dr_i/dq_j is solved for the forces R_i on the points.
+Where the positions r(q) of the points determine the coordinates that they depend on, the
+generalized force lambda a_j = sum_i R_i . dr_i/dq_j along these is solved for the forces R_i
+on the points.  Along a coordinate on which no point depends, the angle of a body, it stays
+the generalized force that it is: the torque about the point.
 
 References
 ----------
@@ -10,17 +12,33 @@ Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., section 2.4.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero, solve_linear
 from lagcli.mechanics.dynamics import Dynamics
 
+Vector = tuple[Expr, ...]
 
-def forces_on_points(dynamics: Dynamics) -> dict[str, dict[str, tuple[Expr, ...]]]:
+
+def forces_on_points(dynamics: Dynamics) -> dict[str, dict[str, Vector]]:
     """Constraint -> point -> Cartesian components of the force on it.
 
     Empty where the points do not determine the coordinates, or nothing was solved.
+    """
+    equations = dynamics.constraints.equations
+    known = zip(equations, dynamics.constraint_forces, strict=True)
+    return on_points(dynamics, {e.name: force for e, force in known if force is not None})
+
+
+def on_points(
+    dynamics: Dynamics, along: Mapping[str, Sequence[Expr]]
+) -> dict[str, dict[str, Vector]]:
+    """Vectors on the points that do the work given along the coordinates, by name.
+
+    Points on which nothing acts are left out; empty where the vectors are not unique.
     """
     system = dynamics.system
     components = [
@@ -29,24 +47,33 @@ def forces_on_points(dynamics: Dynamics) -> dict[str, dict[str, tuple[Expr, ...]
         for axis, x in enumerate(particle.position)
     ]
     slots = [slot for slot in components if any(is_zero(a) is not True for a in slot[2])]
-    if not slots or len(slots) != len(system.q):
+    moving = [
+        j for j in range(len(system.q)) if any(is_zero(row[j]) is not True for _, _, row in slots)
+    ]
+    if not slots or len(slots) != len(moving) or not along:
         return {}
-    transposed = [[row[j] for _, _, row in slots] for j in range(len(system.q))]
-    answer: dict[str, dict[str, tuple[Expr, ...]]] = {}
-    for equation, force in zip(
-        dynamics.constraints.equations, dynamics.constraint_forces, strict=True
-    ):
-        if force is None:
-            continue
-        solution = solve_linear(transposed, list(force), shapes=dynamics.shapes)
+    transposed = [[row[j] for _, _, row in slots] for j in moving]
+    answer: dict[str, dict[str, Vector]] = {}
+    for name, work in along.items():
+        solution = solve_linear(transposed, [work[j] for j in moving], shapes=dynamics.shapes)
         if solution is None or solution.singular:
             return {}
         by_point = {p.name: [sympy.S.Zero] * len(p.position) for p in system.particles}
-        for (name, axis, _), component in zip(slots, solution.values, strict=True):
-            by_point[name][axis] = component
-        answer[equation.name] = {
-            name: tuple(components)
-            for name, components in by_point.items()
-            if any(component != 0 for component in components)
+        for (point, axis, _), component in zip(slots, solution.values, strict=True):
+            by_point[point][axis] = component
+        answer[name] = {
+            point: tuple(vector)
+            for point, vector in by_point.items()
+            if any(component != 0 for component in vector)
         }
     return answer
+
+
+def turning_coordinates(dynamics: Dynamics) -> list[int]:
+    """Coordinates on which no point depends, such as the angle of a body about its centre."""
+    positions = [x for particle in dynamics.system.particles for x in particle.position]
+    return [
+        j
+        for j, q in enumerate(dynamics.system.q)
+        if all(is_zero(x.diff(q)) is True for x in positions)
+    ]

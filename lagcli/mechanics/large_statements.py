@@ -17,7 +17,6 @@ from lagcli.answers import (
     EnergySection,
     EquationsSection,
     EquilibriaSection,
-    FindSection,
     HamiltonianSection,
     LagrangeEquation,
     LagrangianSection,
@@ -26,9 +25,7 @@ from lagcli.answers import (
     MomentaSection,
     Multiplier,
     MultipliersSection,
-    Rewritten,
     Section,
-    Solutions,
 )
 from lagcli.expression import ZERO, Expression
 from lagcli.graph.nodes import Node
@@ -37,6 +34,7 @@ from lagcli.mechanics.large_charges import LargeCharge, LargeCharges
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.mechanics.stating import Stating
 from lagcli.problem import Where
+from lagcli.questions import FindSection, Rewritten, Solutions
 
 #: A section whose formulas show more operations than this is not written out.
 WRITTEN_OPERATIONS = 100_000

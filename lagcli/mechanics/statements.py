@@ -19,7 +19,6 @@ from lagcli.answers import (
     EnergySection,
     EquationsSection,
     EquilibriaSection,
-    FindSection,
     HamiltonianSection,
     LagrangeEquation,
     LagrangianSection,
@@ -30,10 +29,10 @@ from lagcli.answers import (
     MultipliersSection,
     ReductionSection,
     Section,
-    Solutions,
     SpecialValue,
 )
 from lagcli.expression import ZERO, Expression
+from lagcli.forces import ForcesSection
 from lagcli.mechanics.constraint_force import forces_on_points
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.noether import NoetherCharge
@@ -42,6 +41,7 @@ from lagcli.mechanics.stating import Stating
 from lagcli.motions import HamiltonJacobiSection, SteadySection
 from lagcli.phase_space import BracketsSection, TransformationsSection
 from lagcli.problem import Problem
+from lagcli.questions import FindSection
 from lagcli.record import replace
 
 NUMERIC_CHECK = "50 digits"
@@ -85,6 +85,7 @@ class Statements(Stating):
             "accelerations": self._accelerations,
             "multipliers": self._multipliers,
             "constraint_forces": self._constraint_forces,
+            "forces": self._forces,
             "momenta": self._momenta,
             "energy": self._energy,
             "hamiltonian": self._hamiltonian,
@@ -243,6 +244,14 @@ class Statements(Stating):
             },
         )
 
+    def _forces(self) -> ForcesSection:
+        from lagcli.mechanics.real_forces import RealForces
+
+        real = RealForces(self.dynamics)
+        section = real.section()
+        self.warnings.extend(real.warnings)
+        return self._noted((section, real.missing))
+
     def _momenta(self) -> MomentaSection:
         noether = self.derivation.noether
         return MomentaSection(
@@ -356,11 +365,7 @@ class Statements(Stating):
         from lagcli.mechanics.finding.find import answer_questions
 
         section = answer_questions(self.dynamics, self.derivation.noether)
-        for name, answer in section.answers.items():
-            found = answer.solutions if isinstance(answer, Solutions) else answer.value
-            if found is None:
-                self._missing(f"the answer to '{name}'", answer.note or "no closed form")
-        return section
+        return self._noted((section, section.unanswered))
 
     def _equilibria(self) -> EquilibriaSection:
         from lagcli.mechanics.oscillations.small_oscillations import equilibria

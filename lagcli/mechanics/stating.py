@@ -103,10 +103,7 @@ class Stating:
 
     def _of_phase_space(self, phase: Phase, state: Callable[[Phase], Stated]) -> Stated:
         """A section of phase space, and what is missing there."""
-        section = state(phase)
-        for what, why in phase.missing:
-            self._missing(what, why)
-        return section
+        return self._noted((state(phase), phase.missing))
 
     def lacks(self, what: str, why: str) -> None:
         """Note that an answer was asked for and not found."""

@@ -14,6 +14,7 @@ from lagcli.problem import (
     ExpectHamiltonJacobi,
     ExpectReduction,
     ExpectSteady,
+    Point,
     Question,
     Symmetry,
     Trajectory,
@@ -39,8 +40,9 @@ if TYPE_CHECKING:
 
 _KEYS = (
     "degrees_of_freedom", "equations", "accelerations", "multipliers", "constraint_forces",
-    "momenta", "hamiltonian", "energy", "charges", "discovered", "modes", "find", "trajectory",
-    "reduction", "steady_motions", "hamilton_jacobi", "brackets", "canonical",
+    "forces", "friction_needed", "momenta", "hamiltonian", "energy", "charges", "discovered",
+    "modes", "find", "trajectory", "reduction", "steady_motions", "hamilton_jacobi", "brackets",
+    "canonical",
 )  # fmt: skip
 
 #: An answer holds what is left when accelerations and multipliers have been eliminated.
@@ -57,6 +59,7 @@ class ExpectReader:
         contacts: tuple[Contact, ...],
         symmetries: tuple[Symmetry, ...],
         find: tuple[Question, ...],
+        points: tuple[Point, ...],
         brackets: tuple[BracketQuestion, ...],
         transformations: tuple[Transformation, ...],
     ) -> None:
@@ -67,6 +70,7 @@ class ExpectReader:
         self.symmetries = [symmetry.name for symmetry in symmetries]
         self.brackets = [bracket.name for bracket in brackets]
         self.transformations = transformations
+        self.points = [point.name for point in points]
         self.questions = [question.name for question in find]
         self.spans: dict[tuple[str, ...], Span] = {}
 
@@ -120,6 +124,29 @@ class ExpectReader:
             found[key.label] = forces
             self._note(value, "constraint_forces", key.label)
         return found
+
+    def _forces(self, node: Node) -> dict[str, dict[str, Expression | tuple[Expression, ...]]]:
+        """By constraint and point: the signed force, or a list of components."""
+        found: dict[str, dict[str, Expression | tuple[Expression, ...]]] = {}
+        for key, value in self._known(node, "forces", self.constraints, "constraint"):
+            by_point = found[key.label] = {}
+            for point, force in self._known(value, f"forces of {key.label}", self.points, "point"):
+                self.spans["forces", key.label, point.label] = point.span
+                what = f"the expected force of '{key.label}' on '{point.label}'"
+                by_point[point.label] = (
+                    tuple(self.sections.expression(item, what, _ANSWER) for item in force.items)
+                    if isinstance(force, Sequence)
+                    else self.sections.expression(force, what, _ANSWER)
+                )
+        return found
+
+    def _friction_needed(self, node: Node) -> dict[str, Expression]:
+        what = "the expected coefficient of friction at '{}'"
+        known = self._known(node, "friction_needed", self.constraints, "constraint")
+        return {
+            key.label: self.sections.expression(value, what.format(key.label), _ANSWER)
+            for key, value in known
+        }
 
     def _hamiltonian(self, node: Node) -> Expression:
         return self.sections.expression(node, "the expected Hamiltonian", PHASE_SPACE)

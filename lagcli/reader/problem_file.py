@@ -133,6 +133,7 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
     symmetries = read_symmetries(sections, section("symmetries"))
     questions = read_find(sections, section("find"))
     contacts_read = read_contacts(sections, contacts)
+    points = read_points(sections, section("points"))
     observables = read_observables(sections, section("observables"))
     brackets = read_brackets(sections, section("brackets"), symmetries)
     transformations = read_transformations(sections, section("canonical_transformations"))
@@ -142,6 +143,7 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
         contacts_read,
         symmetries,
         questions,
+        points,
         brackets,
         transformations,
     )
@@ -154,7 +156,7 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
         parameters=parameters_read,
         functions=functions,
         definitions=definitions_read,
-        points=read_points(sections, section("points")),
+        points=points,
         kinetic=formula("T"),
         potential=formula("V"),
         lagrangian=formula("L"),

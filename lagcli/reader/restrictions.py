@@ -13,11 +13,17 @@ from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
-    from lagcli.problem import Inequality, OnLoss
+    from lagcli.problem import ForceKind, Inequality, OnLoss
     from lagcli.reader.sections import Sections
 
-_CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RESTITUTION)
+_CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RESTITUTION,
+                          "acts_as")  # fmt: skip
 _ON_LOSS = ("stop", "release")
+_FORCES: dict[str, ForceKind] = {
+    "normal": "normal",
+    "friction": "friction",
+    "tension": "tension",
+}
 
 
 class Declared(NamedTuple):
@@ -85,6 +91,7 @@ def read_constraints(sections: Sections, declared: list[Declared]) -> tuple[Cons
                 holds_while=holds_while,
                 on_loss=on_loss,
                 restitution=_restitution(sections, one, holds_while, on_loss),
+                acts_as=_acts_as(sections, one),
                 span=one.key.span,
             )
         )
@@ -109,6 +116,20 @@ def _on_loss(sections: Sections, one: Declared) -> OnLoss:
             hint = did_you_mean(other, _ON_LOSS) or "write stop or release"
             sections.error(f"'{other}' is nothing that a run does", text.span, hint)
             return "stop"
+
+
+def _acts_as(sections: Sections, one: Declared) -> ForceKind | None:
+    """What the force of the constraint is called."""
+    node = one.attributes.get("acts_as")
+    text = None if node is None else sections.scalar(node, "'acts_as'")
+    if text is None:
+        return None
+    word = text.value.strip()
+    if word not in _FORCES:
+        hint = did_you_mean(word, _FORCES) or "write normal, friction or tension"
+        sections.error(f"'{word}' is no kind of force", text.span, hint)
+        return None
+    return _FORCES[word]
 
 
 def _restitution(

@@ -18,7 +18,6 @@ from lagcli.answers import (
     EquationsSection,
     EquilibriaSection,
     Equilibrium,
-    FindSection,
     HamiltonianSection,
     LagrangeEquation,
     LagrangianSection,
@@ -31,8 +30,6 @@ from lagcli.answers import (
     MultipliersSection,
     QuantityUnit,
     ReductionSection,
-    Rewritten,
-    Solutions,
     SpecialValue,
     UnitSource,
 )
@@ -49,6 +46,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
 )
+from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.motions import (
     Above,
     HamiltonJacobiSection,
@@ -65,6 +63,7 @@ from lagcli.phase_space import (
     PoissonBracket,
     TransformationsSection,
 )
+from lagcli.questions import FindSection, Rewritten, Solutions
 from lagcli.units import Unit, read_unit
 
 
@@ -164,6 +163,31 @@ HOOP = Answers(
             forces={"rolling": {"x": minus_half, "theta": half_r}},
             total={"x": minus_half, "theta": half_r},
             on_points={"rolling": {"rim": (minus_half, ZERO)}},
+        ),
+        "forces": ForcesSection(
+            forces=(
+                PointForce(
+                    constraint="rolling",
+                    point="rim",
+                    kind="friction",
+                    force=minus_half,
+                    direction=(Negative(ONE), ZERO),
+                    towards="",
+                    allowed=1,
+                ),
+                PointForce(
+                    constraint="rod_1", point="rim", kind=None, force=None, direction=(ONE,)
+                ),
+            ),
+            torques={"rolling": {"theta": half_r}, "gear": {"theta": ZERO}},
+            friction_needed=(
+                FrictionNeeded(
+                    frictions=("rolling",), normal="incline", coefficient=Quotient(sine, TWO)
+                ),
+                FrictionNeeded(
+                    frictions=("grip",), normal=None, coefficient=None, reason="there is none"
+                ),
+            ),
         ),
         "momenta": MomentaSection(
             momenta={"x": times(M, dx), "theta": times(M, square(R), dtheta)}, cyclic=("theta",)
@@ -417,6 +441,7 @@ HOSTILE = Answers(
             redundant=("rod_1",),
         ),
         "constraint_forces": ConstraintForcesSection(forces={"rod_1": None}, total=None),
+        "forces": ForcesSection(forces=None, reason="x_1 <&> $100%$"),
         "energy": EnergySection(
             function=Call("sqrt", (long_sum,)),
             conserved=None,

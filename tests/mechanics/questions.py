@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from sympy import Expr
 
-from lagcli.answers import Rewritten, Solutions
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.finding.find import answer_questions
+from lagcli.questions import Rewritten, Solutions
 from lagcli.reader import read_problem
 
 from .formulas import normal

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from lagcli.answers import Rewritten, Solutions
 from lagcli.diagnostics import ProblemError
+from lagcli.questions import Rewritten, Solutions
 
 from .formulas import formula, formulas
 from .questions import answers, roots, value

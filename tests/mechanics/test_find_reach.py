@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lagcli.answers import Solutions
+from lagcli.questions import Solutions
 
 from .formulas import formulas
 from .questions import answers, roots

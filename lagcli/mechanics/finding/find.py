@@ -6,13 +6,13 @@ from time import process_time
 
 from sympy import Symbol
 
-from lagcli.answers import FindSection, Rewritten, Solutions
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.finding.along_the_motion import BUDGET, AlongTheMotion
 from lagcli.mechanics.finding.passing import Passing
 from lagcli.mechanics.finding.where import Where
 from lagcli.mechanics.noether import Noether
 from lagcli.problem import Rewrite
+from lagcli.questions import FindSection, Rewritten, Solutions
 
 
 def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:

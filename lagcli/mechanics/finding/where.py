@@ -14,12 +14,12 @@ from sympy import Expr, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.equations import Roots, is_decimal, solve_for
 from lagcli.algebra.numeric import Evaluator
-from lagcli.answers import Solutions
 from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
 from lagcli.mechanics.finding.passing import Passage, Passing, admissible
 from lagcli.mechanics.finding.reach import real_value
 from lagcli.mechanics.parameter_values import admissible_values, exact_values
 from lagcli.problem import Where as WhereQuestion
+from lagcli.questions import Solutions
 
 _CHOICES = 24  # of parameter values, where the file gives none
 _VERIFIED = 3  # of these, at which a root is substituted

@@ -1,0 +1,90 @@
+"""The wording of real forces and of the friction that they need."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
+from lagcli.expression import operation_count
+from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
+
+#: A vector whose components have so many operations in all stands within a sentence.
+_SHORT = 9
+
+_KINDS = {"normal": "normal force", "friction": "friction", "tension": "tension"}
+
+
+def force_blocks(section: ForcesSection) -> Iterator[Block]:
+    """Say each force with its direction, by constraint, then the friction needed."""
+    if section.forces is None:
+        yield Paragraph((f"Not found: {section.reason}.",))
+        return
+    names = dict.fromkeys([each.constraint for each in section.forces])
+    names.update(dict.fromkeys(section.torques))
+    if not names:
+        yield Paragraph(("There are no constraints.",))
+    for name in names:
+        forces = [each for each in section.forces if each.constraint == name]
+        kind = forces[0].kind if forces else None
+        yield Heading(f"{name} ({_KINDS[kind]})" if kind else name, 2)
+        for force in forces:
+            yield from _force(force)
+        torques = section.torques.get(name, {})
+        if torques:
+            note = "no point depends on it"
+            yield Equations(
+                tuple(Row(Label("Q", (q,)), value, note) for q, value in torques.items())
+            )
+    for needed in section.friction_needed:
+        yield from _friction(needed)
+
+
+def _force(force: PointForce) -> Iterator[Block]:
+    magnitude = Label("F", (force.point,))
+    if force.force is None:
+        yield Paragraph((magnitude, ": redundant, so not determined."))
+        return
+    yield Equations((Row(magnitude, force.force),))
+    parts: list[str | Formula] = ["On ", f"{force.point}, "]
+    if sum(map(operation_count, force.direction)) <= _SHORT:
+        parts += ["along ("]
+        for place, component in enumerate(force.direction):
+            parts += [", " if place else "", component]
+        parts += [")"]
+    else:
+        parts += ["along the unit vector below"]
+    yield Paragraph((*parts, *_sense(force, magnitude)))
+    if parts[-1] != ")":
+        unit = tuple(
+            Row(Label("e", (axis,)), component)
+            for axis, component in zip("xyz", force.direction, strict=False)
+        )
+        yield Equations(unit)
+
+
+def _sense(force: PointForce, magnitude: Label) -> tuple[str | Formula, ...]:
+    """Where the unit vector points, and what the sign of the force says."""
+    where = ""
+    if force.towards is not None:
+        where = f", towards {force.towards or 'the origin'}"
+    elif force.away_from is not None:
+        where = f", away from {force.away_from or 'the origin'}"
+    words: list[str | Formula] = [where]
+    if force.kind == "tension" and force.towards is not None:
+        words += [": a pull where ", magnitude, " is positive, a push where it is negative."]
+    elif force.allowed is not None:
+        words += ["; the contact lasts while ", magnitude]
+        words += [" is not negative." if force.allowed > 0 else " is not positive."]
+    else:
+        words += ["."]
+    return tuple(words)
+
+
+def _friction(needed: FrictionNeeded) -> Iterator[Block]:
+    names = " and ".join(needed.frictions)
+    yield Heading(f"Coefficient of friction for {names}", 2)
+    if needed.coefficient is None:
+        yield Paragraph((f"Not found: {needed.reason}.",))
+        return
+    yield Equations((Row(Label("mu", ("min",)), needed.coefficient),))
+    yield Paragraph((f"The least coefficient of static friction: |{names}| / |{needed.normal}|.",))
