@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from lagcli.numerics.events import Event, Occurrence, Watch
 from lagcli.numerics.modes import Mode
@@ -34,8 +34,7 @@ class Phase:
     begin: float
 
 
-@record
-class Mark:
+class Mark(NamedTuple):
     """A row: at a time that was asked for, or on one side of an event.
 
     Attributes

@@ -46,7 +46,7 @@ def head(numbers: Numbers, ops: int) -> str:
     lines = [f"declare {real} @llvm.{name}.{suffix}({real})" for name in ("sqrt", "fabs")]
     for name in _FUNCTIONS:
         given = f"{real}, {real}" if name in {"pow", "atan2"} else real
-        lines.append(f"declare {real} {numbers.function(name)}({given})")
+        lines.append(f"declare {real} {numbers.function(name)}({given}) nounwind memory(none)")
     return "\n".join(
         [*lines, _VECTOR_INNER.replace("{how}", how) if real == "double" else _inner(real, how)]
     )
@@ -121,6 +121,8 @@ class Series:
         self._real = numbers.type
         self.rows = 2 * self._n + 1
         self._rows: dict[tuple[int, str], int] = {}
+        self._first: list[str] = []
+        self._inverses: dict[str, str] = {}
         self._inputs = [place for place, op in enumerate(tape.ops) if op.name == "input"]
 
     def _row(self, place: int, kind: str) -> int:
@@ -140,21 +142,23 @@ class Series:
         zero = text.values(inputs, "%signs")
         fine = text.guarded(self._guards, zero)
         roots = [self._tape.values[root] for root in self._roots]
+        scale = text.loaded("%rows", 2 * n * STRIDE + 1)
         for j, root in enumerate(roots):
-            text.stored(inputs[n + j], "%rows", j * STRIDE + 1)
-            text.stored(text.scaled(root, zero), "%rows", (n + j) * STRIDE + 1)
-        first, text.lines = text.lines, []
+            text.stored(text.two("fmul", scale, inputs[n + j]), "%rows", j * STRIDE + 1)
+            rate = text.two("fmul", scale, text.scaled(root, zero))
+            text.stored(rate, "%rows", (n + j) * STRIDE + 1)
+        self._first, text.lines = text.lines, []
         now = self._orders(zero)
         real = self._real
         for j, root in enumerate(roots):
             for row, value in ((j, now[n + j]), (n + j, text.scaled(root, now, order_0=False))):
-                divided = text.two("fdiv", value, "%next.real")
-                text.stored(divided, "%rows", text.made(f"add i64 %next, {row * STRIDE}"))
+                next_one = text.made(f"add i64 %next, {row * STRIDE}")
+                text.stored(text.two("fmul", value, "%rate"), "%rows", next_one)
         return "\n".join(
             [
                 "define i64 @series(ptr %rows, ptr %signs, i64 %order) nounwind {",
                 "entry:",
-                *first,
+                *self._first,
                 "%several = icmp sgt i64 %order, 1",
                 "br i1 %several, label %loop, label %end",
                 "loop:",
@@ -166,6 +170,7 @@ class Series:
                 f"%k.real = sitofp i64 %k to {real}",
                 f"%next.real = sitofp i64 %next to {real}",
                 f"%part = fdiv {real} {text.whole(1)}, %k.real",
+                f"%rate = fdiv {real} {scale}, %next.real",
                 *text.lines,
                 "%more = icmp slt i64 %next, %order",
                 "br i1 %more, label %loop, label %end",
@@ -208,6 +213,15 @@ class Series:
                 at = text.made(f"add i64 {index}, {row * STRIDE}")
                 text.stored(times if "J" in kind else value, "%rows", at)
 
+    def _inverse(self, value: str) -> str:
+        """1 / value, worked out before the loop."""
+        if value not in self._inverses:
+            text, here = self._text, self._text.lines
+            text.lines = self._first
+            self._inverses[value] = text.two("fdiv", text.whole(1), value)
+            text.lines = here
+        return self._inverses[value]
+
     def _inner(self, left: tuple[int, str], right: tuple[int, str]) -> str:
         """The sum over 0 < j < k of a forward row and a backward one."""
         text, real = self._text, self._real
@@ -244,17 +258,19 @@ class Series:
                 before = inner((below, "F"), (place, "R"))
                 taken = two("fadd", before, two("fmul", c0, now[below]))
                 rest = two("fsub", a, taken) if len(x) > 1 else text.minus(taken)
-                return two("fdiv", rest, zero[below])
+                return two("fmul", rest, self._inverse(zero[below]))
             case "root":
                 rest = two("fsub", a, inner((place, "F"), (place, "R")))
-                return two("fdiv", rest, two("fmul", c0, text.whole(2)))
+                half = two("fmul", rest, text.literal(0.5))
+                return two("fmul", half, self._inverse(c0))
             case "power":
                 r = text.literal(op.numbers[0])
                 left = inner((x[0], "FJ"), (place, "R"))
                 right = inner((x[0], "F"), (place, "RJ"))
                 new = two("fmul", two("fmul", "%k.real", a), c0)
                 before = two("fmul", r, two("fadd", left, new))
-                return two("fdiv", two("fmul", two("fsub", before, right), "%part"), a0)
+                rest = two("fmul", two("fsub", before, right), "%part")
+                return two("fmul", rest, self._inverse(a0))
             case "exp":
                 return self._flow(x[0], a, place, c0)
             case "sin" | "sinh":
@@ -268,7 +284,7 @@ class Series:
             case "primitive":
                 rest = two("fmul", "%k.real", a)
                 rest = two("fsub", rest, inner((place, "FJ"), (x[1], "R")))
-                return two("fmul", two("fdiv", rest, zero[x[1]]), "%part")
+                return two("fmul", two("fmul", rest, "%part"), self._inverse(zero[x[1]]))
             case "angle":
                 y, u, below = x
                 turn = two("fsub", two("fmul", a, zero[u]), two("fmul", now[u], zero[y]))
@@ -276,7 +292,7 @@ class Series:
                 turn = two("fadd", turn, inner((y, "FJ"), (u, "R")))
                 turn = two("fsub", turn, inner((u, "FJ"), (y, "R")))
                 turn = two("fsub", turn, inner((place, "FJ"), (below, "R")))
-                return two("fmul", two("fdiv", turn, zero[below]), "%part")
+                return two("fmul", two("fmul", turn, "%part"), self._inverse(zero[below]))
             case "sign":
                 return text.whole(0)
             case "signed":

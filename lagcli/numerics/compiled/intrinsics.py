@@ -45,6 +45,11 @@ def exp(x: float) -> float:
     raise NotImplementedError
 
 
+def fma(x: float, y: float, z: float) -> float:
+    """x y + z, rounded once where the processor can."""
+    raise NotImplementedError
+
+
 def series(rows: Reals, signs: Reals, order: int) -> int:
     """The coefficients of q and q' up to an order, from those of order 0.
 

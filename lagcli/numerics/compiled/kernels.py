@@ -3,7 +3,8 @@
 Memory, as places from `Reals` on:
 
 - `rows`: the coefficients, each row `STRIDE` long, of q, q' and t, then what the problem
-  needs;
+  needs, all in powers of t / s: s, a power of 2 near the length of the step, is the
+  coefficient 1 of t itself, so that no coefficient leaves the range of the numbers;
 - a state: q, q', t;
 - `peaks`, `scales`: as in `steps.Tolerance`; `held`: as in `surface.Surface`, the scales
   of all constraints and then their residuals;
@@ -24,6 +25,7 @@ from lagcli.numerics.compiled.intrinsics import (
     Reals,
     at,
     exp,
+    fma,
     log,
     positions,
     series,
@@ -32,7 +34,7 @@ from lagcli.numerics.compiled.intrinsics import (
     velocities,
 )
 
-STRIDE = 36
+STRIDE = 44
 
 # facts
 UNTIL = 0
@@ -44,6 +46,7 @@ H = 5
 DEFECT = 6
 SHORTEST = 7
 ROUNDING = 8
+SCALE = 9
 
 # counts
 N = 0
@@ -68,9 +71,11 @@ GOLDEN = 0.6180339887498949
 SAFETY = 0.9
 FIRST = 1e-3
 LARGE = 1e300
+WIDEST = 256.0
+STARTING = 4
 
 
-def see(rows: Reals, peaks: Reals, scales: Reals, facts: Reals, counts: Ints) -> None:
+def see(rows: Reals, peaks: Reals, scales: Reals, facts: Reals, counts: Ints, order: int) -> None:
     """Note where the motion is and, for what has been at 0 so far, where it goes at first."""
     n = counts[N]
     higher = False
@@ -78,7 +83,8 @@ def see(rows: Reals, peaks: Reals, scales: Reals, facts: Reals, counts: Ints) ->
     for i in range(2 * n):
         size = abs(rows[i * STRIDE])
         if size == 0 and peaks[i] == 0:
-            size = leading(at(rows, i * STRIDE), counts[ORDER], sudden(rows, facts, n))
+            h = sudden(rows, facts, n) / facts[SCALE]
+            size = leading(at(rows, i * STRIDE), order, h)
         if size > peaks[i]:
             peaks[i] = size
             higher = True
@@ -99,7 +105,7 @@ def leading(c: Reals, order: int, h: float) -> float:
 
 def sudden(rows: Reals, facts: Reals, n: int) -> float:
     """A time in which nothing that is not 0 changes by more than itself."""
-    h = FIRST * facts[LONGEST]
+    h = FIRST * facts[LONGEST] / facts[SCALE]
     for i in range(2 * n):
         c = at(rows, i * STRIDE)
         if c[0] != 0:
@@ -107,7 +113,7 @@ def sudden(rows: Reals, facts: Reals, n: int) -> float:
                 h = abs(c[0] / c[1])
             if abs(c[2]) * h * h > abs(c[0]):
                 h = sqrt(abs(c[0] / c[2]))
-    return h
+    return h * facts[SCALE]
 
 
 def rescale(peaks: Reals, scales: Reals, facts: Reals, n: int, top: float) -> None:
@@ -119,18 +125,28 @@ def rescale(peaks: Reals, scales: Reals, facts: Reals, n: int, top: float) -> No
 
 
 def length(rows: Reals, scales: Reals, both: int, order: int, tolerance: float) -> float:
-    """The step after which the last terms are the tolerance times the scale."""
+    """The step after which the last terms are the tolerance times the scale, in units of s."""
     h = LARGE
     for k in range(order, order - 4, -1):
         largest = 0.0
         for i in range(both):
             largest = max(largest, abs(rows[i * STRIDE + k]) / scales[i])
-        power = h
-        for _ in range(1, k):
-            power = power * h
-        if largest * power > tolerance:
+        if largest * raised(h, k) > tolerance:
             h = exp(log(tolerance / largest) / k)
     return SAFETY * h
+
+
+def raised(x: float, k: int) -> float:
+    """x to the power k > 0, by squares."""
+    result = 1.0
+    bits = k
+    while bits > 0:
+        half = bits // 2
+        if bits > 2 * half:
+            result = result * x
+        x = x * x
+        bits = half
+    return result
 
 
 def expand(
@@ -141,11 +157,23 @@ def expand(
     both = 2 * n
     for i in range(both + 1):
         rows[i * STRIDE] = state[i]
-    if series(rows, signs, counts[ORDER]) == 0:
-        return PIVOT
-    see(rows, peaks, scales, facts, counts)
-    h = length(rows, scales, both, counts[ORDER], facts[TOLERANCE])
-    h = min(h, facts[LONGEST])
+    order = counts[ORDER]
+    if facts[SCALE] == 0:
+        facts[SCALE] = 1.0
+        order = STARTING
+    h = 0.0
+    for _ in range(8):
+        rows[both * STRIDE + 1] = facts[SCALE]
+        if series(rows, signs, order) == 0:
+            return PIVOT
+        see(rows, peaks, scales, facts, counts, order)
+        h = facts[SCALE] * length(rows, scales, both, order, facts[TOLERANCE])
+        h = min(h, facts[LONGEST])
+        part = h / facts[SCALE]
+        if order == counts[ORDER] and part * WIDEST > 1 and part < WIDEST:
+            break
+        order = counts[ORDER]
+        facts[SCALE] = near(facts[SCALE], h)
     facts[H] = h
     least = state[both]
     least = max(least, 1e-3 * facts[UNTIL])
@@ -154,25 +182,38 @@ def expand(
     return MORE
 
 
+def near(scale: float, h: float) -> float:
+    """A power of 2 near h."""
+    if h > 0 and h < LARGE:
+        while scale < h:
+            scale = scale * 2
+        while scale > h:
+            scale = scale / 2
+    return scale
+
+
 def inside(rows: Reals, out: Reals, both: int, order: int, h: float) -> None:
     """The state a time h after the beginning of the step."""
+    part = h / rows[both * STRIDE + 1]
     for i in range(both):
         c = at(rows, i * STRIDE)
         x = c[order]
         for k in range(order - 1, -1, -1):
-            x = x * h + c[k]
+            x = fma(x, part, c[k])
         out[i] = x
     out[both] = rows[both * STRIDE] + h
 
 
 def slopes(rows: Reals, out: Reals, n: int, order: int, h: float) -> None:
     """q'' of the series a time h after the beginning of the step."""
+    scale = rows[2 * n * STRIDE + 1]
+    part = h / scale
     for j in range(n):
         c = at(rows, (n + j) * STRIDE)
         x = order * c[order]
         for k in range(order - 1, 0, -1):
-            x = x * h + k * c[k]
-        out[j] = x
+            x = fma(x, part, k * c[k])
+        out[j] = x / scale
 
 
 def move(
@@ -184,15 +225,15 @@ def move(
     """
     n = counts[N]
     both = 2 * n
-    h = end - state[both]
+    h = (end - state[both]) / rows[both * STRIDE + 1]
     left = at(ahead, both + 1)
     total = 0.0
     for i in range(both):
         c = at(rows, i * STRIDE)
         d = c[counts[ORDER]]
         for k in range(counts[ORDER] - 1, 0, -1):
-            d = d * h + c[k]
-        d = d * h + lost[i]
+            d = fma(d, h, c[k])
+        d = fma(d, h, lost[i])
         x = state[i]
         s = x + d
         if abs(x) >= abs(d):

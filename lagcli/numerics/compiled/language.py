@@ -2,8 +2,9 @@
 
 Functions of numbers (`float`, the type of the run), whole numbers (`int`), places in
 memory (`Reals`, `Ints`); loops over `range` and `while`, `if`, assignments, the four
-operations, comparisons of two, `and`, `or`, `not`, and calls of other functions.  A name
-in capitals is a constant of the module.  Both sides of `and` and `or` are worked out.
+operations and `//` of whole numbers that are not negative, comparisons of two, `and`, `or`,
+`not`, and calls of other functions.  A name in capitals is a constant of the module.  Both
+sides of `and` and `or` are worked out.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ _OPERATIONS: dict[tuple[type, str], str] = {
     (ast.Add, "i64"): "add",
     (ast.Sub, "i64"): "sub",
     (ast.Mult, "i64"): "mul",
+    (ast.FloorDiv, "i64"): "sdiv",
 }
 #: Ordered comparisons: all but != are false where one side is nan.
 _COMPARISONS: dict[type, tuple[str, str]] = {
@@ -72,6 +74,7 @@ def translated(source: str, numbers: Numbers, given: Mapping[str, Signature]) ->
     real, suffix = numbers.type, numbers.suffix
     head += [f"declare {real} @llvm.{name}.{suffix}({real})" for name in ("fabs", "sqrt")]
     head += [f"declare {real} {numbers.function(name)}({real})" for name in ("exp", "log")]
+    head.append(f"declare {real} @llvm.fmuladd.{suffix}({', '.join([real] * 3)})")
     bodies = [_Function(f, numbers, signatures, constants, set(given)).text() for f in functions]
     return "\n".join((*head, *bodies))
 
@@ -276,6 +279,10 @@ class _Function:
             case "abs" | "sqrt":
                 intrinsic = f"@llvm.{'fabs' if name == 'abs' else 'sqrt'}.{self._numbers.suffix}"
                 return self._made("real", f"call {real} {intrinsic}({real} {values[0].text})")
+            case "fma":
+                given = ", ".join(f"{real} {self._as(value, 'real')}" for value in values)
+                intrinsic = f"@llvm.fmuladd.{self._numbers.suffix}"
+                return self._made("real", f"call {real} {intrinsic}({given})")
             case "max" | "min":  # max(a, b) is b where b > a, else a
                 word = "ogt" if name == "max" else "olt"
                 best, *others = (self._as(value, "real") for value in values)
