@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 from lagcli.algebra.entry import Field
 from lagcli.algebra.ring import Monomial, Poly
 from lagcli.algebra.roots import substitute_square
@@ -51,7 +49,7 @@ class Expansions:
             merged: Terms = {}
             for forms in choices:
                 for term, value in forms[min(position, len(forms) - 1)].items():
-                    merged[term] = merged.get(term, Fraction(0)) + value
+                    merged[term] = merged.get(term, 0) + value
             merged = {t: v for t, v in merged.items() if v}
             if merged not in found:
                 found.append(merged)
@@ -62,7 +60,7 @@ class Expansions:
         """Roughly the operations of a sum of products."""
         costs = self.atoms.costs
         return sum(
-            1 + (v < 0) + (abs(v) != 1) + sum(1 + costs[a] + (e != 1) for a, e in t)
+            1 + (v.numerator < 0) + (abs(v) != 1) + sum(1 + costs[a] + (e != 1) for a, e in t)
             for t, v in terms.items()
         )
 

@@ -15,7 +15,7 @@ from typing import TypeAlias
 from flint import Ordering, fmpz_mpoly_ctx
 
 from lagcli.algebra.ring import Poly
-from lagcli.algebra.shaping.atoms import Atoms, Exponent, Term, Terms, multiply
+from lagcli.algebra.shaping.atoms import Atoms, Coefficient, Exponent, Term, Terms, multiply
 from lagcli.algebra.shaping.plan import Product, Sum, product, total
 
 _MAX_FACTORED = 400  # terms
@@ -95,7 +95,7 @@ class Grouper:
     def _search(self, terms: Integers, spread: bool) -> Product | Sum:
         if len(terms) == 1:
             ((term, coefficient),) = terms.items()
-            return product(self.atoms, Fraction(coefficient), list(term))
+            return product(self.atoms, coefficient, list(term))
         common, number, inner = _content(terms, spread)
         if common or number != 1:
             return self._times(number, common, inner, spread)
@@ -106,7 +106,7 @@ class Grouper:
         splits = self._splits(inner)
         best: Sum | None = None
         if len(inner) <= _MAX_PLAIN or not splits:
-            best = total([product(self.atoms, Fraction(c), list(t)) for t, c in inner.items()])
+            best = total([product(self.atoms, c, list(t)) for t, c in inner.items()])
         for with_atom, without in splits:
             parts: list[Product] = []
             for half in (with_atom, without):
@@ -123,7 +123,7 @@ class Grouper:
         if isinstance(plan, Product):
             parts: list[tuple[int | Sum, Exponent]] = [*common, *plan.parts]
             return product(self.atoms, number * plan.coefficient, parts)
-        return product(self.atoms, Fraction(number), [*common, (plan, 1)])
+        return product(self.atoms, number, [*common, (plan, 1)])
 
     def _splits(self, terms: Integers) -> list[tuple[Integers, Integers]]:
         """Terms with an atom and terms without it, the most promising atoms first."""
@@ -206,7 +206,7 @@ class Grouper:
         if len(factors) == 1 and int(factors[0][1]) == 1:
             return None
         parts: list[tuple[int | Sum, Exponent]] = []
-        number = Fraction(int(content))
+        number: Coefficient = int(content)
         for factor, exponent in factors:
             inner: Integers = {}
             for key, value in factor.to_dict().items():

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lagcli.algebra.shaping.atoms import Atoms, Exponent
+from lagcli.algebra.shaping.atoms import Atoms, Coefficient, Exponent
 from lagcli.algebra.writing import Factor, Writer
 from lagcli.expression import Expression
 
 #: One operation less is worth brackets around this many operations.
 OPERATION = 6
+_HALF = Fraction(1, 2)
 #: A fraction inside brackets is worth that many bracketed operations.
 _FRACTION = 3
 #: One inside a denominator more than an operation: a/(b + c/d) is a*d/(b*d + c).
@@ -25,7 +26,7 @@ class Product:
     brackets, counted once for every bracket around them.
     """
 
-    coefficient: Fraction
+    coefficient: Coefficient
     parts: tuple[tuple[int | Sum, Exponent], ...]
     cost: int
     strain: int
@@ -41,7 +42,7 @@ class Product:
 
     def negated(self) -> Product:
         """The product with the other sign."""
-        cost = self.cost + (1 if self.coefficient > 0 else -1)
+        cost = self.cost + (1 if self.coefficient.numerator > 0 else -1)
         return Product(-self.coefficient, self.parts, cost, self.strain)
 
 
@@ -65,11 +66,11 @@ class Sum:
 
     def negatives(self) -> int:
         """How many terms have a minus sign."""
-        return sum(t.coefficient < 0 for t in self.terms)
+        return sum(t.coefficient.numerator < 0 for t in self.terms)
 
 
 def product(
-    atoms: Atoms, coefficient: Fraction, parts: list[tuple[int | Sum, Exponent]]
+    atoms: Atoms, coefficient: Coefficient, parts: list[tuple[int | Sum, Exponent]]
 ) -> Product:
     """The product, its signs put where fewest are needed, and its cost."""
     signed: list[tuple[int | Sum, Exponent]] = []
@@ -86,7 +87,7 @@ def product(
         elif isinstance(part, Sum) and exponent % 2 == 0 and 2 * part.negatives() > len(part.terms):
             part = part.negated()
         signed.append((part, exponent))
-    if coefficient < 0 and best >= 0:
+    if coefficient.numerator < 0 and best >= 0:
         part, exponent = signed[best]
         assert isinstance(part, Sum)
         signed[best] = (part.negated(), exponent)
@@ -104,30 +105,31 @@ def product(
         else:
             cost += atoms.costs[part]
         if size != 1:
-            cost += 1 if isinstance(size, int) or size == Fraction(1, 2) else 2
+            cost += 1 if isinstance(size, int) or size == _HALF else 2
         if exponent > 0:
             above += 1
         else:
             below += 1
     above += abs(coefficient.numerator) != 1 or not above
     below += coefficient.denominator != 1
-    cost += above - 1 + below + (coefficient < 0)
+    cost += above - 1 + below + (coefficient.numerator < 0)
     return Product(coefficient, tuple(signed), cost, strain)
 
 
 def _halved(
-    atoms: Atoms, coefficient: Fraction, parts: list[tuple[int | Sum, Exponent]]
-) -> Fraction:
+    atoms: Atoms, coefficient: Coefficient, parts: list[tuple[int | Sum, Exponent]]
+) -> Coefficient:
     """(a + 2*b)/2 as a/2 + b where that shows less; the sum in `parts` is replaced."""
     below = coefficient.denominator
     for position, (part, exponent) in enumerate(parts):
         if not isinstance(part, Sum) or exponent != 1:
             continue
         before = sum(abs(t.coefficient) != 1 for t in part.terms)
-        after = sum((abs(t.coefficient / below).numerator != 1)
-                    + ((t.coefficient / below).denominator != 1) for t in part.terms)  # fmt: skip
+        divided = [Fraction(t.coefficient) / below for t in part.terms]
+        after = sum((abs(x.numerator) != 1) + (x.denominator != 1) for x in divided)
         if after < before + 1:
-            terms = [product(atoms, t.coefficient / below, list(t.parts)) for t in part.terms]
+            pairs = zip(divided, part.terms, strict=True)
+            terms = [product(atoms, x, list(t.parts)) for x, t in pairs]
             parts[position] = (total(terms), exponent)
             return coefficient * below
     return coefficient
@@ -147,4 +149,4 @@ def write(plan: Product | Sum, atoms: Atoms, writer: Writer) -> Expression:
         (atoms.trees[part] if isinstance(part, int) else write(part, atoms, writer), Fraction(e))
         for part, e in plan.parts
     ]
-    return writer.product(plan.coefficient, factors)
+    return writer.product(Fraction(plan.coefficient), factors)

@@ -176,7 +176,7 @@ class Shaper:
         parts: list[tuple[int | Sum, Exponent]] = [
             *((a, e) for a, e in sorted(exponents.items()) if e), *sums
         ]  # fmt: skip
-        return product(self.atoms, above.coefficient / below.coefficient, parts)
+        return product(self.atoms, Fraction(above.coefficient) / below.coefficient, parts)
 
     def _spread(self, element: Element, below: Product) -> Iterator[Product | Sum]:
         """Terms with denominators of their own, as far as these are products of atoms."""
@@ -190,7 +190,7 @@ class Shaper:
         for terms in self.expansions.of(element.numerator):
             divided: Terms = {}
             for term, value in terms.items():
-                divided[multiply(term, divisor)] = value / below.coefficient
+                divided[multiply(term, divisor)] = Fraction(value) / below.coefficient
             plan = self.grouper.group(divided, spread=True)
             if not sums:
                 yield plan
@@ -271,7 +271,7 @@ class Shaper:
             tangent = (
                 ((self.atoms.circular("tan", angles), powers[sine]),) if sine in powers else ()
             )
-            terms[multiply(rest, tangent)] = Fraction(value)
+            terms[multiply(rest, tangent)] = value
         degree = degrees.pop()
         if degrees or len(terms) < 2:
             return 0, product(self.atoms, Fraction(0), [])

@@ -21,18 +21,18 @@ from flint import Ordering, fmpz_mpoly_ctx
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.ring import Monomial, Poly
-from lagcli.algebra.shaping.atoms import Angles, Atoms, Term, Terms, multiply
+from lagcli.algebra.shaping.atoms import Angles, Atoms, Coefficient, Term, Terms, multiply
 
 Vector: TypeAlias = tuple[int, ...]
-Fourier: TypeAlias = dict[Vector, tuple[Fraction, Fraction]]  # of exp(i n.a): real, imaginary
+Fourier: TypeAlias = dict[Vector, tuple[Coefficient, Coefficient]]  # of exp(i n.a): real, imaginary
 
 _MAX_DEGREE = 10
 _MAX_SIZE = 150
 
 
 @cache
-def _power(cosines: int, sines: int) -> tuple[tuple[int, Fraction, Fraction], ...]:
-    """cos^p sin^q = ((z + 1/z)/2)^p ((z - 1/z)/(2i))^q as (n, real, imaginary)."""
+def _power(cosines: int, sines: int) -> tuple[tuple[int, int, int], ...]:
+    """2^(p + q) cos^p sin^q = (z + 1/z)^p ((z - 1/z)/i)^q as (n, real, imaginary)."""
     row = {0: 1}
     for sign in [1] * cosines + [-1] * sines:
         following: dict[int, int] = {}
@@ -40,14 +40,9 @@ def _power(cosines: int, sines: int) -> tuple[tuple[int, Fraction, Fraction], ..
             following[n + 1] = following.get(n + 1, 0) + value
             following[n - 1] = following.get(n - 1, 0) + sign * value
         row = following
-    scale = 2 ** (cosines + sines)
     # i^-q = 1, -i, -1, i
     real, imaginary = [(1, 0), (0, -1), (-1, 0), (0, 1)][sines % 4]
-    return tuple(
-        (n, Fraction(value * real, scale), Fraction(value * imaginary, scale))
-        for n, value in row.items()
-        if value
-    )
+    return tuple((n, value * real, value * imaginary) for n, value in row.items() if value)
 
 
 class Trigonometry:
@@ -83,14 +78,18 @@ class Trigonometry:
         for part in (0, 1):
             half = {n: v for n, v in fourier.items() if v[part]}
             for term, value in self._product(half, cosines, odd=part == 1).items():
-                products[term] = products.get(term, Fraction(0)) + value
+                products[term] = products.get(term, 0) + value
         yield {t: v for t, v in products.items() if v}
 
-    def _fourier(self, terms: Iterable[tuple[Monomial, int]], cosines: list[int]) -> Fourier | None:
-        total: Fourier = {}
-        for monomial, coefficient in terms:
+    def _fourier(
+        self, terms: tuple[tuple[Monomial, int], ...], cosines: list[int]
+    ) -> Fourier | None:
+        total: dict[Vector, tuple[int, int]] = {}  # times 2^degree
+        degrees = [sum(e for _, e in monomial) for monomial, _ in terms]
+        scale = 2 ** max(degrees)
+        for (monomial, coefficient), degree in zip(terms, degrees, strict=True):
             exponents = dict(monomial)
-            product: Fourier = {(): (Fraction(coefficient), Fraction(0))}
+            product: dict[Vector, tuple[int, int]] = {(): (coefficient * scale // 2**degree, 0)}
             for cosine in cosines:
                 factor = _power(exponents.get(cosine, 0), exponents.get(cosine + 1, 0))
                 product = {
@@ -101,9 +100,11 @@ class Trigonometry:
                 if len(product) > _MAX_SIZE:
                     return None
             for n, (a, b) in product.items():
-                x, y = total.get(n, (Fraction(0), Fraction(0)))
+                x, y = total.get(n, (0, 0))
                 total[n] = (a + x, b + y)
-        return {n: v for n, v in total.items() if v[0] or v[1]}
+        return {
+            n: (Fraction(a, scale), Fraction(b, scale)) for n, (a, b) in total.items() if a or b
+        }
 
     def _atom(self, function: str, n: Vector, cosines: list[int]) -> tuple[int, Term]:
         """(sign, atom) of sin or cos of n.a, the first multiple made positive."""
@@ -124,7 +125,7 @@ class Trigonometry:
                 if value:
                     sign, term = self._atom(function, n, cosines)
                     if sign:
-                        result[term] = result.get(term, Fraction(0)) + sign * value
+                        result[term] = result.get(term, 0) + sign * value
         return {t: v for t, v in result.items() if v}
 
     def _product(self, fourier: Fourier, cosines: list[int], *, odd: bool) -> Terms:
@@ -185,7 +186,7 @@ class Trigonometry:
         # centred: the Laurent polynomial is (anti)symmetric under z -> 1/z
         middle = [max(m[k] for m in exponents) + min(m[k] for m in exponents)
                   for k in range(len(cosines))]  # fmt: skip
-        fourier = {
+        fourier: Fourier = {
             tuple((2 * e - c) // 2 for e, c in zip(m, middle, strict=True)): (
                 number * int(v) * real,
                 number * int(v) * imaginary,
