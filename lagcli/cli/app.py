@@ -16,6 +16,7 @@ COMMANDS = {
     "explain": "Tell the derivation step by step, with its reasons.",
     "simulate": "Compute the motion to a stated accuracy, with a certificate.",
     "tradeoff": "Measure what accuracy costs: every method against a known reference.",
+    "extremes": "Take a problem to its extremes and report where it breaks.",
     "check": "Check problems against their known answers and against the mathematics.",
     "formats": "List the formats that `solve --format` knows.",
     "cache": "Show where the answers of earlier runs are kept, or remove them.",

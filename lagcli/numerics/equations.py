@@ -151,15 +151,16 @@ class Equations:
         return self._eliminated([self.rows[k] for k in self.holonomic])
 
     def _eliminated(self, rows: object) -> Eliminated | None:
-        if len(self.q) > _WRITTEN_OUT or self._factored is None:
+        if len(self.q) > _WRITTEN_OUT or self.factored is None:
             return None
         try:
-            return Eliminated(self.graph, self._factored, rows)  # type: ignore[arg-type]
+            return Eliminated(self.graph, self.factored, rows)  # type: ignore[arg-type]
         except ZeroDivisionError:
             return None
 
     @cached_property
-    def _factored(self) -> Factored | None:
+    def factored(self) -> Factored | None:
+        """The mass matrix as L D L^T; None where a pivot is 0 whatever the state."""
         try:
             return Factored(self.graph, self.mass)
         except ZeroDivisionError:

@@ -106,7 +106,10 @@ class Taylor:
                 context.cap = known
                 places = [series(c[:known]) for c in x]
                 rates = [series([k * c[k] for k in range(1, known + 1) if k < len(c)]) for c in x]
-                found = self.motion.accelerations(series([t, 1]), *places, *rates)
+                try:
+                    found = self.motion.accelerations(series([t, 1]), *places, *rates)
+                except (ZeroDivisionError, ValueError):
+                    raise CannotGoOn(t, q, v, "something is divided by 0") from None
                 self.evaluations += 1
                 for c, a in zip(x, found, strict=True):
                     for k in range(len(c) - 2, known):

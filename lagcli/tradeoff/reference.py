@@ -152,6 +152,25 @@ def _precise(
     return best if best is not None and best.bound < _FOLLOWS else None
 
 
+def precise_rows(problem: Problem, asked: Asked, digits: int, limit: float) -> Rows | None:
+    """The rows by power series with so many digits; None where that is not possible in time.
+
+    One run, without a bound on its error: it confirms what another method has found.
+
+    Raises
+    ------
+    Refusal
+        When there is nothing to run.
+    """
+    from lagcli.numerics.precise import prepared
+
+    simulation, modes = Simulation(problem, replace(asked, whole=True)).ready()
+    made = prepared(simulation, modes, digits)
+    if isinstance(made, str):
+        return None
+    return _run(simulation, made, 10.0 ** (_BETWEEN - digits), limit)
+
+
 def _run(simulation: Simulation, made: Prepared, tolerance: float, limit: float) -> Rows | None:
     """The rows of one run; None where it stops or takes too long."""
     end = process_time() + limit

@@ -25,6 +25,11 @@ CASES = {
     "sqrt(1 + x^2) - 1": lambda x: EXACT.sqrt(1 + x**2) - 1,
     "1/sqrt(1 - x^2) - 1": lambda x: 1 / EXACT.sqrt(1 - x**2) - 1,
     "y*sqrt(1 + x)/2 - y/2": lambda x: EXACT.sqrt(1 + x) - 1,
+    "1 - cos(x)^2": lambda x: EXACT.sin(x) ** 2,
+    "y*cosh(x)^2 - y": lambda x: 2 * EXACT.sinh(x) ** 2,
+    "3 + y*cos(x)^2 - y - 3*exp(x)": lambda x: 3 - 3 * EXACT.exp(x) - 2 * EXACT.sin(x) ** 2,
+    "cos(1 + x) - cos(1)": lambda x: -2 * EXACT.sin(1 + x / 2) * EXACT.sin(x / 2),
+    "y*sin(1 + x) - y*sin(1)": lambda x: 4 * EXACT.cos(1 + x / 2) * EXACT.sin(x / 2),
 }
 
 
@@ -44,6 +49,19 @@ def test_the_stable_form_keeps_its_digits(formula, x):
     assert values(formula, stable=True)(x) == pytest.approx(
         float(CASES[formula](EXACT.mpf(x))), rel=2e-15, abs=0
     )
+
+
+@pytest.mark.parametrize(
+    "formula", ["1 - x^2", "y^2*x^2 - y^2", "1 - x^2/(2*y)^2*16"]
+)
+@pytest.mark.parametrize("x", [1 - 1e-7, -1 + 1e-6])
+def test_a_difference_of_squares_keeps_its_digits(formula, x):
+    """Each is c (1 - x^2), next to 0."""
+    c = -4 if formula[0] == "y" else 1
+    exact = float(c * (1 - EXACT.mpf(x) ** 2))
+    assert values(formula, stable=True)(x) == pytest.approx(exact, rel=1e-15, abs=0)
+    plain = values("1 - x^2", stable=False)(x)
+    assert plain != pytest.approx(float(1 - EXACT.mpf(x) ** 2), rel=1e-11, abs=0)
 
 
 @pytest.mark.parametrize("formula", ["1 - cos(x)", "1/sqrt(1 - x^2) - 1", "cosh(x) - 1"])
