@@ -51,9 +51,7 @@ def test_the_stable_form_keeps_its_digits(formula, x):
     )
 
 
-@pytest.mark.parametrize(
-    "formula", ["1 - x^2", "y^2*x^2 - y^2", "1 - x^2/(2*y)^2*16"]
-)
+@pytest.mark.parametrize("formula", ["1 - x^2", "y^2*x^2 - y^2", "1 - x^2/(2*y)^2*16"])
 @pytest.mark.parametrize("x", [1 - 1e-7, -1 + 1e-6])
 def test_a_difference_of_squares_keeps_its_digits(formula, x):
     """Each is c (1 - x^2), next to 0."""
