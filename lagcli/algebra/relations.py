@@ -272,10 +272,13 @@ class Generic(Relations):
         """Whether a polynomial is 0 at generic points, by its remainders.
 
         For y = a/b, sum c_k y^k is 0 where sum c_k a^k b^(K - k) is.  None where a symbol
-        that was solved for stands inside a function.
+        that was solved for stands inside a function, or what was divided by is 0 after all.
         """
         ring = field.ring
-        values = [(field.number_of(s), field(value)) for s, value in self.solved.items()]
+        try:
+            values = [(field.number_of(s), field(value)) for s, value in self.solved.items()]
+        except ZeroDivisionError:
+            return None
         hidden = {
             s for g in field.generators if g.kind != "symbol" for s in g.expression.free_symbols
         }

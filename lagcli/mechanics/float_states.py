@@ -12,6 +12,7 @@ import random
 from collections.abc import Mapping, Sequence
 from operator import mul
 
+from lagcli.graph.nodes import Node
 from lagcli.graph.values import Concrete, Floats, Program
 from lagcli.mechanics.rates import ConstraintRow
 from lagcli.problem import Problem, Quantity
@@ -19,6 +20,8 @@ from lagcli.record import record
 
 _ATTEMPTS = 12
 _NEWTON_STEPS = 60
+#: So many of the attempts begin near the initial state, and so far from it.
+_NEAR_START, _AWAY = 3, 0.2
 #: What is left of a dependent row, and of an independent one, as a part of its length.
 _ROUNDING, _SIZEABLE = 1e-10, 1e-6
 _CLOSED = 1e-11
@@ -74,6 +77,8 @@ class FloatStates:
         Its constraints as nodes.
     functions
         What stands for functions that are left unspecified.
+    start
+        Coordinates at t = 0: a mechanism may have other branches, of another rank.
     """
 
     def __init__(
@@ -81,9 +86,12 @@ class FloatStates:
         problem: Problem,
         rows: Sequence[ConstraintRow],
         functions: Mapping[str, Concrete],
+        start: Mapping[str, Node],
     ) -> None:
         self.problem = problem
         self.rows = rows
+        self._start = tuple(start)
+        self._starts = Program(list(start.values()), Floats(), functions)
         positions = [row for row in rows if row.holonomic]
         self._count = len(positions)
         self._positions = Program(
@@ -108,9 +116,11 @@ class FloatStates:
         if not self.rows:
             return ()
         source = random.Random("lagcli")
-        for _ in range(_ATTEMPTS):
+        for attempt in range(_ATTEMPTS):
             state = self._drawn(source)
             try:
+                if attempt < _NEAR_START:
+                    self._put_near_start(state, source)
                 found = self._rank(state) if self._on_positions(state) else None
             except (ArithmeticError, ValueError):
                 continue
@@ -131,6 +141,10 @@ class FloatStates:
             state[q.name] = _signed(source, q, 0.3, 1.3)
             state[q.name + "'"] = source.uniform(-0.9, 0.9)
         return state
+
+    def _put_near_start(self, state: dict[str, float], source: random.Random) -> None:
+        for name, value in zip(self._start, self._starts(state), strict=True):
+            state[name] = value + _AWAY * source.uniform(-1.0, 1.0)
 
     def _on_positions(self, state: dict[str, float]) -> bool:
         """Newton steps of least norm onto f(q, t) = 0; whether they came there."""

@@ -328,7 +328,9 @@ class MatrixForm:
     @cached_property
     def independent(self) -> tuple[int, ...]:
         """Indices of the constraints that earlier ones do not imply."""
-        states = FloatStates(self.problem, self.constraints, self.functions)
+        given = self.problem.initial.items()
+        start = {name.name: self.read(value) for name, value in given if not name.primes}
+        states = FloatStates(self.problem, self.constraints, self.functions, start)
         found = states.independent_constraints()
         if found is None:
             raise NotStructural("the rank of the constraints is in doubt in double precision")

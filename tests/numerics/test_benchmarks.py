@@ -1,0 +1,60 @@
+"""Published multibody benchmarks: they derive, run with a certificate, and meet what is known."""
+
+from pathlib import Path
+
+import pytest
+
+from lagcli import load
+from lagcli.check.trajectory import TrajectoryCheck
+from lagcli.decimals import value_of
+from lagcli.mechanics.matrix_form import MatrixForm
+from lagcli.pipeline import solve
+
+from .running import last, simulated
+
+FOLDER = Path(__file__).parents[2] / "benchmarks"
+FILES = sorted(path.stem for path in FOLDER.glob("*.yaml"))
+
+
+def test_the_folder_is_there():
+    assert FILES == ["andrews-squeezer", "bricard", "flyball-governor", "n-four-bar"]
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_matrix_form_is_written(name):
+    problem = load(FOLDER / f"{name}.yaml")
+    section = solve(problem, ["matrix_form"]).sections["matrix_form"]
+    assert len(section.mass_matrix) == len(section.forcing) == len(problem.coordinates)
+    assert len(section.constraint_jacobian) == len(problem.constraints)
+    assert MatrixForm(problem).degrees_of_freedom == (4 if name == "flyball-governor" else 1)
+
+
+@pytest.mark.parametrize("name", [name for name in FILES if name != "bricard"])
+def test_the_known_motion_is_met(name):
+    findings = list(TrajectoryCheck(load(FOLDER / f"{name}.yaml")))
+    assert findings
+    assert [found for found in findings if found is not None] == []
+
+
+def test_andrews_angles_are_those_of_the_test_set_to_ten_digits():
+    problem = load(FOLDER / "andrews-squeezer.yaml")
+    row = problem.expect.trajectory.rows[-1]
+    known = {each.name: value_of(each.value) for each in row.values}
+    result = simulated((FOLDER / "andrews-squeezer.yaml").read_text("utf-8"), 0.03, 1e-11)
+    assert result.certificate.reached
+    for name in ("beta", "theta", "gamma", "phi", "delta", "omega", "epsilon"):
+        assert last(result, name) == pytest.approx(known[name], rel=1e-10, abs=1e-10)
+
+
+def test_bricard_moves_along_its_known_relation_in_spite_of_redundant_constraints():
+    """cos a + cos b + cos a cos b = 0 for hinges across each other (Chen, You, Tarnai 2005)."""
+    show = "q0,q2,q4,q1,q3,cos(q0)+cos(q1)+cos(q0)*cos(q1),energy"
+    text = (FOLDER / "bricard.yaml").read_text("utf-8")
+    result = simulated(text, 1.0, 1e-6, show, samples=5)
+    assert result.certificate.reached
+    assert max(held for held, _ in result.certificate.constraints.values()) < 1e-12
+    for _, a, c, e, b, d, relation, energy in result.rows:
+        assert (c, e, d) == pytest.approx((a, a, b), abs=1e-6)
+        assert relation == pytest.approx(0, abs=1e-9)
+        assert energy == pytest.approx(-3 * 9.81, rel=1e-9)
+    assert abs(result.rows[-1][1] - result.rows[0][1]) > 0.5
