@@ -18,7 +18,7 @@ from sympy import Dummy, Expr, Symbol
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients
 from lagcli.algebra.field import Element
-from lagcli.algebra.ring import Poly
+from lagcli.algebra.ring import Poly, factorization
 
 _PASSES = 12
 _MAX_TERMS = 4000
@@ -123,7 +123,7 @@ class Elimination:
             return None
         ring = field.ring
         product = ring.one
-        for factor, _ in ring.lift(element.numerator).factor()[1]:
+        for factor, _ in factorization(ring.lift(element.numerator))[1]:
             if not self._nonzero(field.polynomial_to_sympy(factor)):
                 product = product * ring.lift(factor)
         return ring.lift(element.numerator) if product.is_constant() else product

@@ -18,7 +18,7 @@ from sympy import Dummy, Expr, Rational, S, Symbol
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
-from lagcli.algebra.ring import Poly
+from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.simplification import shape, simplify
 from lagcli.expression import Expression, Negative, Number
 
@@ -66,7 +66,7 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
     angles = angle_roots(field, poly, cosine)
     if angles is None:
         return None
-    angles = [_rounded(angle) for angle in angles]
+    angles = [rounded(angle) for angle in angles]
     if factor == 1:
         return Roots(tuple(angles), angle=True)
     if factor.is_Rational and factor.p == 1:
@@ -111,7 +111,7 @@ def factor_roots(
 ) -> list[tuple[list[Expr] | None, int, int]]:
     """By irreducible factor: roots (None without closed form), multiplicity, degree."""
     ring = field.ring
-    _, factors = ring.lift(poly).factor()
+    _, factors = factorization(ring.lift(poly))
     factors.sort(key=lambda pair: (pair[0].total_degree(), str(pair[0])))
     found = []
     for factor, multiplicity in factors:
@@ -217,8 +217,8 @@ def written(value: Expr, order: Sequence[str]) -> Expression:
     return Negative(number) if value < 0 else number
 
 
-def _rounded(value: Expr) -> Expr:
-    """A function of a decimal as a decimal."""
+def rounded(value: Expr) -> Expr:
+    """A function of a decimal as a decimal, anything else unchanged."""
     if value.is_number and any(map(is_decimal, value.atoms(Rational))):
         return decimal(value.evalf(_DECIMALS + 10))
     return value
@@ -234,7 +234,7 @@ def angle_roots(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
     """
     ring = field.ring
     roots: list[Expr] = []
-    _, factors = ring.lift(poly).factor()
+    _, factors = factorization(ring.lift(poly))
     for factor, _ in sorted(factors, key=lambda pair: (pair[0].total_degree(), str(pair[0]))):
         used = ring.used(factor)
         if cosine not in used and cosine + 1 not in used:

@@ -140,3 +140,18 @@ class Ring:
     def derivative(self, poly: Poly, generator: int) -> Poly:
         """The partial derivative by a generator."""
         return self.lift(poly).derivative(self.capacity - 1 - generator)
+
+
+def factorization(poly: Poly) -> tuple[Any, list[tuple[Poly, int]]]:
+    """The content, and the irreducible factors with their exponents.
+
+    FLINT's binding cannot sort factors with coefficients beyond a machine's integer (15
+    digits squared); they are then the square-free ones, or the polynomial itself.
+    """
+    for split in (poly.factor, poly.factor_squarefree):
+        try:
+            content, factors = split()
+        except OverflowError:
+            continue
+        return content, factors
+    return 1, [(poly, 1)]

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import sympy
 
 from lagcli.algebra.field import Element, Generator
-from lagcli.algebra.ring import Poly
+from lagcli.algebra.ring import Poly, factorization
 
 if TYPE_CHECKING:
     from lagcli.algebra.entry import Field
@@ -37,7 +37,7 @@ def absolute(field: Field, element: Element) -> Element:
 
 
 def _absolute(field: Field, poly: Poly) -> Element:
-    content, factors = poly.factor()
+    content, factors = factorization(poly)
     result = field.rational(abs(int(content)))
     for factor, exponent in factors:
         base = field.polynomial(factor)
@@ -57,7 +57,7 @@ def sign(field: Field, element: Element) -> Element:
 def _sign(field: Field, poly: Poly) -> Element:
     if poly == 0:
         return field.rational(0)
-    content, factors = poly.factor()
+    content, factors = factorization(poly)
     result = field.rational(1 if int(content) > 0 else -1)
     for factor, exponent in factors:
         expression = field.polynomial_to_sympy(factor)
@@ -116,7 +116,7 @@ def _polynomial_root(field: Field, radicand: Poly, index: int) -> Element:
     if square is not None:
         return absolute(field, square)
     radicand = ring.reduce(radicand)
-    content, factors = radicand.factor()
+    content, factors = factorization(radicand)
     number = int(content)
     together = ring.constant(-1 if number < 0 else 1)
     result = _integer_root(field, abs(number), index)

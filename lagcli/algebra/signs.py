@@ -8,7 +8,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra.entry import Field
-from lagcli.algebra.ring import Poly
+from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.roots import substitute_square
 
 
@@ -37,7 +37,7 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
     known = [factor for poly in given for factor in _open_factors(field, poly)]
     result = 1
     for poly in (element.numerator, element.denominator):
-        content, factors = field.ring.lift(poly).factor()
+        content, factors = factorization(field.ring.lift(poly))
         result *= 1 if int(content) > 0 else -1
         for factor, exponent in factors:
             found = _of_factor(field, factor, known)
@@ -65,7 +65,7 @@ def sign_of_circle(factor: Expr) -> int | None:
 
 def _open_factors(field: Field, poly: Poly) -> list[Poly]:
     """The one factor whose sign a positive product decides, made positive; none if several."""
-    content, factors = field.ring.lift(poly).factor()
+    content, factors = factorization(field.ring.lift(poly))
     value = 1 if int(content) > 0 else -1
     unknown = []
     for factor, exponent in factors:

@@ -13,7 +13,7 @@ from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.leaves import Translator, to_expression
 from lagcli.algebra.relations import Relations
-from lagcli.algebra.ring import Monomial, Poly
+from lagcli.algebra.ring import Monomial, Poly, factorization
 from lagcli.algebra.shaping.plan import OPERATION
 from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.writing import Writer
@@ -224,7 +224,7 @@ class Readable:
         """Each factor by its shortest equal."""
         assert self.relations is not None
         field = self.field
-        content, factors = field.ring.lift(poly).factor()
+        content, factors = factorization(field.ring.lift(poly))
         result = field.rational(int(content))
         for factor, exponent in factors:
             equal = [field.polynomial(self.relations.shared_out(field, factor))]
@@ -235,5 +235,5 @@ class Readable:
 
 def _factored_size(element: Element) -> tuple[int, int]:
     """The terms of the factors of an element, and those of itself."""
-    factors = (*element.numerator.factor()[1], *element.denominator.factor()[1])
+    factors = (*factorization(element.numerator)[1], *factorization(element.denominator)[1])
     return sum(len(factor) for factor, _ in factors), element.size()

@@ -16,6 +16,8 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients, solve_for
+from lagcli.algebra.opening import by_distances, opened
+from lagcli.algebra.ring import factorization
 from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import is_zero, simplify
 
@@ -42,17 +44,19 @@ def solve_system(
     equations: Sequence[Expr], unknowns: Sequence[Symbol], budget: float = 5.0
 ) -> SolvedSystem:
     """All real solutions of equations = 0 within the assumptions on the unknowns."""
-    solver = _Solver(unknowns, process_time() + budget)
+    solver = _Solver(equations, unknowns, process_time() + budget)
     solver.branch(list(equations), {}, ())
     return solver.found
 
 
 class _Solver:
-    def __init__(self, unknowns: Sequence[Symbol], deadline: float) -> None:
+    def __init__(self, given: Sequence[Expr], unknowns: Sequence[Symbol], deadline: float) -> None:
         self.unknowns = tuple(unknowns)
         self.found = SolvedSystem()
+        self._given = given
         self._deadline = deadline
         self._branches = 0
+        self._opened = False
 
     def branch(
         self, equations: list[Expr], values: dict[Symbol, Expr], positive: tuple[Expr, ...]
@@ -80,7 +84,31 @@ class _Solver:
                 for factor in factors:
                     self._solve(factor, rest, values, positive)
                 return
-        self.found.complete = False
+        if not self._reformed(left, values, positive):
+            self.found.complete = False
+
+    def _reformed(
+        self, left: list[list[Expr]], values: dict[Symbol, Expr], positive: tuple[Expr, ...]
+    ) -> bool:
+        """Follow the branches that another form of the equations opens, if there is one."""
+        if not (values or self._opened):
+            self._opened = True
+            branches = by_distances(self._given, self.unknowns)
+            for each in branches:
+                self.branch(list(each.equations), values, (*positive, *each.positive))
+            if branches:
+                return True
+        products = [sympy.Mul(*factors) for factors in left]
+        if any(len(factors) > 1 for factors in left):
+            first = next(k for k, factors in enumerate(left) if len(factors) > 1)
+            rest = [e for k, e in enumerate(products) if k != first]
+            for factor in left[first]:
+                self.branch([factor, *rest], values, positive)
+            return True
+        branches = opened(products, self.unknowns)
+        for each in branches:
+            self.branch(list(each.equations), values, (*positive, *each.positive))
+        return bool(branches)
 
     def _cost(self, factors: Sequence[Expr]) -> tuple[int, int]:
         most = max(len(self._in(factor)) for factor in factors)
@@ -100,7 +128,7 @@ class _Solver:
             return None
         factors = [
             field.polynomial_to_sympy(factor)
-            for factor, _ in field.ring.lift(element.numerator).factor()[1]
+            for factor, _ in factorization(field.ring.lift(element.numerator))[1]
         ]
         if field.doubtful and any(is_zero(f) is None and abs(_value(f)) < 1e-25 for f in factors
                                   if not f.free_symbols):  # fmt: skip
@@ -189,20 +217,15 @@ class _Solver:
         ordered = {u: plain[u] for u in self.unknowns if u in plain}
         if any(other.values == ordered for other in self.found.solutions):
             return
-        self.found.solutions.append(SystemSolution(ordered, positive))
-
-
-def factors_of(expression: Expr) -> list[tuple[Expr, int]]:
-    """The irreducible factors with their exponents, negative ones from the denominator."""
-    field = Field([expression])
-    element = field(expression)
-    found: list[tuple[Expr, int]] = []
-    for poly, side in ((element.numerator, 1), (element.denominator, -1)):
-        content, factors = field.ring.lift(poly).factor()
-        if int(content) != 1:
-            found.append((sympy.Integer(int(content)), side))
-        found += [(field.polynomial_to_sympy(f), side * int(k)) for f, k in factors]
-    return found
+        conditions = []
+        for each in positive:
+            there = simplify(each.subs(list(plain.items()), simultaneous=True))
+            known = sign(there) if self._in(each) else None
+            if known in (0, -1):
+                return
+            if known is None:
+                conditions.append(there)
+        self.found.solutions.append(SystemSolution(ordered, tuple(dict.fromkeys(conditions))))
 
 
 def _substituted(expression: Expr, unknown: Symbol, root: Expr) -> Expr:

@@ -77,7 +77,7 @@ L: m*(x'^2 + y'^2)/2 + b*(x*y' - y*x')/2 + a*(x^2 + y^2)/2
 """)
     assert found.stable is None
     assert found.minimum is None
-    assert conditions(found.spectrum or ()) == ["b^2 > 2*m*a", "b^2 > 4*m*a"]
+    assert conditions(found.spectrum or ()) == ["b^2 > 4*m*a"]
     for b, stable in ((mpmath.mpf("1.9"), False), (mpmath.mpf("2.1"), True)):
         flow = mpmath.matrix([[0, 0, 1, 0], [0, 0, 0, 1], [1, 0, 0, b], [0, 1, -b, 0]])
         roots = mpmath.eig(flow, left=False, right=False)
@@ -213,3 +213,48 @@ def test_a_square_that_may_vanish_proves_nothing(potential, stable, minimum):
     assert found.stable is stable
     assert (None if found.minimum is None else conditions(found.minimum)) == minimum
     assert found.stable is not None or minimum or found.reason
+
+
+def test_the_collinear_points_by_numbers():
+    """Szebehely, Theory of Orbits, section 4.2: the zeros of the force along the axis."""
+    found = motions("""
+coordinates: [x, y]
+T: ((x' - y)^2 + (y' + x)^2)/2
+V: -9/10/sqrt((x + 1/10)^2 + y^2) - 1/10/sqrt((x - 9/10)^2 + y^2)
+""")
+    collinear = [m for m in found if to_grammar(m.at["y"]) == "0"]
+    triangular = [m for m in found if m not in collinear]
+    assert sorted(to_grammar(m.at["y"]) for m in triangular) == ["-sqrt(3)/2", "sqrt(3)/2"]
+
+    def force(x):
+        near, far = x - mpmath.mpf("0.9"), x + mpmath.mpf("0.1")
+        return (
+            x - mpmath.mpf("0.9") * far / abs(far) ** 3 - mpmath.mpf("0.1") * near / abs(near) ** 3
+        )
+
+    with mpmath.workdps(30):
+        roots = sorted(mpmath.findroot(force, start) for start in (-1.04, 0.6, 1.25))
+        places = sorted(mpmath.mpf(to_grammar(m.at["x"])) for m in collinear)
+        assert all(abs(a - b) < 1e-14 for a, b in zip(places, roots, strict=True))
+    assert [m.stable for m in found] == [False] * 5  # 27 mu (1 - mu) = 2.43
+
+
+def test_three_coupled_coordinates_against_their_numeric_spectrum():
+    [motion] = motions("""
+coordinates: [x, y, z]
+parameters: {b: POSITIVE, c: POSITIVE}
+L: (x'^2 + y'^2 + z'^2)/2 + b*(x*y' - y*x')/2 + c*(y*z' - z*y')/2 + (x^2 + 2*y^2 - 3*z^2)/2
+""")
+    assert motion.spectrum
+    b, c = symbols("b c", positive=True)
+    s = Symbol("s")
+    whole = Matrix([[s**2 - 1, -b * s, 0], [b * s, s**2 - 2, -c * s], [0, c * s, s**2 + 3]]).det()
+    sides = [formula(f"{to_grammar(e.left)} - ({to_grammar(e.right)})") for e in motion.spectrum]
+    verdicts = set()
+    for value in [{b: i / 2, c: j / 2} for i in (1, 3, 4, 5, 7) for j in (1, 2, 4, 6)]:
+        said = all(side.subs(value) > 0 for side in sides)
+        numbers = [float(x) for x in whole.subs(value).as_poly(s).all_coeffs()]
+        roots = mpmath.polyroots(numbers, maxsteps=200)
+        assert said == all(abs(root.real) < 1e-7 for root in roots)
+        verdicts.add(said)
+    assert verdicts == {True, False}

@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 from flint import Ordering, fmpz_mpoly_ctx
 
-from lagcli.algebra.ring import Poly
+from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.shaping.atoms import Atoms, Coefficient, Exponent, Term, Terms, multiply
 from lagcli.algebra.shaping.plan import Product, Sum, product, total
 
@@ -201,7 +201,7 @@ class Grouper:
             for atom, exponent in term:
                 exponents[used[atom]] = int(exponent * scales[atom])
             data[tuple(exponents)] = value
-        content, found = context.from_dict(data).factor()
+        content, found = factorization(context.from_dict(data))
         factors = with_squares(found)
         if len(factors) == 1 and int(factors[0][1]) == 1:
             return None

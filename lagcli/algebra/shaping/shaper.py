@@ -10,7 +10,7 @@ from sympy import Expr
 from lagcli.algebra.division import commonest_ratio
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
-from lagcli.algebra.ring import Monomial, Poly
+from lagcli.algebra.ring import Monomial, Poly, factorization
 from lagcli.algebra.shaping.atoms import Atoms, Exponent, Terms, multiply
 from lagcli.algebra.shaping.expansions import LONG, Expansions
 from lagcli.algebra.shaping.grouping import Grouper, with_squares
@@ -127,7 +127,7 @@ class Shaper:
         """
         if not 2 <= len(element.numerator) <= LONG:
             return
-        divisors = [f**e for f, e in element.denominator.factor()[1] if len(f) > 1]
+        divisors = [f**e for f, e in factorization(element.denominator)[1] if len(f) > 1]
         if not divisors:
             return
         common = element.numerator.term_content()
@@ -279,7 +279,7 @@ class Shaper:
 
     def _factored(self, poly: Poly) -> tuple[int, list[tuple[Poly, int]]]:
         """Irreducible factors; (1 - cos)(1 + cos) is joined to sin²."""
-        content, factors = poly.factor()
+        content, factors = factorization(poly)
         factors = [(f, int(e)) for f, e in factors]
         ring = self.field.ring
         for index in ring.used(poly):

@@ -20,7 +20,7 @@ from typing import TypeAlias
 from flint import Ordering, fmpz_mpoly_ctx
 
 from lagcli.algebra.entry import Field
-from lagcli.algebra.ring import Monomial, Poly
+from lagcli.algebra.ring import Monomial, Poly, factorization
 from lagcli.algebra.shaping.atoms import Angles, Atoms, Coefficient, Term, Terms, multiply
 
 Vector: TypeAlias = tuple[int, ...]
@@ -140,7 +140,7 @@ class Trigonometry:
             {tuple(k - m for k, m in zip(n, low, strict=True)): int(v * common)
              for n, v in part.items()}
         )  # fmt: skip
-        content, factors = poly.factor()
+        content, factors = factorization(poly)
         # poly z^low = i^-odd sum; each factor (z^u + s z^v) = z^((u+v)/2) * 2 cos or 2i sin
         doubled: dict[tuple[str, Vector], int] = {}
         rest: Poly = context.constant(1)

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 
 from flint import nmod_mat, nmod_poly
 
+from lagcli.algebra.ring import factorization
 from lagcli.mechanics.discovery.modular import PRIME
 
 Terms = list[tuple[int, tuple[tuple[int, int], ...]]]
@@ -112,7 +113,7 @@ def _univariate(equations: Sequence[_Poly]) -> int | None:
         common = common.gcd(poly) if common.degree() >= 0 else poly
     if common.degree() < 1:
         return None
-    for factor, _ in common.factor()[1]:
+    for factor, _ in factorization(common)[1]:
         if factor.degree() == 1:
             return int(-factor[0] / factor[1])
     return None

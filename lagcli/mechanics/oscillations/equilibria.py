@@ -22,11 +22,14 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import Field, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.equations import is_decimal, rounded
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.record import record
 
 _MAX_EVIDENT = 64
+_LAST_DIGITS = sympy.Float("1e-13")
+_PERIODIC = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 
 
 @record
@@ -112,6 +115,9 @@ class RestPoints:
 
     def balanced(self, values: Mapping[Symbol, Expr]) -> bool:
         """Whether a state of rest is an equilibrium, by substitution."""
+        rounded = [q for q, value in values.items() if is_decimal(value)]
+        if rounded and not self.dynamics.constraints.equations:
+            return all(_nearly_vanishes(f, values, rounded) for f in self.forces_at_rest)
         return all(
             is_zero(residual) is True or _vanishes(residual) for residual in self._residuals(values)
         )
@@ -161,10 +167,16 @@ def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
     present = {s: v for s, v in values.items() if s in expression.free_symbols}
     if not present:
         return expression
+    put_in = list(present.items())
+    if not expression.has(*_PERIODIC):
+        # one fraction of sums of roots would be long, and is needed where parts are infinite only
+        there = expression.subs(put_in, simultaneous=True)
+        if not there.has(S.NaN, S.ComplexInfinity, S.Infinity, S.NegativeInfinity):
+            return rounded(simplify(there))
     field = Field([expression])
     with suppress(ZeroDivisionError):
         expression = field.to_sympy(field(expression))
-    return simplify(expression.subs(list(present.items()), simultaneous=True))
+    return rounded(simplify(expression.subs(put_in, simultaneous=True)))
 
 
 def _polynomial(vectors: Sequence[Sequence[Expr]]) -> list[list[Expr]]:
@@ -180,6 +192,19 @@ def _polynomial(vectors: Sequence[Sequence[Expr]]) -> list[list[Expr]]:
         factor = field.polynomial(common)
         whole.append([field.to_sympy(each * factor) for each in elements])
     return whole
+
+
+def _nearly_vanishes(force: Expr, values: Mapping[Symbol, Expr], rounded: list[Symbol]) -> bool:
+    """Whether the force changes its sign, or vanishes, within the last digits of the values."""
+    put_in = list(values.items())
+    numbers = [
+        x.subs(put_in, simultaneous=True).evalf(40)
+        for x in (force, *(force.diff(q) * values[q] for q in rounded))
+    ]
+    if not all(x.is_Float or x.is_zero for x in numbers):
+        return False
+    residual, *slopes = numbers
+    return bool(abs(residual) <= _LAST_DIGITS * sum(map(abs, slopes), sympy.Float("1e-25")))
 
 
 def _vanishes(expression: Expr) -> bool:

@@ -13,8 +13,8 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, shape, simplify, terms
 from lagcli.algebra.build import free_of
+from lagcli.algebra.factors import factors_of
 from lagcli.algebra.signs import sign, sign_of_circle
-from lagcli.algebra.systems import factors_of
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression, operation_count
 from lagcli.motions import Above
@@ -109,10 +109,23 @@ def conditions(
     found: list[Above] = []
     for expression in expressions:
         each = above(expression, order, known)
-        if each is not None:
+        rest = deciding(expression)
+        if each is not None and not any(
+            _implies(given, form) for given in known for form in (expression, rest)
+        ):
             found.append(each)
-            known.append(deciding(expression))
+            known.append(rest)
     return tuple(dict.fromkeys(found))
+
+
+def _implies(given: Expr, expression: Expr) -> bool:
+    """Whether the expression is a positive multiple of what is positive, and something positive."""
+    own, other = (e.expand().as_coefficients_dict() for e in (expression, given))
+    ratios = {own[term] / other[term] for term in own if term in other}
+    return any(
+        ratio.is_positive and sign(simplify(expression - ratio * given)) in (0, 1)
+        for ratio in ratios
+    )
 
 
 def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ()) -> Above | None:

@@ -28,7 +28,7 @@ from sympy import Add, Expr, S, Symbol
 
 from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.build import free_of, symbol
-from lagcli.algebra.systems import factors_of
+from lagcli.algebra.factors import factors_of
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.minimal import minimal
 from lagcli.record import record

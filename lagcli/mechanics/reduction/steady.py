@@ -24,8 +24,9 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
+from lagcli.algebra.factors import factors_of
 from lagcli.algebra.signs import sign
-from lagcli.algebra.systems import SystemSolution, factors_of, solve_system
+from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.oscillations.characteristic import determinant
 from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 from lagcli.mechanics.reduction.readable import deciding, weak_sign

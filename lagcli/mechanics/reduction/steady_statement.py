@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from sympy import Expr
 
-from lagcli.algebra import shape
 from lagcli.algebra.equations import written
 from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
@@ -87,7 +86,7 @@ class _Statement:
             for j, p in zip(self.routh.cyclic, self.routh.momenta, strict=True)
         }
         return SteadyMotion(
-            at={name: written(value, self.order) for name, value in coordinates.items()},
+            at={name: self._shape(value) for name, value in coordinates.items()},
             free=self._free(motion),
             rates=None
             if rates is None
@@ -125,4 +124,4 @@ class _Statement:
         return tuple(tuple(map(self._shape, row)) for row in matrix)
 
     def _shape(self, expression: Expr) -> Expression:
-        return shape(expression, self.order)
+        return written(expression, self.order)

@@ -21,11 +21,13 @@ import sympy
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra import Field, simplify
-from lagcli.algebra.equations import coefficients
+from lagcli.algebra.equations import coefficients, rounded
+from lagcli.algebra.ring import factorization
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.characteristic import Characteristic, determinant_in
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.reduction.readable import weak_sign
+from lagcli.mechanics.reduction.spectrum import real_and_distinct
 from lagcli.record import record
 
 _UNLESS = "U_eff has no minimum of second order, and is flat where a parameter or momentum is 0"
@@ -68,16 +70,17 @@ def verdict(linear: Linearization) -> Verdict:
     if elementary is None:
         return _because(undecided, "the characteristic polynomial was not found")
     minimum, fails = _open(elementary, positive)
+    fails |= 0 in (_sign(e, positive) for e in elementary)  # det K is not 0: some W < 0
     if minimum == ():
         return Verdict((), None, False, squares)
-    if 0 in (_sign(e, positive) for e in elementary):
+    if _sign(elementary[-1], positive) == 0:
         return _because(undecided, "neutral to first order in some direction")
     if not linear.gyroscopic:
         found = Verdict(minimum, None, fails, squares)
         return found if fails or minimum is not None else _because(found, _UNLESS)
     if _sign(elementary[-1], positive) == -1:
         return Verdict(None, None, True, squares)
-    spectrum = _spectrum(Characteristic(linear))
+    spectrum = real_and_distinct(linear)
     if spectrum is None:
         return _because(
             Verdict(minimum, None, False, squares), "the spectrum has no simple criterion"
@@ -139,7 +142,7 @@ def _on_the_circle(expression: Expr, positive: Sequence[Expr]) -> int | None:
 
 
 def _is_square(poly: object) -> bool:
-    content, factors = poly.factor()  # type: ignore[attr-defined]
+    content, factors = factorization(poly)
     return int(content) > 0 and all(exponent % 2 == 0 for _, exponent in factors)
 
 
@@ -157,29 +160,18 @@ def _relative_to(M: Matrix, K: Matrix) -> list[Expr] | None:
     return None if powers is None else [simplify(c / powers[-1]) for c in powers[-2::-1]]
 
 
-def _spectrum(characteristic: Characteristic) -> list[Expr] | None:
-    """What must be positive for positive distinct roots W, up to two of them."""
-    powers = characteristic.in_square
-    if powers is None or len(powers) > 3:
-        return None
-    c = [simplify(x / powers[-1]) for x in powers]
-    if len(c) == 2:
-        return [-c[0]]
-    return [c[0], -c[1], simplify(c[1] ** 2 - 4 * c[0])]
-
-
 def _squares(linear: Linearization) -> tuple[Expr, ...]:
     if linear.damped:
         return ()
     factors = Characteristic(linear).squares
     found: list[Expr] = []
     for roots, multiplicity, _ in factors or ():
-        if roots is None:
+        if roots is None or any(root.has(sympy.I) for root in roots):
             return ()
         found += [_shorter(root) for root in roots] * multiplicity
     return tuple(found)
 
 
 def _shorter(root: Expr) -> Expr:
-    short = simplify(root)
+    short = rounded(simplify(root))
     return root if sympy.count_ops(root) < sympy.count_ops(short) else short

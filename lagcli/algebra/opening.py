@@ -1,0 +1,138 @@
+"""Other forms of a system of equations where none of them can be solved by itself.
+
+- Of two whose terms of highest degree are proportional, a multiple of one is taken from the
+  other: two circles become a circle and a line.
+- n equations that are linear in the inverses of n square roots are solved for these: the
+  forces of two centres give the two distances.  Where the determinant vanishes is a branch
+  of its own.
+- |f| is f or -f.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+
+import sympy
+from sympy import Dummy, Expr, Symbol
+
+from lagcli.algebra.build import free_of
+from lagcli.algebra.factors import factors_of
+from lagcli.algebra.linear import solve_linear
+from lagcli.algebra.simplification import is_zero, simplify
+from lagcli.record import record
+
+_MOST_ROOTS = 3
+_POWERS = (0, 1, -1, 2, -2, 3, -3)
+
+
+@record
+class Opened:
+    """Equations that hold with f > 0 for every f of `positive`."""
+
+    equations: tuple[Expr, ...]
+    positive: tuple[Expr, ...] = ()
+
+
+def opened(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Opened]:
+    """The branches that together have the same solutions; none where no form is better."""
+    return _without_moduli(equations, unknowns) or _lowered(equations, unknowns)
+
+
+def _without_moduli(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Opened]:
+    moduli = {m for e in equations for m in e.atoms(sympy.Abs) if not free_of(m, unknowns)}
+    if not moduli:
+        return []
+    modulus = min(moduli, key=sympy.default_sort_key)
+    return [
+        Opened(tuple(e.xreplace({modulus: inner}) for e in equations), (inner,))
+        for inner in (modulus.args[0], -modulus.args[0])
+    ]
+
+
+def _lowered(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Opened]:
+    polynomials = [e.as_poly(*unknowns) for e in equations]
+    for i, j in combinations(range(len(equations)), 2):
+        f, g = polynomials[i], polynomials[j]
+        if f is None or g is None or f.total_degree() != g.total_degree():
+            continue
+        monomial = f.monoms(order="grlex")[0]
+        ratio = g.coeff_monomial(monomial)
+        rest = simplify((f.LC(order="grlex") * g - ratio * f).as_expr())
+        lower = rest.as_poly(*unknowns)
+        if rest != 0 and lower is not None and lower.total_degree() < f.total_degree():
+            others = [e for k, e in enumerate(equations) if k != j]
+            return [Opened((rest, *others))]
+    return []
+
+
+def by_distances(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Opened]:
+    """Solved for the square roots that occur, where the equations are linear in them or 1/them."""
+    powers = {
+        power
+        for e in equations
+        for power in e.atoms(sympy.Pow)
+        if power.exp.is_Rational and power.exp.q == 2 and not free_of(power.base, unknowns)
+    }
+    bases = sorted({power.base for power in powers}, key=sympy.default_sort_key)
+    if not 0 < len(bases) <= min(_MOST_ROOTS, len(equations)):
+        return []
+    roots = [Dummy(f"#r{k}", positive=True) for k in range(len(bases))]
+    images = {
+        power: root * power.base ** (power.exp - sympy.S.Half)
+        for power in powers
+        for base, root in zip(bases, roots, strict=True)
+        if power.base == base
+    }
+    plain = [e.xreplace(images) for e in equations]
+    inverted = [_inverted(e, roots) for e in plain]
+    for forms, exponent in ((inverted, -1), (plain, 1)):
+        for chosen in combinations(range(len(forms)), len(roots)):
+            found = _linear([forms[k] for k in chosen], roots)
+            if found is None:
+                continue
+            values, determinant = found
+            conditions = [
+                _distance(base, value, exponent, unknowns)
+                for base, value in zip(bases, values, strict=True)
+            ]
+            put_in = dict(zip(roots, values, strict=True))
+            rest = [simplify(e.xreplace(put_in)) for k, e in enumerate(forms) if k not in chosen]
+            singular = [
+                factor for factor, power in factors_of(determinant)
+                if power > 0 and not free_of(factor, unknowns)
+                and not any(is_zero(factor - base) is True for base in bases)
+            ]  # fmt: skip
+            return [
+                Opened((*conditions, *rest), tuple(values)),
+                *(Opened((factor, *equations)) for factor in singular),
+            ]
+    return []
+
+
+def _inverted(equation: Expr, roots: Sequence[Symbol]) -> Expr:
+    """The equation in w = 1/r, times every r that occurs."""
+    own = [r for r in roots if r in equation.free_symbols]
+    return sympy.expand(equation.xreplace({r: 1 / r for r in own}) * sympy.Mul(*own))
+
+
+def _linear(equations: Sequence[Expr], roots: Sequence[Symbol]) -> tuple[list[Expr], Expr] | None:
+    """The roots of equations that are linear in them, and the determinant."""
+    matrix = [[simplify(e.diff(r)) for r in roots] for e in equations]
+    if any(not free_of(entry, roots) for row in matrix for entry in row):
+        return None
+    none = dict.fromkeys(roots, sympy.S.Zero)
+    rows = [[*row, -e.xreplace(none)] for row, e in zip(matrix, equations, strict=True)]
+    solution = solve_linear([row[:-1] for row in rows], [row[-1] for row in rows])
+    if solution is None or solution.determinant is None:
+        return None
+    return [x for x in solution.values if isinstance(x, Expr)], solution.determinant
+
+
+def _distance(base: Expr, value: Expr, exponent: int, unknowns: Sequence[Symbol]) -> Expr:
+    """base^(exponent/2) = value; where value = c base^k it is solved for the base."""
+    for k in _POWERS:
+        if all(is_zero(value.diff(x) * base - k * base.diff(x) * value) is True for x in unknowns):
+            c = simplify(value / base**k)
+            return base - (c**2) ** sympy.Rational(1, exponent - 2 * k)
+    return value ** (2 * exponent) - base
