@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from tests.bench.measure import HERE, LAGCLI, ROOT, Cost, Row, cost
+from tests.bench.motion_rows import peers
 from tests.mechanics.chains import cartesian, chain, closed
 
 MIB = 2048
@@ -62,11 +63,22 @@ def rows(quick: bool) -> Iterator[Row]:
             gain = other / costs[CHAINS[0][0]].cpu
             note = f"{other:.1f} s CPU there"
             yield Row("chain 10, gain over LagrangesMethod", gain, "x", 30, True, note)
+            path.write_text(chain(30, "points"))
+            yield _engine_row(cost([*_solve(path), "--show", "matrix_form"]))
         yield _row("heavy top, usual sections", cost(_solve(HEAVY_TOP), limit=120), 5)
         path.write_text(TWO_BODIES)
         for what, *options in (("matrix form", "--show", "matrix_form"), ("usual sections",)):
             used = cost([*_solve(path), *options], limit=120)
             yield _row(f"two joined bodies, {what}", used, 5)
+
+
+def _engine_row(own: Cost) -> Row:
+    """Whether another engine for the derivatives would pay: symengine, which writes them plainly."""
+    what, python = "chain 30, total against symengine", peers("symengine")
+    if python is None:
+        return Row(what, None, "x", note="symengine is not installed")
+    other = cost([python, str(HERE / "chain_by_symengine.py"), "30"]).cpu
+    return Row(what, own.cpu / other, "x", note=f"{own.cpu:.2f} s and {other:.2f} s CPU")
 
 
 def _row(what: str, used: Cost, bar: float | None) -> Row:
