@@ -12,7 +12,7 @@ from lagcli.pipeline import solve
 
 from .running import last, simulated
 
-FOLDER = Path(__file__).parents[2] / "benchmarks"
+FOLDER = Path(__file__).parents[1] / "benchmarks"
 FILES = sorted(path.stem for path in FOLDER.glob("*.yaml"))
 
 
