@@ -13,6 +13,7 @@ from fractions import Fraction
 
 from sympy import Expr
 
+from lagcli.algebra.effort import EFFORT
 from lagcli.algebra.ring import Poly, Ring
 
 
@@ -122,6 +123,7 @@ class FractionField:
     def element(self, numerator: Poly, denominator: Poly) -> Element:
         """The normal form of numerator / denominator."""
         ring = self.ring
+        EFFORT.done += 250 + len(numerator) * len(denominator) // 6
         numerator, denominator = ring.reduce(numerator), ring.reduce(denominator)
         if denominator == 0:
             raise ZeroDivisionError

@@ -9,6 +9,7 @@ from sympy import Expr
 
 from lagcli.algebra.cancellation import cancelled
 from lagcli.algebra.division import commonest_ratio
+from lagcli.algebra.effort import EFFORT
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.leaves import Translator, to_expression
@@ -67,6 +68,7 @@ def shaped(
     given = Translator(writer).given(expression)
     if given is not None and element.size() > _MAX_SHAPED:
         return expression, given
+    EFFORT.done += 1000 + 40 * element.size()
     tree, shaper = Readable(field, writer, relations).shortest(element)
     if given is None:
         return shaper.to_sympy(tree), tree

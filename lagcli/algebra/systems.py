@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from dataclasses import field as default
-from time import process_time
 
 import sympy
 from sympy import Expr, Symbol
 
+from lagcli.algebra.effort import Work
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients, solve_for
 from lagcli.algebra.opening import by_distances, opened
@@ -41,20 +41,20 @@ class SolvedSystem:
 
 
 def solve_system(
-    equations: Sequence[Expr], unknowns: Sequence[Symbol], budget: float = 5.0
+    equations: Sequence[Expr], unknowns: Sequence[Symbol], units: float = 3_000_000
 ) -> SolvedSystem:
     """All real solutions of equations = 0 within the assumptions on the unknowns."""
-    solver = _Solver(equations, unknowns, process_time() + budget)
+    solver = _Solver(equations, unknowns, Work(units))
     solver.branch(list(equations), {}, ())
     return solver.found
 
 
 class _Solver:
-    def __init__(self, given: Sequence[Expr], unknowns: Sequence[Symbol], deadline: float) -> None:
+    def __init__(self, given: Sequence[Expr], unknowns: Sequence[Symbol], allowed: Work) -> None:
         self.unknowns = tuple(unknowns)
         self.found = SolvedSystem()
         self._given = given
-        self._deadline = deadline
+        self._allowed = allowed
         self._branches = 0
         self._opened = False
 
@@ -63,7 +63,7 @@ class _Solver:
     ) -> None:
         """Follow one branch to its solutions."""
         self._branches += 1
-        if self._branches > _MAX_BRANCHES or process_time() > self._deadline:
+        if self._branches > _MAX_BRANCHES or self._allowed.over:
             self.found.complete = False
             return
         left: list[list[Expr]] = []

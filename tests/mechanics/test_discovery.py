@@ -16,6 +16,7 @@ import pytest
 
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.discovery import limits
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.pipeline import load, solve
 
@@ -92,6 +93,18 @@ def test_special_parameters_are_told_with_the_charges_they_add(name):
 
 def derived(name):
     return Derivation(load(LIBRARY / f"{name}.yaml"))
+
+
+def test_what_is_left_out_does_not_depend_on_the_machine(monkeypatch):
+    """The limit is a count: a slower clock, or another run, stops at the same place."""
+    monkeypatch.setattr(limits.Allowance.__init__, "__defaults__", (120_000,))
+    found = []
+    for seconds in (0.0, 1e6):
+        monkeypatch.setattr(time, "process_time", lambda seconds=seconds: seconds)
+        discovery = Derivation(load(LIBRARY / "discovery/kepler-space.yaml")).discovery
+        found.append(([c.name for c in discovery.charges], discovery.stopped))
+    assert found[0] == found[1]
+    assert any("too much work" in reason for reason in found[0][1])
 
 
 def test_charges_say_where_they_are_real():

@@ -12,7 +12,7 @@ import sympy
 
 from lagcli.algebra import is_zero
 from lagcli.mechanics.derivation import Derivation
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.mechanics.discovery.surface import independent_on_surface
 from lagcli.pipeline import load
@@ -107,5 +107,5 @@ def test_nothing_is_listed_twice():
     derivation = derived("discovery/triangle-of-points")
     charges = [c.charge for c in derivation.discovery.charges]
     area = built(derivation, "x1*(y2 - y3) + x2*(y3 - y1) + x3*(y1 - y2)")
-    kept = independent_on_surface(charges, derivation.dynamics, Clock(), [area])
+    kept = independent_on_surface(charges, derivation.dynamics, Allowance(), [area])
     assert kept == list(range(7))

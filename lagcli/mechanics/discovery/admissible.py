@@ -19,7 +19,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import Field, is_zero, nullspace, simplify
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.dynamics import Dynamics
 
 _MOST_MINORS = 60
@@ -28,7 +28,7 @@ _MOST_ROWS = 3
 Vector = tuple[Expr, ...]
 
 
-def admissible_fields(dynamics: Dynamics, clock: Clock) -> list[Vector]:
+def admissible_fields(dynamics: Dynamics, allowed: Allowance) -> list[Vector]:
     """Fields that span the admissible displacements, the simplest first."""
     relations = dynamics.constraints.relations
     equations = dynamics.constraints.equations
@@ -38,7 +38,7 @@ def admissible_fields(dynamics: Dynamics, clock: Clock) -> list[Vector]:
     n = len(dynamics.system.q)
     fields = [tuple(v) for v in nullspace(rows)]
     if len(rows) <= _MOST_ROWS and _count(n, len(rows) + 1) <= _MOST_MINORS:
-        fields += _minors(rows, n, clock)
+        fields += _minors(rows, n, allowed)
     return _distinct([_upward(primitive(f)) for f in fields])
 
 
@@ -46,10 +46,10 @@ def _count(n: int, k: int) -> int:
     return int(sympy.binomial(n, k))
 
 
-def _minors(rows: Sequence[Vector], n: int, clock: Clock) -> list[Vector]:
+def _minors(rows: Sequence[Vector], n: int, allowed: Allowance) -> list[Vector]:
     found = []
     for columns in combinations(range(n), len(rows) + 1):
-        clock.check()
+        allowed.check()
         field: list[Expr] = [sympy.S.Zero] * n
         for sign, column in enumerate(columns):
             rest = [c for c in columns if c != column]

@@ -14,17 +14,18 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.system import System
 from lagcli.mechanics.total_derivative import boundary_term
 
 _MOST_CANDIDATES = 120
+_OF_DERIVATIVE = 3000  # units of work of SymPy
 _OF_TIME = (sympy.exp, sympy.sin, sympy.cos, sympy.sinh, sympy.cosh)
 
 
-def gauge_of(change: Expr, system: System, clock: Clock) -> Expr | None:
+def gauge_of(change: Expr, system: System, allowed: Allowance) -> Expr | None:
     """G with dG/dt = change, or None where none was found."""
     if is_zero(change) is True:
         return sympy.S.Zero
@@ -33,10 +34,11 @@ def gauge_of(change: Expr, system: System, clock: Clock) -> Expr | None:
     by_q = [sympy.expand(change.diff(x).xreplace(still)) for x in v]
     by_t = sympy.expand(change.xreplace(still))
     candidates = _candidates(by_t, by_q, t, q)
+    allowed.spend(_OF_DERIVATIVE * (1 + len(q)) * len(candidates))
     if 0 < len(candidates) <= _MOST_CANDIDATES:
         vectors = [[c.diff(x) for x in (t, *q)] for c in candidates]
         try:
-            values = Relation([*vectors, [-by_t, *(-x for x in by_q)]], [t, *q], clock).of_last()
+            values = Relation([*vectors, [-by_t, *(-x for x in by_q)]], [t, *q], allowed).of_last()
         except (NoPoint, ZeroDivisionError):
             values = None
         if values is not None:

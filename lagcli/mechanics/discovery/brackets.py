@@ -26,7 +26,7 @@ from mpmath import mpf
 from sympy import Expr
 
 from lagcli.algebra.numeric import Evaluator
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.dynamics import Dynamics
 
 _DIGITS = 40
@@ -68,7 +68,7 @@ class Structure:
 class Brackets:
     """Charges as functions on phase space, or on the surface of holonomic constraints there."""
 
-    def __init__(self, charges: Sequence[Expr], dynamics: Dynamics, clock: Clock) -> None:
+    def __init__(self, charges: Sequence[Expr], dynamics: Dynamics, allowed: Allowance) -> None:
         system, equations = dynamics.system, dynamics.constraints.equations
         kept = dynamics.independent_constraints
         surface = [dynamics.constraints.velocity_forms[k] for k in kept]
@@ -76,7 +76,7 @@ class Brackets:
         self._constraints = len(surface)
         self.charges = (*charges, *surface)
         self.dynamics = dynamics
-        self.clock = clock
+        self.allowed = allowed
         q, v = system.q, system.qdot
         momenta = dynamics.lagrange.momenta
         expressions: list[Expr] = list(self.charges)
@@ -94,7 +94,7 @@ class Brackets:
         source = random.Random("lagcli brackets")
         bad = 0
         while bad < _TRIES:
-            self.clock.check()
+            self.allowed.check()
             with mpmath.workdps(_DIGITS):
                 # the same parameters for all states; others where charges are not real
                 base = self.dynamics.states.take(1 + bad // _PATIENCE)[-1]
@@ -176,7 +176,7 @@ class Brackets:
 
         def grow(kept: list[int], left: list[int]) -> None:
             nonlocal best
-            self.clock.check()
+            self.allowed.check()
             best = max(best, len(kept))
             for k, a in enumerate(left):
                 if best == n or len(kept) + len(left) - k <= best:
@@ -216,7 +216,7 @@ class Brackets:
         central = [[mpf(0)] * count for _ in chosen]
         for i in range(count):
             for j in range(i):
-                self.clock.check()
+                self.allowed.check()
                 brackets = [s.bracket(chosen[i], chosen[j]) for s in samples]
                 c = list(inverse * mpmath.matrix(brackets[:width]))
                 c = [x if abs(x) > _SMALL else mpf(0) for x in c]

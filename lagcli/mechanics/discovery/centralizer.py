@@ -14,7 +14,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.mechanics.discovery.exact import ExactSolver
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import kernel_modulo
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled
@@ -23,7 +23,7 @@ from lagcli.mechanics.system import System
 
 
 def centralized(
-    transformations: Sequence[Transformation], system: System, clock: Clock
+    transformations: Sequence[Transformation], system: System, allowed: Allowance
 ) -> list[Transformation]:
     """The same space of symmetries, with the last rotations made to commute with translations."""
     q = set(system.q)
@@ -45,7 +45,7 @@ def centralized(
         ]
         for k in turns
     ]
-    relation = Relation(vectors, [system.t, *system.q], clock)
+    relation = Relation(vectors, [system.t, *system.q], allowed)
     _, kernel = kernel_modulo(relation.rows(len(turns) + 8), len(turns))
     exact = ExactSolver(relation.points)
     for combination in kernel:

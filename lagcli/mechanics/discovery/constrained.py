@@ -20,7 +20,7 @@ from sympy import Expr
 
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery.brackets import rank
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.surface import relations_on_surface
 from lagcli.mechanics.dynamics import Dynamics
@@ -30,7 +30,7 @@ _DIGITS = 40
 
 
 def tangent(
-    transformations: Sequence[Transformation], dynamics: Dynamics, clock: Clock
+    transformations: Sequence[Transformation], dynamics: Dynamics, allowed: Allowance
 ) -> list[Transformation]:
     """A basis of the combinations of transformations that are tangent to all constraints."""
     if not transformations:
@@ -47,7 +47,7 @@ def tangent(
         for transformation in transformations
     ]
     found = []
-    for combination in relations_on_surface(vectors, dynamics, clock):
+    for combination in relations_on_surface(vectors, dynamics, allowed):
         chosen = [(transformations[k], c) for k, c in combination.items()]
         changes = [
             sympy.Add(*(c * each.changes[j] for each, c in chosen)) for j in range(len(system.q))

@@ -34,7 +34,7 @@ from lagcli.mechanics.discovery.centralizer import centralized
 from lagcli.mechanics.discovery.constrained import rank_on_surface, tangent
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
-from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Clock, OutOfTime
+from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Allowance, TooMuchWork
 from lagcli.mechanics.discovery.listing import led_momentum, more, rank_of, times
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.names import Naming, distinct
@@ -55,11 +55,11 @@ _DIGITS = 40
 _MOST_FOR_TENSORS = 6
 _FEW_TERMS = 3
 _MOST_FOR_SPECIAL = 3
-_SECONDS_FOR_SPECIAL = 6.0
+_UNITS_FOR_SPECIAL = 5_000_000
 
 
 class Discovery:
-    """The search for one system, bounded in time.
+    """The search for one system, bounded in its work.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class Discovery:
         self.noether = noether
         self.dynamics = noether.dynamics
         self.system = noether.system
-        self.clock = Clock()
+        self.allowed = Allowance()
         self.stopped: list[str] = []
         self.words: list[str] = []
         self.point_charges: tuple[NoetherCharge, ...] = ()
@@ -131,8 +131,8 @@ class Discovery:
         for search, what in searches:
             try:
                 search()
-            except OutOfTime:
-                self.stopped.append(f"stopped before all {what} were found: out of time")
+            except TooMuchWork:
+                self.stopped.append(f"stopped before all {what} were found: too much work")
             except NoPoint:
                 self.stopped.append(f"{what}: no sample point was found, the search has a gap")
             except ZeroDivisionError:
@@ -152,7 +152,7 @@ class Discovery:
 
     def _short(self, expression: Expr) -> Expr:
         """Shorter where sines and cosines may cancel; sums of pair forces stay as they are."""
-        self.clock.check()
+        self.allowed.check()
         angular = any(not free_of(f, self.system.q) for f in expression.atoms(sympy.sin, sympy.cos))
         few = len(sympy.Add.make_args(expression)) <= _FEW_TERMS
         return simplify(expression) if angular or few else expression
@@ -188,7 +188,7 @@ class Discovery:
         return None if motion is None else motion.accelerations
 
     def _search(
-        self, equations: Equations, accelerations: Sequence[Expr] | None, clock: Clock
+        self, equations: Equations, accelerations: Sequence[Expr] | None, allowed: Allowance
     ) -> tuple[Search, str]:
         """The linear system for the point symmetries, and what its ansatz is in words."""
         times = time_functions(equations, accelerations, potential=self.canonical)
@@ -199,12 +199,12 @@ class Discovery:
             if len(unknowns) <= MOST_UNKNOWNS or len(spaces) == 1:
                 break
             spaces = spaces[: len(spaces) // 2]
-        return Search(equations, slots, unknowns, clock), self._sentence(times, spaces)
+        return Search(equations, slots, unknowns, allowed), self._sentence(times, spaces)
 
     def _points(self) -> None:
-        clock = self.clock.part(0.7)
+        allowed = self.allowed.part(0.7)
         constraints = self.dynamics.constraints.equations
-        search, words = self._search(self.equations, self._accelerations, clock)
+        search, words = self._search(self.equations, self._accelerations, allowed)
         self.words.append(words)
         transformations = [
             point.transformation_of(search, solution, set(self.system.parameters))
@@ -215,13 +215,13 @@ class Discovery:
                 f"{more(search.unsolved, 'symmetry')} there, whose coefficients were not solved"
             )
         transformations.reverse()
-        transformations = centralized(transformations, self.system, clock)
+        transformations = centralized(transformations, self.system, allowed)
         if constraints:
             self._of_lagrangian = transformations
-            transformations = tangent(transformations, self.dynamics, clock)
+            transformations = tangent(transformations, self.dynamics, allowed)
         for transformation in transformations:
-            clock.check()
-            charge = point.charge_of(self.noether, transformation, clock)
+            allowed.check()
+            charge = point.charge_of(self.noether, transformation, allowed)
             if charge is None or is_zero(charge.charge) is True:
                 self.stopped.append("a symmetry whose charge was not proved is left out")
                 continue
@@ -235,19 +235,19 @@ class Discovery:
         system = self.system
         if self.dynamics.constraints.equations or not 0 < len(system.q) <= _MOST_FOR_SPECIAL:
             return ()
-        clock = Clock(_SECONDS_FOR_SPECIAL)
+        allowed = Allowance(min(_UNITS_FOR_SPECIAL, self.allowed.left))
         times = time_functions(self.equations, self._accelerations, potential=self.canonical)
         found: list[SpecialCase] = []
         for parameter, value in candidates(system, self.equations, times.exponents):
             there = self._at(parameter, value)
-            if clock.left < 0:
+            if allowed.over:
                 self.words.append("not all special values of the parameters were tried")
                 break
             if there is None or len(there.charges) <= len(self.charges):
                 continue
             known = [c.charge.xreplace({parameter: value}) for c in self.charges]
             variables = (system.t, *system.q, *system.qdot)
-            charges = new_charges(known, there.charges, variables, clock)
+            charges = new_charges(known, there.charges, variables, allowed)
             if charges:
                 found.append(SpecialCase(parameter, value, len(there.charges), charges))
         return tuple(found)
@@ -296,7 +296,7 @@ class Discovery:
     def _on_surface(self) -> None:
         """Momenta along admissible displacements, then integrals that hold on the surface."""
         times = time_functions(self.equations, self._constrained_motion, potential=self.canonical)
-        search = UnderConstraints(self.noether, self._kinds, times, self.clock)
+        search = UnderConstraints(self.noether, self._kinds, times, self.allowed)
         integrated = search.integrated()
         kept = search.new([], [c for _, c in self._found])
         self._found = [pair for pair in self._found if pair[1] in kept]
@@ -350,14 +350,16 @@ class Discovery:
                 "first integrals of second degree in the velocities without explicit time, "
                 "coefficients up to second degree in the coordinates"
             )
-            integrals = QuadraticIntegrals(self.noether, self.equations, self._kinds, self.clock)
+            integrals = QuadraticIntegrals(self.noether, self.equations, self._kinds, self.allowed)
             if not integrals.functions:
                 self.stopped.append("there are too many coordinates for the second degree")
                 return
             self._keep_hidden(integrals)
         if TimedIntegrals.applies(self.equations, self._kinds, self.point_charges):
             functions = time_functions(self.equations, self._accelerations, potential=True)
-            timed = TimedIntegrals(self.noether, self.equations, self._kinds, functions, self.clock)
+            timed = TimedIntegrals(
+                self.noether, self.equations, self._kinds, functions, self.allowed
+            )
             if timed.functions:
                 self.words.append("and with the same functions of time as coefficients")
                 self._keep_hidden(timed)

@@ -23,7 +23,7 @@ from sympy import Expr
 from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.ansatz import Kinds, quadratic, quadratic_unknowns
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, pivot_columns
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled
@@ -46,10 +46,12 @@ Slots = list[tuple[Slot, Expr]]
 class QuadraticIntegrals:
     """The integrals of second degree of equations M(q) q'' = forcing without time in them."""
 
-    def __init__(self, noether: Noether, equations: Equations, kinds: Kinds, clock: Clock) -> None:
+    def __init__(
+        self, noether: Noether, equations: Equations, kinds: Kinds, allowed: Allowance
+    ) -> None:
         self.noether = noether
         self.equations = equations
-        self.clock = clock
+        self.allowed = allowed
         self.constants = frozenset(noether.system.parameters)
         n = len(equations.q)
         self.pairs = quadratic_slots(equations)
@@ -78,7 +80,7 @@ class QuadraticIntegrals:
             self.equations,
             [*self.pairs, *self.linear],
             unknowns,
-            self.clock,
+            self.allowed,
             more=[e for v in (*vectors, *products) for e in v],
         )
         kernel = search.kernel()
@@ -125,7 +127,7 @@ class QuadraticIntegrals:
         n = len(self.equations.q)
         rows: list[list[int]] = []
         while len(rows) < len(products) + len(kernel) + n:
-            self.clock.check()
+            self.allowed.check()
             point = search.points.point()
             try:
                 columns = [search.values(p, point) for p in products]
@@ -221,7 +223,7 @@ class QuadraticIntegrals:
         candidates = self._candidates(functions)
         vectors = [[c.diff(x) for x in q] for c in candidates]
         try:
-            values = Relation([*vectors, [-f for f in force]], q, self.clock).of_last()
+            values = Relation([*vectors, [-f for f in force]], q, self.allowed).of_last()
         except (NoPoint, ZeroDivisionError):
             values = None
         if values is not None:

@@ -1,41 +1,35 @@
-"""How long a search may take, and the sign that it took longer."""
+"""How much work a search may take, and the sign that it would take more."""
 
 from __future__ import annotations
 
-from time import process_time
+from lagcli.algebra.effort import EFFORT, Work
 
-#: Seconds for the whole of a discovery: what is not done by then is left out, and said so.
-SECONDS = 24.0
+#: Units of work for the whole of a discovery: what is not done by then is left out, and said so.
+UNITS = 12_000_000
 #: Unknowns of one linear system.
 MOST_UNKNOWNS = 1200
 
 
-class OutOfTime(Exception):
+class TooMuchWork(Exception):
     """The search was stopped."""
 
 
-class Clock:
-    """A deadline in processor time, so that a busy machine finds as much as an idle one.
+class Allowance(Work):
+    """The work that a search, or a part of it, may do."""
 
-    Parameters
-    ----------
-    seconds
-        From now on.
-    """
-
-    def __init__(self, seconds: float = SECONDS) -> None:
-        self._end = process_time() + seconds
-
-    @property
-    def left(self) -> float:
-        """Seconds that are left."""
-        return self._end - process_time()
+    def __init__(self, units: float = UNITS) -> None:
+        super().__init__(units)
 
     def check(self) -> None:
-        """Raise OutOfTime when none are left."""
-        if process_time() > self._end:
-            raise OutOfTime
+        """Raise TooMuchWork when none is left."""
+        if self.over:
+            raise TooMuchWork
 
-    def part(self, share: float) -> Clock:
-        """A clock for a share of the time that is left."""
-        return Clock(max(0.0, self.left) * share)
+    def spend(self, units: int) -> None:
+        """Count work that nothing else counts; raise TooMuchWork when none is left."""
+        EFFORT.done += units
+        self.check()
+
+    def part(self, share: float) -> Allowance:
+        """An allowance of a share of what is left."""
+        return Allowance(max(0.0, self.left) * share)

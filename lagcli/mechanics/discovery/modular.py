@@ -15,6 +15,7 @@ from fractions import Fraction
 from flint import nmod_mat
 from sympy import Symbol
 
+from lagcli.algebra.effort import EFFORT
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.ring import Poly
@@ -135,6 +136,7 @@ class ModularPoints:
 
 def _evaluated(terms: _Terms, point: Sequence[int]) -> int:
     total = 0
+    EFFORT.done += len(terms)
     for coefficient, monomial in terms:
         value = coefficient
         for g, exponent in monomial:
@@ -176,6 +178,7 @@ def kernel_modulo(
     """The reduced rows, and the basis of the kernel with one free column in each vector."""
     if not rows:
         return [], [{i: 1} for i in range(width)]
+    EFFORT.done += len(rows) * width * min(len(rows), width) // 700
     reduced, rank = nmod_mat([list(row) for row in rows], PRIME).rref()
     table = [[int(x) for x in row] for row in reduced.table()[:rank]]
     pivots = [next(j for j, x in enumerate(row) if x) for row in table]

@@ -24,7 +24,7 @@ import sympy
 
 from lagcli.algebra import is_zero, nullspace, rank, simplify
 from lagcli.mechanics.discovery.admissible import Vector, primitive
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.surface import relations_on_surface
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
@@ -60,11 +60,11 @@ class MomentumEquations:
         noether: Noether,
         symmetries: Sequence[Transformation],
         fields: Sequence[Vector],
-        clock: Clock,
+        allowed: Allowance,
     ) -> None:
         self.noether = noether
         self.system = noether.system
-        self.clock = clock
+        self.allowed = allowed
         self.fields = fields
         dynamics = noether.dynamics
         self.relations = dynamics.constraints.relations
@@ -97,7 +97,7 @@ class MomentumEquations:
         if whole and len(self.fields) > _FEW_FIELDS:
             return Momenta([], [])
         for field in self._sections(self._of_the_constraints()):
-            self.clock.check()
+            self.allowed.check()
             if rank([*kept, field], self.relations) == len(kept):
                 # no new direction, but perhaps a constant after all
                 if field in self.fields and len(self.fields) <= _FEW_FIELDS:
@@ -123,7 +123,7 @@ class MomentumEquations:
         q = self.system.q
         vectors = []
         for X in self.symmetries:
-            self.clock.check()
+            self.allowed.check()
             vector = []
             for e in self.fields:
                 bracket = [
@@ -141,7 +141,7 @@ class MomentumEquations:
                 sympy.Add(*(c * self.symmetries[k][j] for k, c in combination.items()))
                 for j in range(len(q))
             )
-            for combination in relations_on_surface(vectors, self.noether.dynamics, self.clock)
+            for combination in relations_on_surface(vectors, self.noether.dynamics, self.allowed)
         ]
 
     def _sections(self, generators: Sequence[Vector]) -> list[Vector]:

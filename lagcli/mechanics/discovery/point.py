@@ -13,7 +13,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.mechanics.discovery.boundary import gauge_of
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.search import Search, Solution
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
@@ -36,10 +36,10 @@ def transformation_of(
 
 
 def charge_of(
-    noether: Noether, transformation: Transformation, clock: Clock
+    noether: Noether, transformation: Transformation, allowed: Allowance
 ) -> NoetherCharge | None:
     """The proved charge of a transformation; None where it is not proved."""
-    gauge = _gauge(noether, transformation, clock)
+    gauge = _gauge(noether, transformation, allowed)
     if gauge is None:
         return None
     charge = _proved(noether.charge("", "discovered", transformation, gauge))
@@ -49,7 +49,7 @@ def charge_of(
     return charge
 
 
-def _gauge(noether: Noether, transformation: Transformation, clock: Clock) -> Expr | None:
+def _gauge(noether: Noether, transformation: Transformation, allowed: Allowance) -> Expr | None:
     """G with dG/dt = K + sum F_j eta_j."""
     system = noether.system
     change = noether.change_of_action(transformation) + sympy.Add(
@@ -60,7 +60,7 @@ def _gauge(noether: Noether, transformation: Transformation, clock: Clock) -> Ex
             )
         )
     )
-    return gauge_of(change, system, clock)
+    return gauge_of(change, system, allowed)
 
 
 def _proved(charge: NoetherCharge) -> NoetherCharge | None:

@@ -9,7 +9,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra.entry import Field
 from lagcli.mechanics.discovery.exact import ExactSolver
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import ModularPoints, NoPoint, kernel_modulo
 
 _BAD_POINTS = 50
@@ -27,10 +27,10 @@ class Relation:
     """
 
     def __init__(
-        self, vectors: Sequence[Sequence[Expr]], variables: Sequence[Symbol], clock: Clock
+        self, vectors: Sequence[Sequence[Expr]], variables: Sequence[Symbol], allowed: Allowance
     ) -> None:
         self.vectors = [list(v) for v in vectors]
-        self.clock = clock
+        self.allowed = allowed
         field = Field([e for v in self.vectors for e in v])
         elements = [[field(e) for e in v] for v in self.vectors]
         self.points = ModularPoints(field, variables)
@@ -41,7 +41,7 @@ class Relation:
         rows: list[list[int]] = []
         bad = 0
         while len(rows) < count:
-            self.clock.check()
+            self.allowed.check()
             point = self.points.point()
             try:
                 columns = [[e(point) for e in v] for v in self._compiled]

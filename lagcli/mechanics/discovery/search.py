@@ -13,13 +13,15 @@ from dataclasses import dataclass
 import sympy
 from sympy import Expr
 
+from lagcli.algebra.effort import EFFORT
 from lagcli.mechanics.discovery.exact import ExactSolver
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo
 from lagcli.mechanics.discovery.slots import Condition, Equations, Slot
 from lagcli.mechanics.discovery.tree import Memo, Tree
 
 _BAD_POINTS = 50
+_OF_NODE = 150  # units of work: SymPy's second derivatives, by the nodes of M and of the forcing
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,8 +55,8 @@ class Search:
     unknowns
         In the order of elimination: each solution has exactly one unknown that no other
         has, as late in this order as possible.
-    clock
-        Raises OutOfTime.
+    allowed
+        Raises TooMuchWork.
     """
 
     def __init__(
@@ -62,19 +64,20 @@ class Search:
         equations: Equations,
         slots: Sequence[Slot],
         unknowns: Sequence[Unknown],
-        clock: Clock,
+        allowed: Allowance,
         more: Sequence[Expr] = (),
     ) -> None:
         self.equations = equations
         self.slots = list(slots)
         self.unknowns = list(unknowns)
-        self.clock = clock
+        self.allowed = allowed
         self._bad = 0
         self.unsolved = 0  # solutions that are there, without exact coefficients
         self._reduced: list[list[int]] = []
         self.conditions: list[list[Condition]] = []
+        nodes = sum(1 for e in _formulas(equations) for _ in sympy.preorder_traversal(e))
         for slot in self.slots:
-            clock.check()
+            allowed.spend(_OF_NODE * nodes * len(equations.q))
             self.conditions.append(slot.conditions(equations))
         t = equations.t
         self._time_jets = {
@@ -98,7 +101,7 @@ class Search:
         jets += [e for jets in self._factors.values() for jet in jets for e in jet]
         jets += self.equations.v
         variables = [self.equations.t, *self.equations.q, *self.equations.v]
-        self.tree = Tree([*expressions, *jets, *more], variables, self.clock)
+        self.tree = Tree([*expressions, *jets, *more], variables, self.allowed)
         self.points = self.tree.points
         self._exact = ExactSolver(self.points)
 
@@ -135,6 +138,8 @@ class Search:
             for g, jets in self._factors.items()
         }
         columns = []
+        entries = [sum(len(condition) for condition in table) for table in tables]
+        EFFORT.done += sum(entries[unknown.slot] for unknown in self.unknowns)
         for unknown in self.unknowns:
             T, Tt, Ttt = times[unknown.time]
             space = spaces[unknown.space]
@@ -148,7 +153,7 @@ class Search:
         """Rows from new points, about as many as wanted (fewer where most are 0)."""
         batch: list[list[int]] = []
         for _ in range(wanted + 8):
-            self.clock.check()
+            self.allowed.check()
             try:
                 batch += self.rows(self.points.point())
             except NoPoint:
@@ -175,7 +180,7 @@ class Search:
             rows = [*self._reduced, *broken, *self._batch(width // 2)]
 
     def _kernel(self, rows: list[list[int]]) -> list[dict[int, int]]:
-        self.clock.check()
+        self.allowed.check()
         self._reduced, vectors = kernel_modulo(rows, len(self.unknowns))
         return vectors
 
@@ -186,7 +191,7 @@ class Search:
         exact = self._exact
         found = []
         for vector in self.kernel() if vectors is None else vectors:
-            self.clock.check()
+            self.allowed.check()
             indices = sorted(vector)
             values = exact.recognized([vector[i] for i in indices])
             if values is None:
@@ -221,6 +226,10 @@ class Search:
         for unknown, value in solution.terms:
             functions.setdefault(unknown.slot, []).append(value * unknown.function)
         return [(self.slots[s], sympy.Add(*parts)) for s, parts in sorted(functions.items())]
+
+
+def _formulas(equations: Equations) -> list[Expr]:
+    return [*(m for row in equations.mass for m in row), *equations.forcing]
 
 
 def _space_jets(factors: Sequence[tuple[int, ...]], v: Sequence[int]) -> list[int]:

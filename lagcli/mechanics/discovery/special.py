@@ -23,7 +23,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import simplify, to_expression
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import NoPoint, pivot_columns
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.slots import Equations
@@ -81,12 +81,15 @@ def problem_at(problem: Problem, parameter: Symbol, value: Expr) -> Problem | No
 
 
 def new_charges(
-    known: Sequence[Expr], found: Sequence[NoetherCharge], variables: Sequence[Symbol], clock: Clock
+    known: Sequence[Expr],
+    found: Sequence[NoetherCharge],
+    variables: Sequence[Symbol],
+    allowed: Allowance,
 ) -> tuple[NoetherCharge, ...]:
     """Those that are no combinations of the known ones, over the constants."""
     vectors = [[x] for x in (*known, *(c.charge for c in found))]
     try:
-        rows = Relation(vectors, variables, clock).rows(len(vectors) + 4)
+        rows = Relation(vectors, variables, allowed).rows(len(vectors) + 4)
     except (NoPoint, ZeroDivisionError):
         return ()
     return tuple(found[k - len(known)] for k in pivot_columns(rows) if k >= len(known))

@@ -13,7 +13,7 @@ from lagcli.mechanics.discovery.brackets import Brackets, NoState
 from lagcli.mechanics.discovery.constrained import rank_on_surface
 from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.lie_algebra import name_of
-from lagcli.mechanics.discovery.limits import OutOfTime
+from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.states import Contradiction
 
 
@@ -50,8 +50,8 @@ def summary(discovery: Discovery) -> Summary:
         if any(kind != "holonomic" for kind in kinds):
             return _nonholonomic(discovery)
         return _free(discovery)
-    except OutOfTime:
-        why = "the brackets were not worked out: out of time"
+    except TooMuchWork:
+        why = "the brackets were not worked out: too much work"
     except (NoState, Contradiction):
         why = "the brackets were not worked out: no state was found to do it at"
     known = min(1, count)
@@ -65,7 +65,7 @@ def _free(discovery: Discovery) -> Summary:
     if not count:
         return Summary(0, None, 0, 0, False)
     triples = _squares(discovery)
-    brackets = Brackets([*charges, *triples], discovery.dynamics, discovery.clock)
+    brackets = Brackets([*charges, *triples], discovery.dynamics, discovery.allowed)
     everything = list(range(count))
     if not discovery.canonical:
         # with other forces than those of L the motion is no canonical flow
@@ -122,7 +122,7 @@ def _squares(discovery: Discovery) -> list[Expr]:
               and discovery.system.t not in c.charge.free_symbols]  # fmt: skip
     if len(linear) < 3 or len(linear) > 8:
         return []
-    brackets = Brackets(linear, discovery.dynamics, discovery.clock)
+    brackets = Brackets(linear, discovery.dynamics, discovery.allowed)
     found = []
     for triple in combinations(range(len(linear)), 3):
         structure = brackets.structure(triple)

@@ -17,7 +17,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.mechanics.discovery.exact import ExactSolver
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import (
     PRIME,
     NoPoint,
@@ -52,11 +52,11 @@ class Surface:
         self,
         dynamics: Dynamics,
         expressions: Sequence[Expr],
-        clock: Clock,
+        allowed: Allowance,
         same: Sequence[Expr] = (),
     ) -> None:
         self.system = dynamics.system
-        self.clock = clock
+        self.allowed = allowed
         relations = dynamics.constraints.relations
         remaining = [] if relations is None else relations.remaining
         v = set(self.system.qdot)
@@ -72,7 +72,7 @@ class Surface:
         self._same = list(same)
         self._values: list[int] | None = None
         self.tree = Tree(
-            [*expressions, *same, *parts, *self._positions, *variables], variables, clock
+            [*expressions, *same, *parts, *self._positions, *variables], variables, allowed
         )
         self.points = self.tree.points
         self._last = [self._number(x) for x in self._moving]
@@ -180,7 +180,7 @@ class Surface:
             Where the constraints are not of a kind that is solved, or have no root modulo p.
         """
         for number in range(_TRIES):
-            self.clock.check()
+            self.allowed.check()
             if not self._plans:
                 break
             point = self._tried(self._plans[number % min(len(self._plans), 4)])
@@ -287,7 +287,7 @@ def _sampled(vectors: Sequence[Sequence[Expr]], count: int, surface: Surface) ->
 
 
 def independent_on_surface(
-    charges: Sequence[Expr], dynamics: Dynamics, clock: Clock, same: Sequence[Expr] = ()
+    charges: Sequence[Expr], dynamics: Dynamics, allowed: Allowance, same: Sequence[Expr] = ()
 ) -> list[int]:
     """Which functions are no combinations of earlier ones and of 1, over the constants."""
     if not charges:
@@ -295,13 +295,13 @@ def independent_on_surface(
     relations = dynamics.constraints.relations
     assert relations is not None
     values = [[relations.substitute(Q)] for Q in charges]
-    surface = Surface(dynamics, [e for v in values for e in v], clock, same)
+    surface = Surface(dynamics, [e for v in values for e in v], allowed, same)
     rows = _sampled(values, len(values) + 4, surface)
     return [k - 1 for k in pivot_columns([[1, *row] for row in rows]) if k]
 
 
 def relations_on_surface(
-    vectors: Sequence[Sequence[Expr]], dynamics: Dynamics, clock: Clock
+    vectors: Sequence[Sequence[Expr]], dynamics: Dynamics, allowed: Allowance
 ) -> list[dict[int, Expr]]:
     """A basis of the constant coefficients with which the vectors add up to 0 there.
 
@@ -314,7 +314,7 @@ def relations_on_surface(
     assert relations is not None
     order = list(reversed(range(len(vectors))))
     values = [[relations.substitute(e) for e in vectors[k]] for k in order]
-    surface = Surface(dynamics, [e for v in values for e in v], clock)
+    surface = Surface(dynamics, [e for v in values for e in v], allowed)
     _, kernel = kernel_modulo(_sampled(values, len(values) + 8, surface), len(values))
     exact = ExactSolver(surface.points)
     found = []

@@ -30,7 +30,7 @@ from sympy import Expr
 
 from lagcli.mechanics.discovery.admissible import Vector
 from lagcli.mechanics.discovery.exact import ExactSolver
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo, pivot_columns
 from lagcli.mechanics.discovery.surface import Surface
 from lagcli.mechanics.discovery.tree import Memo
@@ -80,7 +80,7 @@ class SurfaceIntegrals:
         fields: Sequence[Vector],
         terms: Sequence[Term],
         known: Sequence[Expr],
-        clock: Clock,
+        allowed: Allowance,
         same: Sequence[Expr] = (),
     ) -> None:
         self.noether = noether
@@ -88,7 +88,7 @@ class SurfaceIntegrals:
         self.system = noether.system
         self.fields = list(fields)
         self.terms = list(terms)
-        self.clock = clock
+        self.allowed = allowed
         self.unsolved = 0
         self._same = same
         self._prepare(known)
@@ -132,7 +132,7 @@ class SurfaceIntegrals:
         everything += [x for e in self._fields for pair in e for x in pair]
         everything += [x for pair in (*self._times.values(), *self._spaces.values()) for x in pair]
         everything += [x for row in (*mass, *rows) for x in row] + [*forcing, *biases, *drifts]
-        self.surface = Surface(self.dynamics, everything, self.clock, self._same)
+        self.surface = Surface(self.dynamics, everything, self.allowed, self._same)
 
     def _convected(self, expression: Expr) -> Expr:
         system = self.system
@@ -196,7 +196,7 @@ class SurfaceIntegrals:
     def _samples(self, count: int) -> Iterator[tuple[list[int], list[int], list[int]]]:
         bad = 0
         while count:
-            self.clock.check()
+            self.allowed.check()
             try:
                 yield self._sample()
                 count -= 1

@@ -22,7 +22,7 @@ from lagcli.algebra import simplify
 from lagcli.mechanics.discovery.ansatz import Kinds, TimeFunctions, quadratic
 from lagcli.mechanics.discovery.boundary import gauge_of
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.slots import Equations, point_slots
 from lagcli.mechanics.noether import Noether, NoetherCharge
 
@@ -39,9 +39,9 @@ class TimedIntegrals(QuadraticIntegrals):
         equations: Equations,
         kinds: Kinds,
         times: TimeFunctions,
-        clock: Clock,
+        allowed: Allowance,
     ) -> None:
-        super().__init__(noether, equations, kinds, clock)
+        super().__init__(noether, equations, kinds, allowed)
         self.linear = point_slots(equations)[1:]
         self.times = times.others
         slots = len(self.pairs) + len(self.linear)
@@ -65,4 +65,4 @@ class TimedIntegrals(QuadraticIntegrals):
         left = self.noether.dynamics.lagrange.left_sides
         along = sympy.Add(*(x * e for x, e in zip(eta, left, strict=True)))
         change = simplify(along - system.total_derivative(moving))
-        return gauge_of(change, system, self.clock)
+        return gauge_of(change, system, self.allowed)

@@ -10,8 +10,9 @@ from collections.abc import Iterable, Sequence
 
 from sympy import Expr, Symbol
 
+from lagcli.algebra.effort import EFFORT
 from lagcli.algebra.entry import Field
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, NoPoint
 
 Memo = dict[Expr, int]
@@ -29,13 +30,13 @@ class Tree:
     """
 
     def __init__(
-        self, expressions: Iterable[Expr], variables: Sequence[Symbol], clock: Clock
+        self, expressions: Iterable[Expr], variables: Sequence[Symbol], allowed: Allowance
     ) -> None:
         leaves = _leaves(expressions)
         self.field = Field(leaves)
         elements = {}
         for leaf in leaves:
-            clock.check()
+            allowed.check()
             elements[leaf] = self.field(leaf)
         self.points = ModularPoints(self.field, variables)
         self._leaves = {leaf: self.points.compiled(x) for leaf, x in elements.items()}
@@ -66,6 +67,7 @@ class Tree:
             result = int(expression.p) * pow(int(expression.q), -1, PRIME)
         else:
             result = self._leaves[expression](point)
+        EFFORT.done += 1
         memo[expression] = result = result % PRIME
         return result
 

@@ -13,7 +13,7 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.admissible import Vector, admissible_fields
 from lagcli.mechanics.discovery.ansatz import Kinds, TimeFunctions, affine, quadratic
-from lagcli.mechanics.discovery.limits import Clock
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.momentum_equation import Momenta, MomentumEquations
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.surface import independent_on_surface
@@ -34,7 +34,9 @@ class UnderConstraints:
         Integrals that are there, whose coefficients were not found.
     """
 
-    def __init__(self, noether: Noether, kinds: Kinds, times: TimeFunctions, clock: Clock) -> None:
+    def __init__(
+        self, noether: Noether, kinds: Kinds, times: TimeFunctions, allowed: Allowance
+    ) -> None:
         self.noether = noether
         self.system = noether.system
         self.dynamics = noether.dynamics
@@ -42,10 +44,10 @@ class UnderConstraints:
             kinds, lengths=list(kinds.lengths), angles=list(kinds.angles), radii=list(kinds.radii)
         )
         self.times = times
-        self.clock = clock
+        self.allowed = allowed
         self.unsolved = 0
         self._same: list[Expr] = []
-        self.fields = admissible_fields(self.dynamics, clock)
+        self.fields = admissible_fields(self.dynamics, allowed)
 
     def momenta(
         self, symmetries: Sequence[Transformation], known: Sequence[NoetherCharge]
@@ -64,13 +66,13 @@ class UnderConstraints:
             if c.transformation.time == 0
             and not sympy.Tuple(*c.transformation.changes).free_symbols & moving
         ]  # fmt: skip
-        equations = MomentumEquations(self.noether, symmetries, self.fields, self.clock)
+        equations = MomentumEquations(self.noether, symmetries, self.fields, self.allowed)
         return equations.found(constant)
 
     def new(self, known: Sequence[Expr], more: Sequence[NoetherCharge]) -> list[NoetherCharge]:
         """Those of `more` that are independent of the known ones on the surface."""
         charges = [*known, *(c.charge for c in more)]
-        kept = independent_on_surface(charges, self.dynamics, self.clock, self._same)
+        kept = independent_on_surface(charges, self.dynamics, self.allowed, self._same)
         return [more[k - len(known)] for k in kept if k >= len(known)]
 
     # -- of the coordinates alone ------------------------------------------------------------
@@ -189,7 +191,7 @@ class UnderConstraints:
     # -- common -----------------------------------------------------------------------------
 
     def _integrals(self, terms: Sequence[Term], known: Sequence[Expr]) -> list[Integral]:
-        search = SurfaceIntegrals(self.noether, self.fields, terms, known, self.clock, self._same)
+        search = SurfaceIntegrals(self.noether, self.fields, terms, known, self.allowed, self._same)
         found = search.found()
         self._J = [
             sympy.Add(*(x * p for x, p in zip(e, self.dynamics.lagrange.momenta, strict=True)))
@@ -201,7 +203,7 @@ class UnderConstraints:
     def _charges(self, integrals: Sequence[Integral]) -> list[NoetherCharge]:
         found = []
         for integral in integrals:
-            self.clock.check()
+            self.allowed.check()
             charge = self._charge(integral)
             if charge.conserved is True and charge.verified == "exact":
                 found.append(charge)
