@@ -134,6 +134,21 @@ def test_what_oscillates_is_not_stiff():
     assert last(found, "x") == pytest.approx(math.cos(1e3), abs=1e-6)
 
 
+def test_no_exact_derivatives_where_nothing_dies_away_quickly(monkeypatch):
+    """Those of ten coordinates cost more than the motion; friction of 2 is far from 1e5."""
+    from lagcli.numerics import stiffness
+
+    asked = []
+    monkeypatch.setattr(
+        stiffness, "jacobian", lambda motion: asked.append(motion) or jacobian(motion)
+    )
+    text = "{{coordinates: [x], L: x'^2/2 - x^2/2, forces: {{x: -{}*x'}}, initial: {{x: 1}}}}"
+    assert simulated(text.format(2), 5, 1e-6).method != "radau5"
+    assert not asked
+    assert simulated(text.format("10^6"), 5, 1e-6).method == "radau5"
+    assert len(asked) == 1
+
+
 @pytest.mark.parametrize("method", ["radau5", "gauss8", "yoshida8"])
 @pytest.mark.parametrize("accuracy", [1e-4, 1e-8])
 def test_certified_against_the_exact_motion(method, accuracy):
