@@ -12,7 +12,6 @@ from lagcli.graph.nodes import Node
 from lagcli.numerics.arithmetic import UndefinedFunction
 from lagcli.numerics.compiled.emission import Series, head
 from lagcli.numerics.compiled.engine import Compiled, engine
-from lagcli.numerics.compiled.language import functions_of, translated
 from lagcli.numerics.compiled.numbers import Numbers
 from lagcli.numerics.compiled.tape import NoSeries, Tape
 from lagcli.numerics.compiled.text import values_function
@@ -144,6 +143,8 @@ def _kernels(numbers: Numbers) -> Compiled:
     outside = (folder / "intrinsics.py").read_text("utf-8")
 
     def text() -> str:
+        from lagcli.numerics.compiled.language import functions_of, translated
+
         known = {name: kind for name, kind in functions_of(outside) if name in _GIVEN}
         return translated(source, numbers, known)
 
