@@ -34,12 +34,6 @@ def leave(status: int) -> NoReturn:
 def run(arguments: Sequence[str]) -> int:
     """The exit status of a command line; whatever goes wrong is told on standard error."""
     try:
-        from lagcli.cli.plain import run_plainly
-
-        status = run_plainly(arguments)
-        if status is not None:
-            sys.stdout.flush()
-            return status
         from click import Abort, ClickException
 
         from lagcli.cli.app import application

@@ -36,18 +36,18 @@ class Wish:
     """The command line, as it was written."""
 
     file: str
-    until: str | None = None
-    accuracy: str | None = None
-    samples: int = 101
-    settings: tuple[str, ...] = ()
-    show: tuple[str, ...] = ()
-    format_name: str = "table"
-    output: Path | None = None
-    project: bool = False
-    precision: int | None = None
-    method: str = "auto"
-    stop_when: str | None = None
-    whole: bool = False
+    until: str | None
+    accuracy: str | None
+    samples: int
+    settings: tuple[str, ...]
+    show: tuple[str, ...]
+    format_name: str
+    output: Path | None
+    project: bool
+    precision: int | None
+    method: str
+    stop_when: str | None
+    whole: bool
 
 
 def simulate_file(wish: Wish) -> Status:
