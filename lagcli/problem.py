@@ -180,7 +180,28 @@ class Rewrite:
     span: Span = field(default=NOWHERE, compare=False)
 
 
-Question = Where | Rewrite
+@record(kw_only=True)
+class Lasting:
+    """`{always: left >= right, for: unknown}`: the values with which it holds all the time."""
+
+    name: str
+    condition: Inequality
+    unknown: Name  # a parameter
+    span: Span = field(default=NOWHERE, compare=False)
+
+
+@record(kw_only=True)
+class Reaching:
+    """`{reaches: coordinate = value, for: unknown}`: the values with which it comes there."""
+
+    name: str
+    coordinate: Name
+    value: Expression
+    unknown: Name  # a parameter
+    span: Span = field(default=NOWHERE, compare=False)
+
+
+Question = Where | Rewrite | Lasting | Reaching
 
 
 @record(kw_only=True)
@@ -290,6 +311,8 @@ class Expect:
     discovered: Mapping[str, Expression | Literal["not conserved"]] = field(default_factory=dict)
     modes: tuple[Expression, ...] | None = None  # angular frequencies
     find: Mapping[str, tuple[Expression, ...]] = field(default_factory=dict)
+    #: answers that are ranges: each by its bounds
+    ranges: Mapping[str, tuple[tuple[Inequality, ...], ...]] = field(default_factory=dict)
     reduction: ExpectReduction | None = None
     steady_motions: tuple[ExpectSteady, ...] = ()
     hamilton_jacobi: ExpectHamiltonJacobi | None = None

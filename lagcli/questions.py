@@ -27,10 +27,32 @@ class Rewritten:
 
 
 @record(kw_only=True)
+class Range:
+    """An interval of an unknown; a bound that is None: none but the unknown's assumption."""
+
+    lower: Expression | None = None
+    upper: Expression | None = None
+    lower_included: bool = True
+    upper_included: bool = True
+
+
+@record(kw_only=True)
+class Ranges:
+    """The answer to `always` or `reaches ... for ...`, in order; None: not decided."""
+
+    unknown: str
+    ranges: tuple[Range, ...] | None
+    note: str = ""
+
+
+Answer = Solutions | Rewritten | Ranges
+
+
+@record(kw_only=True)
 class FindSection:
     """The answers to the file's questions, by name."""
 
-    answers: Mapping[str, Solutions | Rewritten]
+    answers: Mapping[str, Answer]
 
     @property
     def unanswered(self) -> list[tuple[str, str]]:
@@ -38,5 +60,15 @@ class FindSection:
         return [
             (f"the answer to '{name}'", answer.note or "no closed form")
             for name, answer in self.answers.items()
-            if (answer.solutions if isinstance(answer, Solutions) else answer.value) is None
+            if _found(answer) is None
         ]
+
+
+def _found(answer: Answer) -> object:
+    match answer:
+        case Solutions():
+            return answer.solutions
+        case Ranges():
+            return answer.ranges
+        case Rewritten():
+            return answer.value

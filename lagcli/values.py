@@ -9,7 +9,7 @@ from typing import TypeVar
 from lagcli.decimals import Constant, value_of
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import Diff, Expression, Name, Power, Quotient, walk
-from lagcli.problem import Parameter, Problem, Question, Rewrite, Where
+from lagcli.problem import Lasting, Parameter, Problem, Question, Reaching, Rewrite
 from lagcli.rewriting import rebuilt, rewritten
 
 Values = Mapping[str, Expression]
@@ -18,7 +18,7 @@ Value = TypeVar("Value")
 
 def parameters_with_values(problem: Problem) -> tuple[str, ...]:
     """Those that have a value, but for the ones that a `find` solves for."""
-    unknown = {q.unknown.name for q in problem.find if isinstance(q, Where)}
+    unknown = {q.unknown.name for q in problem.find if not isinstance(q, Rewrite)}
     return tuple(
         parameter.name
         for parameter in problem.parameters
@@ -70,12 +70,16 @@ def _question(question: Question, values: Values) -> Question:
     if isinstance(question, Rewrite):
         names = tuple(n for n in question.in_terms_of if n.name not in values)
         return replace(question, value=substituted(question.value, values), in_terms_of=names)
+    if isinstance(question, Lasting):
+        return replace(question, condition=substituted(question.condition, values))
+    if isinstance(question, Reaching):
+        return replace(question, value=substituted(question.value, values))
     return replace(question, equation=substituted(question.equation, values))
 
 
 def _unknowns(problem: Problem, names: Collection[str]) -> list[Diagnostic]:
     """Parameters that must stay names."""
-    solved_for = {q.unknown.name for q in problem.find if isinstance(q, Where)}
+    solved_for = {q.unknown.name for q in problem.find if not isinstance(q, Rewrite)}
     variables = _differentiated_by(problem)
     return [
         Diagnostic(f"'{name}' can have no value here: {why}")

@@ -22,14 +22,16 @@ from lagcli.check.comparison import Comparison
 from lagcli.check.findings import Finding, Outcome
 from lagcli.check.following import follows
 from lagcli.check.phase_space import PhaseSpace
+from lagcli.check.ranges import in_words, same_ranges
 from lagcli.check.real_forces import expected_forces
 from lagcli.check.reductions import Reductions
 from lagcli.diagnostics import NOWHERE, Span
 from lagcli.expression import Expression
+from lagcli.formatters.findings import bounds_of
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
 from lagcli.mechanics.derivation import Derivation
-from lagcli.problem import NOT_CONSERVED, Expect
-from lagcli.questions import FindSection, Solutions
+from lagcli.problem import NOT_CONSERVED, Expect, Inequality
+from lagcli.questions import FindSection, Ranges, Rewritten, Solutions
 
 #: What a comparison yields: nothing when it holds.
 Found = Iterator[Finding | None]
@@ -254,7 +256,7 @@ class Expectations:
         yield self._judge(["modes"], verdict, _listed(expected), _listed(every))
 
     def _find(self) -> Found:
-        if not self.expect.find:
+        if not self.expect.find and not self.expect.ranges:
             return
         answers = cast(FindSection, self.answers.sections["find"]).answers
         for name, expected in self.expect.find.items():
@@ -266,8 +268,20 @@ class Expectations:
                 verdict = self.comparison.same_set(answer.solutions, expected)
                 yield self._judge(path, verdict, _listed(expected), _listed(answer.solutions))
             else:
-                value = None if answer is None else answer.value
+                value = answer.value if isinstance(answer, Rewritten) else None
                 yield self._compare(path, value, expected[0])
+        for name, bounds in self.expect.ranges.items():
+            yield self._ranges(["find", name], cast(Ranges, answers[name]), bounds)
+
+    def _ranges(
+        self, path: Sequence[str], answer: Ranges, expected: Sequence[Sequence[Inequality]]
+    ) -> Finding | None:
+        if answer.ranges is None:
+            return self._finding(Outcome.UNDECIDED, path, answer.note)
+        verdict = same_ranges(answer.ranges, expected, self.comparison.equal)
+        wanted = [[(each.comparison, each.right) for each in bounds] for bounds in expected]
+        found = [bounds_of(each) for each in answer.ranges]
+        return self._judge(path, verdict, in_words(wanted), in_words(found))
 
 
 def _frequencies(mode: Mode) -> list[Expression]:
@@ -289,7 +303,7 @@ _SECTIONS: Mapping[str, Callable[[Expect], object]] = {
     "hamiltonian": lambda expect: expect.hamiltonian is not None,
     "charges": lambda expect: expect.charges,
     "discovered": lambda expect: expect.discovered,
-    "find": lambda expect: expect.find,
+    "find": lambda expect: expect.find or expect.ranges,
     "modes": lambda expect: expect.modes is not None,
     "reduction": lambda expect: expect.reduction is not None,
     "steady_motions": lambda expect: expect.steady_motions,

@@ -24,7 +24,17 @@ from lagcli.dimensions.forms import (
 from lagcli.dimensions.system import dimension_of
 from lagcli.dimensions.terms import Group, Reader, Term, representative
 from lagcli.expression import Equation, Expression, Name, Power, walk
-from lagcli.problem import Constraint, Contact, Point, Problem, Quantity, Symmetry, Where
+from lagcli.problem import (
+    Constraint,
+    Contact,
+    Lasting,
+    Point,
+    Problem,
+    Quantity,
+    Reaching,
+    Symmetry,
+    Where,
+)
 from lagcli.units import read_unit
 
 LAGRANGIAN = unknown("lagrangian")
@@ -104,6 +114,11 @@ class Demands:
         for question in problem.find:
             if isinstance(question, Where):
                 self._agree(question.equation)
+            elif isinstance(question, Lasting):
+                condition = question.condition
+                self._agree(Equation(condition.left, condition.right, span=condition.span))
+            elif isinstance(question, Reaching):
+                self._agree(Equation(question.coordinate, question.value, span=question.span))
             else:
                 self._one(question.value)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 
 from lagcli.answers import (
@@ -24,7 +24,7 @@ from lagcli.document import (
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power, operation_count
 from lagcli.formatters.conditions import conditions
-from lagcli.questions import FindSection, Rewritten, Solutions
+from lagcli.questions import FindSection, Range, Ranges, Rewritten, Solutions
 
 _SOURCES = {
     "candidate": "candidate",
@@ -85,7 +85,7 @@ def find_blocks(section: FindSection) -> Iterator[Block]:
     for name, answer in section.answers.items():
         yield Heading(name, 2)
         match answer:
-            case Solutions(solutions=None) | Rewritten(value=None):
+            case Solutions(solutions=None) | Rewritten(value=None) | Ranges(ranges=None):
                 yield Paragraph(("Not found.",))
             case Solutions(solutions=()):
                 yield Paragraph(("There is no solution that the motion can reach.",))
@@ -95,8 +95,43 @@ def find_blocks(section: FindSection) -> Iterator[Block]:
                 yield Equations(tuple(Row(left, root) for root in solutions))
             case Rewritten(value=value, subject=subject) if value is not None:
                 yield Equations((Row(Label(name) if subject is None else subject, value),))
+            case Ranges(unknown=unknown, ranges=tuple(ranges)):
+                yield Paragraph(_ranges(unknown, ranges))
         if answer.note:
             yield Paragraph((f"{answer.note[0].upper()}{answer.note[1:].rstrip('.')}.",))
+
+
+def bounds_of(range_: Range) -> list[tuple[str, Expression]]:
+    """The bounds of a range, each with how the unknown compares with it."""
+    bounds = []
+    if range_.lower is not None:
+        bounds.append((">=" if range_.lower_included else ">", range_.lower))
+    if range_.upper is not None:
+        bounds.append(("<=" if range_.upper_included else "<", range_.upper))
+    return bounds
+
+
+_SIGNS = {">=": " ≥ ", ">": " > ", "<=": " ≤ ", "<": " < "}
+_TURNED = {">=": " ≤ ", ">": " < "}
+
+
+def _ranges(unknown: str, ranges: Sequence[Range]) -> tuple[str | Formula, ...]:
+    """`a < v ≤ b, or v ≥ c`."""
+    if not ranges:
+        return ("For no value of ", Name(unknown), ".")
+    parts: list[str | Formula] = []
+    for range_ in ranges:
+        bounds = bounds_of(range_)
+        parts += [", or "] if parts else []
+        if not bounds:
+            return ("For every value of ", Name(unknown), ".")
+        if range_.lower == range_.upper:
+            bounds = [("=", bounds[0][1])]
+        if len(bounds) == 2:
+            parts += [bounds[0][1], _TURNED[bounds[0][0]]]
+        how, bound = bounds[-1]
+        parts += [Name(unknown), _SIGNS.get(how, " = "), bound]
+    return (*parts, ".")
 
 
 def equilibrium_blocks(section: EquilibriaSection) -> Iterator[Block]:

@@ -39,6 +39,7 @@ from lagcli.answers import (
 )
 from lagcli.expression import Expression
 from lagcli.forces import ForcesSection
+from lagcli.formatters.findings import bounds_of
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_forces import of_forces
 from lagcli.formatters.json_phase_space import of_phase_space
@@ -55,7 +56,7 @@ from lagcli.phase_space import (
     BracketsSection,
     TransformationsSection,
 )
-from lagcli.questions import FindSection, Rewritten, Solutions
+from lagcli.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
 
 #: The version of the contract.
 SCHEMA = 1
@@ -237,12 +238,18 @@ def _charge(charge: Charge) -> Object:
     }
 
 
-def _answer(answer: Solutions | Rewritten) -> Object:
+def _answer(answer: Answer) -> Object:
     match answer:
         case Solutions(solutions=solutions):
             return {"solutions": _unless_none(solutions, _strings)}
+        case Ranges(unknown=unknown, ranges=ranges):
+            return {"ranges": _unless_none(ranges, lambda each: [_range(unknown, r) for r in each])}
         case Rewritten(value=value):
             return {"value": _string(value)}
+
+
+def _range(unknown: str, range_: Range) -> list[str]:
+    return [f"{unknown} {how} {to_grammar(bound)}" for how, bound in bounds_of(range_)]
 
 
 def _equilibrium(equilibrium: Equilibrium) -> Object:

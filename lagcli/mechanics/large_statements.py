@@ -33,8 +33,8 @@ from lagcli.graph.sharing import operations, with_shared_parts, written_out
 from lagcli.mechanics.large_charges import LargeCharge, LargeCharges
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.mechanics.stating import Stating
-from lagcli.problem import Where
-from lagcli.questions import FindSection, Rewritten, Solutions
+from lagcli.problem import Rewrite, Where
+from lagcli.questions import FindSection, Ranges, Rewritten, Solutions
 
 #: A section whose formulas show more operations than this is not written out.
 WRITTEN_OPERATIONS = 100_000
@@ -254,6 +254,8 @@ class LargeStatements(Stating):
                 question.name: Solutions(unknown=str(question.unknown), solutions=None, note=_WHY)
                 if isinstance(question, Where)
                 else Rewritten(value=None, note=_WHY)
+                if isinstance(question, Rewrite)
+                else Ranges(unknown=str(question.unknown), ranges=None, note=_WHY)
                 for question in self.problem.find
             }
         )

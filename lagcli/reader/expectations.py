@@ -14,14 +14,18 @@ from lagcli.problem import (
     ExpectHamiltonJacobi,
     ExpectReduction,
     ExpectSteady,
+    Inequality,
+    Lasting,
     Point,
     Question,
+    Reaching,
     Symmetry,
     Trajectory,
     Transformation,
 )
 from lagcli.reader.columns import named_columns
 from lagcli.reader.dynamics import read_by_coordinate
+from lagcli.reader.expected_ranges import read_ranges
 from lagcli.reader.expected_reduction import (
     read_hamilton_jacobi,
     read_reduction,
@@ -71,7 +75,8 @@ class ExpectReader:
         self.brackets = [bracket.name for bracket in brackets]
         self.transformations = transformations
         self.points = [point.name for point in points]
-        self.questions = [question.name for question in find]
+        self.questions = {question.name: question for question in find}
+        self.ranges: dict[str, tuple[tuple[Inequality, ...], ...]] = {}
         self.spans: dict[tuple[str, ...], Span] = {}
 
     def read(self, node: Node) -> Expect:
@@ -81,7 +86,7 @@ class ExpectReader:
         for name, (key, value) in found.items():
             self.spans[(name,)] = key.span
             values[name] = getattr(self, f"_{name}")(value)
-        return Expect(**values, spans=self.spans)
+        return Expect(**values, ranges=self.ranges, spans=self.spans)
 
     def _degrees_of_freedom(self, node: Node) -> int | None:
         text = self.sections.scalar(node, "'degrees_of_freedom'")
@@ -180,9 +185,14 @@ class ExpectReader:
 
     def _find(self, node: Node) -> dict[str, tuple[Expression, ...]]:
         found = {}
-        for key, value in self._known(node, "find", self.questions, "question"):
+        for key, value in self._known(node, "find", list(self.questions), "question"):
             items = value.items if isinstance(value, Sequence) else [value]
             what = f"the expected answer to '{key.label}'"
+            question = self.questions[key.label]
+            if isinstance(question, Lasting | Reaching):
+                read = read_ranges(self.sections, items, question.unknown, what)
+                self.ranges[key.label] = read
+                continue
             found[key.label] = tuple(
                 self.sections.expression(item, what, _ANSWER) for item in items
             )

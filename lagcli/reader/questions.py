@@ -5,17 +5,28 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lagcli.expression import Expression, Name
-from lagcli.problem import Question, Rewrite, Simulation, Where
+from lagcli.problem import Lasting, Question, Reaching, Rewrite, Simulation, Where
+from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping
-from lagcli.reader.scope import NUMBERS, QUESTION, VALUES, Role
+from lagcli.reader.scope import NUMBERS, POSITION, QUESTION, VALUES, Role
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
     from lagcli.reader.nodes import Node, Scalar
     from lagcli.reader.sections import Sections
 
-_QUESTION_ATTRIBUTES = ("where", "for", "value", "in_terms_of")
+_QUESTION_ATTRIBUTES = ("where", "for", "value", "in_terms_of", "always", "reaches")
+_PARTNERS = {
+    "where": "for",
+    "always": "for",
+    "reaches": "for",
+    "for": "where",
+    "value": "in_terms_of",
+    "in_terms_of": "value",
+}
 _SIMULATION_ATTRIBUTES = ("until", "accuracy", "method")
+
+_REACHES = "as in reaches: theta = pi"
 
 #: What a question can be answered for.
 _UNKNOWN = Role(order=1, time=False, why="it asks for a coordinate, a velocity or a parameter")
@@ -55,7 +66,10 @@ def _state_name(sections: Sections, key: Scalar, coordinates: list[str]) -> Name
 def read_find(sections: Sections, node: Node) -> tuple[Question, ...]:
     """The questions."""
     questions: list[Question] = []
-    hint = "write name: {where: equation, for: x} or name: {value: expression, in_terms_of: [x]}"
+    hint = (
+        "write name: {where: equation, for: x}, {value: expression, in_terms_of: [x]}, "
+        "{always: inequality, for: p} or {reaches: x = value, for: p}"
+    )
     for key, value in sections.entries(node, "find", hint):
         what = f"the question '{key.label}'"
         found = sections.attributes(value, what, _QUESTION_ATTRIBUTES)
@@ -64,10 +78,13 @@ def read_find(sections: Sections, node: Node) -> tuple[Question, ...]:
             questions += _where(sections, key, parts["where"], parts["for"])
         elif parts.keys() == {"value", "in_terms_of"}:
             questions.append(_rewrite(sections, key, parts["value"], parts["in_terms_of"]))
+        elif parts.keys() == {"always", "for"}:
+            questions += _lasting(sections, key, parts["always"], parts["for"])
+        elif parts.keys() == {"reaches", "for"}:
+            questions += _reaching(sections, key, parts["reaches"], parts["for"])
         elif "where" in parts and "value" in parts:
             sections.error(f"{what} has both 'where' and 'value'", key.span, hint)
-        elif missing := {"where": "for", "for": "where", "value": "in_terms_of",
-                         "in_terms_of": "value"}.get(next(iter(parts), "")):  # fmt: skip
+        elif missing := _PARTNERS.get(next(iter(parts), "")):
             sections.error(f"{what} has no '{missing}'", key.span, hint)
         elif isinstance(value, Mapping) and not value.entries:
             sections.error(f"{what} asks nothing", key.span, hint)
@@ -82,6 +99,42 @@ def _where(sections: Sections, key: Scalar, where: Node, unknown: Node) -> list[
     if sections.scope.kinds.get(name.name) not in {"coordinate", "parameter"}:
         sections.error(f"'{name}' is no coordinate, velocity or parameter", name.span)
     return [Where(name=key.label, equation=equation, unknown=name, span=key.span)]
+
+
+def _lasting(sections: Sections, key: Scalar, condition: Node, unknown: Node) -> list[Question]:
+    inequality = sections.comparison(condition, f"the question '{key.label}'", QUESTION)
+    name = _parameter(sections, unknown)
+    if name is None or inequality is None:
+        return []
+    return [Lasting(name=key.label, condition=inequality, unknown=name, span=key.span)]
+
+
+def _reaching(sections: Sections, key: Scalar, place: Node, unknown: Node) -> list[Question]:
+    what = f"the question '{key.label}'"
+    before = len(sections.diagnostics)
+    equation = sections.equation(place, what, POSITION)
+    name = _parameter(sections, unknown)
+    if name is None or len(sections.diagnostics) > before:
+        return []
+    left = equation.left
+    if not isinstance(left, Name) or sections.scope.kinds.get(left.name) != "coordinate":
+        sections.error(f"'reaches' is about a coordinate alone, {_REACHES}", place.span)
+        return []
+    if derivative_order(equation.right, sections.scope) >= 0:
+        sections.error(f"the place that is reached has no coordinate, {_REACHES}", place.span)
+        return []
+    return [
+        Reaching(name=key.label, coordinate=left, value=equation.right, unknown=name, span=key.span)
+    ]
+
+
+def _parameter(sections: Sections, node: Node) -> Name | None:
+    name = sections.name(node, "'for'", _UNKNOWN)
+    if name is not None and sections.scope.kinds.get(name.name) != "parameter":
+        message = f"'{name}' is no parameter"
+        sections.error(message, node.span, "what holds all the time is asked for a parameter")
+        return None
+    return name
 
 
 def _rewrite(sections: Sections, key: Scalar, value: Node, terms: Node) -> Question:

@@ -63,7 +63,7 @@ from lagcli.phase_space import (
     PoissonBracket,
     TransformationsSection,
 )
-from lagcli.questions import FindSection, Rewritten, Solutions
+from lagcli.questions import FindSection, Range, Ranges, Rewritten, Solutions
 from lagcli.units import Unit, read_unit
 
 
@@ -276,6 +276,17 @@ HOOP = Answers(
                 "never": Solutions(unknown="x'", solutions=()),
                 "tension": Rewritten(value=minus_half, subject=lam),
                 "lost": Rewritten(value=None, note="The time allowed ran out."),
+                "kept": Ranges(
+                    unknown="l",
+                    ranges=(
+                        Range(upper=Negative(g), upper_included=False),
+                        Range(lower=ZERO, upper=g, lower_included=False),
+                        Range(lower=R, upper=R),
+                    ),
+                ),
+                "any": Ranges(unknown="l", ranges=(Range(),)),
+                "none": Ranges(unknown="l", ranges=()),
+                "undecided": Ranges(unknown="l", ranges=None, note="it depends on R"),
             }
         ),
         "equilibria": EquilibriaSection(

@@ -30,6 +30,11 @@ def one_sided(attributes: str) -> str:
     return GOOD.replace("{line: x + y}", f"{{line: {{equation: x + y, {attributes}}}}}")
 
 
+def asked(question: str) -> str:
+    """A good file whose question, in the eighth line, is another one."""
+    return GOOD.replace("height: {where: x' = 0, for: x}", f"a: {{{question}}}")
+
+
 CANONICAL = "coordinates: [x]\nL: x'^2\ncanonical_transformations: {a: {Q: x, p_Q: p_x}}\n"
 
 FILES = [
@@ -172,6 +177,16 @@ FILES = [
     (after("contacts: {f: {gap: x, restitution: y}}\n"), "9:37", "only numbers and parameters"),
     (after("contacts: {f: {gap: x, multiplier: y}}\n"), "9:36", "declared twice"),
     (after("contacts: {f: x >= 0}\nV: lambda_f\n"), "10:4", "cannot stand in V"),
+    (asked("always: x > 0"), "8:8", "has no 'for'"),
+    (asked("reaches: x = 1"), "8:8", "has no 'for'"),
+    (asked("always: x = 0, for: m"), "8:22", "'=' stands only"),
+    (asked("always: x > 0, for: x"), "8:32", "is no parameter"),
+    (asked("always: x > q, for: m"), "8:24", "unknown name 'q'"),
+    (asked("reaches: x' = 1, for: m"), "8:21", "velocity x'"),
+    (asked("reaches: x + y = 1, for: m"), "8:21", "a coordinate alone"),
+    (asked("reaches: x = y, for: m"), "8:21", "has no coordinate"),
+    (asked("always: x > 0, for: m") + "expect: {find: {a: [y > 0]}}\n", "9:21", "a bound of m"),
+    (asked("always: x > 0, for: m") + "expect: {find: {a: [m > x]}}\n", "9:25", "coordinate x"),
     (one_sided("acts_as: frictoin"), "6:48", "did you mean 'friction'"),
     (one_sided("acts_as: magic"), "6:48", "write normal, friction or tension"),
     (after("expect: {forces: {lin: {a: 1}}}\n"), "9:19", "did you mean 'line'"),

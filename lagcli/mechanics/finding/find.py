@@ -8,11 +8,12 @@ from sympy import Symbol
 
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.finding.along_the_motion import BUDGET, AlongTheMotion
+from lagcli.mechanics.finding.lasting import LastingAnswer
 from lagcli.mechanics.finding.passing import Passing
 from lagcli.mechanics.finding.where import Where
 from lagcli.mechanics.noether import Noether
-from lagcli.problem import Rewrite
-from lagcli.questions import FindSection, Rewritten, Solutions
+from lagcli.problem import Lasting, Reaching, Rewrite
+from lagcli.questions import Answer, FindSection, Rewritten
 
 
 def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:
@@ -25,11 +26,13 @@ def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:
     """
     along = AlongTheMotion(dynamics, noether)
     known: dict[Symbol, Passing] = {}
-    answers: dict[str, Solutions | Rewritten] = {}
+    answers: dict[str, Answer] = {}
     for question in dynamics.system.problem.find:
         along.deadline = process_time() + BUDGET
         if isinstance(question, Rewrite):
             answers[question.name] = _rewritten(along, question)
+        elif isinstance(question, Lasting | Reaching):
+            answers[question.name] = LastingAnswer(along, question, known).answer()
         else:
             answers[question.name] = Where(along, question, known).solutions()
     return FindSection(answers=answers)

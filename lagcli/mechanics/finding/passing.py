@@ -44,7 +44,7 @@ class Passing:
         self.u = u
         self.rate = self.system.symbol_of(u.name + "'")
         self.notes: list[str] = []  # to the last answer of `passed`
-        self._undecided: list[str] = []
+        self.undecided: list[str] = []
         self._reaches: dict[tuple[int, bool], Reach | None] = {}
 
     @cached_property
@@ -66,12 +66,13 @@ class Passing:
             margin = margin if condition.comparison in (">", ">=") else -margin
             formula = self.along.rewritten(margin, [self.u])
             if formula is None:
-                self._undecided.append(f"whether contact '{constraint.name}' lasts was not decided")
+                self.undecided.append(f"whether contact '{constraint.name}' lasts was not decided")
             else:
                 margins.append(formula)
-        return (*margins, *self._assumed())
+        return (*margins, *self.assumed)
 
-    def _assumed(self) -> list[Expr]:
+    @cached_property
+    def assumed(self) -> list[Expr]:
         """x >= 0 of each other coordinate that has a sign by assumption and is a function of u."""
         relations, remove = self.along.attempts([self.u], with_time=False)[0]
         found = []
@@ -127,7 +128,7 @@ class Passing:
         for passage, example in partly:
             which = _text(passage) + " " if apart else ""
             self.notes.append(f"{which}for some values of the parameters only, such as {example}")
-        self.notes += self._undecided
+        self.notes += self.undecided
         if passages and not kept:
             if not decided:
                 self.along.why_not = "no parameters were found for which the motion comes there"

@@ -1,0 +1,231 @@
+"""The values of a parameter p at which an answer may change, as formulas and as numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+
+import mpmath
+import sympy
+from mpmath import mpf
+from sympy import Expr, Symbol
+
+from lagcli.algebra import simplify
+from lagcli.algebra.entry import Field
+from lagcli.algebra.equations import is_decimal, solve_for
+from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.signs import sign
+
+DIGITS = 90
+_REAL = mpf(10) ** -40
+
+
+class NoClosedForm(Exception):
+    """A special value that is not solved for; the text is the equation."""
+
+
+class SpecialValues:
+    """The roots in p of several expressions, each 0 at a change.
+
+    Parameters
+    ----------
+    p
+        The parameter that is asked for.
+    events
+        Expressions in p and other parameters.
+
+    Attributes
+    ----------
+    roots : list of Expr
+        Formulas of the values, real for some of the other parameters at least.
+    walls : list of Expr
+        Factors without p, which vanish for special values of the other parameters alone.
+    angle : bool
+        Whether p stands in sines and cosines alone, and is taken from (-pi, pi].
+
+    Raises
+    ------
+    NoClosedForm
+        Where one of them was not solved.
+    """
+
+    def __init__(self, p: Symbol, events: Sequence[Expr]) -> None:
+        self.p = p
+        self.walls: list[Expr] = []
+        kinds: set[bool] = set()
+        roots: dict[Expr, None] = {}
+        for factor in _factors(events):
+            if p not in factor.free_symbols:
+                self.walls.append(factor)
+                continue
+            found = solve_for(factor, p)
+            hidden = any(p in f.free_symbols for f in factor.atoms(sympy.Function))
+            if found is None or (hidden and not found.angle) or any(map(is_decimal, found.values)):
+                raise NoClosedForm(str(factor).replace("**", "^"))
+            if found.values:
+                kinds.add(found.angle)
+            roots.update(dict.fromkeys(map(simplify, found.values)))
+        self.roots = list(roots)
+        self.angle = kinds == {True}
+        if len(kinds) > 1:
+            raise NoClosedForm(f"{p} as an angle and as a number")
+
+    def sorted_numbers(self, values: Mapping[Symbol, mpf]) -> list[tuple[mpf, int]]:
+        """The real ones in the domain of p with their numbers in `roots`, ascending."""
+        found = []
+        with mpmath.workdps(DIGITS):
+            for index, root in enumerate(self.roots):
+                try:
+                    [value] = Evaluator([root], DIGITS)(values)
+                except (ArithmeticError, ValueError):
+                    continue
+                if isinstance(value, mpmath.mpc):
+                    if abs(value.imag) > _REAL * (1 + abs(value)):
+                        continue
+                    value = value.real
+                if mpmath.isfinite(value) and self._inside(value):
+                    found.append((value, index))
+        return sorted(found)
+
+    def domain(self) -> tuple[mpf | None, mpf | None]:
+        """The open interval in which p lies by assumption, None for an infinite end."""
+        low = mpf(0) if self.p.is_nonnegative else -mpmath.pi if self.angle else None
+        high = mpf(0) if self.p.is_nonpositive else +mpmath.pi if self.angle else None
+        return low, high
+
+    def _inside(self, value: mpf) -> bool:
+        """Strictly inside; the end 0 itself is one, where p may be 0 there."""
+        low, high = self.domain()
+        return (low is None or value > low + _REAL) and (high is None or value < high - _REAL)
+
+    def are_ordered(self, order: Sequence[Sequence[int]]) -> bool:
+        """Whether it is certain that for all other parameters the order is the same.
+
+        Parameters
+        ----------
+        order
+            Groups of equal values, ascending.
+        """
+        if any(sign(wall) is None for wall in self.walls):
+            return False
+        present = {index for group in order for index in group}
+        for index, root in enumerate(self.roots):
+            if self._is_present(root) is not (index in present):
+                return False
+        for group in order:
+            if any(sign(self.roots[group[0]] - self.roots[other]) != 0 for other in group[1:]):
+                return False
+        chain = [self.roots[group[0]] for group in order]
+        return all(_is_less(one, other) for one, other in pairwise(chain))
+
+    def _is_present(self, root: Expr) -> bool | None:
+        """Whether a root is real and in the domain; None where that is not certain."""
+        if root.atoms(sympy.Function):
+            return None
+        for power in root.atoms(sympy.Pow):
+            if power.exp.is_Integer:
+                continue
+            below = sign(power.base)
+            if below is None:
+                return None
+            if below < 0:
+                return False
+        side = sign(root)
+        if self.p.is_nonnegative or self.p.is_nonpositive:
+            wanted = 1 if self.p.is_nonnegative else -1
+            return None if side is None else side == wanted
+        return True
+
+    def scales(self, variables: Sequence[Symbol], others: Sequence[Symbol],
+               functions: Sequence[Expr]) -> bool:  # fmt: skip
+        """Whether scalings of the variables make every other parameter 1 or -1.
+
+        All functions must be homogeneous: their monomials scale alike.
+        """
+        if not all(other.is_positive or other.is_negative for other in others):
+            return False
+        symbols = [*variables, *others]
+        rows: list[list[int]] = []
+        for function in functions:
+            rows += _weights(function, symbols)
+        if not rows:
+            return True
+        whole = sympy.Matrix(rows)
+        return bool(whole.rank() == whole[:, : len(variables)].rank())
+
+
+def _factors(events: Sequence[Expr]) -> Iterator[Expr]:
+    """The irreducible factors of numerators and denominators, each once, without numbers."""
+    seen: set[Expr] = set()
+    for event in events:
+        field = Field([event])
+        try:
+            element = field(event)
+        except ZeroDivisionError:
+            raise NoClosedForm("a quotient whose denominator is 0") from None
+        for poly in (element.numerator, element.denominator):
+            if poly == 0:
+                continue
+            for factor, _ in field.ring.lift(poly).factor()[1]:
+                expression = field.polynomial_to_sympy(factor)
+                if expression.free_symbols and expression not in seen and -expression not in seen:
+                    seen.add(expression)
+                    yield expression
+
+
+def _is_less(one: Expr, other: Expr) -> bool:
+    if sign(other - one) == 1:
+        return True
+    signs = sign(one), sign(other)
+    if signs == (1, 1):
+        return sign(simplify(other**2 - one**2)) == 1
+    if signs == (-1, -1):
+        return sign(simplify(one**2 - other**2)) == 1
+    return signs in {(-1, 1), (-1, 0), (0, 1)}
+
+
+def _weights(function: Expr, symbols: Sequence[Symbol]) -> list[list[int]]:
+    """What a vector of weights must be orthogonal to, for the function to be homogeneous."""
+    field = Field([function])
+    element, ring = field(function), field.ring
+    rows: list[list[int]] = []
+    for poly in (element.numerator, element.denominator):
+        exponents = []
+        for monomial, _ in ring.terms(poly):
+            powers = dict.fromkeys(symbols, 0)
+            for number, exponent in monomial:
+                generator = field.generators[number]
+                if generator.expression in powers:
+                    powers[generator.expression] += exponent
+                elif generator.argument is not None and generator.kind in ("cos", "sin"):
+                    rows += _of_argument(generator.argument, symbols)
+                else:
+                    inside = generator.expression.free_symbols
+                    rows += [[int(s is other) for other in symbols] for s in inside]
+            exponents.append([powers[s] for s in symbols])
+        first = exponents[0] if exponents else []
+        rows += [[a - b for a, b in zip(each, first, strict=True)] for each in exponents[1:]]
+    return rows
+
+
+def _of_argument(argument: Expr, symbols: Sequence[Symbol]) -> list[list[int]]:
+    """An angle has the weight 0."""
+    field = Field([argument])
+    element = field(argument)
+    if not element.denominator.is_constant() and len(element.denominator) > 1:
+        return [[int(s is other) for other in symbols] for s in argument.free_symbols]
+    below = _exponents(field, element.denominator, symbols)[0]
+    return [
+        [a - b for a, b in zip(above, below, strict=True)]
+        for above in _exponents(field, element.numerator, symbols)
+    ]
+
+
+def _exponents(field: Field, poly: object, symbols: Sequence[Symbol]) -> list[list[int]]:
+    found = []
+    for monomial, _ in field.ring.terms(poly):
+        powers = dict.fromkeys(symbols, 0)
+        for number, exponent in monomial:
+            powers[field.generators[number].expression] = exponent
+        found.append([powers.get(s, 0) for s in symbols])
+    return found
