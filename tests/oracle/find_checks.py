@@ -9,7 +9,7 @@ from random import Random
 from mpmath import mp, mpf
 
 from lagcli.expression import Expression, Name, walk
-from lagcli.problem import Rewrite, Where
+from lagcli.problem import Lasting, Reaching, Rewrite, Where
 
 from .evaluate import Moment, OutsideDomain, evaluate
 from .examine import AGREEMENT, Examination, agree, with_momenta
@@ -39,8 +39,10 @@ def check(x: Examination) -> None:
             x.missing(where)
         elif isinstance(question, Where):
             _where(x, question, answer.get("solutions"))
-        else:
+        elif isinstance(question, Rewrite):
             _rewrite(x, question, answer.get("value"))
+        else:
+            _ranges(x, question, answer.get("ranges"))
 
 
 def _initial(x: Examination, moment: Moment) -> Moment:
@@ -240,3 +242,45 @@ def _gaps(x: Examination, question: Where, root: Expression, moment: Moment) -> 
 def _gap(x: Examination, question: Where, moment: Moment) -> mpf:
     left: Callable[[Moment], Number] = x.reference.of(question.equation.left)
     return real_part(left(moment) - x.reference.of(question.equation.right)(moment))
+
+
+def _ranges(x: Examination, question: Lasting | Reaching, ranges: object) -> None:
+    """A condition that lasts for a value within a range holds at states of a run with it."""
+    where = f"find.{question.name}"
+    if not isinstance(ranges, list):
+        x.missing(where)
+        return
+    for bounds in ranges:
+        read = [x.read(where, text.split(" ", 2)[2]) for text in bounds]
+        for moment in random_moments(x.reference, 2, seed=5):
+            numbers = [x.number(where, node, moment) for node in read if node is not None]
+            values = [number for number in numbers if number is not None]
+            if isinstance(question, Lasting) and len(values) == len(bounds):
+                inside = _within(values, [text.split(" ")[1] for text in bounds])
+                _lasts(x, question, replace(moment, extra=_with(moment, question, inside)))
+
+
+def _within(bounds: Sequence[mpf], signs: Sequence[str]) -> mpf:
+    if len(bounds) == 2:
+        return sum(bounds) / 2
+    if not bounds:
+        return mpf(1)
+    outwards = mpf(1) if signs[0][0] == ">" else mpf(-1)
+    return bounds[0] + outwards * abs(bounds[0]) / 16
+
+
+def _with(moment: Moment, question: Lasting | Reaching, value: mpf) -> Mapping[str, mpf]:
+    return {**moment.extra, question.unknown.name: value}
+
+
+def _lasts(x: Examination, question: Lasting, moment: Moment) -> None:
+    condition = question.condition
+    sign = 1 if condition.comparison[0] == ">" else -1
+    for there in _flow(x, moment):
+        full = _complete_moment(x, there)
+        left, right = (
+            real_part(evaluate(side, x.reference.setting, full))
+            for side in (condition.left, condition.right)
+        )
+        if sign * (left - right) < -RUN_AGREEMENT * max(1, abs(left), abs(right)):
+            x.wrong(f"find.{question.name}", f"{mp.nstr(left, 8)} against {mp.nstr(right, 8)}")
