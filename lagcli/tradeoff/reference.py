@@ -256,7 +256,7 @@ def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> Referen
 
 def _doubles(problem: Problem, asked: Asked, limit: float) -> Reference:
     """The best that can be certified in doubles; its bound is no better than that."""
-    end = process_time() + limit
+    end = 0.0
 
     def ticked(_: float) -> None:
         if process_time() > end:
@@ -264,6 +264,7 @@ def _doubles(problem: Problem, asked: Asked, limit: float) -> Reference:
 
     last = ""
     for accuracy in _DOUBLES:
+        end = process_time() + limit
         try:
             result = simulate(problem, replace(asked, accuracy=accuracy), ticked)
         except TooLong:

@@ -203,9 +203,9 @@ class _Maker:
         if self.progress is not None:
             self.progress(self.made, self.total)
         self.made += 1
-        found = [_answer(given)]
+        found = [answer(given)]
         while len(found) < self.repeat and "why" not in found[0]:
-            found.append(_answer(given))
+            found.append(answer(given))
         first = found[0]
         self.unsuited = bool(first.get("unsuited"))
         asked = Point(method=given.method, tolerance=given.tolerance, accuracy=given.accuracy)
@@ -237,7 +237,7 @@ def _has_met_rounding(last: Point, point: Point) -> bool:
     return changed and point.error > _GAIN * last.error and last.error < _ROUNDED
 
 
-def _answer(given: Given) -> dict[str, Any]:
+def answer(given: Given) -> dict[str, Any]:
     """What a process says of its run."""
     asked = {name: getattr(given, name) for name in Given.__annotations__}
     try:

@@ -1,7 +1,7 @@
 """Everything that is promised about speed and length, measured in one run: `make bench`.
 
     python tests/bench/bench.py [--quick] [--runs N] [--cap SECONDS] [--output FILE]
-                                [--resume FILE] [--against FILE]
+                                [--resume FILE] [--against FILE] [--only PART,PART] [--long]
     python tests/bench/bench.py --compare A.json B.json
 
 Every time is the CPU time of a whole process, over that of another command of the same run, so
@@ -23,9 +23,13 @@ from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from tests.bench import commands, library, scaling
+from tests.bench import certificate, commands, cut_rows, library, long_rows, motion_rows, scaling
 from tests.bench.compare import compare
 from tests.bench.measure import ROOT, Row, show
+
+#: What `--only` takes; without it the first three are measured.
+PARTS = ("commands", "scaling", "library", "motions", "integration", "cut", "certificate")
+_USUAL = PARTS[:3]
 
 
 class Run:
@@ -70,11 +74,49 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--runs", type=int, default=5, help="of short commands: the least counts")
     parser.add_argument("--cap", type=float, default=60, help="CPU seconds for SymPy, each problem")
     parser.add_argument("--quick", action="store_true", help="a few problems, no n = 100")
+    parser.add_argument(
+        "--only", type=lambda text: text.split(","), default=list(_USUAL), metavar="PART,PART",
+        help=f"out of {', '.join(PARTS)}; without it {', '.join(_USUAL)}",
+    )  # fmt: skip
+    parser.add_argument("--long", action="store_true", help="with integration: 1e6 Kepler periods")
     parser.add_argument("--output", type=Path, help="instead of .bench/<commit>.json")
     parser.add_argument("--resume", type=Path, help="a run that was cut short: its problems count")
     parser.add_argument("--against", type=Path, help="an earlier run to compare this one with")
     parser.add_argument("--compare", type=Path, nargs=2, metavar=("A", "B"))
-    return parser.parse_args()
+    arguments = parser.parse_args()
+    wrong = [part for part in arguments.only if part not in PARTS]
+    if wrong:
+        parser.error(f"--only {','.join(wrong)}: there is {', '.join(PARTS)}")
+    return arguments
+
+
+def _measure(part: str, run: Run, arguments: argparse.Namespace) -> None:
+    quick, runs = arguments.quick, arguments.runs
+    match part:
+        case "commands":
+            run.take(commands.rows(runs))
+        case "scaling":
+            run.take(scaling.rows(quick))
+        case "library":
+            files = library.paths(quick)
+            problems = library.measured(files, arguments.cap, run.library, run.keep)
+            run.take(library.double_pendulum_rows(problems, runs))
+            run.take(library.speed_rows(problems))
+            run.take(library.operation_rows(problems))
+            run.take(iter([commands.check_row(files if quick else ["problems/"])]))
+            for line in library.exceptions(problems):
+                print(line)
+        case "motions":
+            run.take(motion_rows.rows(runs))
+        case "integration":
+            run.take(long_rows.rows(runs))
+            run.take(long_rows.held_rows())
+            if arguments.long:
+                run.take(iter([long_rows.kepler_row()]))
+        case "cut":
+            run.take(cut_rows.rows())
+        case "certificate":
+            run.take(certificate.rows(certificate.study([], 2, arguments.cap, None)))
 
 
 def main() -> int:
@@ -83,20 +125,14 @@ def main() -> int:
     if arguments.compare:
         compare(*arguments.compare)
         return 0
-    quick = arguments.quick
-    name = f"{_version()}{'-quick' if quick else ''}.json"
+    quick, only = arguments.quick, arguments.only
+    chosen = "" if tuple(only) == _USUAL else f"-{'-'.join(only)}"
+    name = f"{_version()}{'-quick' if quick else ''}{chosen}.json"
     earlier = json.loads(arguments.resume.read_text("utf-8")) if arguments.resume else {}
     run = Run(arguments.output or ROOT / ".bench" / name, earlier)
-    files = library.paths(quick)
-    run.take(commands.rows(arguments.runs))
-    run.take(scaling.rows(quick))
-    problems = library.measured(files, arguments.cap, run.library, run.keep)
-    run.take(library.double_pendulum_rows(problems, arguments.runs))
-    run.take(library.speed_rows(problems))
-    run.take(library.operation_rows(problems))
-    run.take(iter([commands.check_row(files if quick else ["problems/"])]))
-    for line in library.exceptions(problems):
-        print(line)
+    for part in PARTS:
+        if part in only:
+            _measure(part, run, arguments)
     missed = [row.what for row in run.rows if not row.holds]
     print(f"kept in {run.path}; {f'missed: {missed}' if missed else 'every bar holds'}")
     if arguments.against:

@@ -45,7 +45,7 @@ def _system(name: str, system: System, file: str, runs: int) -> Iterator[Row]:
     true = best["rows"][-1][1:]
     ours = [*command, "--accuracy", repr(system.accuracy)]
     found = json.loads(cost(ours, good=(0, 1)).out)
-    error = _error(found["rows"][-1][1:], true, scales)
+    error = error_of(found["rows"][-1][1:], true, scales)
     own = min(cost(ours, good=(0, 1)).cpu for _ in range(runs))
     note = f"{own:.3f} s, error {error:.0e} of {system.accuracy:.0e}, {found['method']['name']}"
     yield Row(f"simulate {name}", error / system.accuracy, "of the accuracy", 1.0, note=note)
@@ -76,12 +76,12 @@ def _tuned(
         run = cost(command, limit=_LIMIT)
         if run.status:
             continue
-        if _error(json.loads(run.out)["end"], true, scales) <= system.accuracy:
+        if error_of(json.loads(run.out)["end"], true, scales) <= system.accuracy:
             return command
     return None
 
 
-def _error(found: Sequence[float], true: Sequence[float], scales: Sequence[float]) -> float:
+def error_of(found: Sequence[float], true: Sequence[float], scales: Sequence[float]) -> float:
     return max(abs(a - b) / s for a, b, s in zip(found, true, scales, strict=True))
 
 

@@ -5,7 +5,7 @@ import json
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.system import System
 from lagcli.pipeline import read
-from tests.bench import library
+from tests.bench import certificate, library
 from tests.bench.compare import compare
 from tests.bench.formulas import expanded
 from tests.bench.measure import Row
@@ -79,3 +79,37 @@ def test_two_runs_side_by_side(tmp_path, capsys):
     assert "1.00 →     3.00 x                now MISSED" in told
     assert "problems/a.yaml: 3.00 times the time" in told
     assert "x: 5 → 4 operations" in told
+
+
+def examined(name, **runs):
+    return {"name": name, "until": 1.0, "runs": runs}
+
+
+def test_a_false_claim_is_named_and_chaos_may_decline():
+    good = {"reached": True, "error": 1e-14, "holds": True, "residual": 3e-16}
+    false = {"reached": True, "error": 1e-5, "holds": False, "residual": None}
+    declined = {"reached": False, "why": "chaos", "holds": True}
+    found = [
+        examined("problems/a.yaml", **{"1e-03": good, "1e-12": false}),
+        examined("double pendulum", **{"1e-12": declined}),
+    ]
+    held, *shares, residual = certificate.rows(found)
+    assert not held.holds
+    assert "problems/a.yaml at 1e-12" in held.note
+    assert shares[-1].value == 100
+    assert residual.value < 1
+
+
+def test_what_is_shown_beyond_the_accuracy_is_no_claim():
+    """A run that ends early is judged by the rows it shows."""
+    numbers = certificate.numbers
+    reference = certificate.Reference(
+        rows=numbers([["0", "1"], ["1", "2"]]), bound=0.0, kind="", seconds=0.0
+    )
+    told = {"reached": False, "rows": [["0", "1"], ["0.5", "7"]], "method": "dop853"}
+    told |= {"total": 0.1, "residual": None}
+    judged = certificate.judged(told, 1e-6, reference)
+    assert judged["holds"]
+    assert not judged["reached"]
+    told["rows"][0][1] = "1.1"
+    assert not certificate.judged(told, 1e-6, reference)["holds"]

@@ -1,4 +1,4 @@
-"""heyoka's Taylor series, M q'' = F by its own derivatives: python with_heyoka.py SYSTEM TOLERANCE."""
+"""heyoka's Taylor series, M q'' = F by its own derivatives: python with_heyoka.py SYSTEM TOLERANCE [UNTIL]."""
 
 import json
 import re
@@ -30,6 +30,7 @@ equations = hy.model.__dict__.get("lagrangian") or hy.lagrangian
 lagrangian = read(system.kinetic) - read(system.potential)
 ode = equations(lagrangian, list(q), list(v))
 integrator = hy.taylor_adaptive(ode, [*system.q, *system.v], tol=tolerance, compact_mode=n > 3)
+until = float(sys.argv[3]) if len(sys.argv) > 3 else system.until
 begin = time.process_time()
-end = integrator.propagate_grid(np.linspace(0, system.until, 101))[-1][-1]
+end = integrator.propagate_grid(np.linspace(0, until, 101))[-1][-1]
 print(json.dumps({"end": list(map(float, end)), "run": time.process_time() - begin}))

@@ -1,0 +1,184 @@
+"""Whether certificates are true: the error of runs that claim an accuracy, and how many claim it.
+
+    python -m tests.bench.certificate [--workers N] [--limit SECONDS] [--keep FILE] [PATH]...
+
+Every problem of the library, the benchmarks and the systems of `motions` that has values and
+an initial state is run by `simulate` at 1e-3, 1e-6, 1e-9 and 1e-12, each run in a process of its
+own, and compared with a reference of more digits than doubles (or the exact solution that
+the file gives; or, where neither is possible, the best that can be certified in doubles).
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).parents[2]))
+
+from lagcli.decimals import value_of
+from lagcli.diagnostics import ProblemError
+from lagcli.numerics.refusal import Refusal
+from lagcli.pipeline import Request, read
+from lagcli.tradeoff.front import ACCURACIES
+from lagcli.tradeoff.reference import Reference, numbers, reference
+from lagcli.tradeoff.study import answer
+from lagcli.tradeoff.trial import Given, asked_of
+from tests.bench.measure import ROOT, Row, show
+from tests.bench.motions import SYSTEMS
+
+_UNTIL, _SAMPLES = 10.0, 11
+#: Motions whose neighbours part exponentially: there an accuracy may be out of reach.
+CHAOTIC = {
+    "double pendulum", "chain of 10", "Pleiades",
+    "problems/pendulums/double-pendulum.yaml",
+    "problems/pendulums/double-pendulum-equal.yaml",
+    "problems/chains/triple-pendulum.yaml",
+    "problems/chains/cartesian-double-pendulum.yaml",
+    "problems/classics/swinging-atwood-machine.yaml",
+    "problems/forces/double-pendulum-pushed.yaml",
+    "problems/particles/henon-heiles.yaml",
+    "problems/particles/restricted-three-body.yaml",
+}  # fmt: skip
+
+#: What a run came to: accuracy -> reached, error, until when, method, seconds, why.
+Found = dict[str, Any]
+
+
+def givens(paths: Sequence[str], limit: float) -> Iterator[Given]:
+    """The problems that can be run; all of them without paths."""
+    files = [ROOT / path for path in paths]
+    if not paths:
+        files = [p for name in ("problems", "benchmarks") for p in (ROOT / name).rglob("*.yaml")]
+    for path in sorted(files):
+        text = path.read_text("utf-8")
+        problem = read(str(path), text.encode(), Request()).problem
+        if problem is None or not problem.initial:
+            continue
+        until = problem.simulation.until
+        end = None if until is None else value_of(until)
+        yield _given(str(path.relative_to(ROOT)), text, float(end or _UNTIL), limit)
+    if not paths:
+        for name, system in SYSTEMS.items():
+            yield _given(name, system.problem(), system.until, limit)
+
+
+def _given(name: str, text: str, until: float, limit: float) -> Given:
+    return Given(
+        name=name, text=text, settings=(), until=until, samples=_SAMPLES, project=False,
+        method="auto", tolerance=None, accuracy=ACCURACIES[0], limit=limit,
+    )  # fmt: skip
+
+
+def examined(given: Given) -> Found:
+    """All accuracies of one problem against its reference."""
+    from lagcli.record import replace
+
+    found: Found = {"name": given.name, "until": given.until, "runs": {}}
+    try:
+        problem, asked = asked_of(given)
+        known = reference(problem, asked, 3 * given.limit)
+    except (Refusal, ProblemError) as refusal:
+        return {**found, "why": str(refusal)}
+    found |= {"reference": known.kind, "bound": known.bound}
+    for accuracy in ACCURACIES:
+        told = answer(replace(given, accuracy=accuracy))
+        found["runs"][f"{accuracy:.0e}"] = judged(told, accuracy, known)
+    return found
+
+
+def judged(told: Mapping[str, Any], accuracy: float, known: Reference) -> Found:
+    if "why" in told:
+        return {"reached": False, "why": told["why"], "holds": True}
+    rows = numbers(told["rows"])
+    times = {row[0]: row for row in known.rows}
+    # what is shown of a run that does not come to the end is claimed as well
+    common = [row for row in rows if row[0] in times]
+    part = Reference(
+        rows=tuple(times[row[0]] for row in common), bound=known.bound, kind="", seconds=0.0
+    )
+    error = part.error(common) if common else None
+    return {
+        "reached": told["reached"],
+        "error": error,
+        "holds": error is None or error <= accuracy + known.bound,
+        "until": float(rows[-1][0] or 0) if rows else 0.0,
+        "method": told["method"],
+        "seconds": told["total"],
+        "residual": told["residual"],
+    }
+
+
+def rows(found: Sequence[Found]) -> Iterator[Row]:
+    """The bars: claims that hold, and claims on motions that are not chaotic."""
+    known = [each for each in found if each["runs"]]
+    runs = [(each, key, run) for each in known for key, run in each["runs"].items()]
+    false = [f"{each['name']} at {key}" for each, key, run in runs if not run["holds"]]
+    share = 100 * (1 - len(false) / len(runs)) if runs else 0.0
+    note = f"{len(known)} problems, {len(runs)} runs" + "".join(f"; {each}" for each in false)
+    yield Row("certificates that are true", share, "%", 100, at_least=True, note=note)
+    regular = [(each, key, run) for each, key, run in runs if each["name"] not in CHAOTIC]
+    for accuracy in (*(f"{a:.0e}" for a in ACCURACIES), ""):
+        asked = [run for _, key, run in regular if accuracy in ("", key)]
+        claimed = sum(run["reached"] for run in asked)
+        what = f"claimed, not chaotic, {accuracy or 'all'}"
+        share = 100 * claimed / len(asked) if asked else 0.0
+        yield Row(what, share, "%", None if accuracy else 95, at_least=True, note=f"{len(asked)}")
+    residuals = [run.get("residual") or 0.0 for _, _, run in runs]
+    worst = max(residuals, default=0.0)
+    yield Row("constraint residual", worst * 1e12, "e-12", 1.0, note="the largest of all runs")
+
+
+def study(paths: Sequence[str], workers: int, limit: float, keep: Path | None) -> list[Found]:
+    """Examine the problems, told as they come; what is kept is not examined again."""
+    found = [json.loads(line) for line in keep.read_text().splitlines()] if _is_there(keep) else []
+    done = {each["name"] for each in found}
+    asked = [given for given in givens(paths, limit) if given.name not in done]
+    with ProcessPoolExecutor(workers) as pool:
+        for each in pool.map(examined, asked):
+            found.append(each)
+            _tell(each)
+            if keep is not None:
+                with keep.open("a") as file:
+                    file.write(json.dumps(each) + "\n")
+    return found
+
+
+def _is_there(keep: Path | None) -> bool:
+    return keep is not None and keep.exists()
+
+
+def _tell(each: Found) -> None:
+    """One line: for each accuracy the error, or why there is no claim."""
+    if not each["runs"]:
+        print(f"{each['name']}: not run: {each['why']}", flush=True)
+        return
+    parts = []
+    for key, run in each["runs"].items():
+        error = "-" if run.get("error") is None else f"{run['error']:.0e}"
+        mark = "" if run["reached"] else f" until {run.get('until', 0):g} only"
+        parts.append(f"{key}: {error}{mark}{'' if run['holds'] else ' FALSE'}")
+    print(f"{each['name']}: {', '.join(parts)}", flush=True)
+
+
+def main() -> int:
+    """Examine, tell, and give the bars."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("paths", nargs="*", help="problem files, from the root; all without")
+    parser.add_argument("--workers", type=int, default=1)
+    parser.add_argument("--limit", type=float, default=20, help="CPU seconds of each run")
+    parser.add_argument("--keep", type=Path, help="a file that results are added to")
+    asked = parser.parse_args()
+    found = study(asked.paths, asked.workers, asked.limit, asked.keep)
+    measured = list(rows(found))
+    for row in measured:
+        show(row)
+    return 0 if all(row.holds for row in measured) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
