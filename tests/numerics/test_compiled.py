@@ -2,6 +2,7 @@
 
 import math
 from fractions import Fraction
+from itertools import pairwise
 
 import pytest
 
@@ -30,12 +31,24 @@ FORCES = [
 ]  # fmt: skip
 
 
-def motions(force):
-    equations = Equations(
-        problem_of(
-            f"coordinates: [x, y]\nL: x'^2/2 + y'^2/2\nforces:\n  x: \"{force}\"\n  y: cos(x) - y^3\n"
-        )
+def chain(n):
+    """A chain of n links that hangs: M is full, and depends on all angles."""
+    speeds = [
+        " + ".join(f"{f}(a{k})*a{k}'" for k in range(1, i + 1))
+        for i in range(1, n + 1)
+        for f in ("cos", "sin")
+    ]
+    kinetic = " + ".join(f"({speed})^2/2" for speed in speeds)
+    potential = " + ".join(f"{n + 1 - k}*cos(a{k})" for k in range(1, n + 1))
+    names = [f"a{k}" for k in range(1, n + 1)]
+    start = ", ".join(f"{name}: {(-1) ** k * 0.3 + 0.02 * k}" for k, name in enumerate(names))
+    return (
+        f"{{coordinates: [{', '.join(names)}], L: {kinetic} + {potential}, initial: {{{start}}}}}"
     )
+
+
+def motions(text):
+    equations = Equations(problem_of(text))
     nodes = [*(entry for row in equations.mass for entry in row), *equations.forcing]
     return [
         Motion(equations, constants_of(equations, nodes, numbers), numbers)
@@ -43,14 +56,19 @@ def motions(force):
     ]
 
 
-@pytest.mark.parametrize("force", FORCES)
+@pytest.mark.parametrize("force", [*FORCES, chain(6)])
 def test_the_recurrences_give_the_series_that_flint_gives(force):
     from flint import ctx
 
     usual, ctx.prec = ctx.prec, 160
     try:
-        plain, balls = motions(force)
-        q, v = [0.75, 1.25], [0.5, -0.375]
+        plain, balls = motions(
+            force
+            if "coordinates" in force
+            else f"coordinates: [x, y]\nL: x'^2/2 + y'^2/2\n"
+            f'forces:\n  x: "{force}"\n  y: cos(x) - y^3\n'
+        )
+        q, v = (given * (plain.n // 2) for given in ([0.75, 1.25], [0.5, -0.375]))
         exact = Taylor(balls, None)._coefficients(
             0.0, *([balls.arithmetic.ball(x) for x in s] for s in (q, v)), 30
         )
@@ -63,9 +81,9 @@ def test_the_recurrences_give_the_series_that_flint_gives(force):
                 motion.set_signs(0.0, q, v)
             for i, sign in enumerate(motion.signs):
                 method._signs[i] = sign
-            state = method._prepare(q, v, 1.0, Tolerance(1e-16, 2, 1.0, 1.0))
+            state = method._prepare(q, v, 1.0, Tolerance(1e-16, plain.n, 1.0, 1.0))
             assert method._expand(state) == kernels.MORE
-            unit = float(method._rows[4 * kernels.STRIDE + 1])
+            unit = float(method._rows[2 * plain.n * kernels.STRIDE + 1])
             assert math.frexp(unit)[0] == 0.5
             for j, coefficients in enumerate(exact):
                 found = method._rows[j * kernels.STRIDE : j * kernels.STRIDE + method.order + 1]
@@ -79,6 +97,58 @@ def test_the_recurrences_give_the_series_that_flint_gives(force):
                     assert abs(float(found[k]) - true) <= bound, (j, k)
     finally:
         ctx.prec = usual
+
+
+def test_a_long_chain_is_compiled_as_a_matrix():
+    """The first coefficient against the elimination with numbers; then the energy."""
+    text = chain(26)
+    motion, _ = motions(text)
+    method = CompiledTaylor(Machine(motion, DOUBLE), None)
+    q, v = [0.1 * k for k in range(26)], [0.3 - 0.05 * k for k in range(26)]
+    state = method._prepare(q, v, 1.0, Tolerance(1e-12, 26, 1.0, 1.0))
+    assert method._expand(state) == kernels.MORE
+    unit = method._rows[52 * kernels.STRIDE + 1]
+    found = [method._rows[(26 + j) * kernels.STRIDE + 1] / unit for j in range(26)]
+    assert found == pytest.approx(motion.accelerations(0.0, *q, *v), rel=1e-11, abs=1e-11)
+    result = simulated(text, 0.5, 1e-9)
+    assert result.method == "taylor64"
+    assert result.certificate.charges["energy"] <= 1e-12
+
+
+@pytest.mark.parametrize("pivot", [2.0, 1e-12, 0.0])
+def test_the_factorization_solves_or_tells_that_a_pivot_vanishes(pivot):
+    """M = L D L^T by hand: rows of L (1), (1/2, 1), (1/4, 1, 1), and D = (4, 1, pivot)."""
+    import ctypes
+
+    from lagcli.numerics.compiled.machine import _sums, pointer
+
+    sums = _sums(DOUBLE)
+    factor = sums.function("factor", ctypes.c_int64, *[ctypes.c_void_p] * 2, ctypes.c_int64)
+    solve = sums.function("solve", None, *[ctypes.c_void_p] * 2, ctypes.c_int64)
+    matrix = DOUBLE.array([4, 2, 1, 2, 2, 1.5, 1, 1.5, 1.25 + pivot])
+    work, x = DOUBLE.array([0] * 3), DOUBLE.array([11, 10.5, 7.75 + 3 * pivot])
+    fine = factor(pointer(matrix), pointer(work), 3)
+    assert fine == (pivot > 1e-10)
+    if fine:
+        solve(pointer(matrix), pointer(x), 3)
+        assert list(x) == pytest.approx([1, 2, 3], rel=1e-15)
+
+
+def test_thirty_masses_on_springs_in_their_slowest_mode():
+    """x_j = sin(j a) cos(w t) with a = pi/31, w = 2 sin(a/2); Goldstein, Classical Mechanics,
+    3rd ed., section 13.1 (the discrete chain)."""
+    n, a = 30, math.pi / 31
+    names = [f"x{j}" for j in range(1, n + 1)]
+    ends = ["0", *names, "0"]
+    kinetic = " + ".join(f"{name}'^2/2" for name in names)
+    springs = " - ".join(f"({y} - {x})^2/2" for x, y in pairwise(ends))
+    start = ", ".join(f"{name}: sin({j}*pi/31)" for j, name in enumerate(names, 1))
+    text = f"{{coordinates: [{', '.join(names)}], L: {kinetic} - {springs}, initial: {{{start}}}}}"
+    result = simulated(text, 50, 1e-10)
+    assert result.method == "taylor64"
+    for j, name in enumerate(names, 1):
+        true = math.sin(j * a) * math.cos(2 * math.sin(a / 2) * 50)
+        assert last(result, name) == pytest.approx(true, abs=1e-10)
 
 
 @pytest.mark.parametrize(

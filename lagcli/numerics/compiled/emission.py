@@ -35,27 +35,40 @@ from lagcli.numerics.compiled.text import Text
 LAST = STRIDE - 5
 #: Operations up to which the convolution is copied to where it is used.
 _COPIED = 40
+#: Operations beyond which good code takes longer to make than it saves in most runs.
+LONG = 150
+#: Lines of a block of long code: LLVM is slow with blocks of thousands.
+_BLOCK = 100
 
 _FUNCTIONS = "sin cos sinh cosh tanh exp log pow asin acos atan asinh acosh atanh atan2".split()
 
 
-def head(numbers: Numbers, ops: int) -> str:
-    """Declarations, and the convolution: a call costs a tenth, a copy a millisecond to make."""
-    how = "alwaysinline" if ops <= _COPIED else "noinline"
+def declarations(numbers: Numbers) -> str:
+    """The functions of the C library."""
     real, suffix = numbers.type, numbers.suffix
     lines = [f"declare {real} @llvm.{name}.{suffix}({real})" for name in ("sqrt", "fabs")]
     for name in _FUNCTIONS:
         given = f"{real}, {real}" if name in {"pow", "atan2"} else real
         lines.append(f"declare {real} {numbers.function(name)}({given}) nounwind memory(none)")
-    return "\n".join(
-        [*lines, _VECTOR_INNER.replace("{how}", how) if real == "double" else _inner(real, how)]
-    )
+    return "\n".join(lines)
+
+
+def convolution(numbers: Numbers, how: str) -> str:
+    """The function `inner`: a call costs a tenth, a copy a millisecond to make."""
+    if numbers.type == "double":
+        return _VECTOR_INNER.replace("{how}", how)
+    return _inner(numbers.type, how)
+
+
+def convolution_for(numbers: Numbers, ops: int) -> str:
+    """The same, for so many operations of its own module."""
+    return convolution(numbers, "alwaysinline" if ops <= _COPIED else "noinline")
 
 
 _VECTOR_INNER = """
 declare <4 x double> @llvm.fmuladd.v4f64(<4 x double>, <4 x double>, <4 x double>)
 declare double @llvm.vector.reduce.fadd.v4f64(double, <4 x double>)
-define internal double @inner(ptr %a, ptr %b, i64 %n) {how} nounwind {
+define double @inner(ptr %a, ptr %b, i64 %n) {how} nounwind {
 entry:
   %any = icmp sgt i64 %n, 0
   br i1 %any, label %loop, label %none
@@ -79,7 +92,7 @@ end:
 
 
 def _inner(real: str, how: str) -> str:
-    return f"""define internal {real} @inner(ptr %a, ptr %b, i64 %n) {how} nounwind {{
+    return f"""define {real} @inner(ptr %a, ptr %b, i64 %n) {how} nounwind {{
 entry:
   %any = icmp sgt i64 %n, 0
   %zero = sitofp i64 0 to {real}
@@ -122,7 +135,7 @@ class Series:
         self.rows = 2 * self._n + 1
         self._rows: dict[tuple[int, str], int] = {}
         self._first: list[str] = []
-        self._inverses: dict[str, str] = {}
+        self._inverses: dict[int, str] = {}
         self._inputs = [place for place, op in enumerate(tape.ops) if op.name == "input"]
 
     def _row(self, place: int, kind: str) -> int:
@@ -140,29 +153,29 @@ class Series:
         count = len(self._inputs)
         inputs = [text.loaded("%rows", i * STRIDE) for i in range(count)]
         zero = text.values(inputs, "%signs")
-        fine = text.guarded(self._guards, zero)
-        roots = [self._tape.values[root] for root in self._roots]
+        fine, accelerations = self._begun(zero)
         scale = text.loaded("%rows", 2 * n * STRIDE + 1)
-        for j, root in enumerate(roots):
+        for j, a in enumerate(accelerations):
             text.stored(text.two("fmul", scale, inputs[n + j]), "%rows", j * STRIDE + 1)
-            rate = text.two("fmul", scale, text.scaled(root, zero))
-            text.stored(rate, "%rows", (n + j) * STRIDE + 1)
+            text.stored(text.two("fmul", scale, a), "%rows", (n + j) * STRIDE + 1)
         self._first, text.lines = text.lines, []
         now = self._orders(zero)
         real = self._real
-        for j, root in enumerate(roots):
-            for row, value in ((j, now[n + j]), (n + j, text.scaled(root, now, order_0=False))):
+        for j, a in enumerate(self._accelerations(now)):
+            for row, value in ((j, now[n + j]), (n + j, a)):
                 next_one = text.made(f"add i64 %next, {row * STRIDE}")
                 text.stored(text.two("fmul", value, "%rate"), "%rows", next_one)
+        first, last_of_first = self._blocks(self._first, "entry")
+        lines, last = self._blocks(text.lines, "loop")
         return "\n".join(
             [
                 "define i64 @series(ptr %rows, ptr %signs, i64 %order) nounwind {",
                 "entry:",
-                *self._first,
+                *first,
                 "%several = icmp sgt i64 %order, 1",
                 "br i1 %several, label %loop, label %end",
                 "loop:",
-                "%k = phi i64 [ 1, %entry ], [ %next, %loop ]",
+                f"%k = phi i64 [ 1, %{last_of_first} ], [ %next, %{last} ]",
                 "%known = sub i64 %k, 1",
                 "%next = add i64 %k, 1",
                 f"%back = sub i64 {LAST}, %k",
@@ -171,7 +184,7 @@ class Series:
                 f"%next.real = sitofp i64 %next to {real}",
                 f"%part = fdiv {real} {text.whole(1)}, %k.real",
                 f"%rate = fdiv {real} {scale}, %next.real",
-                *text.lines,
+                *lines,
                 "%more = icmp slt i64 %next, %order",
                 "br i1 %more, label %loop, label %end",
                 "end:",
@@ -179,6 +192,27 @@ class Series:
                 "}",
             ]
         )
+
+    def _blocks(self, lines: list[str], name: str) -> tuple[list[str], str]:
+        """The lines in blocks where they are many, and the name of the last."""
+        if len(self._tape.ops) <= LONG:
+            return lines, name
+        found, last = lines[:_BLOCK], name
+        for start in range(_BLOCK, len(lines), _BLOCK):
+            last = f"{name}.{start}"
+            found += [f"br label %{last}", f"{last}:", *lines[start : start + _BLOCK]]
+        return found, last
+
+    def _begun(self, zero: Sequence[str]) -> tuple[str, list[str]]:
+        """Whether no pivot vanishes, and q'' of order 0."""
+        text, values = self._text, self._tape.values
+        fine = text.guarded(self._guards, zero)
+        return fine, [text.scaled(values[root], zero) for root in self._roots]
+
+    def _accelerations(self, now: Sequence[str]) -> list[str]:
+        """q'' of order k."""
+        values = self._tape.values
+        return [self._text.scaled(values[root], now, order_0=False) for root in self._roots]
 
     def _orders(self, zero: Sequence[str]) -> list[str]:
         """The coefficients of order k of all operations."""
@@ -213,14 +247,14 @@ class Series:
                 at = text.made(f"add i64 {index}, {row * STRIDE}")
                 text.stored(times if "J" in kind else value, "%rows", at)
 
-    def _inverse(self, value: str) -> str:
-        """1 / value, worked out before the loop."""
-        if value not in self._inverses:
+    def _inverse(self, zero: Sequence[str], place: int) -> str:
+        """1 / the value of an operation, worked out before the loop."""
+        if place not in self._inverses:
             text, here = self._text, self._text.lines
             text.lines = self._first
-            self._inverses[value] = text.two("fdiv", text.whole(1), value)
+            self._inverses[place] = text.two("fdiv", text.whole(1), zero[place])
             text.lines = here
-        return self._inverses[value]
+        return self._inverses[place]
 
     def _inner(self, left: tuple[int, str], right: tuple[int, str]) -> str:
         """The sum over 0 < j < k of a forward row and a backward one."""
@@ -258,11 +292,11 @@ class Series:
                 before = inner((below, "F"), (place, "R"))
                 taken = two("fadd", before, two("fmul", c0, now[below]))
                 rest = two("fsub", a, taken) if len(x) > 1 else text.minus(taken)
-                return two("fmul", rest, self._inverse(zero[below]))
+                return two("fmul", rest, self._inverse(zero, below))
             case "root":
                 rest = two("fsub", a, inner((place, "F"), (place, "R")))
                 half = two("fmul", rest, text.literal(0.5))
-                return two("fmul", half, self._inverse(c0))
+                return two("fmul", half, self._inverse(zero, place))
             case "power":
                 r = text.literal(op.numbers[0])
                 left = inner((x[0], "FJ"), (place, "R"))
@@ -270,7 +304,7 @@ class Series:
                 new = two("fmul", two("fmul", "%k.real", a), c0)
                 before = two("fmul", r, two("fadd", left, new))
                 rest = two("fmul", two("fsub", before, right), "%part")
-                return two("fmul", rest, self._inverse(a0))
+                return two("fmul", rest, self._inverse(zero, x[0]))
             case "exp":
                 return self._flow(x[0], a, place, c0)
             case "sin" | "sinh":
@@ -284,7 +318,7 @@ class Series:
             case "primitive":
                 rest = two("fmul", "%k.real", a)
                 rest = two("fsub", rest, inner((place, "FJ"), (x[1], "R")))
-                return two("fmul", two("fmul", rest, "%part"), self._inverse(zero[x[1]]))
+                return two("fmul", two("fmul", rest, "%part"), self._inverse(zero, x[1]))
             case "angle":
                 y, u, below = x
                 turn = two("fsub", two("fmul", a, zero[u]), two("fmul", now[u], zero[y]))
@@ -292,7 +326,7 @@ class Series:
                 turn = two("fadd", turn, inner((y, "FJ"), (u, "R")))
                 turn = two("fsub", turn, inner((u, "FJ"), (y, "R")))
                 turn = two("fsub", turn, inner((place, "FJ"), (below, "R")))
-                return two("fmul", two("fmul", turn, "%part"), self._inverse(zero[below]))
+                return two("fmul", two("fmul", turn, "%part"), self._inverse(zero, below))
             case "sign":
                 return text.whole(0)
             case "signed":

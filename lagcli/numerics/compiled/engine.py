@@ -11,7 +11,7 @@ import ctypes
 import os
 import sys
 from base64 import b64decode, b64encode
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from ctypes import POINTER, byref, c_bool, c_char_p, c_int, c_size_t, c_uint64, c_void_p
 from functools import cache
 from hashlib import sha256
@@ -90,7 +90,9 @@ class Engine:
         self._cpu = self._told("GetHostCPUName"), self._told("GetHostCPUFeatures")
         self._folder = None if os.environ.get("LAGCLI_NO_CACHE") else folder(os.environ)
 
-    def compiled(self, source: bytes, text: Callable[[], str]) -> Compiled:
+    def compiled(
+        self, source: bytes, text: Callable[[], str], *, quickly: bool = False
+    ) -> Compiled:
         """The functions of a module, which an earlier run may have made already.
 
         Parameters
@@ -99,6 +101,8 @@ class Engine:
             All that the text of the module is made of.
         text
             The module in LLVM's language.
+        quickly
+            Make the code in a fifth of the time; its values stay in memory.
 
         Raises
         ------
@@ -106,24 +110,24 @@ class Engine:
             Where the module cannot be compiled here.
         """
         place = Cache(self._folder) if self._folder else None
-        whole = b"\0".join((*self._cpu, self._triple, repr(_HOW).encode(), source))
+        whole = b"\0".join((*self._cpu, self._triple, repr((_HOW, quickly)).encode(), source))
         key = sha256(whole).hexdigest()
         entry = place.find(key) if place else None
         if entry is not None and entry.text is not None:
             return self._loaded(b64decode(entry.text))
-        code = self._code(text())
+        code = self._code(text(), *(((), 0) if quickly else (_PASSES, _CODE_LEVEL)))
         if place:
             place.keep(key, Entry(0, b64encode(code).decode()))
         return self._loaded(code)
 
-    def _code(self, text: str) -> bytes:
+    def _code(self, text: str, names: Sequence[str], level: int) -> bytes:
         """Machine code as an object file."""
-        machine, module, error = self._machine(), self._module(text), c_char_p()
+        machine, module, error = self._machine(level), self._module(text), c_char_p()
         builder = self._call(
             "CreatePassBuilder", machine, self._call("CreatePipelineTuningOptions")
         )
         passes = self._call("CreateNewModulePassManager")
-        for name in _PASSES:
+        for name in names:
             self._call(f"module_Add{name}Pass", passes)
         self._call("RunNewModulePassManager", passes, module, builder)
         buffer = self._call("TargetMachineEmitToMemory", machine, module, 1, byref(error))
@@ -155,12 +159,12 @@ class Engine:
             raise NoCompiler(f"llvmlite does not take the code: {(error.value or b'').decode()}")
         return module
 
-    def _machine(self) -> Any:
+    def _machine(self, level: int = _CODE_LEVEL) -> Any:
         """A machine of its own for each module, which takes it over."""
         error = c_char_p()
         target = self._call("GetTargetFromTriple", self._triple, byref(error))
         machine = target and self._call(
-            *("CreateTargetMachine", target, self._triple, *self._cpu, _CODE_LEVEL),
+            *("CreateTargetMachine", target, self._triple, *self._cpu, level),
             *(b"default", b"jitdefault", 0, 1, b""),
         )
         if not machine:

@@ -1,7 +1,7 @@
 """What `kernels` may use beside the operations: for those who read or check it.
 
-The functions exist in compiled code only; `series`, `positions`, `velocities` and `sizes`
-are generated for the problem.
+The functions exist in compiled code only; `series`, `positions`, `velocities`, `sizes` and
+`inner` are generated for the problem.
 """
 
 from __future__ import annotations
@@ -47,6 +47,11 @@ def exp(x: float) -> float:
 
 def fma(x: float, y: float, z: float) -> float:
     """x y + z, rounded once where the processor can."""
+    raise NotImplementedError
+
+
+def inner(a: Reals, b: Reals, n: int) -> float:
+    """a_0 b_0 + ... + a_{n-1} b_{n-1}; it may read three numbers more, of which b has zeros."""
     raise NotImplementedError
 
 

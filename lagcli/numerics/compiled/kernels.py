@@ -3,8 +3,8 @@
 Memory, as places from `Reals` on:
 
 - `rows`: the coefficients, each row `STRIDE` long, of q, q' and t, then what the problem
-  needs, all in powers of t / s: s, a power of 2 near the length of the step, is the
-  coefficient 1 of t itself, so that no coefficient leaves the range of the numbers;
+  needs, in powers of t / s: s, the coefficient 1 of t, is a power of 2 near the step, so
+  that none leaves the range of the numbers;
 - a state: q, q', t;
 - `peaks`, `scales`: as in `steps.Tolerance`; `held`: as in `surface.Surface`, the scales
   of all constraints and then their residuals;
@@ -175,9 +175,7 @@ def expand(
         order = counts[ORDER]
         facts[SCALE] = near(facts[SCALE], h)
     facts[H] = h
-    least = state[both]
-    least = max(least, 1e-3 * facts[UNTIL])
-    if not h > facts[SHORTEST] * least:  # also where it is nan
+    if not h > facts[SHORTEST] * max(state[both], 1e-3 * facts[UNTIL]):  # also where it is nan
         return STOPPED
     return MORE
 

@@ -10,7 +10,7 @@ sides of `and` and `or` are worked out.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from typing import Any, NamedTuple
 
@@ -48,7 +48,12 @@ class Value(NamedTuple):
     text: str
 
 
-def translated(source: str, numbers: Numbers, given: Mapping[str, Signature]) -> str:
+def translated(
+    source: str,
+    numbers: Numbers,
+    given: Mapping[str, Signature],
+    beside: Mapping[str, Signature] | None = None,
+) -> str:
     """The definitions of a module's functions.
 
     Parameters
@@ -59,6 +64,8 @@ def translated(source: str, numbers: Numbers, given: Mapping[str, Signature]) ->
         The type of its `float`.
     given
         Functions that are defined elsewhere; the address of f stands at `@at.f`.
+    beside
+        Functions that the module has, which also declares what of the C library it uses.
     """
     tree = ast.parse(source)
     constants = {
@@ -69,14 +76,19 @@ def translated(source: str, numbers: Numbers, given: Mapping[str, Signature]) ->
         if isinstance(target, ast.Name)
     }
     functions = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
-    signatures = dict(given) | {f.name: _signature(f) for f in functions}
+    signatures = dict(given) | dict(beside or {}) | {f.name: _signature(f) for f in functions}
+    head = [] if beside else _head(numbers, given)
+    bodies = [_Function(f, numbers, signatures, constants, set(given)).text() for f in functions]
+    return "\n".join((*head, *bodies))
+
+
+def _head(numbers: Numbers, given: Iterable[str]) -> list[str]:
     head = [f"@at.{name} = global ptr null" for name in given]
     real, suffix = numbers.type, numbers.suffix
     head += [f"declare {real} @llvm.{name}.{suffix}({real})" for name in ("fabs", "sqrt")]
     head += [f"declare {real} {numbers.function(name)}({real})" for name in ("exp", "log")]
     head.append(f"declare {real} @llvm.fmuladd.{suffix}({', '.join([real] * 3)})")
-    bodies = [_Function(f, numbers, signatures, constants, set(given)).text() for f in functions]
-    return "\n".join((*head, *bodies))
+    return head
 
 
 def _signature(function: ast.FunctionDef) -> Signature:

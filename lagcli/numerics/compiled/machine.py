@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Sequence
 from ctypes import c_int64, c_void_p
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from lagcli.graph.nodes import Node
+from lagcli.graph.nodes import Node, Symbol
 from lagcli.numerics.arithmetic import UndefinedFunction
-from lagcli.numerics.compiled.emission import Series, head
+from lagcli.numerics.compiled.coupled import FEWEST, CoupledSeries, is_coupled
+from lagcli.numerics.compiled.emission import (
+    LONG,
+    Series,
+    convolution,
+    convolution_for,
+    declarations,
+)
 from lagcli.numerics.compiled.engine import Compiled, engine
 from lagcli.numerics.compiled.numbers import Numbers
 from lagcli.numerics.compiled.tape import NoSeries, Tape
@@ -27,8 +35,15 @@ _KERNELS: dict[str, tuple[Any, ...]] = {
     "inside": (None, *[c_void_p] * 2, c_int64, c_int64, "real"),
     "slopes": (None, *[c_void_p] * 2, c_int64, c_int64, "real"),
 }
+#: name -> the types of the result and of the arguments, in LLVM's language
+_SUMS = {
+    "inner": ("real", ("ptr", "ptr", "i64")),
+    "factor": ("i64", ("ptr", "ptr", "i64")),
+    "solve": ("void", ("ptr", "ptr", "i64")),
+    "couple": ("void", ("ptr", "ptr", "ptr", "ptr", "i64", "i64", "i64")),
+}
 #: Operations beyond which straight code takes too long to make.
-LARGEST = 4000
+LARGEST = 20_000
 
 
 class NotCompiled(Exception):
@@ -62,20 +77,12 @@ class Machine:
         self.motion, self.numbers = motion, numbers
         self.engine = engine()
         equations = motion.equations
-        eliminated = equations.eliminated
-        if eliminated is None:
-            raise NotCompiled("the elimination is left to numbers")
-        roots, _ = eliminated.motion(equations.forcing, equations.bias)
         inputs = (*equations.q, *equations.qdot, equations.t)
         try:
-            tape = self._tape(inputs, roots, eliminated.guards, frozen=True)
-            self.ops = len(tape.ops)
-            if self.ops > LARGEST:
-                raise NotCompiled("the equations are too long")
-            if any(op.name.endswith("_of") for op in tape.ops):
-                raise NotCompiled("the equations are not smooth")
-            series = Series(numbers, tape, roots, eliminated.guards)
-            parts = [head(numbers, self.ops), series.code()]
+            series = self._series(inputs)
+            large = self.ops > LONG or isinstance(series, CoupledSeries)
+            beside = _calls(numbers) if large else convolution_for(numbers, self.ops)
+            parts = [declarations(numbers), beside, series.code()]
             if equations.rows:
                 parts += self._constraints(inputs)
         except NoSeries as function:
@@ -84,16 +91,53 @@ class Machine:
             raise NotCompiled("something is not defined") from None
         self.rows = series.rows
         text = "\n".join(parts)
-        self._problem = self.engine.compiled(text.encode(), lambda: text)
+        quickly = self.ops > LONG
+        self._problem = self.engine.compiled(text.encode(), lambda: text, quickly=quickly)
+        if large:
+            sums = _sums(numbers)
+            for name in _SUMS:
+                self._hook(self._problem, name).value = sums.address(name)
         self._kernels = _kernels(numbers)
         self._made = {name: self._kernels.function(name, *self._kinds(name)) for name in _KERNELS}
         self._hooks = [
-            (
-                c_void_p.from_address(self._kernels.address(f"at.{name}")),
-                self._problem.address(name),
-            )
+            (self._hook(self._kernels, name), self._problem.address(name))
             for name in (_GIVEN if equations.rows else _GIVEN[:1])
         ]
+
+    @staticmethod
+    def _hook(code: Compiled, name: str) -> c_void_p:
+        """Where code has the address of a function that it is given."""
+        return c_void_p.from_address(code.address(f"at.{name}"))
+
+    def _series(self, inputs: Sequence[Symbol]) -> Series:
+        """`series` of what is eliminated, or of M and F."""
+        equations = self.motion.equations
+        mask = 0
+        for x in inputs:
+            mask |= x.mask
+        free = not equations.rows
+        coupled = free and self.motion.n >= FEWEST and is_coupled(equations.mass, mask)
+        eliminated = None if coupled else equations.eliminated
+        roots: Sequence[Node]
+        if eliminated is None:
+            if not free:
+                raise NotCompiled("the elimination is left to numbers")
+            guards: Sequence[Any] = ()
+            roots = [*(node for row in equations.mass for node in row), *equations.forcing]
+        else:
+            guards = eliminated.guards
+            roots, _ = eliminated.motion(equations.forcing, equations.bias)
+        tape = self._tape(inputs, roots, guards, frozen=True)
+        if len(tape.ops) > LARGEST:
+            raise NotCompiled("the equations are too long")
+        if any(op.name.endswith("_of") for op in tape.ops):
+            raise NotCompiled("the equations are not smooth")
+        if eliminated is None:
+            made: Series = CoupledSeries(self.numbers, tape, equations.mass, equations.forcing)
+        else:
+            made = Series(self.numbers, tape, roots, guards)
+        self.ops = len(tape.ops)
+        return made
 
     def _tape(self, inputs: Any, roots: Any, guards: Any, *, frozen: bool = False) -> Tape:
         nodes: list[Node] = [*roots, *(node for pair in guards for node in pair)]
@@ -138,9 +182,7 @@ class Machine:
 @cache
 def _kernels(numbers: Numbers) -> Compiled:
     """The loop, which is the same for all problems."""
-    folder = Path(__file__).parent
-    source = (folder / "kernels.py").read_text("utf-8")
-    outside = (folder / "intrinsics.py").read_text("utf-8")
+    source, outside, language = map(_source, ("kernels", "intrinsics", "language"))
 
     def text() -> str:
         from lagcli.numerics.compiled.language import functions_of, translated
@@ -148,9 +190,45 @@ def _kernels(numbers: Numbers) -> Compiled:
         known = {name: kind for name, kind in functions_of(outside) if name in _GIVEN}
         return translated(source, numbers, known)
 
-    language = (folder / "language.py").read_bytes()
-    whole = b"\0".join((numbers.type.encode(), source.encode(), outside.encode(), language))
-    return engine().compiled(whole, text)
+    whole = f"{numbers.type}\n{source}\n{outside}\n{language}"
+    return engine().compiled(whole.encode(), text)
+
+
+@cache
+def _sums(numbers: Numbers) -> Compiled:
+    """The sums of many terms, which long equations call: the same for all problems."""
+    source, outside, language = map(_source, ("matrices", "intrinsics", "language"))
+    inner = convolution(numbers, "noinline")
+
+    def text() -> str:
+        from lagcli.numerics.compiled.language import functions_of, translated
+
+        beside = {name: kind for name, kind in functions_of(outside) if name == "inner"}
+        return "\n".join((declarations(numbers), inner, translated(source, numbers, {}, beside)))
+
+    whole = f"{numbers.type}\n{inner}\n{source}\n{outside}\n{language}"
+    return engine().compiled(whole.encode(), text)
+
+
+def _calls(numbers: Numbers) -> str:
+    """Functions that call those of `_sums`."""
+    lines = []
+    for name, (result, kinds) in _SUMS.items():
+        result = result.replace("real", numbers.type)
+        given = ", ".join(f"{kind} %a{i}" for i, kind in enumerate(kinds))
+        call = f"call {result} %f({given})"
+        body = f"{call}\nret void" if result == "void" else f"%r = {call}\nret {result} %r"
+        lines += [
+            f"@at.{name} = global ptr null",
+            f"define internal {result} @{name}({given}) noinline nounwind {{",
+            f"%f = load ptr, ptr @at.{name}",
+            f"{body}\n}}",
+        ]
+    return "\n".join(lines)
+
+
+def _source(module: str) -> str:
+    return (Path(__file__).parent / f"{module}.py").read_text("utf-8")
 
 
 def pointer(array: Any) -> int:

@@ -204,7 +204,7 @@ class Tape:
         if base.factor > 0:
             factor = self._power(base.factor, number)
         else:
-            place = self._row_of(base)
+            place = self.place_of(base)
         if exponent == Fraction(1, 2):
             return Scaled(factor, self._made(Op("root", (place,))))
         return Scaled(factor, self._made(Op("power", (place,), (number,))))
@@ -214,7 +214,7 @@ class Tape:
     def _function(self, name: str, x: Scaled) -> Scaled:
         if x.place is None:  # a frozen argument of constants only does not occur
             return Scaled(self._arithmetic.functions[name](x.factor), None)
-        row = self._row_of(x)
+        row = self.place_of(x)
         here = Scaled(self._one, row)
         match name:
             case "exp" | "tanh":
@@ -240,10 +240,10 @@ class Tape:
                 below = Scaled(self._one, self._made(Op("root", (rest,))))
                 if name == "acos":
                     below = Scaled(-self._one, below.place)
-                return self._primitive(name, here, self._row_of(below))
+                return self._primitive(name, here, self.place_of(below))
             case "acosh":
                 one = -self._one
-                inner = self._row_of(self._combination(one, [(self._square(row), self._one)]))
+                inner = self.place_of(self._combination(one, [(self._square(row), self._one)]))
                 return self._primitive(name, here, self._made(Op("root", (inner,))))
             case "abs" | "sign":
                 return self._scaled(Op(name + "_of", (row,)))
@@ -263,7 +263,7 @@ class Tape:
     def _squared(self, row: int, sign: int) -> int:
         """1 + x^2 or 1 - x^2."""
         factor = self._one if sign > 0 else -self._one
-        return self._row_of(self._combination(self._one, [(self._square(row), factor)]))
+        return self.place_of(self._combination(self._one, [(self._square(row), factor)]))
 
     def _primitive(self, word: str, x: Scaled, below: int) -> Scaled:
         """y with y' = x' / u."""
@@ -271,15 +271,15 @@ class Tape:
 
     def _angle(self, y: Scaled, x: Scaled) -> Scaled:
         """atan2: its rate is (x y' - y x') / (x^2 + y^2)."""
-        above, beside = self._row_of(y), self._row_of(x)
+        above, beside = self.place_of(y), self.place_of(x)
         squares = [(self._square(above), self._one), (self._square(beside), self._one)]
-        below = self._row_of(self._combination(self._arithmetic.number(Fraction(0)), squares))
+        below = self.place_of(self._combination(self._arithmetic.number(Fraction(0)), squares))
         return self._scaled(Op("angle", (above, beside, below)))
 
     # -- places ----------------------------------------------------------------------------------
 
-    def _row_of(self, value: Scaled) -> int:
-        """A place that is the value itself, with no factor."""
+    def place_of(self, value: Scaled) -> int:
+        """A place that is the value itself, with no factor; it may be a new one."""
         if value.place is not None and value.factor == 1:
             return value.place
         zero = self._arithmetic.number(Fraction(0))
