@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from lagcli.cli.choices import BINARY, METHODS, TABLES
 from lagcli.cli.delivering import has_place
-from lagcli.cli.files import print_result, read_input, reason, write_output
+from lagcli.cli.files import print_result, reason, write_output
+from lagcli.cli.running import is_known, number_of, problem_of, shared
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
-from lagcli.decimals import value_of
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
-from lagcli.pipeline import Request, read, with_lagrangian
-from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
 
 if TYPE_CHECKING:
@@ -55,18 +52,8 @@ def simulate_file(wish: Wish) -> Status:
     known = is_known("--format", wish.format_name, TABLES)
     if not (known and _can_be_written(wish)) & has_place(wish.output):
         return Status.USAGE
-    try:
-        found = read(wish.file, read_input(wish.file), Request(settings=wish.settings))
-    except OSError as error:
-        tell_line(f"{wish.file}: error: {reason(error)}")
-        return Status.USAGE
-    tell(found.source, found.diagnostics)
-    if found.problem is None:
-        return Status.USAGE
-    try:
-        problem = with_lagrangian(found.problem)
-    except ProblemError as error:
-        tell(error.source, error.diagnostics)
+    problem = problem_of(wish.file, wish.settings)
+    if problem is None:
         return Status.USAGE
     asked = _asked(problem, wish)
     if asked is None:
@@ -79,7 +66,7 @@ def _run(problem: Problem, asked: Asked, wish: Wish) -> Status:
     from lagcli.numerics.simulate import simulate
 
     try:
-        with _progress() as progress:
+        with shared("integrating") as progress:
             result = simulate(problem, asked, progress)
     except Refusal as refusal:
         tell(problem.source, refusal.diagnostics)
@@ -201,63 +188,3 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
         whole=wish.whole,
         written=to_grammar,
     )
-
-
-def number_of(formula: Expression) -> float:
-    """A number; nan, which no option takes, where it is none."""
-    try:
-        return float(value_of(formula) or 0)
-    except (ArithmeticError, ValueError):
-        return float("nan")
-
-
-def is_known(option: str, name: str, names: tuple[str, ...]) -> bool:
-    """Whether a name is one of those that there are; told where it is not."""
-    if name in names:
-        return True
-    advice = did_you_mean(name, names) or f"there are {', '.join(names)}"
-    tell_line(f"lagcli: error: {option}: unknown name '{name}': {advice}")
-    return False
-
-
-@contextmanager
-def _progress() -> Iterator[Callable[[float], None] | None]:
-    """A bar on standard error, made when a run turns out to be long."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-    bar = _Bar()
-    try:
-        yield bar
-    finally:
-        bar.close()
-
-
-class _Bar:
-    """Appears after a second; rich is imported only then."""
-
-    _PATIENCE = 1.0
-
-    def __init__(self) -> None:
-        from time import monotonic
-
-        self._now = monotonic
-        self._started = monotonic()
-        self._shown: object = None
-
-    def __call__(self, part: float) -> None:
-        if self._shown is None:
-            if self._now() - self._started < self._PATIENCE:
-                return
-            from rich.console import Console
-            from rich.progress import Progress
-
-            self._shown = Progress(console=Console(stderr=True), transient=True)
-            self._shown.start()
-            self._task = self._shown.add_task("integrating", total=1.0)
-        self._shown.update(self._task, completed=part)  # type: ignore[attr-defined]
-
-    def close(self) -> None:
-        """Take the bar away."""
-        if self._shown is not None:
-            self._shown.stop()  # type: ignore[attr-defined]

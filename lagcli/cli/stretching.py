@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 import math
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import STUDIES
 from lagcli.cli.delivering import has_place
-from lagcli.cli.files import print_result, read_input, reason, write_output
-from lagcli.cli.simulating import is_known, number_of
+from lagcli.cli.files import print_result, reason, write_output
+from lagcli.cli.running import counted, is_known, number_of, problem_of
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import Expression
-from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.record import record
 
 if TYPE_CHECKING:
-    from lagcli.extremes.study import Progress, Study
+    from lagcli.extremes.study import Study
     from lagcli.extremes.trial import Wanted
     from lagcli.problem import Problem
 
@@ -45,19 +41,8 @@ class Wish:
 def stretch_file(wish: Wish) -> Status:
     """Try all cases, write, and say how it ended."""
     good = is_known("--format", wish.format_name, STUDIES) & has_place(wish.output)
-    try:
-        data = read_input(wish.file)
-    except OSError as error:
-        tell_line(f"{wish.file}: error: {reason(error)}")
-        return Status.USAGE
-    found = read(wish.file, data, Request(settings=wish.settings))
-    tell(found.source, found.diagnostics)
-    if found.problem is None:
-        return Status.USAGE
-    try:
-        problem = with_lagrangian(found.problem)
-    except ProblemError as error:
-        tell(error.source, error.diagnostics)
+    problem = problem_of(wish.file, wish.settings)
+    if problem is None:
         return Status.USAGE
     wanted = _wanted(problem, wish)
     if wanted is None or not good:
@@ -72,7 +57,7 @@ def _study(problem: Problem, wanted: Wanted, wish: Wish) -> Status:
 
     words = [] if wish.cases is None else [word.strip() for word in wish.cases.split(",")]
     try:
-        with _progress() as progress:
+        with counted("trying") as progress:
             made = study(problem, wanted, words, progress)
     except NoSuchCase as error:
         advice = did_you_mean(error.word, error.known) or f"there are {', '.join(error.known)}"
@@ -129,17 +114,3 @@ def _number(text: str | None, given: Expression | None, option: str) -> float | 
         tell(error.source, error.diagnostics)
         return math.nan
     return None if formula is None else number_of(formula)
-
-
-@contextmanager
-def _progress() -> Iterator[Progress | None]:
-    """A bar on standard error, where someone is there to see it."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-    from rich.console import Console
-    from rich.progress import Progress as Bar
-
-    with Bar(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("trying", total=None)
-        yield lambda made, total: bar.update(task, completed=made, total=total)

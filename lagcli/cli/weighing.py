@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 import math
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import COSTS, METHODS, STUDIES
 from lagcli.cli.delivering import has_place
-from lagcli.cli.files import print_result, read_input, reason, write_output
-from lagcli.cli.simulating import is_known, number_of
+from lagcli.cli.files import print_result, reason, write_output
+from lagcli.cli.running import counted, is_known, number_of, problem_of
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
-from lagcli.pipeline import Request, read
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
 
 if TYPE_CHECKING:
     from lagcli.problem import Problem
-    from lagcli.tradeoff.study import Progress, Study
+    from lagcli.tradeoff.study import Study
     from lagcli.tradeoff.trial import Given
 
 
@@ -50,23 +46,17 @@ def weigh_file(wish: Wish) -> Status:
     methods = _methods(wish.methods)
     good = good & (methods is not None) & _is_svg(wish.plot)
     good = good & has_place(wish.output) & has_place(wish.plot)
-    try:
-        data = read_input(wish.file)
-    except OSError as error:
-        tell_line(f"{wish.file}: error: {reason(error)}")
+    problem = problem_of(wish.file, wish.settings)
+    if problem is None:
         return Status.USAGE
-    found = read(wish.file, data, Request(settings=wish.settings))
-    tell(found.source, found.diagnostics)
-    if found.problem is None:
-        return Status.USAGE
-    until = _until(found.problem, wish)
+    until = _until(problem, wish)
     if until is None or not good or methods is None:
         return Status.USAGE
     from lagcli.tradeoff.trial import Given
 
     given = Given(
-        name=found.source.name,
-        text=found.source.text,
+        name=problem.source.name,
+        text=problem.source.text,
         settings=wish.settings,
         until=until,
         samples=wish.samples,
@@ -76,7 +66,7 @@ def weigh_file(wish: Wish) -> Status:
         accuracy=None,
         limit=wish.limit,
     )
-    return _study(found.problem, given, methods, wish)
+    return _study(problem, given, methods, wish)
 
 
 def _study(problem: Problem, given: Given, methods: tuple[str, ...], wish: Wish) -> Status:
@@ -84,7 +74,7 @@ def _study(problem: Problem, given: Given, methods: tuple[str, ...], wish: Wish)
     from lagcli.tradeoff.study import study
 
     try:
-        with _progress() as progress:
+        with counted("measuring") as progress:
             made = study(given, methods, cost=wish.cost, repeat=wish.repeat, progress=progress)
     except Refusal as refusal:
         tell(problem.source, refusal.diagnostics)
@@ -165,17 +155,3 @@ def _is_svg(path: Path | None) -> bool:
         "rsvg-convert, Inkscape or any browser makes a PNG of it"
     )
     return False
-
-
-@contextmanager
-def _progress() -> Iterator[Progress | None]:
-    """A bar on standard error, where someone is there to see it."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-    from rich.console import Console
-    from rich.progress import Progress as Bar
-
-    with Bar(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("measuring", total=None)
-        yield lambda made, total: bar.update(task, completed=made, total=total)

@@ -1,0 +1,102 @@
+"""What the commands that run motions have in common: the file, numbers, names, a bar."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from lagcli.cli.files import read_input, reason
+from lagcli.cli.telling import tell, tell_line
+from lagcli.decimals import value_of
+from lagcli.diagnostics import ProblemError
+from lagcli.expression import Expression
+from lagcli.pipeline import Request, read, with_lagrangian
+from lagcli.problem import Problem
+from lagcli.reader.suggest import did_you_mean
+
+
+def problem_of(file: str, settings: tuple[str, ...]) -> Problem | None:
+    """The file's problem with its Lagrangian; None once its mistakes are told."""
+    try:
+        data = read_input(file)
+    except OSError as error:
+        tell_line(f"{file}: error: {reason(error)}")
+        return None
+    found = read(file, data, Request(settings=settings))
+    tell(found.source, found.diagnostics)
+    if found.problem is None:
+        return None
+    try:
+        return with_lagrangian(found.problem)
+    except ProblemError as error:
+        tell(error.source, error.diagnostics)
+        return None
+
+
+def number_of(formula: Expression) -> float:
+    """A number; nan, which no option takes, where it is none."""
+    try:
+        return float(value_of(formula) or 0)
+    except (ArithmeticError, ValueError):
+        return float("nan")
+
+
+def is_known(option: str, name: str, names: tuple[str, ...]) -> bool:
+    """Whether a name is one of those that there are; told where it is not."""
+    if name in names:
+        return True
+    advice = did_you_mean(name, names) or f"there are {', '.join(names)}"
+    tell_line(f"lagcli: error: {option}: unknown name '{name}': {advice}")
+    return False
+
+
+@contextmanager
+def counted(doing: str) -> Iterator[Callable[[float, float], None] | None]:
+    """A bar of how many of how many, where someone is there to see it."""
+    with shared(doing) as bar:
+        yield None if bar is None else lambda made, total: bar(made / total)
+
+
+@contextmanager
+def shared(doing: str) -> Iterator[Callable[[float], None] | None]:
+    """A bar of the part that is done, where someone is there to see it."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    bar = _Bar(doing)
+    try:
+        yield bar
+    finally:
+        bar.close()
+
+
+class _Bar:
+    """Appears after a second; rich is imported only then."""
+
+    _PATIENCE = 1.0
+
+    def __init__(self, doing: str) -> None:
+        from time import monotonic
+
+        self._doing = doing
+        self._now = monotonic
+        self._started = monotonic()
+        self._shown: object = None
+
+    def __call__(self, part: float) -> None:
+        if self._shown is None:
+            if self._now() - self._started < self._PATIENCE:
+                return
+            from rich.console import Console
+            from rich.progress import Progress
+
+            self._shown = Progress(console=Console(stderr=True), transient=True)
+            self._shown.start()
+            self._task = self._shown.add_task(self._doing, total=1.0)
+        self._shown.update(self._task, completed=part)  # type: ignore[attr-defined]
+
+    def close(self) -> None:
+        """Take the bar away."""
+        if self._shown is not None:
+            self._shown.stop()  # type: ignore[attr-defined]
