@@ -28,7 +28,11 @@ Samples = Annotated[
 ]
 Plot = Annotated[
     Path | None,
-    typer.Option("--plot", metavar="FILE.svg", help="Draw error against cost, a line a method."),
+    typer.Option(
+        "--plot",
+        metavar="FILE.svg",
+        help="Draw error against cost, a line a method; FILE.png with cairosvg.",
+    ),
 ]
 Methods = Annotated[
     str | None,

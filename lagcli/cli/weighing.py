@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -44,7 +46,7 @@ def weigh_file(wish: Wish) -> Status:
     """Run, write, and say how it ended."""
     good = is_known("--format", wish.format_name, STUDIES) & is_known("--cost", wish.cost, COSTS)
     methods = _methods(wish.methods)
-    good = good & (methods is not None) & _is_svg(wish.plot)
+    good = good & (methods is not None) & _can_be_drawn(wish.plot)
     good = good & has_place(wish.output) & has_place(wish.plot)
     problem = problem_of(wish.file, wish.settings)
     if problem is None:
@@ -87,16 +89,17 @@ def _study(problem: Problem, given: Given, methods: tuple[str, ...], wish: Wish)
 def _written(made: Study, wish: Wish) -> bool:
     from lagcli.tradeoff.writing import WRITERS
 
-    texts: list[tuple[Path | None, str]] = [(wish.output, WRITERS[wish.format_name](made))]
+    parts: list[tuple[Path | None, bytes]] = [
+        (wish.output, WRITERS[wish.format_name](made).encode())
+    ]
     if wish.plot is not None:
         from lagcli.tradeoff.plot import to_svg
 
         try:
-            texts.insert(0, (wish.plot, to_svg(made)))
+            parts.insert(0, (wish.plot, _drawn(to_svg(made), wish.plot)))
         except ValueError as error:
             tell_line(f"{wish.plot}: warning: nothing to draw: {error}")
-    for path, text in texts:
-        data = text.encode()
+    for path, data in parts:
         if path is None:
             print_result(data)
             continue
@@ -106,6 +109,14 @@ def _written(made: Study, wish: Wish) -> bool:
             tell_line(f"{path}: error: {reason(error)}")
             return False
     return True
+
+
+def _drawn(svg: str, path: Path) -> bytes:
+    """The plot as the file's name has it."""
+    if path.suffix.lower() == ".svg":
+        return svg.encode()
+    made: bytes = import_module("cairosvg").svg2png(bytestring=svg.encode(), scale=2)
+    return made
 
 
 # -- options -------------------------------------------------------------------------------------
@@ -147,11 +158,16 @@ def _methods(text: str | None) -> tuple[str, ...] | None:
     return None if wrong else tuple(name for name in every if name in asked)
 
 
-def _is_svg(path: Path | None) -> bool:
-    if path is None or path.suffix.lower() == ".svg":
+def _can_be_drawn(path: Path | None) -> bool:
+    """SVG, or PNG where there is what makes one."""
+    kind = "" if path is None else path.suffix.lower()
+    if path is None or kind == ".svg" or (kind == ".png" and find_spec("cairosvg") is not None):
         return True
+    svg = path.with_suffix(".svg")
     tell_line(
-        f"lagcli: error: --plot: '{path}' is no SVG: name it {path.with_suffix('.svg')}; "
-        "rsvg-convert, Inkscape or any browser makes a PNG of it"
+        f"lagcli: error: --plot: '{path}' needs the package cairosvg: pip install cairosvg, or "
+        f"name it {svg}, of which any browser makes a PNG"
+        if kind == ".png"
+        else f"lagcli: error: --plot: '{path}' is neither SVG nor PNG: name it {svg}"
     )
     return False

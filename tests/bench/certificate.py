@@ -53,7 +53,9 @@ def givens(paths: Sequence[str], limit: float) -> Iterator[Given]:
     """The problems that can be run; all of them without paths."""
     files = [ROOT / path for path in paths]
     if not paths:
-        files = [p for name in ("problems", "benchmarks") for p in (ROOT / name).rglob("*.yaml")]
+        files = [
+            p for name in ("problems", "tests/benchmarks") for p in (ROOT / name).rglob("*.yaml")
+        ]
     for path in sorted(files):
         text = path.read_text("utf-8")
         problem = read(str(path), text.encode(), Request()).problem

@@ -40,9 +40,9 @@ _TOLERANCES = [10.0**-k for k in range(8, 19)]
 _HELD = (
     ("problems/benchmarks/simple-pendulum.yaml", "2000", "1e-6"),
     ("problems/pendulums/pendulum-cartesian.yaml", "1e4", "1e-6"),
-    ("benchmarks/n-four-bar.yaml", "10", "1e-6"),
-    ("benchmarks/andrews-squeezer.yaml", "0.03", "1e-9"),
-    ("benchmarks/bricard.yaml", "10", "1e-6"),
+    ("tests/benchmarks/n-four-bar.yaml", "10", "1e-6"),
+    ("tests/benchmarks/andrews-squeezer.yaml", "0.03", "1e-9"),
+    ("tests/benchmarks/bricard.yaml", "10", "1e-6"),
 )
 _KEPLER = """\
 coordinates: [x, y]
