@@ -10,6 +10,9 @@ from collections.abc import Mapping
 from lagcli.document import Block
 from lagcli.record import field, record
 
+#: The sections that are told as steps when they are asked for.
+FURTHER = ("find", "equilibria", "modes", "reduction")
+
 
 @record
 class Step:

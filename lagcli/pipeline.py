@@ -142,8 +142,8 @@ def with_lagrangian(problem: Problem) -> Problem:
     return transformed(problem)
 
 
-def explain(derivation: Derivation) -> Explanation:
-    """Derivation -> its account, step by step.
+def explain(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
+    """Derivation -> its account, step by step, and the steps asked for beside it.
 
     Raises
     ------
@@ -157,7 +157,7 @@ def explain(derivation: Derivation) -> Explanation:
         return explanation_of_large(large)
     from lagcli.mechanics.explaining.explain import explanation
 
-    return explanation(derivation)
+    return explanation(derivation, also)
 
 
 def _statements(derivation: Derivation) -> Stating:

@@ -19,19 +19,28 @@ class Asked:
 
 
 def asked(
-    show: Sequence[str], settings: Sequence[str], *, numeric: bool, mistakes: list[str]
+    show: Sequence[str],
+    settings: Sequence[str],
+    *,
+    numeric: bool,
+    mistakes: list[str],
+    option: str = "--show",
+    known: Sequence[str] = SECTIONS,
 ) -> Asked:
     """Read the options; a mistake in one hides none in another, nor those already found."""
-    request = Request(sections=_sections(show, mistakes), settings=tuple(settings), numeric=numeric)
+    sections = _sections(show, mistakes, option, known)
+    request = Request(sections=sections, settings=tuple(settings), numeric=numeric)
     return Asked(request, tuple(mistakes))
 
 
-def _sections(show: Sequence[str], mistakes: list[str]) -> tuple[str, ...] | None:
+def _sections(
+    show: Sequence[str], mistakes: list[str], option: str, known: Sequence[str]
+) -> tuple[str, ...] | None:
     if not show:
         return None
     names = [word.strip() for words in show for word in words.split(",")]
     for name in names:
-        if name not in SECTIONS:
-            advice = did_you_mean(name, SECTIONS) or f"there are {', '.join(SECTIONS)}"
-            mistakes.append(f"--show: unknown section '{name}': {advice}")
-    return tuple(name for name in SECTIONS if name in names)
+        if name not in known:
+            advice = did_you_mean(name, known) or f"there are {', '.join(known)}"
+            mistakes.append(f"{option}: unknown section '{name}': {advice}")
+    return tuple(name for name in known if name in names)

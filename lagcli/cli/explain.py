@@ -19,12 +19,21 @@ Format = Annotated[
         autocompletion=complete_page_format,
     ),
 ]
+Also = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--also",
+        metavar="A,B",
+        help="Tell these as well: find, equilibria, modes, reduction.",
+    ),
+]
 
 
 def explain(
     files: Files,
     format_name: Format = "text",
     output: Output = None,
+    also: Also = None,
     settings: Set = None,
     standalone: Standalone = False,
     width: Width = None,
@@ -39,6 +48,7 @@ def explain(
     \b
     Examples:
       lagcli explain problems/hoop.yaml
+      lagcli explain problems/hoop.yaml --also find,modes
       lagcli explain problems/hoop.yaml -f latex --standalone -o hoop.tex
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.printing import Printing
@@ -46,5 +56,5 @@ def explain(
 
     to_file = None if output is None or str(output) == "-" else output
     printing = Printing(format_name, to_file, standalone, width)
-    options = Options((), tuple(settings or ()), numeric=False, command="explain")
+    options = Options(tuple(also or ()), tuple(settings or ()), numeric=False, command="explain")
     return solve_or_repeat(files, options, printing, cached=not no_cache)

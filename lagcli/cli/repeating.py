@@ -90,7 +90,14 @@ def _solved(
 
     work = WORKS[options.command]
     mistakes = work.mistakes(printing.format_name)
-    request = asked(options.show, options.settings, numeric=options.numeric, mistakes=mistakes)
+    request = asked(
+        options.show,
+        options.settings,
+        numeric=options.numeric,
+        mistakes=mistakes,
+        option=work.option,
+        known=work.sections,
+    )
     for mistake in request.mistakes:
         tell_line(f"lagcli: error: {mistake}")
     possible = has_place(printing.output) and not request.mistakes

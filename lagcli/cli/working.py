@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, Generic, NamedTuple, Protocol, TypeVar
 
+from lagcli.answers import SECTIONS
+from lagcli.explanation import FURTHER
 from lagcli.formatters import Options
 from lagcli.formatters.explaining import FORMATS
 from lagcli.formatters.explaining import render as render_explanations
@@ -32,6 +34,8 @@ class Work(NamedTuple, Generic[Result]):
     make: Callable[[Derivation, Request], Result]
     render: Callable[[Sequence[Result], str, Options], str]
     mistakes: Callable[[str], list[str]]
+    option: str = "--show"  # that picks sections
+    sections: tuple[str, ...] = SECTIONS
 
 
 def _format_of_answers(name: str) -> list[str]:
@@ -50,6 +54,10 @@ def _format_of_explanations(name: str) -> list[str]:
 WORKS: dict[str, Work[Any]] = {
     "solve": Work(state, render, _format_of_answers),
     "explain": Work(
-        lambda derivation, _: explain(derivation), render_explanations, _format_of_explanations
+        lambda derivation, request: explain(derivation, request.sections or ()),
+        render_explanations,
+        _format_of_explanations,
+        "--also",
+        FURTHER,
     ),
 }

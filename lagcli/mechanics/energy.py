@@ -32,8 +32,9 @@ class Power:
     """One contribution to dh/dt, what it is due to, and what that does in a sentence."""
 
     cause: str
-    deed: str
+    deed: str  # a sentence; of the Lagrangian, without its letter
     value: Expr
+    of_lagrangian: bool = False
 
 
 class EnergyFunction:
@@ -58,7 +59,12 @@ class EnergyFunction:
         forces = sympy.Add(*(f * v for f, v in zip(system.forces, system.qdot, strict=True)))
         drag = sympy.Add(*(v * system.D.diff(v) for v in system.qdot))
         causes = [
-            Power("the time in L", "L depends explicitly on the time", -system.L.diff(system.t)),
+            Power(
+                "the time in L",
+                "depends explicitly on the time",
+                -system.L.diff(system.t),
+                of_lagrangian=True,
+            ),
             Power("the applied forces", "the applied forces do work", forces),
             Power("the dissipation", "the dissipation takes energy", -drag),
             *(
@@ -124,7 +130,8 @@ class EnergyFunction:
         if self.conserved is None:
             return "whether it is conserved was not decided"
         if not self.conserved:
-            return "not conserved: " + ", ".join(power.deed for power in self.powers)
+            deeds = (f"L {p.deed}" if p.of_lagrangian else p.deed for p in self.powers)
+            return "not conserved: " + ", ".join(deeds)
         if not self.powers:
             return "conserved: no explicit time in L, no force that does work, no moving constraint"
         return (

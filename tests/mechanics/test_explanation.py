@@ -13,6 +13,7 @@ import sympy
 
 from lagcli.algebra.build import Builder
 from lagcli.document import Equations, Heading, Items, Label, Paragraph
+from lagcli.explanation import FURTHER
 from lagcli.expression import Diff, Expression, Name, Rate, walk
 from lagcli.pipeline import derive, explain, load
 from lagcli.rewriting import rebuilt
@@ -239,6 +240,58 @@ def test_letters_of_the_file_are_left_to_it():
     shown = {row.left: row.right for row in rows(explanation)}
     assert Name("L_sys") in shown
     assert Name("L") not in shown
+
+
+def test_the_energy_calls_the_lagrangian_by_its_letter():
+    explanation = told_text(
+        "title: Cart\ncoordinates: [q]\nparameters: [L, m]\nT: m*q'^2/2\nV: L*q*t\n"
+    )
+    sentence = words(explanation, "The energy")
+    assert "L_sys depends explicitly on the time" in sentence
+    assert " L depends" not in sentence
+
+
+def also(name, *sections):
+    return explain(derive(load(PROBLEMS / f"{name}.yaml")), sections)
+
+
+def test_the_further_steps_are_told_only_when_asked_for():
+    titles = [step.title for step in told("pendulums/plane-pendulum").steps]
+    more = also("pendulums/plane-pendulum", *FURTHER)
+    added = [step.title for step in more.steps if step.title not in titles]
+    assert added == ["The questions", "States of rest", "Small oscillations", "The reduction"]
+
+
+def test_small_oscillations_go_from_the_matrices_to_the_textbooks_frequency():
+    """Goldstein, section 6.2: K - omega^2 M is singular."""
+    explanation = also("pendulums/plane-pendulum", "equilibria", "modes")
+    shown = {row.left: row.right for row in rows(explanation, "Small oscillations")}
+    K, M = shown[Label("K", matrix=True)], shown[Label("M", matrix=True)]
+    assert normal(shown[Name("omega")]) ** 2 == normal(K) / normal(M)
+    assert "It is stable" in words(explanation, "States of rest")
+    assert "It is unstable" in words(explanation, "States of rest")
+
+
+def test_the_reduction_ends_at_the_effective_potential():
+    """Goldstein, section 3.2, and Landau and Lifshitz, section 14."""
+    explanation = also("reduction/kepler-radial-motion", "reduction")
+    shown = {row.left: row.right for row in rows(explanation, "The reduction")}
+    assert normal(shown[Label("U", ("eff",))]) == formula("p_phi^2/(2*m*r^2) - k/r")
+    assert normal(shown[Name("phi", 1)]) == formula("p_phi/(m*r^2)")
+
+
+def test_a_question_is_told_with_what_is_put_in():
+    explanation = also("contact/car-in-loop", "find")
+    shown = {row.left: row.right for row in rows(explanation, "The questions")}
+    assert normal(shown[Name("N")]) == formula("m*v0^2/R + m*g*(3*cos(theta) - 2)")
+    assert "For which v0 is N ≥ … all the time?" in words(explanation, "The questions")
+    assert explanation.complete
+
+
+def test_what_is_not_found_makes_the_account_incomplete():
+    explanation = also("steady/conical-pendulum", "modes")
+    assert not explanation.complete
+    assert any("normal modes" in warning for warning in explanation.warnings)
 
 
 def test_a_large_system_stays_in_matrix_form():

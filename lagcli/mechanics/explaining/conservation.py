@@ -81,9 +81,12 @@ def _rate(teller: Teller) -> Iterator[Block]:
             " is conserved.",
         )
         return
-    changes = "; ".join(power.deed for power in function.powers)
+    changes: list[Part] = []
+    for power in function.powers:
+        changes += ["; "] if changes else []
+        changes += [letters.L, " ", power.deed] if power.of_lagrangian else [power.deed]
     total = sympy.Add(*(power.value for power in function.powers))
-    yield says(f"What changes it: {changes}. Its rate is")
+    yield says("What changes it: ", changes, ". Its rate is")
     yield shows(Name(h.name, 1), teller.readable.by_terms(total))
     if function.conserved is None:
         yield says("Whether this vanishes on the motion was not decided.")

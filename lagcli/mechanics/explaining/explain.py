@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from lagcli.explanation import Explanation, Step
 from lagcli.mechanics.derivation import Derivation
@@ -16,13 +16,15 @@ from lagcli.mechanics.explaining.scene import scene
 from lagcli.mechanics.explaining.teller import Teller
 
 
-def explanation(derivation: Derivation) -> Explanation:
+def explanation(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
     """The derivation as a teacher writes it.
 
     Parameters
     ----------
     derivation
         That of a system of readable size; a large one is told by `large`.
+    also
+        Out of `lagcli.explanation.FURTHER`, told after the rest.
 
     Raises
     ------
@@ -51,6 +53,12 @@ def explanation(derivation: Derivation) -> Explanation:
     if found:
         told.append(Step("The charges", found))
     missing = tuple(_missing(teller))
+    if also:
+        from lagcli.mechanics.explaining.further import further
+
+        steps, unfound = further(teller, also)
+        told += steps
+        missing = (*missing, *unfound)
     quantities = (*problem.coordinates, *problem.parameters)
     return Explanation(
         title=problem.title,

@@ -206,7 +206,7 @@ class LastingAnswer:
         if line.rate is not None and start.target is not None:
             if line.rate != 1:
                 raise Undecided(f"{u} stands in sines and cosines and is no angle")
-            self.notes.append(f"{u} is an angle, up to whole turns")
+            self.notes.append(f"taken as an angle, {u} may come there after whole turns")
         wall = 1 if u.is_nonnegative else -1 if u.is_nonpositive else 0
         walk = Walk(line, start, strict=strict, wall=wall)
         events = self._events(line, start, wall)

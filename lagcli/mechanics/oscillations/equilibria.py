@@ -68,7 +68,7 @@ class RestPoints:
         if self._depends_on_time():
             self.reason = "the system depends explicitly on the time"
             return None
-        equations = self._equations
+        equations = self.equations
         solved = solve_system(equations, self.system.q)
         self.complete = solved.complete
         found = [
@@ -101,7 +101,8 @@ class RestPoints:
         return tuple(f.xreplace(at_rest) for f in self.dynamics.lagrange.forcing)
 
     @cached_property
-    def _equations(self) -> list[Expr]:
+    def equations(self) -> list[Expr]:
+        """What vanishes at rest: the constraints, and the forces along what they allow."""
         constraints = self.dynamics.constraints
         conditions = [e.f for e in constraints.equations if e.holonomic]
         conditions += [e.drift for e in constraints.equations if not e.holonomic]
@@ -151,8 +152,8 @@ class RestPoints:
 
     def _is_angle(self, q: Symbol) -> bool:
         """Whether the coordinate occurs inside sin and cos only."""
-        field = Field(self._equations)
-        elements = [field(e) for e in self._equations]
+        field = Field(self.equations)
+        elements = [field(e) for e in self.equations]
         used = {g for e in elements for g in field.ring.used(e.numerator)}
         kinds = {
             field.generators[g].kind

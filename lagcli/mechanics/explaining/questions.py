@@ -1,0 +1,140 @@
+"""How the questions of the file are answered."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import cast
+
+from lagcli.answers import Section
+from lagcli.document import Block, Equations, Heading, Row
+from lagcli.expression import ZERO, Expression, Name
+from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.words import Part, difference, listed, says, shows
+from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
+from lagcli.problem import Lasting, Question, Reaching, Rewrite, Where
+from lagcli.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
+
+_COMPARISONS = {"<": " < ", "<=": " ≤ ", ">": " > ", ">=": " ≥ "}
+
+
+def questions(teller: Teller, section: Section) -> Iterator[Block]:
+    """Each question, what is put in, and its answer."""
+    answers = cast(FindSection, section).answers
+    if not answers:
+        yield says("The file asks nothing.")
+        return
+    along = AlongTheMotion(teller.dynamics, teller.derivation.noether)
+    yield from _known(along)
+    for question in teller.problem.find:
+        yield Heading(question.name, 2)
+        yield says(*_asked(question))
+        yield from _on_the_way(teller, along, question)
+        is_open = isinstance(question, Where) and question.unknown.name not in teller.system.names
+        yield from _answer(answers[question.name], is_open=is_open or along.initial is None)
+
+
+def _known(along: AlongTheMotion) -> Iterator[Block]:
+    if along.initial is None:
+        yield says(
+            "The file gives no initial state, so only the solved accelerations and multipliers are "
+            "put in, and the constraints."
+        )
+        return
+    yield says(
+        "The solved accelerations and multipliers are put in, the constraints are used, and every "
+        "conserved quantity keeps its value in the initial state. So these stay 0:"
+    )
+    laws = [along.tree(law) for law in along.level_set.laws]
+    yield Equations(tuple(Row(ZERO, law) for law in laws))
+
+
+def _asked(question: Question) -> list[Part]:
+    match question:
+        case Where(equation=equation, unknown=unknown):
+            return ["For which ", unknown, " is ", equation.left, " = ", equation.right, "?"]
+        case Rewrite(value=value, in_terms_of=terms):
+            wanted = listed(terms) if terms else ["the parameters"]
+            return ["What is ", value, " in terms of ", *wanted, " alone?"]
+        case Lasting(condition=condition, unknown=unknown):
+            comparison = _COMPARISONS[condition.comparison]
+            holds: list[Part] = [condition.left, comparison, condition.right]
+            return ["For which ", unknown, " is ", *holds, " all the time?"]
+        case Reaching(coordinate=coordinate, value=value, unknown=unknown):
+            return ["For which ", unknown, " does ", coordinate, " come to ", value, "?"]
+
+
+def _on_the_way(teller: Teller, along: AlongTheMotion, question: Question) -> Iterator[Block]:
+    """The asked quantity on the motion, and the square of the velocity, in one coordinate."""
+    system = teller.system
+    if isinstance(question, Rewrite):
+        return
+    if isinstance(question, Reaching):
+        sides: tuple[Expression, ...] = ()
+        candidates = [system.symbol_of(question.coordinate.name)]
+    else:
+        asked = question.equation if isinstance(question, Where) else question.condition
+        sides = (asked.left, asked.right)
+        named = system.symbol_of(str(question.unknown))
+        candidates = [named] if named in system.q else list(system.q)
+    for u in candidates:
+        rate = system.symbol_of(u.name + "'")
+        square = along.rewritten(rate**2, [u]) if along.initial is not None else None
+        formula = None
+        if sides:
+            formula = along.rewritten(system.build(sides[0]) - system.build(sides[1]), [u])
+        if square is None or square == 0 or (sides and formula is None):
+            continue
+        yield says("Put in, this leaves ", Name(u.name), " alone:")
+        rows = [Row(along.tree(rate**2), along.tree(square))]
+        if formula is not None:
+            rows.append(Row(_difference(sides), along.tree(formula)))
+        yield Equations(tuple(rows))
+        return
+
+
+def _difference(sides: tuple[Expression, ...]) -> Expression:
+    return sides[0] if sides[1] == ZERO else difference(sides[0], sides[1])
+
+
+def _answer(answer: Answer, *, is_open: bool) -> Iterator[Block]:
+    match answer:
+        case Solutions(solutions=None) | Rewritten(value=None) | Ranges(ranges=None):
+            yield says(f"This was not found: {answer.note or 'there is no closed form'}.")
+            return
+        case Solutions(unknown=unknown, solutions=tuple(roots)):
+            left = Name(unknown.rstrip("'"), len(unknown) - len(unknown.rstrip("'")))
+            if roots:
+                yield says("The answer:" if is_open else "Of its roots the motion comes to")
+                yield Equations(tuple(Row(left, root) for root in roots))
+            else:
+                yield says("The motion comes to none of its roots.")
+        case Rewritten(value=value, subject=subject) if value is not None:
+            yield says("With the rest eliminated it is")
+            yield shows(Name("value") if subject is None else subject, value)
+        case Ranges(unknown=unknown, ranges=tuple(ranges)):
+            yield says(
+                "The answer can change only at values of ",
+                Name(unknown),
+                " with which two roots along the motion meet, or one meets the start. Between "
+                "these one motion decides. The answer is yes for ",
+                *_ranges(unknown, ranges),
+                ".",
+            )
+    if answer.note:
+        yield says(f"{answer.note[0].upper()}{answer.note[1:].rstrip('.')}.")
+
+
+def _ranges(unknown: str, ranges: tuple[Range, ...]) -> list[Part]:
+    if not ranges:
+        return ["no value"]
+    parts: list[Part] = []
+    for each in ranges:
+        parts += [" and for "] if parts else []
+        bounds: list[Part] = []
+        if each.lower is not None:
+            bounds += [Name(unknown), " ≥ " if each.lower_included else " > ", each.lower]
+        if each.upper is not None:
+            bounds += [" with "] if bounds else []
+            bounds += [Name(unknown), " ≤ " if each.upper_included else " < ", each.upper]
+        parts += bounds or ["every value"]
+    return parts
