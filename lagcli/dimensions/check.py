@@ -7,13 +7,14 @@ from fractions import Fraction
 from itertools import chain, islice
 
 from lagcli.diagnostics import Diagnostic, Severity, Span
+from lagcli.dimensions.demands import LAGRANGIAN
 from lagcli.dimensions.forms import ENERGY, Form, Key, minus, times, unknowns
 from lagcli.dimensions.inference import Inference, gives_units, quantities
 from lagcli.dimensions.kinds import kind
 from lagcli.dimensions.system import Incoherent, dimension_of
-from lagcli.dimensions.terms import Group, Term, representative
+from lagcli.dimensions.terms import Group, Reader, Term, representative
 from lagcli.expression import Expression, Name, Negative, walk
-from lagcli.problem import Problem, Quantity
+from lagcli.problem import JACOBI_FUNCTION, Problem, Quantity
 from lagcli.units import read_unit
 
 #: What T may be: an energy, or one by mass or by moment of inertia, which then are 1.
@@ -38,13 +39,42 @@ def check_dimensions(problem: Problem, limit: int) -> list[Diagnostic]:
     return list(dict.fromkeys(islice(found, limit)))
 
 
+def check_formula(
+    problem: Problem, formula: Expression, text: str, quantity: str = ""
+) -> list[Diagnostic]:
+    """What does not fit in a formula beside the file; none where the file gives no units.
+
+    Parameters
+    ----------
+    problem
+        A problem whose own terms fit.
+    formula
+        It may hold whatever the problem has a name for; numbers have the unit of their sum.
+    text
+        What the formula's spans point into.
+    quantity
+        The coordinate or parameter whose value the formula is.
+    """
+    if not gives_units(problem) or check_dimensions(problem, 1):
+        return []
+    inference = Inference(problem)
+    names = {**inference.demands.names, JACOBI_FUNCTION.name: LAGRANGIAN}
+    names.setdefault("energy", LAGRANGIAN)
+    reader = Reader(names)
+    expected = names[quantity] if quantity else None
+    subject = f"the value of '{quantity}'" if quantity else ""
+    reader.demand(reader.terms(formula, given_number=True), expected, subject)
+    checker = _Checker(inference, text)
+    return list(dict.fromkeys(checker.odd_terms(reader.groups)))
+
+
 class _Checker:
     """Words what an inference could not reconcile."""
 
-    def __init__(self, inference: Inference) -> None:
+    def __init__(self, inference: Inference, text: str | None = None) -> None:
         self.inference = inference
         self.problem = inference.problem
-        self._lines = self.problem.source.text.split("\n")
+        self._lines = (self.problem.source.text if text is None else text).split("\n")
 
     def given(self) -> Iterator[tuple[Quantity, Form]]:
         names = self.inference.demands.names
@@ -52,9 +82,9 @@ class _Checker:
 
     # Terms.
 
-    def odd_terms(self) -> Iterator[Diagnostic]:
-        """The odd ones of each group."""
-        for group in self.inference.demands.groups:
+    def odd_terms(self, groups: Sequence[Group] | None = None) -> Iterator[Diagnostic]:
+        """The odd ones of each group, of all that the file demands without others."""
+        for group in self.inference.demands.groups if groups is None else groups:
             forms = [self.inference.form(term.form) for term in group.terms]
             reference = self._reference(group, forms)
             alike = [t for t, form in zip(group.terms, forms, strict=True) if form == reference]

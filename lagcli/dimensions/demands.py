@@ -111,6 +111,9 @@ class Demands:
                 self._agree(Equation(holds.left, holds.right, span=holds.span))
         for symmetry in problem.symmetries:
             self._symmetry(symmetry)
+        for label, observable in problem.observables.items():
+            form = self._one(observable)
+            self.names[label] = unknown("observable", label) if form is None else form
         for question in problem.find:
             if isinstance(question, Where):
                 self._agree(question.equation)

@@ -41,7 +41,10 @@ def read_columns(problem: Problem, words: list[str]) -> list[Shown]:
     scope = scope_of(problem)
     shown: dict[str, Expression | None] = {"t": None}
     for word in pieces_of(words):
-        shown.update(_columns(problem, scope, word))
+        for name, expression in _columns(problem, scope, word):
+            if expression is not None and not isinstance(expression, Name):
+                _check_units(problem, word, expression)
+            shown[name] = expression
     return list(shown.items())
 
 
@@ -102,6 +105,19 @@ def _columns(problem: Problem, scope: Scope, word: str) -> Iterator[Shown]:
         message = f"there is no column '{word}'"
         raise ProblemError(error.source, (Diagnostic(message, first.span, hint),)) from None
     yield word, None if expression == Name("t") else expression
+
+
+def _check_units(problem: Problem, text: str, expression: Expression) -> None:
+    """The terms of a column have one unit, where the file gives units."""
+    if expression.span.line < 1 or all(
+        quantity.unit is None for quantity in (*problem.coordinates, *problem.parameters)
+    ):
+        return  # made from the file's own, or without units
+    from lagcli.dimensions.check import check_formula
+
+    mistakes = check_formula(problem, expression, text)
+    if mistakes:
+        raise ProblemError(Source(f"--show {text}", text), tuple(mistakes))
 
 
 def _group(problem: Problem, word: str) -> Iterator[Shown]:

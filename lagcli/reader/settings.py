@@ -42,6 +42,8 @@ def set_parameters(problem: Problem, settings: Iterable[str]) -> Problem:
     for setting in settings:
         source = Source(f"--set {setting}", setting)
         name, value = _read(source, scope)
+        if any(one.unit is not None for one in (*problem.coordinates, *problem.parameters)):
+            _check_unit(problem, source, name, value)
         values[name] = value
         cycle = value_cycle(values)
         if cycle:
@@ -77,3 +79,12 @@ def _read(source: Source, scope: Scope) -> tuple[str, Expression]:
     if mistakes:
         raise ProblemError(source, mistakes)
     return name, expression
+
+
+def _check_unit(problem: Problem, source: Source, name: str, value: Expression) -> None:
+    """A value has the unit of its parameter; a number alone has it anyway."""
+    from lagcli.dimensions.check import check_formula
+
+    mistakes = check_formula(problem, value, source.text, name)
+    if mistakes:
+        raise ProblemError(source, tuple(mistakes))
