@@ -68,7 +68,7 @@ def shaped(
     given = Translator(writer).given(expression)
     if given is not None and element.size() > _MAX_SHAPED:
         return expression, given
-    EFFORT.done += 1000 + 40 * element.size()
+    EFFORT.done += 3000 + 100 * element.size()
     tree, shaper = Readable(field, writer, relations).shortest(element)
     if given is None:
         return shaper.to_sympy(tree), tree

@@ -74,6 +74,8 @@ SPECIAL = {
         ("k2", "k1/4"): (7, "charge_1"),
         ("k2", "4*k1"): (7, "charge_1"),
     },
+    # Chang, Tabor and Weiss, J. Math. Phys. 23 (1982) 531: D/C = -1/6
+    "discovery/henon-heiles-any-cubic": {("epsilon", "6"): (2, "charge_1")},
     "discovery/power-law-potential": {
         ("n", "2"): (10, "fradkin_xy conformal_sin"),
         ("n", "-1"): (4, "runge_lenz_x runge_lenz_y"),

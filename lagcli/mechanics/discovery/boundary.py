@@ -22,6 +22,7 @@ from lagcli.mechanics.total_derivative import boundary_term
 
 _MOST_CANDIDATES = 120
 _OF_DERIVATIVE = 3000  # units of work of SymPy
+_OF_EXPANSION = 100_000
 _OF_TIME = (sympy.exp, sympy.sin, sympy.cos, sympy.sinh, sympy.cosh)
 
 
@@ -30,6 +31,7 @@ def gauge_of(change: Expr, system: System, allowed: Allowance) -> Expr | None:
     if is_zero(change) is True:
         return sympy.S.Zero
     t, q, v = system.t, system.q, system.qdot
+    allowed.spend(_OF_EXPANSION * len(q))
     still = dict.fromkeys(v, sympy.S.Zero)
     by_q = [sympy.expand(change.diff(x).xreplace(still)) for x in v]
     by_t = sympy.expand(change.xreplace(still))

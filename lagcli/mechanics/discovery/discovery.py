@@ -14,12 +14,11 @@ from functools import cached_property
 
 import mpmath
 import sympy
-from sympy import Expr, Symbol
+from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
-from lagcli.diagnostics import ProblemError
 from lagcli.mechanics.discovery import point
 from lagcli.mechanics.discovery.ansatz import (
     Kinds,
@@ -40,12 +39,8 @@ from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.names import Naming, distinct
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.slots import Equations, point_slots
-from lagcli.mechanics.discovery.special import (
-    SpecialCase,
-    candidates,
-    new_charges,
-    problem_at,
-)
+from lagcli.mechanics.discovery.special import SpecialCase
+from lagcli.mechanics.discovery.special_search import special_cases
 from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.discovery.under_constraints import UnderConstraints
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
@@ -54,8 +49,6 @@ _MOST_COORDINATES = 9
 _DIGITS = 40
 _MOST_FOR_TENSORS = 6
 _FEW_TERMS = 3
-_MOST_FOR_SPECIAL = 3
-_UNITS_FOR_SPECIAL = 5_000_000
 
 
 class Discovery:
@@ -158,7 +151,8 @@ class Discovery:
         return simplify(expression) if angular or few else expression
 
     @cached_property
-    def _kinds(self) -> Kinds:
+    def coordinate_kinds(self) -> Kinds:
+        """Which coordinates are lengths and which are angles."""
         units = [c.unit for c in self.system.problem.coordinates]
         rows = [x for e in self.dynamics.constraints.equations for x in (*e.row, e.drift)]
         return kinds(self.system.L, self.equations, units, rows)
@@ -169,13 +163,13 @@ class Discovery:
         return all(is_zero(f) is True for f in self.system.applied_forces)
 
     @cached_property
-    def _quadratic(self) -> bool:
+    def quadratic_mass(self) -> bool:
         """Whether the mass matrix does not depend on velocities."""
         v = self.system.qdot
         return all(free_of(m, v) for row in self.equations.mass for m in row)
 
     @cached_property
-    def _accelerations(self) -> tuple[Expr, ...] | None:
+    def accelerations(self) -> tuple[Expr, ...] | None:
         """q'' for its linear part; None where there are constraints."""
         if self.dynamics.constraints.equations:
             return None
@@ -193,9 +187,9 @@ class Discovery:
         """The linear system for the point symmetries, and what its ansatz is in words."""
         times = time_functions(equations, accelerations, potential=self.canonical)
         slots = point_slots(equations)
-        spaces = affine(self._kinds)
+        spaces = affine(self.coordinate_kinds)
         while True:
-            unknowns = point_unknowns(slots, times, spaces, time_with_space=not self._quadratic)
+            unknowns = point_unknowns(slots, times, spaces, time_with_space=not self.quadratic_mass)
             if len(unknowns) <= MOST_UNKNOWNS or len(spaces) == 1:
                 break
             spaces = spaces[: len(spaces) // 2]
@@ -204,7 +198,7 @@ class Discovery:
     def _points(self) -> None:
         allowed = self.allowed.part(0.7)
         constraints = self.dynamics.constraints.equations
-        search, words = self._search(self.equations, self._accelerations, allowed)
+        search, words = self._search(self.equations, self.accelerations, allowed)
         self.words.append(words)
         transformations = [
             point.transformation_of(search, solution, set(self.system.parameters))
@@ -227,44 +221,14 @@ class Discovery:
                 continue
             self._add(charge)
 
-    # -- at special values of the parameters --------------------------------------------------
-
     @cached_property
     def special(self) -> tuple[SpecialCase, ...]:
         """Values of parameters at which there are more charges, with these."""
-        system = self.system
-        if self.dynamics.constraints.equations or not 0 < len(system.q) <= _MOST_FOR_SPECIAL:
-            return ()
-        allowed = Allowance(min(_UNITS_FOR_SPECIAL, self.allowed.left))
-        times = time_functions(self.equations, self._accelerations, potential=self.canonical)
-        found: list[SpecialCase] = []
-        for parameter, value in candidates(system, self.equations, times.exponents):
-            there = self._at(parameter, value)
-            if allowed.over:
-                self.words.append("not all special values of the parameters were tried")
-                break
-            if there is None or len(there.charges) <= len(self.charges):
-                continue
-            known = [c.charge.xreplace({parameter: value}) for c in self.charges]
-            variables = (system.t, *system.q, *system.qdot)
-            charges = new_charges(known, there.charges, variables, allowed)
-            if charges:
-                found.append(SpecialCase(parameter, value, len(there.charges), charges))
-        return tuple(found)
-
-    def _at(self, parameter: Symbol, value: Expr) -> Discovery | None:
-        """The same search with a value in place of a parameter."""
-        from lagcli.mechanics.derivation import Derivation
-
-        problem = problem_at(self.system.problem, parameter, value)
-        try:
-            return None if problem is None else Derivation(problem).discovery
-        except (ProblemError, ZeroDivisionError):
-            return None
+        return special_cases(self)
 
     @cached_property
     def _naming(self) -> Naming:
-        return Naming(self.system.t, self.system.q, self._kinds)
+        return Naming(self.system.t, self.system.q, self.coordinate_kinds)
 
     def _add(self, *charges: NoetherCharge) -> None:
         """Name them, and sort all point symmetries anew."""
@@ -296,7 +260,7 @@ class Discovery:
     def _on_surface(self) -> None:
         """Momenta along admissible displacements, then integrals that hold on the surface."""
         times = time_functions(self.equations, self._constrained_motion, potential=self.canonical)
-        search = UnderConstraints(self.noether, self._kinds, times, self.allowed)
+        search = UnderConstraints(self.noether, self.coordinate_kinds, times, self.allowed)
         integrated = search.integrated()
         kept = search.new([], [c for _, c in self._found])
         self._found = [pair for pair in self._found if pair[1] in kept]
@@ -340,7 +304,7 @@ class Discovery:
         return None if motion is None else motion.accelerations
 
     def _hidden(self) -> None:
-        if len(self.system.q) < 2 or not self._quadratic or not self.canonical:
+        if len(self.system.q) < 2 or not self.quadratic_mass or not self.canonical:
             return
         if len(self.system.q) > _MOST_FOR_TENSORS:
             self.words.append("no integrals of second degree, for so many coordinates")
@@ -350,15 +314,17 @@ class Discovery:
                 "first integrals of second degree in the velocities without explicit time, "
                 "coefficients up to second degree in the coordinates"
             )
-            integrals = QuadraticIntegrals(self.noether, self.equations, self._kinds, self.allowed)
+            integrals = QuadraticIntegrals(
+                self.noether, self.equations, self.coordinate_kinds, self.allowed
+            )
             if not integrals.functions:
                 self.stopped.append("there are too many coordinates for the second degree")
                 return
             self._keep_hidden(integrals)
-        if TimedIntegrals.applies(self.equations, self._kinds, self.point_charges):
-            functions = time_functions(self.equations, self._accelerations, potential=True)
+        if TimedIntegrals.applies(self.equations, self.coordinate_kinds, self.point_charges):
+            functions = time_functions(self.equations, self.accelerations, potential=True)
             timed = TimedIntegrals(
-                self.noether, self.equations, self._kinds, functions, self.allowed
+                self.noether, self.equations, self.coordinate_kinds, functions, self.allowed
             )
             if timed.functions:
                 self.words.append("and with the same functions of time as coefficients")
@@ -366,7 +332,7 @@ class Discovery:
 
     def _keep_hidden(self, integrals: QuadraticIntegrals) -> None:
         """Add what is found, with names."""
-        naming = HiddenNames(self.system, self.equations, self._kinds)
+        naming = HiddenNames(self.system, self.equations, self.coordinate_kinds)
         found = integrals.found(self.charges)
         named = [(*naming.of(functions, charge), charge) for functions, charge in found]
         named.sort(key=lambda each: (not each[0], each[0]))
@@ -388,11 +354,11 @@ class Discovery:
     def _sentence(self, times: TimeFunctions, spaces: Sequence[Expr]) -> str:
         what = "point transformations" if self.canonical else "integrating factors"
         shapes = []
-        if any(set(s.free_symbols) & set(self._kinds.lengths) for s in spaces) or (
-            not self._kinds.angles
+        if any(set(s.free_symbols) & set(self.coordinate_kinds.lengths) for s in spaces) or (
+            not self.coordinate_kinds.angles
         ):
             shapes.append("affine in the coordinates")
-        if self._kinds.angles and len(spaces) > 1 + len(self._kinds.lengths):
+        if self.coordinate_kinds.angles and len(spaces) > 1 + len(self.coordinate_kinds.lengths):
             shapes.append("with sines and cosines of the angles")
         powers = "polynomial in t to second degree"
         timed = " and with the exponents of the linear part" if times.exponents else ""

@@ -10,6 +10,7 @@ from flint import nmod_mat
 from sympy import Expr, Rational
 
 from lagcli.algebra import nullspace, simplify
+from lagcli.algebra.effort import EFFORT
 from lagcli.algebra.ring import Poly
 from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, small_fraction
 
@@ -81,6 +82,7 @@ class ExactSolver:
                     for g, power in zip(chosen, powers, strict=True):
                         value = value * pow(self.points.constants[g], -power, PRIME) % PRIME
                         expression *= self.field.generators[g].expression ** power
+                    EFFORT.done += 300
                     yield value, expression
 
     # -- by elimination -------------------------------------------------------------------
@@ -93,7 +95,7 @@ class ExactSolver:
         rows: list[list[Poly]] = []
         rank = 0
         for entries in zip(*columns, strict=True):
-            for row in self._collected(entries):
+            for row in self.collected(entries):
                 values = [[self.points.constant_value(x) for x in each] for each in (*rows, row)]
                 if nmod_mat(values, PRIME).rank() > rank:
                     rows.append(row)
@@ -106,7 +108,7 @@ class ExactSolver:
         kernel = nullspace(matrix) if matrix else [[sympy.S.One]]
         return [simplify(x) for x in kernel[0]] if len(kernel) == 1 else None
 
-    def _collected(self, entries: Sequence[Expr]) -> list[list[Poly]]:
+    def collected(self, entries: Sequence[Expr]) -> list[list[Poly]]:
         """sum c_a entry_a = 0 as one row of constants for each monomial in t, q, q'."""
         field, ring = self.field, self.field.ring
         elements = [field(e) for e in entries]

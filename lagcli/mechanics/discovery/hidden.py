@@ -70,19 +70,8 @@ class QuadraticIntegrals:
 
     def found(self, known: Sequence[NoetherCharge]) -> list[tuple[Slots, NoetherCharge]]:
         """The integrals that are no combinations of products of the known ones."""
-        first, second = len(self.pairs), len(self.pairs) + len(self.linear)
-        unknowns = quadratic_unknowns(
-            range(first), range(first, second), self.functions, self.times
-        )
         products = self._products(known)
-        vectors = [slot.vector for slot in (*self.pairs, *self.linear)]
-        search = Search(
-            self.equations,
-            [*self.pairs, *self.linear],
-            unknowns,
-            self.allowed,
-            more=[e for v in (*vectors, *products) for e in v],
-        )
+        search = self.search(products)
         kernel = search.kernel()
         kernel.reverse()  # the simplest first
         new = self._independent(search, products, kernel)
@@ -93,6 +82,17 @@ class QuadraticIntegrals:
             if charge is not None:
                 charges.append((functions, charge))
         return charges
+
+    def search(self, products: Sequence[tuple[Expr, ...]]) -> Search:
+        """The linear system, in a field where the products are known."""
+        first, second = len(self.pairs), len(self.pairs) + len(self.linear)
+        unknowns = quadratic_unknowns(
+            range(first), range(first, second), self.functions, self.times
+        )
+        slots = [*self.pairs, *self.linear]
+        vectors = [slot.vector for slot in slots]
+        more = [e for v in (*vectors, *products) for e in v]
+        return Search(self.equations, slots, unknowns, self.allowed, more)
 
     def _products(self, known: Sequence[NoetherCharge]) -> list[tuple[Expr, ...]]:
         """The multipliers of the known integrals and of products of those of first degree."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from lagcli.algebra.effort import EFFORT, Work
 
 #: Units of work for the whole of a discovery: what is not done by then is left out, and said so.
-UNITS = 12_000_000
+UNITS = 16_000_000
 #: Unknowns of one linear system.
 MOST_UNKNOWNS = 1200
 

@@ -195,7 +195,7 @@ class Search:
             indices = sorted(vector)
             values = exact.recognized([vector[i] for i in indices])
             if values is None:
-                values = exact.solved([self._column(i) for i in indices])
+                values = exact.solved([self.formulas(i) for i in indices])
             if values is None:
                 self.unsolved += 1
                 continue
@@ -210,7 +210,7 @@ class Search:
             )
         return found
 
-    def _column(self, index: int) -> list[Expr]:
+    def formulas(self, index: int) -> list[Expr]:
         """The conditions for one unknown as formulas."""
         unknown = self.unknowns[index]
         f, D = unknown.function, self.equations.convected

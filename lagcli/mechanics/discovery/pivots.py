@@ -1,0 +1,167 @@
+"""Values of the parameters at which a linear system has more solutions than elsewhere.
+
+The conditions on the unknown coefficients, one for each monomial in t, q and q', are reduced
+exactly over the ring of the parameters.  Pivots that are numbers, or never 0, come first.
+The rank can fall only where another pivot vanishes, or a factor that was common to a row;
+whether it does at a root of such a factor is seen modulo a prime, at a random point of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from flint import nmod_mat
+from sympy import Expr
+
+from lagcli.algebra.effort import EFFORT
+from lagcli.algebra.ring import Poly, factorization
+from lagcli.algebra.signs import sign
+from lagcli.mechanics.discovery.exact import ExactSolver
+from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.modular import PRIME
+from lagcli.mechanics.discovery.search import Search
+
+_MOST_TERMS = 80
+
+Row = dict[int, Poly]
+
+
+class Pivots:
+    """The special factors of one search.
+
+    Parameters
+    ----------
+    search
+        Its conditions are taken as they are, for all its unknowns.
+    allowed
+        Raises TooMuchWork.
+    """
+
+    def __init__(self, search: Search, allowed: Allowance) -> None:
+        self.exact = ExactSolver(search.points)
+        self.field = search.points.field
+        self.ring = self.field.ring
+        self.allowed = allowed
+        columns = [search.formulas(i) for i in range(len(search.unknowns))]
+        self.rows = list(self._rows(columns))
+        self.width = len(columns)
+
+    def factors(self) -> list[Expr]:
+        """Irreducible polynomials in the parameters at whose roots the rank is lower."""
+        return [
+            self.field.polynomial_to_sympy(factor)
+            for factor in self._candidates()
+            if self._lowers_the_rank(factor)
+        ]
+
+    def _rows(self, columns: Sequence[Sequence[Expr]]) -> Iterator[Row]:
+        seen = set()
+        for entries in zip(*columns, strict=True):
+            self.allowed.check()
+            for row in self.exact.collected(entries):
+                sparse = {k: x for k, x in enumerate(row) if x != 0}
+                key = tuple((k, str(x)) for k, x in sparse.items())
+                if sparse and key not in seen:
+                    seen.add(key)
+                    yield sparse
+
+    # -- elimination --------------------------------------------------------------------------
+
+    def _candidates(self) -> list[Poly]:
+        found: dict[str, Poly] = {}
+        rows = [self._without_content(row, found) for row in self.rows]
+        best = [self._best(row) for row in rows]
+        while rows:
+            self.allowed.spend(len(rows))
+            index = min(range(len(rows)), key=best.__getitem__)
+            column = best.pop(index)[-1]
+            pivot_row = rows.pop(index)
+            if len(pivot_row[column]) > _MOST_TERMS:
+                break
+            self._note(pivot_row[column], found)
+            for k in [k for k, row in enumerate(rows) if column in row]:
+                rows[k] = self._without_content(self._eliminated(rows[k], pivot_row, column), found)
+                best[k] = self._best(rows[k])
+            kept = [k for k, row in enumerate(rows) if row]
+            rows, best = [rows[k] for k in kept], [best[k] for k in kept]
+        return sorted(found.values(), key=lambda f: (len(f), str(f)))
+
+    def _best(self, row: Row) -> tuple[int, int, int, int]:
+        """The cost of the cheapest pivot of a row, and its column: numbers, then short ones."""
+        self.allowed.spend(3 * len(row))
+        return (
+            min(
+                (0 if x.is_constant() else 1, len(x), len(row), column) for column, x in row.items()
+            )
+            if row
+            else (2, 0, 0, -1)
+        )
+
+    def _eliminated(self, row: Row, pivot_row: Row, column: int) -> Row:
+        a, b = pivot_row[column], row[column]
+        common = a.gcd(b)
+        a, b = a / common, b / common
+        result = {k: a * x for k, x in row.items() if k != column}
+        for k, x in pivot_row.items():
+            if k == column:
+                continue
+            EFFORT.done += 5 + len(b) * len(x)
+            value = result[k] - b * x if k in result else -(b * x)
+            value = self.ring.reduce(value)
+            if value == 0:
+                result.pop(k, None)
+            else:
+                result[k] = value
+        return result
+
+    def _without_content(self, row: Row, found: dict[str, Poly]) -> Row:
+        common = self.ring.zero
+        for x in row.values():
+            EFFORT.done += 5 + len(x) * 4
+            common = common.gcd(x) if common != 0 else x
+            if common == 1:
+                return row
+        if common != 0 and not common.is_constant():
+            self._note(common, found)
+        return row if common == 0 else {k: x / common for k, x in row.items()}
+
+    def _note(self, poly: Poly, found: dict[str, Poly]) -> None:
+        """Remember the factors that may vanish."""
+        if poly.is_constant():
+            return
+        for factor, _ in factorization(poly)[1]:
+            if str(factor) not in found and self._may_vanish(factor):
+                found[str(factor)] = factor
+
+    def _may_vanish(self, factor: Poly) -> bool:
+        expression = self.field.polynomial_to_sympy(factor)
+        return bool(expression.free_symbols) and sign(expression) not in (1, -1)
+
+    # -- modulo a prime -----------------------------------------------------------------------
+
+    def _lowers_the_rank(self, factor: Poly) -> bool:
+        values = dict(self.exact.points.constants)
+        for g in self.ring.used(factor):
+            parts = self.ring.coefficients(factor, g)
+            if max(parts) == 1 and self.field.generators[g].kind == "symbol":
+                slope, rest = (self._value(parts.get(k, self.ring.zero), values) for k in (1, 0))
+                if slope:
+                    values[g] = -rest * pow(slope, -1, PRIME) % PRIME
+                    return self._rank(values) < self._rank(self.exact.points.constants)
+        return True  # seen when the search is made anew
+
+    def _value(self, poly: Poly, values: dict[int, int]) -> int:
+        total = 0
+        for monomial, coefficient in self.ring.terms(poly):
+            for g, exponent in monomial:
+                coefficient = coefficient * pow(values[g], exponent, PRIME) % PRIME
+            total += coefficient
+        return total % PRIME
+
+    def _rank(self, values: dict[int, int]) -> int:
+        matrix = [[0] * self.width for _ in self.rows]
+        for dense, row in zip(matrix, self.rows, strict=True):
+            for k, x in row.items():
+                dense[k] = self._value(x, values)
+        self.allowed.spend(len(matrix) * self.width**2 // 700)
+        return int(nmod_mat(matrix, PRIME).rank())

@@ -1,0 +1,123 @@
+"""The search for special values of the parameters, and the whole search again at each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.diagnostics import ProblemError
+from lagcli.mechanics.discovery.ansatz import (
+    TimeFunctions,
+    affine,
+    point_unknowns,
+    time_functions,
+)
+from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
+from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
+from lagcli.mechanics.discovery.modular import NoPoint
+from lagcli.mechanics.discovery.pivots import Pivots
+from lagcli.mechanics.discovery.search import Search
+from lagcli.mechanics.discovery.slots import point_slots
+from lagcli.mechanics.discovery.special import SpecialCase, candidates, new_charges, problem_at
+from lagcli.mechanics.discovery.spectrum import Exponent
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.discovery.discovery import Discovery
+
+_MOST_COORDINATES = 3
+_UNITS = 10_000_000
+_FOR_PIVOTS = 0.4  # of these
+_MOST_UNKNOWNS = 150
+_NOT_ALL = "not all special values of the parameters were sought"
+
+
+def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
+    """One parameter at a time."""
+    system = discovery.system
+    few = 0 < len(system.q) <= _MOST_COORDINATES
+    if discovery.dynamics.constraints.equations or not few or not system.parameters:
+        return ()
+    allowed = Allowance(_UNITS)
+    exponents = _exponents(discovery)
+    found: list[SpecialCase] = []
+    try:
+        factors = list(dict.fromkeys(_factors(discovery, allowed)))
+        for parameter, value in candidates(system, factors, exponents):
+            there = _at(discovery, parameter, value)
+            allowed.check()
+            if there is None or len(there.charges) <= len(discovery.charges):
+                continue
+            known = [c.charge.xreplace({parameter: value}) for c in discovery.charges]
+            variables = (system.t, *system.q, *system.qdot)
+            charges = new_charges(known, there.charges, variables, allowed)
+            if charges:
+                found.append(SpecialCase(parameter, value, len(there.charges), charges))
+    except TooMuchWork:
+        discovery.words.append("not all special values of the parameters were tried")
+    return tuple(found)
+
+
+def _exponents(discovery: Discovery) -> tuple[Exponent, ...]:
+    """Those of the linear part, where any charge has such a function of time."""
+    t = discovery.system.t
+    timed = any(
+        t in f.free_symbols
+        for c in discovery.charges
+        for f in c.charge.atoms(sympy.sin, sympy.cos, sympy.exp)
+    )
+    if not timed:
+        return ()
+    accelerations, canonical = discovery.accelerations, discovery.canonical
+    return time_functions(discovery.equations, accelerations, potential=canonical).exponents
+
+
+def _at(discovery: Discovery, parameter: Symbol, value: Expr) -> Discovery | None:
+    """The same search with a value in place of a parameter."""
+    from lagcli.mechanics.derivation import Derivation
+
+    problem = problem_at(discovery.system.problem, parameter, value)
+    try:
+        return None if problem is None else Derivation(problem).discovery
+    except (ProblemError, ZeroDivisionError):
+        return None
+
+
+def _factors(discovery: Discovery, allowed: Allowance) -> Iterator[Expr]:
+    """Of the search for point symmetries, and of that for integrals of second degree."""
+    part = allowed.part(_FOR_PIVOTS)
+    try:
+        for search in _searches(discovery, part):
+            if search is None:
+                discovery.words.append(_NOT_ALL)
+            else:
+                yield from Pivots(search, part).factors()
+    except (NoPoint, TooMuchWork, ZeroDivisionError):
+        discovery.words.append(_NOT_ALL)
+
+
+def _searches(discovery: Discovery, allowed: Allowance) -> Iterator[Search | None]:
+    """With powers of t alone: other functions of time depend on the parameters themselves.
+
+    None for one with too many unknowns.
+    """
+    equations, found = discovery.equations, discovery.coordinate_kinds
+    t = equations.t
+    powers = (sympy.S.One, t, t**2)
+    slots = point_slots(equations)
+    unknowns = point_unknowns(
+        slots,
+        TimeFunctions(powers, powers, ()),
+        affine(found),
+        time_with_space=not discovery.quadratic_mass,
+    )
+    few = len(unknowns) <= _MOST_UNKNOWNS
+    yield Search(equations, slots, unknowns, allowed) if few else None
+    if len(equations.q) < 2 or not discovery.quadratic_mass or not discovery.canonical:
+        return
+    integrals = QuadraticIntegrals(discovery.noether, equations, found, allowed)
+    size = len(integrals.functions) * (len(integrals.pairs) + len(integrals.linear))
+    if size and t not in discovery.equations_symbols:
+        yield integrals.search(()) if size <= _MOST_UNKNOWNS else None
