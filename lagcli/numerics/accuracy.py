@@ -220,7 +220,16 @@ class Controller:
         closer = self._compared(coarse, rows, again, fine_rows, found.tolerances)
         if closer.good_rows < good:
             return found
-        return replace(closer, reached=False, reason=found.reason or closer.reason)
+        # beyond these there is the end alone: what lies between was not within the accuracy
+        looked_at = sum(mark.t <= min(ends) for mark in again.marks)
+        errors = [max(pair) for pair in zip(found.errors, closer.errors, strict=True)]
+        return replace(
+            closer,
+            errors=errors,
+            good_rows=min(closer.good_rows, looked_at),
+            reached=False,
+            reason=found.reason or closer.reason,
+        )
 
     def _missed(self, fine: Run, rows: list[list[Any]]) -> str:
         """What both runs may have stepped over."""
