@@ -22,7 +22,7 @@ from lagcli.stack import with_deep_stack
 _FORKS = sys.platform == "linux"
 _PROCESSES = multiprocessing.get_context("fork") if _FORKS else multiprocessing.get_context("spawn")
 #: Wall time for each second of processor time, before a process is ended.
-_PATIENCE = 4.0
+_PATIENCE = 10.0
 
 Task = tuple[str, tuple[Any, ...]]
 

@@ -38,6 +38,9 @@ _SHARE = 100.0  # the first tolerance is A / 100
 _PROBES = 1000
 #: A defect that a step would turn into an error of so many A is a feature stepped over.
 _DEFECT = 3.0
+#: So many differences of two runs bound the error; where the finer one meets rounding, which
+#: both share in part, the difference says less.
+_USUAL, _ROUNDED = 2.0, 20.0
 _CHARGES = 10.0
 LONGEST = (200.0, 2000.0, 20000.0)  # parts of the span
 #: An error larger than this says little of the tolerance that is needed.
@@ -135,6 +138,10 @@ class Controller:
             else:
                 coarse, rows = self._run(tolerance, level, fine)
 
+    def factor(self, tolerance: float) -> float:
+        """Times the difference of two runs that bounds the error, by the finer tolerance."""
+        return _USUAL if tolerance > self.finest else _ROUNDED
+
     def _tightened(self, tolerance: float, finer: float, bound: float) -> float:
         """The coarser tolerance of the next pair: the global error is in proportion to it."""
         if not 0 < bound <= _SATURATED:
@@ -160,30 +167,31 @@ class Controller:
         fine_rows: list[list[Any]],
         tolerances: tuple[float, float],
     ) -> Outcome:
-        """The doubled difference of two runs, column by column and row by row."""
-        accuracy = self.accuracy
+        """The difference of two runs, doubled at least, column by column and row by row."""
         scales = [
             max(1.0, *(abs(float(row[j])) for row in fine_rows if row[j] is not None), 1.0)
             for j in range(len(fine_rows[0]) - self.charges)
         ]
-        errors, held = [0.0] * len(scales), [0.0] * len(scales)
-        good = 0
+        factor = self.factor(tolerances[1])
+        differences: list[list[float]] = []
         partner = Partners(coarse, fine)
-        for place, (mark, fine_row) in enumerate(zip(fine.marks, fine_rows, strict=True)):
+        for mark, fine_row in zip(fine.marks, fine_rows, strict=True):
             other = partner(mark)
             if other is None:
                 break
-            now = [
-                0.0 if a is None or b is None else 2 * abs(float(a - b)) / scale
-                for a, b, scale in zip(rows[other], fine_row, scales, strict=False)  # no charges
-            ]
             late = 0.0
             if mark.sample < 0:
                 late = 2 * abs(coarse.marks[other].t - mark.t) / max(1.0, self.span)
-            if good == place and max(*now, late) <= accuracy:
-                good += 1
-                held = [max(pair) for pair in zip(held, now, strict=True)]
-            errors = [max(pair) for pair in zip(errors, now, strict=True)]
+            now = [
+                0.0 if a is None or b is None else factor * abs(float(a - b))
+                for a, b, _ in zip(rows[other], fine_row, scales, strict=False)  # no charges
+            ]
+            differences.append([*now, late])
+        errors = [
+            max(column, default=0.0) / scale
+            for *column, scale in zip(*differences, [*scales, 1.0], strict=True)
+        ][:-1]
+        good, held = self._held(differences, fine_rows, scales)
         same_end = (coarse.event is None) == (fine.event is None) and partner.agree
         reached = good == len(fine_rows) and same_end and fine.stop is None
         reason = "" if reached else _why(coarse, fine, good, partner)
@@ -201,6 +209,34 @@ class Controller:
             tolerances,
             self,
         )
+
+    def _held(
+        self, differences: list[list[float]], rows: list[list[Any]], scales: list[float]
+    ) -> tuple[int, list[float]]:
+        """How many rows are within the accuracy, and the error of each column over these.
+
+        Where not all are, the peak of a column is that of the rows that are left.
+        """
+        accuracy, count = self.accuracy, len(scales)
+
+        def within(place: int, peaks: list[float]) -> bool:
+            now = zip(differences[place], [*peaks, 1.0], strict=True)
+            return all(x <= accuracy * peak for x, peak in now)
+
+        if len(differences) == len(rows) and all(within(k, scales) for k in range(len(rows))):
+            good, peaks = len(rows), scales
+        else:
+            good, peaks = 0, [1.0] * count
+            for place in range(len(differences)):
+                ahead = [
+                    max(peak, abs(float(x))) if x is not None else peak
+                    for peak, x in zip(peaks, rows[place], strict=False)
+                ]
+                if not within(place, ahead):
+                    break
+                good, peaks = place + 1, ahead
+        kept = differences[:good]
+        return good, [max((row[j] for row in kept), default=0.0) / peaks[j] for j in range(count)]
 
     def refined(self, found: Outcome, between: Callable[[float, float], None]) -> Outcome:
         """The same pair of runs, compared more closely where the accuracy is lost.

@@ -102,8 +102,10 @@ def _without_time(row: dict[str, float | None]) -> dict[str, float | None]:
 
 def _estimated_by(outcome: Outcome) -> str:
     coarse, fine = outcome.tolerances
+    factor = outcome.controller.factor(fine)
+    times = "twice" if factor == 2 else f"{factor:g} times"
     return (
-        f"twice the difference of two runs with local tolerances {coarse:.0e} and {fine:.0e}; "
+        f"{times} the difference of two runs with local tolerances {coarse:.0e} and {fine:.0e}; "
         "the finer one is shown (a cross-check, no proof)"
     )
 

@@ -12,6 +12,7 @@ from lagcli.graph.nodes import Node
 from lagcli.numerics.accuracy import Outcome
 from lagcli.numerics.arithmetic import Doubles
 from lagcli.numerics.asked import Asked, Result
+from lagcli.numerics.branches import on_one_branch
 from lagcli.numerics.certificate import result_of
 from lagcli.numerics.columns import Column, Reading
 from lagcli.numerics.constants import constants_of
@@ -175,21 +176,23 @@ class Simulation:
         outcome: Outcome | None = None
         digits: Precision = nullcontext
         if self.asked.method == "auto" and decay(self, modes) > STIFFNESS:
-            found, digits = self._first_possible(STIFF, modes)
+            found, digits = self.attempt(STIFF, modes)
             if found and found.reached:
+                found, digits = on_one_branch(self, modes, found, digits)
                 return result_of(self, modes.first.motion, found)
         for group in self._groups():
             if outcome is None or self._beyond(outcome):
-                found, with_digits = self._first_possible(group, modes)
+                found, with_digits = self.attempt(group, modes)
                 if found and (outcome is None or found.good_rows >= outcome.good_rows):
                     outcome, digits = found, with_digits
         if outcome is None:
-            outcome, digits = self._first_possible(("dop853",), modes)
+            outcome, digits = self.attempt(("dop853",), modes)
         if outcome is None:
             raise Refusal(f"no method for this problem{self.remark}", mistake=False)
         if not outcome.reached:
             with digits(), suppress(NotPossible):
                 outcome = outcome.controller.refined(outcome, self._between)
+        outcome, digits = on_one_branch(self, modes, outcome, digits)
         return result_of(self, modes.first.motion, outcome)
 
     def ready(self) -> tuple[Simulation, Modes]:
@@ -220,9 +223,7 @@ class Simulation:
             return ((self.asked.method,),)
         return AUTO[1:] if self.asked.accuracy < _LEAST_DOUBLE else AUTO
 
-    def _first_possible(
-        self, group: Sequence[str], modes: Modes
-    ) -> tuple[Outcome | None, Precision]:
+    def attempt(self, group: Sequence[str], modes: Modes) -> tuple[Outcome | None, Precision]:
         """What the first method gives that is possible, and its digits; why others are not."""
         remark = ""
         for name in group:

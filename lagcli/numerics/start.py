@@ -72,7 +72,13 @@ def refined_state(
     *,
     anew: bool,
 ) -> tuple[list[Any], list[Any]]:
-    """The same state in the numbers of another motion, what the file gives worked out anew."""
+    """The same state in the numbers of another motion, what the file gives worked out anew.
+
+    Raises
+    ------
+    Refusal
+        Where balls cannot solve the constraints.
+    """
     equations, number = motion.equations, motion.arithmetic.number
     given = given_values(motion) if anew else {}
 
@@ -86,6 +92,9 @@ def refined_state(
     surface.measure(0.0, q, v)
     for _ in range(3):
         q, v = surface.project(0.0, q, v)
+    if not all(x.is_finite() for x in (*q, *v)):
+        message = "the constraints are dependent at the initial state: only doubles tell which"
+        raise Refusal(message, mistake=False)
     return q, v
 
 
