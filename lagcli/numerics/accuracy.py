@@ -30,6 +30,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from lagcli.numerics.run import Mark, Run
+from lagcli.numerics.steps import SINGULAR_MASS
 from lagcli.record import record, replace
 
 #: The runs' tolerances lie this far apart.
@@ -309,6 +310,7 @@ def _both_stop(coarse: Run, fine: Run, good: int, accuracy: float) -> bool:
     if coarse.stop is None or fine.stop is None:
         return False
     together = abs(coarse.stop.t - fine.stop.t) <= accuracy * max(1.0, fine.stop.t)
+    together = together or coarse.stop.reason == fine.stop.reason == SINGULAR_MASS
     return together and good >= min(len(coarse.marks), len(fine.marks))
 
 

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from lagcli.numerics.simulate import Simulation
 
 _MORE_DIGITS = "taylor"
+#: Rows after those that are good which are looked at: there the accuracy may have been lost.
+_BEYOND = 2
 
 
 def on_one_branch(
@@ -55,20 +57,21 @@ def on_one_branch(
     if found is not None:
         if found.good_rows >= outcome.good_rows and _agree(outcome, found):
             return outcome, digits
-        if found.good_rows > place + 1:
+        if found.good_rows > min(place + 1, outcome.good_rows):
             return found, with_digits
+    if place + 1 >= outcome.good_rows:
+        return outcome, digits
     reason = (
         f"the constraints become dependent after t = {outcome.run.marks[place].t:.6g}, and on "
         "which branch it goes on is within rounding"
     )
-    good = min(place + 1, outcome.good_rows)
-    return replace(outcome, reached=False, good_rows=good, reason=reason), digits
+    return replace(outcome, reached=False, good_rows=place + 1, reason=reason), digits
 
 
 def meeting(outcome: Outcome) -> int | None:
     """The row before the first place at which the constraints become dependent."""
     run = outcome.run
-    marks = run.marks[: outcome.good_rows]
+    marks = run.marks[: outcome.good_rows + _BEYOND]
     for number, phase in enumerate(run.phases):
         places = [k for k, mark in enumerate(marks) if mark.phase == number]
         if phase.surface is None or len(places) < 3:

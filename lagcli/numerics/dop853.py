@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 from lagcli.numerics.kinks import Kinks
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import told
-from lagcli.numerics.steps import CannotGoOn, Method, Step, Tolerance
+from lagcli.numerics.steps import SINGULAR_MASS, CannotGoOn, Method, Step, Tolerance
 from lagcli.numerics.straight_line import run_generated
 from lagcli.numerics.surface import Surface
 from lagcli.numerics.tableau_853 import DENSE, ERROR_3, ERROR_5, NODES, STAGES, Row
@@ -36,6 +36,9 @@ _LAST = 16
 _SAFETY, _SHRINK, _GROW = 0.9, 0.2, 6.0
 #: A step may be as short as this part of the time that has passed (or of the span).
 _SHORTEST = 4e-16
+#: So many steps that cover less than this part of the span are looked at: where a pivot of the
+#: mass matrix has lost so much they are steps of its rounding.
+_CRAWLS, _NOWHERE, _SINGULAR = 128, 1e-4, 1e-8
 
 
 class Dop853:
@@ -87,7 +90,13 @@ class Dop853:
         h = self._first(q, v, rate, until - begin, tolerance)
         lost = [0.0] * (2 * n)  # what rounding takes from the sums (Kahan)
         grow = _GROW
+        attempts, since = 0, t
         while t < until:
+            attempts += 1
+            if attempts % _CRAWLS == 0:
+                if t - since < _NOWHERE * until and motion.least_pivot(t, *q, *v) < _SINGULAR:
+                    raise CannotGoOn(t, q, v, SINGULAR_MASS)
+                since = t
             last = t + 1.01 * h >= until
             h = until - t if last else h
             reason = ""

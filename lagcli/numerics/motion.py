@@ -158,6 +158,20 @@ class Motion:
         )
 
     @cached_property
+    def least_pivot(self) -> Callable[..., float]:
+        """The smallest pivot of the mass matrix beside its entry; 1 where nothing is eliminated."""
+        factored = self.equations.factored
+        pairs = [] if factored is None else [p for p in factored.pivots if p[0] is not p[1]]
+        at = self.function([node for pair in pairs for node in pair])
+
+        def least(*state: float) -> float:
+            values = at(*state)
+            ratios = zip(values[::2], values[1::2], strict=True)
+            return min((abs(pivot / entry) if entry else 0.0 for pivot, entry in ratios), default=1)
+
+        return least
+
+    @cached_property
     def kink_arguments(self) -> Function:
         """What stands in abs and sign in the equations of motion."""
         return self.function(self.kinks)

@@ -14,6 +14,13 @@ _FAILURES = 20
 _LEAST_FLOOR, _ROUNDING = 1e-6, 1e-16
 
 
+#: Why steps become shorter and shorter where the coordinates fail.
+SINGULAR_MASS = (
+    "it comes to where the mass matrix is singular, as with Euler angles upright: "
+    "take other coordinates there"
+)
+
+
 class Step(NamedTuple):
     """From `start` over h to `end`; q and v are the state at the end.
 

@@ -31,7 +31,7 @@ _LOWEST = 8
 _LOOKED_AT = 4  # coefficients, for the length of the step
 _SAFETY = 0.9
 _FIRST = 1e-3  # of the longest step
-_SHORTEST = 4e-16
+_SHORTEST = 2.0**20  # of the numbers' rounding, as a part of the time
 
 
 class Taylor:
@@ -77,24 +77,27 @@ class Taylor:
         CannotGoOn
             Where the series has no radius of convergence left.
         """
-        t, order = begin, order_for(tolerance.value)
-        while t < until:
+        ball = self._ball
+        t, last, order = ball(begin), ball(until), order_for(tolerance.value)
+        shortest = _SHORTEST * 2.0**-self._context.prec
+        while t < last:
+            start = float(t)
             series = self._coefficients(t, q, v, order)
-            self._see(series, tolerance)
+            self._see(series, tolerance, first=start == begin)
             h = min(self._length(series, tolerance), tolerance.longest)
-            if not h > _SHORTEST * max(t, 1e-3 * until):
-                raise CannotGoOn(t, q, v, "")
-            end = until if t + 1.01 * h >= until else t + h
-            inside = self._inside(t, series)
-            q, v, _ = inside(end)
+            if not h > shortest * max(start, 1e-3 * until):
+                raise CannotGoOn(start, q, v, "")
+            end = last if t + 1.01 * h >= last else (t + h).mid()
+            q, v, _ = self._at(end - t, series)
+            inside = self._inside(t, end, series)
             if self.surface is not None:
                 q, v = self.surface.project(end, q, v)
             q, v = [x.mid() for x in q], [x.mid() for x in v]
-            yield Step(t, end - t, end, q, v, inside)
+            yield Step(start, h, float(end), q, v, inside)
             t = end
 
     def _coefficients(
-        self, t: float, q: Sequence[Any], v: Sequence[Any], order: int
+        self, t: Any, q: Sequence[Any], v: Sequence[Any], order: int
     ) -> list[list[Any]]:
         """The series of each coordinate up to the order."""
         series, context = self._series, self._context
@@ -109,58 +112,68 @@ class Taylor:
                 try:
                     found = self.motion.accelerations(series([t, 1]), *places, *rates)
                 except (ZeroDivisionError, ValueError):
-                    raise CannotGoOn(t, q, v, "something is divided by 0") from None
+                    raise CannotGoOn(float(t), q, v, "something is divided by 0") from None
                 self.evaluations += 1
                 for c, a in zip(x, found, strict=True):
                     for k in range(len(c) - 2, known):
                         value = a[k] if isinstance(a, series) else a if k == 0 else 0
                         c.append(self._ball(value).mid() / ((k + 1) * (k + 2)))
                     if not c[-1].is_finite():
-                        raise CannotGoOn(t, q, v, "something is not defined")
+                        raise CannotGoOn(float(t), q, v, "something is not defined")
         finally:
             context.cap = usual
         return x
 
-    def _see(self, series: list[list[Any]], tolerance: Tolerance) -> None:
+    def _see(self, series: list[list[Any]], tolerance: Tolerance, *, first: bool) -> None:
         """Tell the scales where it is and, for what begins at 0, where it goes at first."""
-        h = _FIRST * tolerance.longest
+        h = _FIRST * tolerance.longest if first else 0.0
         low = [[float(x) for x in c[:4]] for c in series]
-        change = [c[1] * h + c[2] * h * h for c in low]
-        change += [2 * c[2] * h + 3 * c[3] * h * h for c in low]
+        change = [0.0 if c[0] else c[1] * h + c[2] * h * h for c in low]
+        change += [0.0 if c[1] else 2 * c[2] * h + 3 * c[3] * h * h for c in low]
         tolerance.see([c[0] for c in low], [c[1] for c in low], change)
 
     def _length(self, series: list[list[Any]], tolerance: Tolerance) -> float:
         """The step after which the last terms are the tolerance times the scale."""
-        h, n = math.inf, self.n
+        exponent, n = math.inf, self.n
         for j, c in enumerate(series):
+            place, rate = (math.log2(tolerance.value * tolerance.scales[k]) for k in (j, n + j))
             for k in range(len(c) - _LOOKED_AT, len(c)):
-                size = abs(float(c[k]))
-                if size > 0:
-                    room = tolerance.value * tolerance.scales[j] / size
-                    h = min(h, room ** (1 / k))
-                    room = tolerance.value * tolerance.scales[n + j] / (k * size)
-                    h = min(h, room ** (1 / (k - 1)))
-        return _SAFETY * h
+                size = _log2(c[k])
+                exponent = min(exponent, (place - size) / k, (rate - size - math.log2(k)) / (k - 1))
+        return _SAFETY * math.exp2(exponent)
 
-    def _inside(self, start: float, series: list[list[Any]]) -> Any:
-        """Positions, velocities and accelerations anywhere in the step."""
-        ball = self._ball
+    def _inside(self, start: Any, end: Any, series: list[list[Any]]) -> Any:
+        """Positions, velocities and accelerations anywhere in the step.
+
+        A double between its ends; a step may be shorter than the doubles are apart.
+        """
+        first, last = float(start), float(end)
 
         def at(t: float) -> tuple[list[Any], list[Any], list[Any]]:
-            h = ball(t) - ball(start)
-            q, v, a = [], [], []
-            for c in series:
-                x = u = b = ball(0)
-                for coefficient in reversed(c):
-                    b = b * h + u * 2
-                    u = u * h + x
-                    x = x * h + coefficient
-                q.append(x.mid())
-                v.append(u.mid())
-                a.append(b.mid())
-            return q, v, a
+            exact = start if t <= first else end if t >= last else self._ball(t)
+            return self._at(exact - start, series)
 
         return at
+
+    def _at(self, h: Any, series: list[list[Any]]) -> tuple[list[Any], list[Any], list[Any]]:
+        """Positions, velocities and accelerations a time h after the beginning of a step."""
+        q, v, a = [], [], []
+        for c in series:
+            x = u = b = self._ball(0)
+            for coefficient in reversed(c):
+                b = b * h + u * 2
+                u = u * h + x
+                x = x * h + coefficient
+            q.append(x.mid())
+            v.append(u.mid())
+            a.append(b.mid())
+        return q, v, a
+
+
+def _log2(x: Any) -> float:
+    """The logarithm of the size, which may be no double; -inf for 0."""
+    mantissa, exponent = x.mid().man_exp()
+    return math.log2(abs(int(mantissa))) + int(exponent) if mantissa else -math.inf
 
 
 def order_for(tolerance: float) -> int:

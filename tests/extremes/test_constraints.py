@@ -1,5 +1,9 @@
 """Constraints that are redundant, become dependent, or are lost."""
 
+import json
+import math
+from time import process_time
+
 import mpmath
 import pytest
 from mpmath import mp, mpf
@@ -39,14 +43,44 @@ initial:
 def test_a_four_bar_linkage_through_its_flat_positions(simulate):
     """The parallelogram turns evenly; flat at t = pi - 1 and 2 pi - 1, it could fold there."""
     run = simulate(LINKAGE, 8, accuracy=1e-6, samples=9)
-    held = run.held["holds_until"]
-    if run.status:
-        assert run.err
+    assert run.status == 0
+    assert run.held["holds_until"] == 8
+    assert len(run.rows) == 9
     for row in run.rows:
-        if row["t"] <= held:
-            assert row["x"] == pytest.approx(float(mp.cos(1 + row["t"])), abs=1e-6)
-            assert row["u"] == pytest.approx(float(2 + mp.cos(1 + row["t"])), abs=1e-6)
-    assert held > 2
+        assert row["x"] == pytest.approx(float(mp.cos(1 + row["t"])), abs=1e-6)
+        assert row["u"] == pytest.approx(float(2 + mp.cos(1 + row["t"])), abs=1e-6)
+
+
+SLIDER_CRANK = """
+coordinates: [a, b, x]
+definitions: {u: cos(a) + cos(b)/2, v: sin(a) - sin(b)/2}
+T: a'^2/2 + b'^2/24 + (u'^2 + v'^2)/2 + x'^2/2
+constraints: {stroke: cos(a) + cos(b) = x, height: sin(a) = sin(b)}
+initial: {a: 0.9, b: 0.9, a': %s, b': %s, x: 2*cos(0.9), x': -2*%s*sin(0.9)}
+"""
+
+
+@pytest.mark.parametrize(("rate", "options"), [("1", ["--precision", "30"]), ("1e-3", [])])
+def test_a_slider_crank_with_equal_arms_stays_on_its_branch(simulate, rate, options):
+    """Flat at a = b = pi/2 it could leave its slider in the middle.
+
+    With a = b one freedom is left, of constant T = I a'^2/2, where I = 13/12 + (9 sin(a)^2 +
+    cos(a)^2)/4 + 4 sin(a)^2.
+    """
+    until = 4 / float(rate)
+    run = simulate(SLIDER_CRANK.replace("%s", rate), until, *options, samples=9)
+    assert run.status == 0
+    rows = run.rows
+
+    def inertia(a):
+        return 13 / 12 + (9 * mp.sin(a) ** 2 + mp.cos(a) ** 2) / 4 + 4 * mp.sin(a) ** 2
+
+    first = mp.sqrt(inertia(mpf("0.9"))) * mpf(rate)
+    time = mpmath.quad(lambda a: mp.sqrt(inertia(a)), [mpf("0.9"), 2, 4, rows[-1]["a"]]) / first
+    assert float(time) == pytest.approx(until, rel=1e-8)
+    for row in rows:
+        assert row["b"] == pytest.approx(row["a"], abs=1e-8)
+        assert row["x"] == pytest.approx(2 * math.cos(row["a"]), abs=1e-8)
 
 
 def test_a_double_parallelogram_moves_in_spite_of_gruebler(lagcli, simulate):
@@ -137,6 +171,41 @@ def test_a_free_top_next_to_gimbal_lock(simulate):
     assert run.status == 0
     exact = mp.cos(0.5) ** 2 + mp.sin(0.5) ** 2 * mp.cos(mpf("3e-3"))
     assert run.last["cos(th)"] == pytest.approx(float(exact), abs=1e-8)
+
+
+def test_a_free_top_through_gimbal_lock_is_refused(simulate):
+    """Its axis is vertical at t = pi, where sin(th)^2 is 0: told soon, and what is told is so."""
+    state = "{th: 1, th': 0, ph': 1/(2*cos(1/2)), ps': 2*cos(1/2) - cos(1)/(2*cos(1/2))}"
+    begun = process_time()
+    run = simulate(TOP % ("1/2", 0, state), 4, show="cos(th)", accuracy=1e-8, samples=41)
+    assert process_time() - begun < 10
+    assert run.status == 1
+    assert "the mass matrix is singular, as with Euler angles upright" in run.err
+    assert 3 < run.held["holds_until"] < math.pi
+    for row in run.rows:
+        exact = mp.cos(0.5) ** 2 - mp.sin(0.5) ** 2 * mp.cos(row["t"])
+        assert row["cos(th)"] == pytest.approx(float(exact), abs=1e-8)
+
+
+@pytest.mark.parametrize(("spin", "stable"), [("4 - 1e-6", False), ("4 + 1e-6", True)])
+def test_the_threshold_of_the_sleeping_top(lagcli, spin, stable):
+    """I1 = 1, I3 = 1/2: upright it is stable where I3^2 w^2 > 4 I1 m g l, w > 4."""
+    text = f"""
+coordinates: [ph, th, ps]
+parameters: {{w: {spin}}}
+T: (th'^2 + sin(th)^2*ph'^2)/2 + (ps' + ph'*cos(th))^2/4
+V: cos(th)
+initial: {{th: 1e-5, ph': w/(2*(1 + cos(1e-5))), ps': w - w*cos(1e-5)/(2*(1 + cos(1e-5)))}}
+"""
+    options = ["--until", "4000", "--accuracy", "1e-6", "--samples", "401"]
+    run = lagcli("simulate", text, "-f", "json", "--show", "th*1e5", "--precision", "30", *options)
+    rows = json.loads(run.out)["rows"]
+    assert run.status == 0
+    assert (max(row[1] for row in rows) < 1.01) == stable
+    with mp.workdps(30):  # th'' = (1 - w^2/16) th, less than 1 % from the linear motion
+        square = 1 - (4 + mpf("1e-6") * (1 if stable else -1)) ** 2 / 16
+        exact = mp.re(mp.cosh(4000 * mp.sqrt(mp.mpc(square))))
+    assert rows[-1][1] == pytest.approx(float(exact), rel=0.01)
 
 
 def test_a_top_with_vanishing_inertia(simulate):

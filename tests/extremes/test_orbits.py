@@ -1,8 +1,12 @@
 """Orbits that nearly collide, do collide, or go on for long."""
 
+import math
+
 import mpmath
 import pytest
 from mpmath import mp, mpf
+
+from lagcli.tradeoff.trial import Given, trial
 
 #: From aphelion; the semi-axis is 1, so a period is 2 pi.
 KEPLER = """
@@ -27,6 +31,17 @@ def test_a_nearly_radial_ellipse_after_perihelion(simulate):
     run = simulate(KEPLER % "1 - 1e-3", 5, "--precision", 45, accuracy=1e-10)
     assert run.status == 0
     assert [run.last["x"], run.last["y"]] == pytest.approx([float(x), float(y)], abs=1e-10)
+
+
+@pytest.mark.parametrize("method", ["auto", "taylor"])
+@pytest.mark.parametrize("nearness", ["1e-6", "1e-9"])
+def test_a_nearly_radial_ellipse_with_30_digits(simulate, nearness, method):
+    """At perihelion, t = pi, steps are shorter than doubles near pi are apart."""
+    run = simulate(KEPLER % f"1 - {nearness}", 5, "--precision", 30, "--method", method)
+    assert run.status == 0
+    with mp.workdps(50):
+        x, y = kepler(1 - mpf(nearness), mpf(5))
+    assert [run.last["x"], run.last["y"]] == pytest.approx([float(x), float(y)], abs=1e-9)
 
 
 @pytest.mark.parametrize(("nearness", "reached"), [("1e-6", True), ("1e-9", False)])
@@ -54,6 +69,19 @@ def test_kepler_keeps_its_charges(simulate, periods):
     assert run.last["x"] == pytest.approx(-1.9, abs=2e-9)
     assert run.held["charges"]["energy"]["drift"] <= 1e-12
     assert run.held["charges"]["rotation"]["drift"] <= 1e-12
+
+
+@pytest.mark.long
+def test_a_million_periods():
+    """One run of series at a local tolerance of 1e-16; the drift that is let pass is 1e-12."""
+    text = (KEPLER % "0.9") + "symmetries: {rotation: {x: -y, y: x}}\n"
+    given = Given(
+        name="kepler", text=text, settings=(), until=2e6 * math.pi, samples=11, project=False,
+        method="taylor64", tolerance=1e-16, accuracy=None, limit=1000,
+    )  # fmt: skip
+    found = trial(given)
+    assert "why" not in found
+    assert found["drift"] <= 1e-12
 
 
 def test_the_radial_fall_ends_in_the_centre(simulate):
