@@ -92,8 +92,8 @@ class HamiltonJacobiSection:
 
     `hamiltonian` has p for dS/dq.  `separable` is the verdict of Levi-Civita's test, `obstacle`
     the first pair of coordinates at which it fails.  `equations` are the separated ones (= 0),
-    `derivatives` the W_i' with their positive roots; `constants` are E, the momenta of the
-    cyclic coordinates, and those of separation.
+    `derivatives` the W_i' with their positive roots, `functions` the W_i that are elementary;
+    `constants` are E, the momenta of the cyclic coordinates, and those of separation.
     """
 
     hamiltonian: Expression | None
@@ -103,4 +103,5 @@ class HamiltonJacobiSection:
     constants: tuple[str, ...] = ()
     equations: Mapping[str, Expression] = field(default_factory=dict)
     derivatives: Mapping[str, Expression] | None = None
+    functions: Mapping[str, Expression] = field(default_factory=dict)
     reason: str = ""

@@ -312,6 +312,7 @@ def _hamilton_jacobi(section: HamiltonJacobiSection) -> Object:
         "constants": section.constants,
         "equations": _by_name(section.equations),
         "derivatives": _unless_none(section.derivatives, _by_name),
+        "functions": _by_name(section.functions),
         "reason": section.reason,
     }
 

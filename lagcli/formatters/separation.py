@@ -55,6 +55,8 @@ def _solution(section: HamiltonJacobiSection) -> Iterator[Block]:
         if name in section.equations:
             action += [" + ", Label("W", (name,))]
             rows.append(Row(Label("W", (name,)), Integral(derivative, name)))
+            if name in section.functions:
+                rows.append(Row(Label("W", (name,)), section.functions[name]))
         else:
             action += [" + ", Product((derivative, Name(name)))]
     checked = "each root with either sign; put back into the equation: checked exactly."

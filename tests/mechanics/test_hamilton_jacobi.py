@@ -125,3 +125,28 @@ V: k*r^2/2
     energy = (p["r"] ** 2 + angular / r**2) / (2 * m) + k * r**2 / 2
     assert abs(energy - values["E"]) < 1e-12
     assert symbols("x") not in energy.free_symbols
+
+
+def test_elementary_actions_have_their_derivative_at_numbers():
+    """A field along x, an oscillator, an inverted one: dW/dq by differences against W'."""
+    found, _ = section("""
+coordinates: [x, y, z]
+parameters: {m: POSITIVE, f: POSITIVE, k: POSITIVE}
+T: m*(x'^2 + y'^2 + z'^2)/2
+V: f*x + k*y^2/2 - k*z^2/2
+""")
+    assert set(found.functions) == {"x", "y", "z"}
+    values = {"m": 1.1, "f": 0.3, "k": 0.7, "E": 4.0, "alpha_1": 5.0, "alpha_2": 2.0}
+    values |= {"x": 0.4, "y": 0.6, "z": 0.5}
+    names = {n: symbol(n) for n in values}
+    build = Builder(names, {}, lambda e: Symbol(e.name + "'"))
+    for name in "xyz":
+        W, slope = build(found.functions[name]), build(found.derivatives[name])
+
+        def at(step, formula=W, name=name):
+            given = {**values, name: values[name] + step}
+            return complex(formula.subs({names[n]: v for n, v in given.items()}))
+
+        difference = (at(1e-5) - at(-1e-5)) / 2e-5
+        assert abs(difference - at(0, slope)) < 1e-7
+        assert abs(difference) > 0.1

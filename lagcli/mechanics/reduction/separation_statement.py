@@ -7,11 +7,13 @@ from sympy import Expr
 
 from lagcli.algebra import shape, terms
 from lagcli.algebra.writing import Writer
-from lagcli.expression import Call, Expression, operation_count
+from lagcli.expression import Call, Expression, Name, operation_count
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.reduction.quadrature import closed_form
 from lagcli.mechanics.reduction.separation import Separation
 from lagcli.mechanics.reduction.statement import Missing
 from lagcli.motions import HamiltonJacobiSection
+from lagcli.rewriting import rebuilt
 
 
 def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Missing]:
@@ -45,10 +47,23 @@ def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Miss
                 system.names[j]: writer.derivative(e)
                 for j, e in sorted(separated.derivatives.items())
             },
+            functions=_functions(separation, writer),
             reason=separation.reason,
         ),
         missing,
     )
+
+
+def _functions(separation: Separation, writer: _Writing) -> dict[str, Expression]:
+    """W by coordinate, of those that are not cyclic, where it is elementary."""
+    system, separated = separation.system, separation.separated
+    if separated is None:
+        return {}
+    found = {
+        system.names[j]: closed_form(separated.derivatives[j], system.q[j])
+        for j in sorted(separated.equations)
+    }
+    return {name: writer.with_root(W) for name, W in found.items() if W is not None}
 
 
 class _Writing:
@@ -66,6 +81,21 @@ class _Writing:
         by_terms = terms(expression, self.order, self.leading)
         whole = shape(expression, self.order)
         return whole if operation_count(whole) < operation_count(by_terms) - 2 else by_terms
+
+    def with_root(self, W: Expr) -> Expression:
+        """The root in W written as in its derivative, not shaped again with what it is in."""
+        bases = {p.base for p in W.atoms(sympy.Pow) if p.exp.is_Rational and p.exp.q == 2}
+        longest = max(bases, key=sympy.count_ops, default=None)
+        if longest is None:
+            return shape(W, self.order)
+        R = sympy.Symbol("#R", positive=True)
+        root = self.derivative(sympy.sqrt(longest))
+        plain = W.replace(lambda e: e.is_Pow and e.base == longest, lambda e: R ** (2 * e.exp))
+
+        def put_back(node: Expression) -> Expression:
+            return root if node == Name("#R") else rebuilt(node, put_back)
+
+        return put_back(shape(plain, self.order))
 
     def derivative(self, expression: Expr) -> Expression:
         """A root with its radicand by terms."""
