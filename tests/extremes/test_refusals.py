@@ -56,3 +56,19 @@ def test_a_state_off_the_constraint(simulate, state, what):
     assert taken.status == 0
     assert taken.rows[0]["x^2 + y^2"] == pytest.approx(1, abs=1e-12)
     assert taken.rows[0]["x*x' + y*y'"] == pytest.approx(0, abs=1e-12)
+
+
+def test_series_are_not_divided_by_zero(simulate):
+    """A massless joint, held by its rods: doubles solve it, series stop with their reason."""
+    text = """
+coordinates: [x, y, u, v]
+parameters: {m: 0}
+T: m*(x'^2 + y'^2)/2 + (u'^2 + v'^2)/2
+V: m*y + v
+constraints: {first: x^2 + y^2 = 1, second: (u - x)^2 + (v - y)^2 = 1}
+initial: {x: 1, y: 0, u: 2, v: 0, x': 0, y': 0.1, u': 0, v': 0.1}
+"""
+    run = simulate(text, 1, "--method", "taylor")
+    assert run.status == 1
+    assert run.err
+    assert "bug" not in run.err

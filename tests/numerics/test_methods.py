@@ -12,6 +12,7 @@ from lagcli.numerics.equations import Equations
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.steps import Tolerance
 from lagcli.numerics.tableau_853 import DENSE, ERROR_3, ERROR_5, NODES, STAGES
+from lagcli.pipeline import with_lagrangian
 from tests.oracle.reference import Reference
 from tests.oracle.states import random_states
 
@@ -82,7 +83,7 @@ def test_accelerations_are_those_of_the_definitions(path):
     """Against jets and a numeric KKT system that share no code with the graph."""
     problem = problem_of(path.read_text("utf-8"))
     states = random_states(Reference(problem), 2)
-    equations = Equations(problem)
+    equations = Equations(with_lagrangian(problem))
     for state in states:
         if not state.regular:
             continue
