@@ -66,7 +66,7 @@ parameters: {m: 0}
 T: m*(x'^2 + y'^2)/2 + (u'^2 + v'^2)/2
 V: m*y + v
 constraints: {first: x^2 + y^2 = 1, second: (u - x)^2 + (v - y)^2 = 1}
-initial: {x: 1, y: 0, u: 2, v: 0, x': 0, y': 0.1, u': 0, v': 0.1}
+initial: {x: 1, y: 0, u: 1, v: -1}
 """
     run = simulate(text, 1, "--method", "taylor")
     assert run.status == 1
