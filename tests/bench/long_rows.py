@@ -23,16 +23,13 @@ from tests.bench.measure import HERE, LAGCLI, ROOT, Row, cost, show
 from tests.bench.motion_rows import error_of, peers
 from tests.bench.motions import SYSTEMS, System
 
-#: Spans at which integration is what counts; of chaotic motions no longer than 1e-9 can hold.
+#: Spans at which integration is what counts; no span of a chaotic motion at 1e-9 is long.
 SPANS = {
     "plane pendulum": 20000.0,
     "spherical pendulum": 10000.0,
-    "double pendulum": 5.0,
-    "Kepler, 100 orbits": 6283.185307179586,
+    "Kepler, 100 orbits": 628.3185307179587,
     "heavy top": 5000.0,
-    "stiff spring pendulum": 10.0,
-    "Pleiades": 3.0,
-    "chain of 10": 5.0,
+    "stiff spring pendulum": 100.0,
 }
 _BAR, _ACCURACY, _LIMIT = 1.5, 1e-9, 120
 _TOLERANCES = [10.0**-k for k in range(8, 19)]
@@ -73,7 +70,7 @@ def _alone(what: str, name: str, system: System, python: str, runs: int) -> Row:
     resolved = max(truth["certificate"]["global_error"].values())
     ours = _ours(system, true, scales, runs)
     theirs = _theirs(name, system, python, true, scales, runs)
-    if ours is None or theirs is None:
+    if ours is None or not theirs:
         who = "lagcli" if ours is None else "heyoka"
         value = None if ours is None else 0.0
         note = f"{who} does not reach 1e-9; the reference is known to {resolved:.0e}"
