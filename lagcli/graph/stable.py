@@ -22,13 +22,15 @@ ACM Computing Surveys 23 (1991), section 1.4.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from math import isqrt
 
 from lagcli.graph.nodes import Call, Constant, Graph, Node, Product, Sum, Symbol, ancestry
 
 _NONE, _UNIT, _HALF, _TWO = Fraction(0), Fraction(1), Fraction(1, 2), Fraction(2)
+
+_FUNCTION = 10
 
 #: f^2 - 1 = -g^2, or g^2 for cosh.
 _OTHER = {"cos": "sin", "sin": "cos", "cosh": "sinh"}
@@ -37,8 +39,9 @@ _OTHER = {"cos": "sin", "sin": "cos", "cosh": "sinh"}
 class Stable:
     """Nodes in a form that keeps its digits, each rewritten once."""
 
-    def __init__(self, graph: Graph) -> None:
-        self.graph = graph
+    def __init__(self, graph: Graph, kept: frozenset[str] = frozenset()) -> None:
+        """Calls of the functions `kept` stay as they are, with what stands in them."""
+        self.graph, self._kept = graph, kept
         self._known: dict[Node, Node] = {}
 
     def __call__(self, root: Node) -> Node:
@@ -57,6 +60,8 @@ class Stable:
                 return self._sum(node)
             case Product():
                 return graph.monomial((known[base], exponent) for base, exponent in node.factors)
+            case Call(function=name) if name in self._kept:
+                return node
             case Call(function="^", arguments=(base, exponent)):
                 return graph.power(known[base], known[exponent])
             case Call():
@@ -174,6 +179,30 @@ class Stable:
         factors = [(apart, _UNIT), (graph.sum([x, y]), _UNIT)]
         factors += [(self._known[base], 2 * e) for base, e in common if e]
         return graph.scaled(graph.monomial(factors), abs(p))
+
+
+def stable_dynamics(graph: Graph, roots: Sequence[Node]) -> list[Node]:
+    """Equations of motion in stable form, where that is no longer than the plain one.
+
+    What stands in abs and sign, the kinks of the motion, is left alone.
+    """
+    stable = Stable(graph, kept=frozenset({"abs", "sign"}))
+    found = [stable(root) for root in roots]
+    return found if _length(found) <= _length(roots) else list(roots)
+
+
+def _length(roots: Sequence[Node]) -> int:
+    """The operations; a function is as long as some ten of them."""
+    total = 0
+    for node in ancestry(roots):
+        match node:
+            case Sum(terms=terms):
+                total += len(terms)
+            case Product(factors=factors):
+                total += sum(1 if e.denominator == 1 else _FUNCTION for _, e in factors)
+            case Call():
+                total += _FUNCTION
+    return total
 
 
 def _terms(graph: Graph, node: Node, factor: Fraction) -> list[tuple[Node, Fraction]]:

@@ -12,6 +12,7 @@ from functools import cached_property
 from lagcli.expression import Expression
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Call, Node, Symbol, ancestry
+from lagcli.graph.stable import stable_dynamics
 from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
 from lagcli.numerics.elimination import Eliminated, Factored
 from lagcli.numerics.refusal import Refusal
@@ -61,7 +62,11 @@ class Equations:
         try:
             form = MatrixForm(problem, combine_angles=False) if whole is None else whole.form
             self.form: MatrixForm = form
-            self.mass, self.forcing = form.mass_matrix, form.forcing
+            self.mass: tuple[tuple[Node, ...], ...]
+            self.forcing: tuple[Node, ...]
+            self.mass, self.forcing = (
+                _stable(form) if whole is None else (whole.mass, whole.forcing)
+            )
             every = form.constraints
         except NotStructural as reason:
             raise Refusal(f"no numbers for this problem: {reason}") from None
@@ -219,3 +224,12 @@ class Equations:
             if ignorable and all(row[j] is zero for row in self.rows):
                 found[f"p_{q.name}"] = self.momenta[j]
         return found
+
+
+def _stable(form: MatrixForm) -> tuple[tuple[tuple[Node, ...], ...], tuple[Node, ...]]:
+    """M and the forcing, so written that they keep their digits."""
+    mass, forcing = form.mass_matrix, form.forcing
+    n = len(forcing)
+    nodes = stable_dynamics(form.graph, [*(entry for row in mass for entry in row), *forcing])
+    rows = tuple(tuple(nodes[i * n : (i + 1) * n]) for i in range(n))
+    return rows, tuple(nodes[n * n :])

@@ -7,8 +7,11 @@ import pytest
 
 from lagcli.graph.nodes import Graph
 from lagcli.graph.reading import GraphReader
-from lagcli.graph.stable import Stable
+from lagcli.graph.stable import Stable, stable_dynamics
 from lagcli.numerics.arithmetic import Doubles
+from lagcli.numerics.constants import constants_of
+from lagcli.numerics.equations import Equations
+from lagcli.numerics.motion import Motion
 from lagcli.numerics.straight_line import straight_line
 
 from .running import problem_of
@@ -67,3 +70,37 @@ def test_the_plain_form_does_not(formula):
     exact = float(CASES[formula](EXACT.mpf(1e-9)))
     assert math.isclose(values(formula, stable=False)(1e-9), 0.0, abs_tol=0.0)
     assert exact > 4e-19
+
+
+POLE = """
+coordinates: [p, f]
+L: (p'^2 + (1 - cos(p)^2)*f'^2)/2 + cos(p)
+"""
+
+
+def accelerations(text, *state):
+    equations = Equations(problem_of(text))
+    nodes = [*(entry for row in equations.mass for entry in row), *equations.forcing]
+    motion = Motion(equations, constants_of(equations, nodes, Doubles()), Doubles())
+    return motion.accelerations(0.0, *state)
+
+
+def test_accelerations_near_a_cancellation_keep_their_digits(monkeypatch):
+    """Beside the pole of a sphere: f'' = -2 p' f'/tan(p), to 50 digits; 1 - cos^2 p is 1e-12."""
+    state = p, _, p_rate, f_rate = 1e-6, 0.25, 0.5, 0.75
+    true = -2 * EXACT.mpf(p_rate) * EXACT.mpf(f_rate) / EXACT.tan(EXACT.mpf(p))
+    assert abs(accelerations(POLE, *state)[1] / true - 1) < 1e-15
+    monkeypatch.setattr("lagcli.numerics.equations.stable_dynamics", lambda *given: given[1])
+    assert abs(accelerations(POLE, *state)[1] / true - 1) > 1e-6
+
+
+@pytest.mark.parametrize(
+    ("formula", "rewritten"),
+    [("1 - cos(x)^2", True), ("sin(x) + 1 - cos(x)", False), ("abs(1 - cos(x)^2)", False)],
+)
+def test_the_dynamics_grow_no_longer_and_kinks_stay(formula, rewritten):
+    """sin^2 x is shorter; 2 sin^2(x/2) beside sin x asks for another function."""
+    problem = problem_of(f"{{coordinates: [x, y], T: x'^2/2 + y'^2/2, V: {formula}}}")
+    graph = Graph()
+    node = GraphReader(graph, ("x", "y"), {})(problem.potential)
+    assert (stable_dynamics(graph, [node]) != [node]) == rewritten
