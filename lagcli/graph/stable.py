@@ -31,6 +31,7 @@ from lagcli.graph.nodes import Call, Constant, Graph, Node, Product, Sum, Symbol
 _NONE, _UNIT, _HALF, _TWO = Fraction(0), Fraction(1), Fraction(1, 2), Fraction(2)
 
 _FUNCTION = 10
+_LONG = 300  # nodes
 
 #: f^2 - 1 = -g^2, or g^2 for cosh.
 _OTHER = {"cos": "sin", "sin": "cos", "cosh": "sinh"}
@@ -184,8 +185,11 @@ class Stable:
 def stable_dynamics(graph: Graph, roots: Sequence[Node]) -> list[Node]:
     """Equations of motion in stable form, where that is no longer than the plain one.
 
-    What stands in abs and sign, the kinks of the motion, is left alone.
+    What stands in abs and sign, the kinks of the motion, is left alone, and so are long
+    equations, where to look for it costs more than a twentieth of a run.
     """
+    if len(ancestry(roots)) > _LONG:
+        return list(roots)
     stable = Stable(graph, kept=frozenset({"abs", "sign"}))
     found = [stable(root) for root in roots]
     return found if _length(found) <= _length(roots) else list(roots)
