@@ -81,7 +81,7 @@ LIBRARY = [
 @pytest.mark.parametrize("path", LIBRARY, ids=lambda p: p.stem)
 def test_accelerations_are_those_of_the_definitions(path):
     """Against jets and a numeric KKT system that share no code with the graph."""
-    problem = problem_of(path.read_text("utf-8"))
+    problem = with_lagrangian(problem_of(path.read_text("utf-8")))
     states = random_states(Reference(problem), 2)
     equations = Equations(with_lagrangian(problem))
     for state in states:
