@@ -1,12 +1,8 @@
 """Orbits that nearly collide, do collide, or go on for long."""
 
-import math
-
 import mpmath
 import pytest
 from mpmath import mp, mpf
-
-from lagcli.tradeoff.trial import Given, trial
 
 #: From aphelion; the semi-axis is 1, so a period is 2 pi.
 KEPLER = """
@@ -69,19 +65,6 @@ def test_kepler_keeps_its_charges(simulate, periods):
     assert run.last["x"] == pytest.approx(-1.9, abs=2e-9)
     assert run.held["charges"]["energy"]["drift"] <= 1e-12
     assert run.held["charges"]["rotation"]["drift"] <= 1e-12
-
-
-@pytest.mark.long
-def test_a_million_periods():
-    """One run of series at a local tolerance of 1e-16; the drift that is let pass is 1e-12."""
-    text = (KEPLER % "0.9") + "symmetries: {rotation: {x: -y, y: x}}\n"
-    given = Given(
-        name="kepler", text=text, settings=(), until=2e6 * math.pi, samples=11, project=False,
-        method="taylor64", tolerance=1e-16, accuracy=None, limit=1000,
-    )  # fmt: skip
-    found = trial(given)
-    assert "why" not in found
-    assert found["drift"] <= 1e-12
 
 
 def test_the_radial_fall_ends_in_the_centre(simulate):
