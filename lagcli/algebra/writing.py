@@ -45,7 +45,7 @@ class Writer:
             return ZERO
         coefficient, pairs = _flattened(coefficient, factors)
         pairs = self._joined_exponentials(_tangents(_merged(pairs)))
-        coefficient, pairs = self._joined_roots(coefficient, pairs)
+        coefficient, pairs = self._joined_roots(coefficient, _without_moduli(pairs))
         if coefficient < 0:
             coefficient, pairs = self._turned(coefficient, pairs)
         above = self._factors(pairs, 1)
@@ -222,6 +222,24 @@ def _flattened(coefficient: Fraction, factors: Iterable[Factor]) -> tuple[Fracti
 
 def _all_negative(node: Sum) -> bool:
     return all(isinstance(term, Negative) for term in node.terms)
+
+
+def _without_moduli(pairs: list[Factor]) -> list[Factor]:
+    """sqrt(a*b)/|b| as sqrt(a/b)."""
+    half = Fraction(1, 2)
+    exponents = dict(pairs)
+    for base, exponent in pairs:
+        if not isinstance(base, Product) or abs(exponent) != half:
+            continue
+        for factor in base.factors:
+            modulus = Call("abs", (factor,))
+            if exponents.get(modulus) == -2 * exponent:
+                rest = tuple(f for f in base.factors if f is not factor)
+                del exponents[modulus], exponents[base]
+                above = rest[0] if len(rest) == 1 else Product(rest)
+                exponents[Quotient(above, factor)] = exponent
+                break
+    return list(exponents.items())
 
 
 _RATIOS = {"sin": ("cos", "tan"), "sinh": ("cosh", "tanh")}

@@ -20,6 +20,8 @@ from lagcli.mechanics.discovery import limits
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.pipeline import load, solve
 
+from .derived import derive
+
 LIBRARY = Path(__file__).parents[2] / "problems"
 
 # file -> number of point symmetries, names that are there, algebra, integrable
@@ -134,3 +136,8 @@ def test_known_algebras_are_found_in_ten_seconds(name):
     assert set(names.split()) <= {charge.name for charge in discovery.charges}
     assert (algebra or "") in (found.name or "")
     assert found.integrable is integrable
+
+
+def test_an_oscillator_of_unknown_signs_has_its_five_symmetries():
+    d = derive("coordinates: [x]\nparameters: [m, k]\nT: m*x'^2/2\nV: k*x^2/2")
+    assert len(d.discovery.point_charges) == 5

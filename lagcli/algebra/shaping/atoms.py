@@ -113,10 +113,11 @@ class Atoms:
         return Call(tree.function, tuple(arguments), tree.primes)
 
     def _inside(self, number: int) -> Term:
-        """The radicand of a root in atoms: a monomial, f, or d² (f/d²)."""
+        """The radicand of a root in atoms: one generator, f, or d² (f/d²)."""
         radicand = self.field.ring.lift(self.field.generators[number].radicand)
         terms = list(self.field.ring.terms(radicand))
-        if len(terms) == 1 and terms[0][1] == 1:
+        if len(terms) == 1 and terms[0][1] == 1 and sum(e for _, e in terms[0][0]) == 1:
+            # a product stays: sqrt(k*m)/m is sqrt(k/m) for m > 0 only
             return self.term(terms[0][0])
         inside = self.field.polynomial(radicand)
         outside: Term = ()

@@ -185,8 +185,14 @@ def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
 
 
 def _root(square: Expr) -> Expr:
-    """A root without a modulus: either sign serves for sine and cosine."""
+    """A root without a modulus: either sign serves for sine and cosine.
+
+    sqrt(k/m) is sqrt(k*m)/m where the sign of m is open: one root, whose square is exact.
+    """
     factored = sympy.factor(square)
+    above, below = factored.as_numer_denom()
+    if below.free_symbols and not below.is_nonnegative:
+        return simplify(_root(above * below) / below)
     root = sympy.sqrt(factored)
     if any(p.base.is_Add for p in root.atoms(sympy.Pow) if p.exp.is_Rational and p.exp.q == 2):
         root = sympy.sqrt(square)  # no perfect square: not torn apart
