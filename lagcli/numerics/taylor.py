@@ -31,6 +31,8 @@ _LOWEST = 8
 _LOOKED_AT = 4  # coefficients, for the length of the step
 _SAFETY = 0.9
 _FIRST = 1e-3  # of the longest step
+#: A step that is a larger part of the time ends at a double.
+_RESOLVED = 1e-12
 _SHORTEST = 2.0**20  # of the numbers' rounding, as a part of the time
 
 
@@ -87,7 +89,7 @@ class Taylor:
             h = min(self._length(series, tolerance), tolerance.longest)
             if not h > shortest * max(start, 1e-3 * until):
                 raise CannotGoOn(start, q, v, "")
-            end = last if t + 1.01 * h >= last else (t + h).mid()
+            end = last if t + 1.01 * h >= last else self._end(t, h)
             q, v, _ = self._at(end - t, series)
             inside = self._inside(t, end, series)
             if self.surface is not None:
@@ -95,6 +97,12 @@ class Taylor:
             q, v = [x.mid() for x in q], [x.mid() for x in v]
             yield Step(start, h, float(end), q, v, inside)
             t = end
+
+    def _end(self, t: Any, h: float) -> Any:
+        """t + h: a double, as the times of rows are, where the step is longer than these are apart."""
+        exact = (t + h).mid()
+        rounded = float(exact)
+        return self._ball(rounded) if h > _RESOLVED * abs(rounded) else exact
 
     def _coefficients(
         self, t: Any, q: Sequence[Any], v: Sequence[Any], order: int
