@@ -99,7 +99,7 @@ class Taylor:
             t = end
 
     def _end(self, t: Any, h: float) -> Any:
-        """t + h: a double, as the times of rows are, where the step is longer than these are apart."""
+        """t + h: a double, as the times of rows are, where doubles resolve the step."""
         exact = (t + h).mid()
         rounded = float(exact)
         return self._ball(rounded) if h > _RESOLVED * abs(rounded) else exact
