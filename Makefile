@@ -48,7 +48,7 @@ layers: $(READY) ## imports point one way (import-linter)
 
 .PHONY: test
 test: $(READY) ## the tests (pytest); make test ARGS="-k noether"
-	$(BIN)/pytest -q -n auto $(ARGS)
+	$(BIN)/pytest -q -n auto --dist worksteal $(ARGS)
 
 .PHONY: library
 library: $(READY) ## every problem of the library against its known answers
