@@ -11,6 +11,7 @@ and a book's form would become shorter by naming more of it.
 from __future__ import annotations
 
 import mpmath
+import sympy
 
 from lagcli.algebra import to_expression
 from lagcli.algebra.numeric import Evaluator
@@ -61,11 +62,15 @@ def compared(problem, script, solution, simplified):
             entry |= told("simplify", tree(simple[name].xreplace(script.plain)))
         if name in book:
             entry |= told("book", expanded(book[name], problem.definitions, derivation.system))
-    pairs = {
-        name: (derivation.system.build(printed[name]), chosen.xreplace(script.plain))
+    # SymPy writes a sign as cases, which have no value here
+    plain = {
+        name: raw.get(name) if (x := simple.get(name)) is None or x.has(sympy.Piecewise) else x
         for name in names
-        if name in printed
-        and (chosen := raw.get(name) if simple.get(name) is None else simple[name]) is not None
+    }
+    pairs = {
+        name: (derivation.system.build(printed[name]), plain[name].xreplace(script.plain))
+        for name in names
+        if name in printed and plain[name] is not None
     }
     return {"formulas": formulas, "agrees": agree(derivation, pairs)}
 

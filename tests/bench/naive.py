@@ -95,11 +95,17 @@ def main():
     parser.add_argument("--only-time", action="store_true")
     arguments = parser.parse_args()
     started = time.process_time()
+    from lagcli.diagnostics import ProblemError
     from lagcli.mechanics.system import System
-    from lagcli.pipeline import load
+    from lagcli.pipeline import load, with_lagrangian
 
     problem = load(arguments.path)
-    script = Script(System(problem))
+    try:
+        script = Script(System(with_lagrangian(problem)))
+    except ProblemError as mistake:  # an H without L: there is nothing to compare
+        told = {"late": False, "fails": str(mistake)[:200], "simplify": [], "cpu": 0.0}
+        print(json.dumps(told))
+        return
     reading = time.process_time() - started
     end = arguments.cap + reading
     found = {"late": False, "fails": None, "simplify": []}
