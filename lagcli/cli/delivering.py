@@ -28,13 +28,17 @@ def has_place(output: Path | None) -> bool:
 
 def deliver(text: str, printing: Printing) -> bool:
     """Print the text or write it to the file; whether that was possible."""
-    data = text.encode(printing.encoding, "replace")
-    if printing.output is None:
+    return place(text.encode(printing.encoding, "replace"), printing.output)
+
+
+def place(data: bytes, output: Path | None) -> bool:
+    """Print the bytes or write them to the file; whether that was possible."""
+    if output is None:
         print_result(data)
         return True
     try:
-        write_output(printing.output, data)
+        write_output(output, data)
     except OSError as error:
-        tell_line(f"{printing.output}: error: {reason(error)}")
+        tell_line(f"{output}: error: {reason(error)}")
         return False
     return True

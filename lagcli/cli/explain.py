@@ -7,7 +7,8 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_page_format
-from lagcli.cli.solve import Files, NoCache, Output, Set, Standalone, Width
+from lagcli.cli.options import Output
+from lagcli.cli.solve import Files, NoCache, Set, Standalone, Width
 
 Format = Annotated[
     str,
@@ -54,7 +55,6 @@ def explain(
     from lagcli.cli.printing import Printing
     from lagcli.cli.repeating import Options, solve_or_repeat
 
-    to_file = None if output is None or str(output) == "-" else output
-    printing = Printing(format_name, to_file, standalone, width)
+    printing = Printing(format_name, output, standalone, width)
     options = Options(tuple(also or ()), tuple(settings or ()), numeric=False, command="explain")
     return solve_or_repeat(files, options, printing, cached=not no_cache)

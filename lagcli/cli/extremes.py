@@ -6,9 +6,8 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.choices import complete_study
+from lagcli.cli.options import Output, StudyFormat
 from lagcli.cli.simulate import Accuracy, File, Set
-from lagcli.cli.tradeoff import Output
 
 Until = Annotated[
     str | None,
@@ -27,16 +26,6 @@ Cases = Annotated[
         "names with * for anything.  [default: all]",
     ),
 ]
-Format = Annotated[
-    str,
-    typer.Option(
-        "--format",
-        "-f",
-        metavar="NAME",
-        help="text, json or csv.",
-        autocompletion=complete_study,
-    ),
-]
 Limit = Annotated[
     float,
     typer.Option("--limit", metavar="SECONDS", min=0.1, help="Processor time of one case."),
@@ -50,7 +39,7 @@ def extremes(
     cases: Cases = None,
     accuracy: Accuracy = None,
     limit: Limit = 10.0,
-    format_name: Format = "text",
+    format_name: StudyFormat = "text",
     output: Output = None,
 ) -> int:
     """Take a problem to its extremes and report where it breaks.
@@ -79,6 +68,6 @@ def extremes(
         accuracy=accuracy,
         limit=limit,
         format_name=format_name,
-        output=None if output is None or str(output) == "-" else output,
+        output=output,
     )
     return stretch_file(wish)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -14,6 +15,8 @@ from lagcli.expression import Expression
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.problem import Problem
 from lagcli.reader.suggest import did_you_mean
+
+_USUAL_ACCURACY = 1e-9
 
 
 def problem_of(file: str, settings: tuple[str, ...]) -> Problem | None:
@@ -34,12 +37,60 @@ def problem_of(file: str, settings: tuple[str, ...]) -> Problem | None:
         return None
 
 
-def number_of(formula: Expression) -> float:
+class Numbers:
+    """Options that are numbers, with the file's where they are left out.
+
+    `good` is false once one of them is no number, or out of its range, which is told.
+    """
+
+    def __init__(self) -> None:
+        self.good = True
+
+    def until(self, text: str | None, given: Expression | None) -> float | None:
+        """The end; None where there is none."""
+        until = self._number(text, given, "--until")
+        if until is not None and not 0 < until < math.inf:
+            self._wrong(f"--until: the end must be a time after 0, not {until:g}")
+        return until
+
+    def end(self, file: str, text: str | None, given: Expression | None) -> float | None:
+        """The end, which there must be; None where there is none."""
+        if text is None and given is None:
+            tell_line(
+                f"{file}: error: when does it end? give --until T, or simulation: {{until: T}}"
+            )
+            self.good = False
+        return self.until(text, given)
+
+    def accuracy(self, text: str | None, given: Expression | None) -> float:
+        """The accuracy asked for, or the usual one."""
+        accuracy = self._number(text, given, "--accuracy")
+        if accuracy is not None and not 0 < accuracy < 1:
+            self._wrong(f"--accuracy: it lies between 0 and 1, not {accuracy:g}")
+        return _USUAL_ACCURACY if accuracy is None else accuracy
+
+    def _number(self, text: str | None, given: Expression | None, option: str) -> float | None:
+        from lagcli.reader.columns import read_number
+
+        try:
+            formula = given if text is None else read_number(text, option)
+        except ProblemError as error:
+            tell(error.source, error.diagnostics)
+            self.good = False
+            return None
+        return None if formula is None else _value(formula)
+
+    def _wrong(self, sentence: str) -> None:
+        tell_line(f"lagcli: error: {sentence}")
+        self.good = False
+
+
+def _value(formula: Expression) -> float:
     """A number; nan, which no option takes, where it is none."""
     try:
         return float(value_of(formula) or 0)
     except (ArithmeticError, ValueError):
-        return float("nan")
+        return math.nan
 
 
 def is_known(option: str, name: str, names: tuple[str, ...]) -> bool:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from lagcli.cli.choices import complete_column, complete_method, complete_table
+from lagcli.cli.options import Output
 
 File = Annotated[str, typer.Argument(metavar="FILE", help="A problem; - is stdin.")]
 Until = Annotated[
@@ -46,9 +46,6 @@ Format = Annotated[
         autocompletion=complete_table,
     ),
 ]  # fmt: skip
-Output = Annotated[
-    Path | None, typer.Option("--output", "-o", metavar="PATH", help="Write to a file instead.")
-]
 Project = Annotated[
     bool, typer.Option("--project", help="Start from the nearest state on the constraints.")
 ]
@@ -121,7 +118,7 @@ def simulate(
         settings=tuple(settings or ()),
         show=tuple(show or ()),
         format_name=format_name,
-        output=None if output is None or str(output) == "-" else output,
+        output=output,
         project=project,
         precision=precision,
         method=method,

@@ -9,23 +9,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from lagcli.cli.choices import BINARY, METHODS, TABLES
-from lagcli.cli.delivering import has_place
-from lagcli.cli.files import print_result, reason, write_output
-from lagcli.cli.running import is_known, number_of, problem_of, shared
+from lagcli.cli.delivering import has_place, place
+from lagcli.cli.running import Numbers, is_known, problem_of, shared
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
-from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.record import record
 
 if TYPE_CHECKING:
-    from lagcli.numerics.asked import Asked, Result
+    from lagcli.numerics.asked import Asked
     from lagcli.problem import Problem
 
 Value = TypeVar("Value")
-
-_USUAL_ACCURACY = 1e-9
 
 
 @record(kw_only=True)
@@ -64,6 +60,7 @@ def simulate_file(wish: Wish) -> Status:
 def _run(problem: Problem, asked: Asked, wish: Wish) -> Status:
     from lagcli.numerics.refusal import Refusal
     from lagcli.numerics.simulate import simulate
+    from lagcli.numerics.writing import WRITERS
 
     try:
         with shared("integrating") as progress:
@@ -71,27 +68,12 @@ def _run(problem: Problem, asked: Asked, wish: Wish) -> Status:
     except Refusal as refusal:
         tell(problem.source, refusal.diagnostics)
         return Status.USAGE if refusal.mistake else Status.NOT_FOUND
-    if not _written(result, wish):
+    if not place(WRITERS[wish.format_name](result), wish.output):
         return Status.USAGE
     if result.refusal:
         tell_line(f"{problem.source.name}: {result.refusal}")
         return Status.NOT_FOUND
     return Status.WELL
-
-
-def _written(result: Result, wish: Wish) -> bool:
-    from lagcli.numerics.writing import WRITERS
-
-    data = WRITERS[wish.format_name](result)
-    if wish.output is None:
-        print_result(data)
-        return True
-    try:
-        write_output(wish.output, data)
-    except OSError as error:
-        tell_line(f"{wish.output}: error: {reason(error)}")
-        return False
-    return True
 
 
 def _can_be_written(wish: Wish) -> bool:
@@ -125,11 +107,14 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
         pieces_of,
         read_along,
         read_columns,
-        read_number,
         usual_columns,
     )
 
-    good = True
+    run, numbers = problem.simulation, Numbers()
+    until = numbers.end(wish.file, wish.until, run.until)
+    accuracy = numbers.accuracy(wish.accuracy, run.accuracy)
+    method = run.method if wish.method == "auto" and run.method else wish.method
+    good = is_known("--method", method, METHODS) and numbers.good
 
     def attempt(work: Callable[[], Value], otherwise: Value) -> Value:
         nonlocal good
@@ -140,30 +125,6 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
             good = False
             return otherwise
 
-    def number(text: str | None, given: Expression | None, option: str) -> float | None:
-        formula = given
-        if text is not None:
-            formula = attempt(lambda: read_number(text, option), None)
-        return None if formula is None else number_of(formula)
-
-    run = problem.simulation
-    until = number(wish.until, run.until, "--until")
-    accuracy = number(wish.accuracy, run.accuracy, "--accuracy")
-    if accuracy is None:
-        accuracy = _USUAL_ACCURACY
-    if good and until is None:
-        tell_line(
-            f"{wish.file}: error: when does it end? give --until T, or simulation: {{until: T}}"
-        )
-        good = False
-    if until is not None and not 0 < until < float("inf"):
-        tell_line(f"lagcli: error: --until: the end must be a time after 0, not {until:g}")
-        good = False
-    if not 0 < accuracy < 1:
-        tell_line(f"lagcli: error: --accuracy: it lies between 0 and 1, not {accuracy:g}")
-        good = False
-    method = run.method if wish.method == "auto" and run.method else wish.method
-    good = is_known("--method", method, METHODS) and good
     shown = list(wish.show)
     columns = usual_columns(problem)
     if shown:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from lagcli.cli.choices import complete_format, complete_section
+from lagcli.cli.options import Output
 
 Files = Annotated[list[str], typer.Argument(metavar="FILE...", help="Problems; - is stdin.")]
 Format = Annotated[
@@ -19,9 +19,6 @@ Format = Annotated[
         help="See: lagcli formats.",
         autocompletion=complete_format,
     ),
-]
-Output = Annotated[
-    Path | None, typer.Option("--output", "-o", metavar="PATH", help="Write to a file instead.")
 ]
 Show = Annotated[
     list[str] | None,
@@ -83,7 +80,6 @@ def solve(
     from lagcli.cli.printing import Printing
     from lagcli.cli.repeating import Options, solve_or_repeat
 
-    to_file = None if output is None or str(output) == "-" else output
-    printing = Printing(format_name, to_file, standalone, width)
+    printing = Printing(format_name, output, standalone, width)
     options = Options(tuple(show or ()), tuple(settings or ()), numeric)
     return solve_or_repeat(files, options, printing, cached=not no_cache)

@@ -2,26 +2,19 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import STUDIES
-from lagcli.cli.delivering import has_place
-from lagcli.cli.files import print_result, reason, write_output
-from lagcli.cli.running import counted, is_known, number_of, problem_of
+from lagcli.cli.delivering import has_place, place
+from lagcli.cli.running import Numbers, counted, is_known, problem_of
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
-from lagcli.diagnostics import ProblemError
-from lagcli.expression import Expression
 from lagcli.record import record
 
 if TYPE_CHECKING:
-    from lagcli.extremes.study import Study
     from lagcli.extremes.trial import Wanted
     from lagcli.problem import Problem
-
-_USUAL_ACCURACY = 1e-9
 
 
 @record(kw_only=True)
@@ -52,6 +45,7 @@ def stretch_file(wish: Wish) -> Status:
 
 def _study(problem: Problem, wanted: Wanted, wish: Wish) -> Status:
     from lagcli.extremes.study import NoSuchCase, study
+    from lagcli.extremes.writing import WRITERS
     from lagcli.numerics.refusal import Refusal
     from lagcli.reader.suggest import did_you_mean
 
@@ -66,51 +60,18 @@ def _study(problem: Problem, wanted: Wanted, wish: Wish) -> Status:
     except Refusal as refusal:
         tell(problem.source, refusal.diagnostics)
         return Status.USAGE if refusal.mistake else Status.NOT_FOUND
-    if not _written(made, wish):
+    if not place(WRITERS[wish.format_name](made).encode(), wish.output):
         return Status.USAGE
     return Status.NOT_FOUND if made.bad else Status.WELL
-
-
-def _written(made: Study, wish: Wish) -> bool:
-    from lagcli.extremes.writing import WRITERS
-
-    data = WRITERS[wish.format_name](made).encode()
-    if wish.output is None:
-        print_result(data)
-        return True
-    try:
-        write_output(wish.output, data)
-    except OSError as error:
-        tell_line(f"{wish.output}: error: {reason(error)}")
-        return False
-    return True
 
 
 def _wanted(problem: Problem, wish: Wish) -> Wanted | None:
     """What each case is asked; None where an option is no number, which is told."""
     from lagcli.extremes.trial import Wanted
 
-    until = _number(wish.until, problem.simulation.until, "--until")
-    accuracy = _number(wish.accuracy, problem.simulation.accuracy, "--accuracy")
-    if accuracy is None:
-        accuracy = _USUAL_ACCURACY
-    good = True
-    if until is not None and not 0 < until < math.inf:
-        tell_line(f"lagcli: error: --until: the end must be a time after 0, not {until:g}")
-        good = False
-    if not 0 < accuracy < 1:
-        tell_line(f"lagcli: error: --accuracy: it lies between 0 and 1, not {accuracy:g}")
-        good = False
-    return Wanted(until=until, accuracy=accuracy, limit=wish.limit) if good else None
-
-
-def _number(text: str | None, given: Expression | None, option: str) -> float | None:
-    """The option's value, or the file's; nan where it is none, which is told."""
-    from lagcli.reader.columns import read_number
-
-    try:
-        formula = given if text is None else read_number(text, option)
-    except ProblemError as error:
-        tell(error.source, error.diagnostics)
-        return math.nan
-    return None if formula is None else number_of(formula)
+    numbers = Numbers()
+    until = numbers.until(wish.until, problem.simulation.until)
+    accuracy = numbers.accuracy(wish.accuracy, problem.simulation.accuracy)
+    if not numbers.good:
+        return None
+    return Wanted(until=until, accuracy=accuracy, limit=wish.limit)

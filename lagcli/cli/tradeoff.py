@@ -7,22 +7,10 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.choices import complete_cost, complete_methods, complete_study
+from lagcli.cli.choices import complete_cost, complete_methods
+from lagcli.cli.options import Output, StudyFormat
 from lagcli.cli.simulate import File, Project, Set, Until
 
-Output = Annotated[
-    Path | None, typer.Option("--output", "-o", metavar="PATH", help="Write to a file instead.")
-]
-Format = Annotated[
-    str,
-    typer.Option(
-        "--format",
-        "-f",
-        metavar="NAME",
-        help="text, json or csv.",
-        autocompletion=complete_study,
-    ),
-]
 Samples = Annotated[
     int, typer.Option("--samples", metavar="N", min=2, help="Times at which errors are taken.")
 ]
@@ -72,7 +60,7 @@ def tradeoff(
     repeat: Repeat = 1,
     limit: Limit = 10.0,
     project: Project = False,
-    format_name: Format = "text",
+    format_name: StudyFormat = "text",
     output: Output = None,
     plot: Plot = None,
 ) -> int:
@@ -104,7 +92,7 @@ def tradeoff(
         limit=limit,
         project=project,
         format_name=format_name,
-        output=None if output is None or str(output) == "-" else output,
+        output=output,
         plot=plot,
     )
     return weigh_file(wish)

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import COSTS, METHODS, STUDIES
-from lagcli.cli.delivering import has_place
-from lagcli.cli.files import print_result, reason, write_output
-from lagcli.cli.running import counted, is_known, number_of, problem_of
+from lagcli.cli.delivering import has_place, place
+from lagcli.cli.running import Numbers, counted, is_known, problem_of
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
-from lagcli.diagnostics import ProblemError
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
 
@@ -51,8 +48,9 @@ def weigh_file(wish: Wish) -> Status:
     problem = problem_of(wish.file, wish.settings)
     if problem is None:
         return Status.USAGE
-    until = _until(problem, wish)
-    if until is None or not good or methods is None:
+    numbers = Numbers()
+    until = numbers.end(wish.file, wish.until, problem.simulation.until)
+    if until is None or not (good and numbers.good) or methods is None:
         return Status.USAGE
     from lagcli.tradeoff.trial import Given
 
@@ -99,16 +97,7 @@ def _written(made: Study, wish: Wish) -> bool:
             parts.insert(0, (wish.plot, _drawn(to_svg(made), wish.plot)))
         except ValueError as error:
             tell_line(f"{wish.plot}: warning: nothing to draw: {error}")
-    for path, data in parts:
-        if path is None:
-            print_result(data)
-            continue
-        try:
-            write_output(path, data)
-        except OSError as error:
-            tell_line(f"{path}: error: {reason(error)}")
-            return False
-    return True
+    return all(place(data, path) for path, data in parts)
 
 
 def _drawn(svg: str, path: Path) -> bytes:
@@ -120,29 +109,6 @@ def _drawn(svg: str, path: Path) -> bytes:
 
 
 # -- options -------------------------------------------------------------------------------------
-
-
-def _until(problem: Problem, wish: Wish) -> float | None:
-    """The end; None where there is none, which is told."""
-    from lagcli.reader.columns import read_number
-
-    formula = problem.simulation.until
-    try:
-        if wish.until is not None:
-            formula = read_number(wish.until, "--until")
-    except ProblemError as error:
-        tell(error.source, error.diagnostics)
-        return None
-    if formula is None:
-        tell_line(
-            f"{wish.file}: error: when does it end? give --until T, or simulation: {{until: T}}"
-        )
-        return None
-    until = number_of(formula)
-    if not 0 < until < math.inf:
-        tell_line(f"lagcli: error: --until: the end must be a time after 0, not {until:g}")
-        return None
-    return until
 
 
 def _methods(text: str | None) -> tuple[str, ...] | None:

@@ -1,0 +1,34 @@
+"""Options that several commands have."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lagcli.cli.choices import complete_study
+from lagcli.cli.files import STANDARD
+
+
+def _to_file(output: Path | None) -> Path | None:
+    """None for standard output, which is also called `-`."""
+    return None if output is None or str(output) == STANDARD else output
+
+
+Output = Annotated[
+    Path | None,
+    typer.Option(
+        "--output", "-o", metavar="PATH", help="Write to a file instead.", callback=_to_file
+    ),
+]
+StudyFormat = Annotated[
+    str,
+    typer.Option(
+        "--format",
+        "-f",
+        metavar="NAME",
+        help="text, json or csv.",
+        autocompletion=complete_study,
+    ),
+]
