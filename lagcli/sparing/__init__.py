@@ -22,12 +22,17 @@ def spare_sympy() -> None:
     Nothing is spared with `LAGCLI_WHOLE_SYMPY` set, with SymPy imported already, or with a
     version that this was not made for: all works as well, and starts more slowly.
     """
-    from lagcli.sparing.packages import known_sympy, serve_names_lazily
+    from lagcli.sparing.packages import (
+        known_sympy,
+        serve_names_lazily,
+        serve_singletons_lazily,
+    )
     from lagcli.sparing.stand_ins import give_way, import_functions, stand_in
 
     if os.environ.get("LAGCLI_WHOLE_SYMPY") or not known_sympy():
         return
     serve_names_lazily(give_way)
+    serve_singletons_lazily()
     stand_in()
     import_functions()
 

@@ -151,6 +151,30 @@ class LazyPackage(ModuleType):
         super().__setattr__(name, value)
 
 
+#: Where SymPy makes what it has one of, and no module asks for by its place: `S.Reals`.
+_SINGLETONS = {
+    **dict.fromkeys(
+        "Complexes Integers Naturals Naturals0 Rationals Reals".split(), "sympy.sets.fancysets"
+    ),
+    **dict.fromkeys("EmptySet UniversalSet".split(), "sympy.sets.sets"),
+    "EmptySequence": "sympy.series.sequences",
+    "IdentityFunction": "sympy.functions.elementary.miscellaneous",
+}
+
+
+def serve_singletons_lazily() -> None:
+    """Let `S` import the module of a name that it does not know yet."""
+    registry = type(import_module("sympy.core.singleton").S)
+    known = registry.__getattr__
+
+    def served(self: Any, name: str) -> Any:
+        if name in _SINGLETONS:
+            import_module(_SINGLETONS[name])  # which registers it
+        return known(self, name)
+
+    registry.__getattr__ = served
+
+
 def import_matrices() -> None:
     """Import SymPy's matrices as SymPy does, before any one of them is used."""
     for module, _ in import_module(_ONE_PIECE).__dict__["_places"].values():

@@ -23,12 +23,23 @@ from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from tests.bench import certificate, commands, cut_rows, library, long_rows, motion_rows, scaling
+from tests.bench import (
+    certificate,
+    commands,
+    cut_rows,
+    discovering,
+    library,
+    long_rows,
+    motion_rows,
+    scaling,
+)
 from tests.bench.compare import compare
 from tests.bench.measure import ROOT, Row, show
 
 #: What `--only` takes; without it the first three are measured.
-PARTS = ("commands", "scaling", "library", "motions", "integration", "cut", "certificate")
+PARTS = (
+    "commands", "scaling", "library", "discovery", "motions", "integration", "cut", "certificate",
+)  # fmt: skip
 _USUAL = PARTS[:3]
 
 
@@ -106,6 +117,8 @@ def _measure(part: str, run: Run, arguments: argparse.Namespace) -> None:
             run.take(iter([commands.check_row(files if quick else ["problems/"])]))
             for line in library.exceptions(problems):
                 print(line)
+        case "discovery":
+            run.take(discovering.rows(library.paths(quick)))
         case "motions":
             run.take(motion_rows.rows(runs))
         case "integration":

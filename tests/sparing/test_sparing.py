@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+from sympy.core import numbers
 
 START = "from lagcli.sparing import spare_sympy; spare_sympy(); import sys; "
 
@@ -107,3 +108,18 @@ def test_the_answers_are_the_same_with_the_whole_of_sympy(problem, tmp_path):
         return run.stdout
 
     assert answered("") == answered("1")
+
+
+def test_what_there_is_one_of_is_there_at_its_first_use():
+    """Nobody asks for `S.Reals` by its module: each name alone, in a process of its own."""
+    code = (
+        "from sympy import S; import sympy; "
+        "print(*sorted(n for n in {*vars(type(S)), *S._classes_to_install} if n[0].isupper()))"
+    )
+    names = told(code).split()
+    assert {"Reals", "EmptySet", "Half"} <= set(names)
+    asked = "; ".join(f"from sympy import S; print(S.{name})" for name in names)
+    whole = told(asked).splitlines()
+    for name, value in zip(names, whole, strict=True):
+        if not hasattr(numbers, name):  # every process has these
+            assert told(f"{START}from sympy import S; print(S.{name})").strip() == value
