@@ -86,14 +86,23 @@ class SteadySection:
     reason: str = ""
 
 
+@record
+class ActionPart:
+    """One W, where each of `where` holds."""
+
+    function: Expression
+    where: tuple[Above, ...]
+
+
 @record(kw_only=True)
 class HamiltonJacobiSection:
     """H(q, dS/dq) = E with S = -E t + sum W_i(q_i), where it separates in the coordinates given.
 
     `hamiltonian` has p for dS/dq.  `separable` is the verdict of Levi-Civita's test, `obstacle`
     the first pair of coordinates at which it fails.  `equations` are the separated ones (= 0),
-    `derivatives` the W_i' with their positive roots, `functions` the W_i that are elementary;
-    `constants` are E, the momenta of the cyclic coordinates, and those of separation.
+    `derivatives` the W_i' with their positive roots, `functions` the W_i that are elementary
+    and `cases` those that are so case by case; `constants` are E, the
+    momenta of the cyclic coordinates, and those of separation.
     """
 
     hamiltonian: Expression | None
@@ -104,4 +113,5 @@ class HamiltonJacobiSection:
     equations: Mapping[str, Expression] = field(default_factory=dict)
     derivatives: Mapping[str, Expression] | None = None
     functions: Mapping[str, Expression] = field(default_factory=dict)
+    cases: Mapping[str, tuple[ActionPart, ...]] = field(default_factory=dict)
     reason: str = ""

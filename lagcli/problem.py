@@ -271,10 +271,11 @@ class ExpectSteady:
 
 @record(kw_only=True)
 class ExpectHamiltonJacobi:
-    """Whether the variables separate, and W' by coordinate, up to its sign."""
+    """Whether the variables separate, and W' and W by coordinate, up to sign and a constant."""
 
     separable: bool | None = None
     derivatives: Mapping[str, Expression] = field(default_factory=dict)
+    functions: Mapping[str, Expression] = field(default_factory=dict)
 
 
 CanonicalKind = Literal["canonical", "extended canonical", "not canonical"]

@@ -6,13 +6,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 from typing import cast
 
+import sympy
 from sympy import Expr
 
 from lagcli.algebra import simplify
 from lagcli.answers import Answers, ReductionSection
 from lagcli.check.comparison import Comparison
 from lagcli.check.phase_space import free_comparison
-from lagcli.expression import Expression
+from lagcli.expression import Expression, Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.readable import deciding
@@ -127,6 +128,22 @@ class Reductions:
                 verdict = self.comparison.vanishes(build(derivative) ** 2 - build(expected) ** 2)
             path = ["hamilton_jacobi", "derivatives", name]
             yield path, verdict, to_grammar(expected), _shown(derivative)
+        for name, expected in expect.functions.items():
+            forms = [each.function for each in section.cases.get(name, ())]
+            forms += [section.functions[name]] if name in section.functions else []
+            verdicts = [self._same_derivative(each, expected, name) for each in forms]
+            verdict = True if True in verdicts else None if None in verdicts or not forms else False
+            path = ["hamilton_jacobi", "functions", name]
+            yield path, verdict, to_grammar(expected), _listed(forms)
+
+    def _same_derivative(self, a: Expression, b: Expression, name: str) -> bool | None:
+        """Whether a and b are the same but for a constant and the sign."""
+        x = self.comparison.build(Name(name))
+        # log|z| and log z have the same derivative
+        one, other = (
+            self.comparison.build(each).replace(sympy.Abs, lambda z: z).diff(x) for each in (a, b)
+        )
+        return self.comparison.vanishes(one**2 - other**2)
 
     def _same_conditions(self, found: SteadyMotion, expected: tuple[Inequality, ...]) -> bool:
         """Whether a minimum or the spectrum asks for the same, factors that are positive aside."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lagcli.document import Formula
+from lagcli.expression import ZERO
 from lagcli.motions import Above
 
 
@@ -12,5 +13,8 @@ def conditions(where: Sequence[Above]) -> list[str | Formula]:
     """Inequalities within a sentence."""
     parts: list[str | Formula] = []
     for position, each in enumerate(where):
-        parts += [" and " if position else "", each.left, " > ", each.right]
+        sides: list[str | Formula] = (
+            [each.right, " < ", each.left] if each.left == ZERO else [each.left, " > ", each.right]
+        )
+        parts += [" and " if position else "", *sides]
     return parts

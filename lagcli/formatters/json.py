@@ -313,6 +313,13 @@ def _hamilton_jacobi(section: HamiltonJacobiSection) -> Object:
         "equations": _by_name(section.equations),
         "derivatives": _unless_none(section.derivatives, _by_name),
         "functions": _by_name(section.functions),
+        "cases": {
+            name: [
+                {"function": to_grammar(each.function), "where": [_above(a) for a in each.where]}
+                for each in forms
+            ]
+            for name, forms in section.cases.items()
+        },
         "reason": section.reason,
     }
 

@@ -14,7 +14,8 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Name, Negative, Product
-from lagcli.motions import HamiltonJacobiSection
+from lagcli.formatters.conditions import conditions
+from lagcli.motions import ActionPart, HamiltonJacobiSection
 
 _NAMED = {
     True: "It separates in these coordinates",
@@ -51,18 +52,23 @@ def _solution(section: HamiltonJacobiSection) -> Iterator[Block]:
         yield Equations(tuple(Row(ZERO, each) for each in section.equations.values()))
     action: list[str | Formula] = ["S = ", Negative(Product((Name(section.energy), Name("t"))))]
     rows = []
+    cases: list[tuple[str, ActionPart]] = []
     for name, derivative in section.derivatives.items():
         if name in section.equations:
             action += [" + ", Label("W", (name,))]
             rows.append(Row(Label("W", (name,)), Integral(derivative, name)))
             if name in section.functions:
                 rows.append(Row(Label("W", (name,)), section.functions[name]))
+            cases += [(name, each) for each in section.cases.get(name, ())]
         else:
             action += [" + ", Product((derivative, Name(name)))]
     checked = "each root with either sign; put back into the equation: checked exactly."
     yield Paragraph((*action, f", {checked}"))
     if rows:
         yield Equations(tuple(rows))
+    for name, each in cases:
+        yield Paragraph(("Where ", *conditions(each.where), ","))
+        yield Equations((Row(Label("W", (name,)), each.function),))
     if section.constants:
         listed: list[str | Formula] = []
         for position, constant in enumerate(section.constants):

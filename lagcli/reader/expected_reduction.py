@@ -27,6 +27,11 @@ CONSTANT_NAMES = (*ENERGY_NAMES, *AMPLITUDE_NAMES, *SEPARATION_NAMES)
 
 _REDUCED = Role(order=1, why="an answer is free of accelerations", momenta=True)
 _STEADY = ("at", "rates", "momenta", "frequencies_squared", "stable")
+_OF_W = {
+    "derivatives": "the expected derivative of W by '{}'",
+    "functions": "the expected part W of the action by '{}'",
+}
+_SEPARATED = ("separable", *_OF_W)
 _WORDS = {"yes": True, "no": False}
 _KEYS = ("routhian", "effective_potential", "reconstruction", "turning_points", "period")
 
@@ -111,14 +116,14 @@ def _stable(sections: Sections, node: Node) -> bool | tuple[Inequality, ...] | N
 def read_hamilton_jacobi(
     sections: Sections, node: Node, spans: dict[tuple[str, ...], Span]
 ) -> ExpectHamiltonJacobi:
-    """`expect: {hamilton_jacobi: {separable: yes, derivatives: {x: …}}}`."""
+    """`expect: {hamilton_jacobi: {separable: yes, derivatives: {x: …}, functions: {x: …}}}`."""
     found: dict[str, Any] = {}
     with constants(sections):
-        entries = sections.attributes(node, "'hamilton_jacobi'", ("separable", "derivatives"))
+        entries = sections.attributes(node, "'hamilton_jacobi'", _SEPARATED)
         for name, (key, value) in entries.items():
             spans["hamilton_jacobi", name] = key.span
-            if name == "derivatives":
-                what = "the expected derivative of W by '{}'"
+            if name in _OF_W:
+                what = _OF_W[name]
                 found[name] = read_by_coordinate(sections, value, f"'{name}'", what, _REDUCED)
                 continue
             text = sections.scalar(value, "'separable'")

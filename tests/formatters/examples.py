@@ -49,6 +49,7 @@ from lagcli.expression import (
 from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.motions import (
     Above,
+    ActionPart,
     HamiltonJacobiSection,
     OneFreedom,
     PeriodSeries,
@@ -357,6 +358,12 @@ HOOP = Answers(
             constants=("E", "p_x", "alpha_1"),
             equations={"theta": minus_half},
             derivatives={"x": p_x, "theta": Call("sqrt", (plus(ell, Negative(g)),))},
+            cases={
+                "theta": (
+                    ActionPart(minus_half, (Above(ZERO, g),)),
+                    ActionPart(ell, (Above(g, ZERO), Above(ell, R))),
+                )
+            },
         ),
         "steady_motions": SteadySection(
             conditions={"theta": minus_half},

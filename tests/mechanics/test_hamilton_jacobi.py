@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import mpmath
 import pytest
-from sympy import Symbol, diff, symbols
+from sympy import Float, Symbol, diff, symbols
 
 from lagcli.algebra.build import Builder, symbol
+from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.reduction.separation import Separation
 from lagcli.mechanics.reduction.separation_statement import hamilton_jacobi
 
@@ -150,3 +151,98 @@ V: f*x + k*y^2/2 - k*z^2/2
         difference = (at(1e-5) - at(-1e-5)) / 2e-5
         assert abs(difference - at(0, slope)) < 1e-7
         assert abs(difference) > 0.1
+
+
+def numbers_of(tree, values):
+    names = {n: symbol(n, "positive" if n in ("m", "k", "r", "D", "a") else "real") for n in values}
+    formula = Builder(names, {}, lambda e: e)(tree)
+
+    def value(**more):
+        put_in = {names[n]: Float(str(v), 50) for n, v in (values | more).items()}
+        return mpmath.mpmathify(formula.subs(put_in).evalf(40))
+
+    return value
+
+
+def grown(part, values, name, ends):
+    """What W grows by between two turning points; it is real there."""
+    W = numbers_of(part, values | {name: 1})
+    first, last = ends
+    near = mpmath.mpf("1e-24") * (last - first)
+    growth = W(**{name: last - near}) - W(**{name: first + near})
+    assert isinstance(growth, mpmath.mpf)
+    return growth
+
+
+@mpmath.workdps(50)
+def test_the_radial_action_of_kepler_is_that_of_sommerfeld():
+    """Goldstein, section 10.8: J_r = 2 pi (k sqrt(m/(-2 E)) - L)."""
+    found, _ = section(KEPLER)
+    bound, free = found.cases["r"]
+    m, k, E, p = (mpmath.mpf(x) for x in ("1.3", "0.8", "-0.2", "0.9"))
+    values = {"m": m, "k": k, "E": E, "p_phi": p}
+    root = mpmath.sqrt(k**2 + 2 * E * p**2 / m)
+    ends = sorted(((-k + root) / (2 * E), (-k - root) / (2 * E)))
+    J = 2 * grown(bound.function, values, "r", ends)
+    assert abs(J - 2 * mpmath.pi * (k * mpmath.sqrt(m / (-2 * E)) - p)) < 1e-10
+    unbound = numbers_of(free.function, values | {"E": 0.3, "r": 2})
+    slope = (unbound(r=3 + 1e-8) - unbound(r=3 - 1e-8)) / 2e-8
+    assert abs(slope - mpmath.sqrt(2 * m * (0.3 + k / 3) - p**2 / 9)) < 1e-7
+
+
+@mpmath.workdps(50)
+def test_the_action_of_morse_gives_his_levels():
+    """Morse, Phys. Rev. 34 (1929) 57: J = 2 pi sqrt(2 m) (sqrt(D) - sqrt(D - E))/a."""
+    found, _ = section("""
+coordinates: [x]
+parameters: {m: POSITIVE, D: POSITIVE, a: POSITIVE}
+T: m*x'^2/2
+V: D*(1 - exp(-a*x))^2
+""")
+    m, D, a, E = (mpmath.mpf(x) for x in ("1.3", "2.1", "0.7", "1.2"))
+    ends = [-mpmath.log(1 + s * mpmath.sqrt(E / D)) / a for s in (1, -1)]
+    values = {"m": m, "D": D, "a": a, "E": E}
+    J = 2 * grown(found.cases["x"][0].function, values, "x", ends)
+    exact = 2 * mpmath.pi * mpmath.sqrt(2 * m) * (mpmath.sqrt(D) - mpmath.sqrt(D - E)) / a
+    assert abs(J - exact) < 1e-10
+
+
+@mpmath.workdps(50)
+def test_the_relativistic_orbit_closes_after_more_than_a_turn():
+    """Landau, Lifshitz, Fields, section 39: between perihelia 2 pi/sqrt(1 - k²/(c p)²)."""
+    found, missing = section("""
+coordinates: {r: POSITIVE, phi: {}}
+parameters: {m: POSITIVE, k: POSITIVE, c: POSITIVE}
+L: -m*c^2*sqrt(1 - (r'^2 + r^2*phi'^2)/c^2) + k/r
+""")
+    assert not missing
+    bound = found.cases["r"][0].function
+    m, k, c, p, E = (mpmath.mpf(x) for x in ("1.3", "0.8", "1.9", "0.9", "4.5"))
+    values = {"m": m, "k": k, "c": c, "E": E}
+    a, b, C = E**2 / c**2 - m**2 * c**2, 2 * E * k / c**2, k**2 / c**2
+    step = mpmath.mpf("1e-9")
+
+    def action(momentum):
+        root = mpmath.sqrt(b**2 - 4 * a * (C - momentum**2))
+        ends = sorted(((-b + root) / (2 * a), (-b - root) / (2 * a)))
+        return 2 * grown(bound, values | {"p_phi": momentum}, "r", ends)
+
+    swept = -(action(p + step) - action(p - step)) / (2 * step)
+    assert abs(swept - 2 * mpmath.pi / mpmath.sqrt(1 - k**2 / (c * p) ** 2)) < 1e-5
+
+
+def test_an_open_interval_of_the_angle_is_told():
+    found, _ = section("""
+coordinates: {theta: {}, phi: {}}
+parameters: {I: POSITIVE}
+T: I*(theta'^2 + sin(theta)^2*phi'^2)/2
+""")
+    [part] = found.cases["theta"]
+    [condition] = part.where
+    assert (to_grammar(condition.left), to_grammar(condition.right)) == ("sin(theta)", "0")
+
+
+def test_a_pendulum_stays_an_integral():
+    found, _ = section("{coordinates: [x], parameters: {g: POSITIVE}, L: x'^2/2 + g*cos(x)}")
+    assert not found.functions
+    assert not found.cases

@@ -26,6 +26,11 @@ def mistakes(expect: str) -> list[str]:
         ("{steady_motions: {at: {r: 1}}}", "'steady_motions' must be a list, not a map"),
         ("{steady_motions: [{stable: m >= 1}]}", "a condition of stability has > or <"),
         ("{hamilton_jacobi: {separable: maybe}}", "'separable' is yes or no"),
+        ("{hamilton_jacobi: {functions: {s: E}}}", "'s' in 'functions' is no coordinate"),
+        (
+            "{hamilton_jacobi: {functions: {r: beta_1*r}}}",
+            "unknown name 'beta_1' in the expected part W of the action by 'r'",
+        ),
         ("{energy: E}", "unknown name 'E' in the expected energy"),
     ],
 )
@@ -37,7 +42,7 @@ def test_the_constants_of_the_answers_may_stand_there():
     assert not mistakes(
         "{reduction: {turning_points: [p_phi/sqrt(2*m*E)], period: a}, "
         "steady_motions: [{rates: {phi: phi'}, stable: [m > 0, 1 < m]}], "
-        "hamilton_jacobi: {separable: yes, derivatives: {r: sqrt(alpha_1 + E)}}}"
+        "hamilton_jacobi: {separable: yes, derivatives: {r: sqrt(alpha_1 + E)}, functions: {r: E*r}}}"
     )
 
 

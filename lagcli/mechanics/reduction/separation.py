@@ -30,6 +30,7 @@ from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.factors import factors_of
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.reduction.known_signs import Known
 from lagcli.mechanics.reduction.minimal import minimal
 from lagcli.record import record
 
@@ -119,6 +120,23 @@ class Separation:
             -ui * dj * di.diff(p[j]),
         )
 
+    @cached_property
+    def positive(self) -> tuple[Expr, ...]:
+        """The constants that are positive wherever all W' are real."""
+        found: list[Expr] = []
+        separated = self.separated
+        if separated is None:
+            return ()
+        for _ in range(2):
+            for constant in (self.E, *self._alphas):
+                for root in separated.derivatives.values():
+                    squared = root**2 if isinstance(root, sympy.Pow) else None
+                    if squared is None or constant in found:
+                        continue
+                    if Known(squared, found).sign(constant) == 1:
+                        found.append(constant)
+        return tuple(found)
+
     # -- the separated equations ------------------------------------------------------------------
 
     @cached_property
@@ -133,7 +151,8 @@ class Separation:
         momenta = tuple(p[j] for j in cyclic)
         if not others:  # the energy is a function of the constants p
             return Separated({}, dict(zip(cyclic, momenta, strict=True)), momenta)
-        equations = self._parted(simplify(H - self.E), others)
+        F = _without_root(simplify(H - self.E), p)
+        equations = self._parted(F, others)
         if equations is None:
             self.reason = "the separated equations were not found"
             return None
@@ -145,7 +164,7 @@ class Separation:
                 return None
             derivatives[j] = solved
         put_in = {p[j]: value for j, value in derivatives.items()}
-        if is_zero(H.xreplace(put_in) - self.E) is not True:
+        if is_zero(F.xreplace(put_in)) is not True:
             self.reason = "the separated equations could not be verified by substitution"
             return None
         return Separated(equations, derivatives, (self.E, *momenta, *self._alphas))
@@ -214,6 +233,26 @@ class Separation:
             if free_of(second, own):
                 return first, second
         return None
+
+
+def _without_root(F: Expr, momenta: Sequence[Symbol]) -> Expr:
+    """A + C sqrt(B) = 0 as C² B - A² = 0, for a relativistic energy; F where there is none.
+
+    sqrt(B) = -A/C is the energy of motion, which is not negative on any motion.
+    """
+    roots = [
+        power
+        for power in F.atoms(sympy.Pow)
+        if power.exp.is_Rational and power.exp.q == 2 and not free_of(power.base, momenta)
+    ]
+    if {power.exp for power in roots} != {S.Half} or len({power.base for power in roots}) != 1:
+        return F
+    root = sympy.Dummy(positive=True)
+    plain = F.xreplace({roots[0]: root})
+    A, C = plain.xreplace({root: S.Zero}), plain.diff(root)
+    if not free_of(C, [root, *momenta]) or not free_of(A, momenta):
+        return F
+    return simplify(C**2 * roots[0].base - A**2)
 
 
 def _terms(expression: Expr) -> list[Expr]:

@@ -9,10 +9,12 @@ from lagcli.algebra import shape, terms
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Call, Expression, Name, operation_count
 from lagcli.mechanics.derivation import Derivation
-from lagcli.mechanics.reduction.quadrature import closed_form
+from lagcli.mechanics.reduction.quadrature import ClosedForm, closed_forms
+from lagcli.mechanics.reduction.readable import conditions
+from lagcli.mechanics.reduction.root_integrals import ROOT
 from lagcli.mechanics.reduction.separation import Separation
 from lagcli.mechanics.reduction.statement import Missing
-from lagcli.motions import HamiltonJacobiSection
+from lagcli.motions import ActionPart, HamiltonJacobiSection
 from lagcli.rewriting import rebuilt
 
 
@@ -29,6 +31,7 @@ def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Miss
         missing.append(("whether the Hamilton-Jacobi equation separates", why))
     writer = _Writing(separation)
     obstacle = separation.obstacle
+    closed = _functions(separation)
     return (
         HamiltonJacobiSection(
             hamiltonian=None if H is None else shape(H, writer.order),
@@ -47,23 +50,35 @@ def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Miss
                 system.names[j]: writer.derivative(e)
                 for j, e in sorted(separated.derivatives.items())
             },
-            functions=_functions(separation, writer),
+            functions={
+                name: writer.function(forms[0])
+                for name, forms in closed.items()
+                if not forms[0].positive
+            },
+            cases={
+                name: tuple(
+                    ActionPart(writer.function(form), conditions(form.positive, writer.order))
+                    for form in forms
+                )
+                for name, forms in closed.items()
+                if forms[0].positive
+            },
             reason=separation.reason,
         ),
         missing,
     )
 
 
-def _functions(separation: Separation, writer: _Writing) -> dict[str, Expression]:
+def _functions(separation: Separation) -> dict[str, tuple[ClosedForm, ...]]:
     """W by coordinate, of those that are not cyclic, where it is elementary."""
     system, separated = separation.system, separation.separated
     if separated is None:
         return {}
     found = {
-        system.names[j]: closed_form(separated.derivatives[j], system.q[j])
+        system.names[j]: closed_forms(separated.derivatives[j], system.q[j], separation.positive)
         for j in sorted(separated.equations)
     }
-    return {name: writer.with_root(W) for name, W in found.items() if W is not None}
+    return {name: forms for name, forms in found.items() if forms}
 
 
 class _Writing:
@@ -82,20 +97,15 @@ class _Writing:
         whole = shape(expression, self.order)
         return whole if operation_count(whole) < operation_count(by_terms) - 2 else by_terms
 
-    def with_root(self, W: Expr) -> Expression:
-        """The root in W written as in its derivative, not shaped again with what it is in."""
-        bases = {p.base for p in W.atoms(sympy.Pow) if p.exp.is_Rational and p.exp.q == 2}
-        longest = max(bases, key=sympy.count_ops, default=None)
-        if longest is None:
-            return shape(W, self.order)
-        R = sympy.Symbol("#R", positive=True)
-        root = self.derivative(sympy.sqrt(longest))
-        plain = W.replace(lambda e: e.is_Pow and e.base == longest, lambda e: R ** (2 * e.exp))
+    def function(self, form: ClosedForm) -> Expression:
+        """W with its root written as a sum by the constants, the same in each term."""
+        root = Call("sqrt", (self.sum(form.radicand),))
 
         def put_back(node: Expression) -> Expression:
-            return root if node == Name("#R") else rebuilt(node, put_back)
+            return root if node == Name(ROOT.name) else rebuilt(node, put_back)
 
-        return put_back(shape(plain, self.order))
+        shaped = [shape(term, self.order) for term in form.terms]
+        return Writer(self.order).sum([put_back(term) for term in shaped])
 
     def derivative(self, expression: Expr) -> Expression:
         """A root with its radicand by terms."""
