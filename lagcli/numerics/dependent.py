@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from operator import mul
 
 from lagcli.numerics.straight_line import PIVOT_TOLERANCE
 from lagcli.record import record
@@ -147,29 +148,32 @@ def solved(matrix: Matrix, right: Vector, least: float = _NO_MASS) -> Vector:
     NoMass
         When the matrix is singular.
     """
-    n = len(right)
-    work = [[*row, value] for row, value in zip(matrix, right, strict=True)]
-    largest = max((abs(x) for row in matrix for x in row), default=0.0)
-    rows, columns = set(range(n)), set(range(n))
-    x = [0.0] * n
-    order: list[tuple[int, int]] = []
+    n, x, right = len(right), [0.0] * len(right), list(right)
+    work = [list(row) for row in matrix]
+    least *= max((_largest(row) for row in work), default=0.0)
+    rows, order = list(range(n)), list[tuple[int, int]]()
     while rows:
-        size, i, j = max((abs(work[i][j]), -i, -j) for i in rows for j in columns)
-        i, j = -i, -j
-        if not size > least * largest:
+        i = max(rows, key=lambda k: _largest(work[k]))
+        top = work[i]
+        j = max(range(n), key=lambda k: abs(top[k]))
+        if not abs(top[j]) > least:
             raise NoMass("the mass matrix is singular along motions that are allowed")
         order.append((i, j))
-        rows.discard(i)
-        columns.discard(j)
+        rows.remove(i)
         for k in rows:
             if work[k][j]:
-                factor = work[k][j] / work[i][j]
-                work[k] = [a - factor * b for a, b in zip(work[k], work[i], strict=True)]
+                factor = work[k][j] / top[j]
+                work[k] = [a - factor * b for a, b in zip(work[k], top, strict=True)]
+                work[k][j] = 0.0
+                right[k] -= factor * right[i]
     for i, j in reversed(order):
-        done = sum(work[i][k] * x[k] for k in range(n) if k != j)
-        x[j] = (work[i][n] - done) / work[i][j]
+        x[j] = (right[i] - _dot(work[i], x)) / work[i][j]
     return x
 
 
+def _largest(row: Sequence[float]) -> float:
+    return max(map(abs, row))
+
+
 def _dot(left: Sequence[float], right: Sequence[float]) -> float:
-    return sum(a * b for a, b in zip(left, right, strict=True))
+    return float(sum(map(mul, left, right)))

@@ -23,50 +23,90 @@ from lagcli.graph.nodes import Graph, Node
 Matrix = Sequence[Sequence[Node]]
 
 
+#: Products beyond which a loop over numbers is cheaper.
+LONGEST = 3000
+
+
+class TooLong(Exception):
+    """Written out, it would be longer than what a loop over numbers takes."""
+
+
 class Factored:
     """A symmetric matrix of nodes as L D L^T.
+
+    Parameters
+    ----------
+    graph
+        Makes the nodes.
+    matrix
+        Its entries.
+
+    Attributes
+    ----------
+    products : int
+        So many have been written, those of `solve` among them.
 
     Raises
     ------
     ZeroDivisionError
         When a pivot is 0 whatever the state.
+    TooLong
+        When there are more than `LONGEST`.
     """
 
     def __init__(self, graph: Graph, matrix: Matrix) -> None:
-        self.graph = graph
+        self.graph, self.products = graph, 0
         n = len(matrix)
         zero = graph.zero
         #: the pivots, and the entries that they came from
         self.pivots: list[tuple[Node, Node]] = []
-        self._lower: list[list[Node]] = [[zero] * n for _ in range(n)]
+        #: what L has below its diagonal, by rows and by columns
+        self._rows: list[dict[int, Node]] = [{} for _ in range(n)]
+        self._columns: list[dict[int, Node]] = [{} for _ in range(n)]
         for j in range(n):
-            done = self._lower[j]
             # u_jk = l_jk d_k
-            scaled = [graph.product(done[k], self.pivots[k][0]) for k in range(j)]
-            pivot = _less(
-                graph, matrix[j][j], [graph.product(done[k], scaled[k]) for k in range(j)]
-            )
+            scaled = {k: graph.product(x, self.pivots[k][0]) for k, x in self._rows[j].items()}
+            pivot = self._less(matrix[j][j], self._rows[j], scaled)
             if pivot is zero:
                 raise ZeroDivisionError("a pivot is 0")
             self.pivots.append((pivot, matrix[j][j]))
             for i in range(j + 1, n):
-                row = self._lower[i]
-                rest = _less(
-                    graph, matrix[i][j], [graph.product(row[k], scaled[k]) for k in range(j)]
-                )
-                row[j] = graph.quotient(rest, pivot)
+                rest = self._less(matrix[i][j], self._rows[i], scaled)
+                if rest is not zero:
+                    self._rows[i][j] = self._columns[j][i] = graph.quotient(rest, pivot)
+            self.limit()
+
+    def limit(self) -> None:
+        """Raise where it has become too long."""
+        if self.products > LONGEST:
+            raise TooLong
 
     def solve(self, right: Sequence[Node]) -> list[Node]:
         """x of L D L^T x = right."""
-        graph, lower = self.graph, self._lower
-        n = len(right)
-        x: list[Node] = []
-        for i in range(n):
-            x.append(_less(graph, right[i], [graph.product(lower[i][k], x[k]) for k in range(i)]))
-        x = [graph.quotient(value, self.pivots[i][0]) for i, value in enumerate(x)]
-        for i in reversed(range(n)):
-            x[i] = _less(graph, x[i], [graph.product(lower[k][i], x[k]) for k in range(i + 1, n)])
-        return x
+        graph, zero = self.graph, self.graph.zero
+        x: dict[int, Node] = {}
+
+        def put(i: int, value: Node) -> None:
+            x.pop(i, None)
+            if value is not zero:
+                x[i] = value
+
+        for i, value in enumerate(right):
+            put(i, self._less(value, self._rows[i], x))
+        for i in list(x):
+            put(i, graph.quotient(x[i], self.pivots[i][0]))
+        for i in reversed(range(len(right))):
+            put(i, self._less(x.get(i, zero), self._columns[i], x))
+        return [x.get(i, zero) for i in range(len(right))]
+
+    def _less(self, node: Node, left: dict[int, Node], right: dict[int, Node]) -> Node:
+        """The node minus the product of two vectors."""
+        graph, one = self.graph, self.graph.one.value  # type: ignore[attr-defined]
+        taken = [graph.product(x, right[k]) for k, x in left.items() if k in right]
+        if not taken:
+            return node
+        self.products += len(taken)
+        return graph.combination([(node, one), *((term, -one) for term in taken)])
 
 
 class Eliminated:
@@ -80,15 +120,25 @@ class Eliminated:
         M factored.
     rows
         A, shape (m, n).
+
+    Raises
+    ------
+    ZeroDivisionError, TooLong
+        As for `Factored`.
     """
 
     def __init__(self, graph: Graph, mass: Factored, rows: Matrix) -> None:
         self.graph, self.mass, self.rows = graph, mass, rows
         #: the rows of (M^-1 A^T)^T
-        self.weighted = [mass.solve(row) for row in rows]
-        self.schur = Factored(
-            graph, [[_dot(graph, row, other) for other in self.weighted] for row in rows]
-        )
+        self.weighted: list[list[Node]] = []
+        for row in rows:
+            self.weighted.append(mass.solve(row))
+            mass.limit()
+        schur = [[graph.zero] * len(rows) for _ in rows]
+        for i, row in enumerate(rows):
+            for j, other in enumerate(self.weighted[: i + 1]):
+                schur[i][j] = schur[j][i] = _dot(graph, row, other)
+        self.schur = Factored(graph, schur)
         self.guards = [*mass.pivots, *self.schur.pivots]
 
     def motion(
@@ -126,12 +176,3 @@ def _dot(graph: Graph, left: Sequence[Node], right: Sequence[Node]) -> Node:
         for a, b in zip(left, right, strict=True)
         if a is not zero and b is not zero
     )
-
-
-def _less(graph: Graph, node: Node, taken: Sequence[Node]) -> Node:
-    """The node minus a sum."""
-    one = graph.one.value  # type: ignore[attr-defined]
-    kept = [term for term in taken if term is not graph.zero]
-    if not kept:
-        return node
-    return graph.combination([(node, one), *((term, -one) for term in kept)])

@@ -14,14 +14,11 @@ from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Call, Node, Symbol, ancestry
 from lagcli.graph.stable import stable_dynamics
 from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
-from lagcli.numerics.elimination import Eliminated, Factored
+from lagcli.numerics.elimination import Eliminated, Factored, TooLong
 from lagcli.numerics.refusal import Refusal
 from lagcli.problem import Problem
 
 _HALF = Fraction(1, 2)
-
-#: Elimination writes some n^3/6 operations out; beyond this a loop does it.
-_WRITTEN_OUT = 24
 
 
 class Equations:
@@ -156,19 +153,22 @@ class Equations:
         return self._eliminated([self.rows[k] for k in self.holonomic])
 
     def _eliminated(self, rows: object) -> Eliminated | None:
-        if len(self.q) > _WRITTEN_OUT or self.factored is None:
+        if self.factored is None:
             return None
         try:
             return Eliminated(self.graph, self.factored, rows)  # type: ignore[arg-type]
-        except ZeroDivisionError:
+        except (ZeroDivisionError, TooLong):
             return None
 
     @cached_property
     def factored(self) -> Factored | None:
-        """The mass matrix as L D L^T; None where a pivot is 0 whatever the state."""
+        """The mass matrix as L D L^T; None where a pivot is 0 whatever the state.
+
+        None, too, where a loop does it: a full one writes some n^3/6 products out.
+        """
         try:
             return Factored(self.graph, self.mass)
-        except ZeroDivisionError:
+        except (ZeroDivisionError, TooLong):
             return None
 
     # -- what is conserved -----------------------------------------------------------------------

@@ -123,14 +123,15 @@ def test_the_factorization_solves_or_tells_that_a_pivot_vanishes(pivot):
     from lagcli.numerics.compiled.machine import _sums, pointer
 
     sums = _sums(DOUBLE)
-    factor = sums.function("factor", ctypes.c_int64, *[ctypes.c_void_p] * 2, ctypes.c_int64)
-    solve = sums.function("solve", None, *[ctypes.c_void_p] * 2, ctypes.c_int64)
-    matrix = DOUBLE.array([4, 2, 1, 2, 2, 1.5, 1, 1.5, 1.25 + pivot])
-    work, x = DOUBLE.array([0] * 3), DOUBLE.array([11, 10.5, 7.75 + 3 * pivot])
-    fine = factor(pointer(matrix), pointer(work), 3)
+    pointers = [ctypes.c_void_p] * 3
+    factor = sums.function("factor", ctypes.c_int64, *pointers[:2], ctypes.c_int64)
+    solve = sums.function("solve", None, *pointers, ctypes.c_int64)
+    matrix = DOUBLE.array([4, 0, 0, 2, 2, 0, 1, 1.5, 1.25 + pivot])
+    first, x = (ctypes.c_int64 * 3)(), DOUBLE.array([11, 10.5, 7.75 + 3 * pivot])
+    fine = factor(pointer(matrix), pointer(first), 3)
     assert fine == (pivot > 1e-10)
     if fine:
-        solve(pointer(matrix), pointer(x), 3)
+        solve(pointer(matrix), pointer(first), pointer(x), 3)
         assert list(x) == pytest.approx([1, 2, 3], rel=1e-15)
 
 

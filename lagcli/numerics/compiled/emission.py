@@ -195,13 +195,7 @@ class Series:
 
     def _blocks(self, lines: list[str], name: str) -> tuple[list[str], str]:
         """The lines in blocks where they are many, and the name of the last."""
-        if len(self._tape.ops) <= LONG:
-            return lines, name
-        found, last = lines[:_BLOCK], name
-        for start in range(_BLOCK, len(lines), _BLOCK):
-            last = f"{name}.{start}"
-            found += [f"br label %{last}", f"{last}:", *lines[start : start + _BLOCK]]
-        return found, last
+        return in_blocks(lines, name) if len(self._tape.ops) > LONG else (lines, name)
 
     def _begun(self, zero: Sequence[str]) -> tuple[str, list[str]]:
         """Whether no pivot vanishes, and q'' of order 0."""
@@ -355,3 +349,12 @@ class Series:
         w = text.minus(two("fadd", squares, twice))
         text.stored(w, "%rows", text.made(f"add i64 %back, {self._row(-1 - place, 'R') * STRIDE}"))
         return t
+
+
+def in_blocks(lines: list[str], name: str) -> tuple[list[str], str]:
+    """The lines of a block in many, and the name of the last."""
+    found, last = lines[:_BLOCK], name
+    for start in range(_BLOCK, len(lines), _BLOCK):
+        last = f"{name}.{start}"
+        found += [f"br label %{last}", f"{last}:", *lines[start : start + _BLOCK]]
+    return found, last

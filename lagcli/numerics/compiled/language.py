@@ -277,6 +277,12 @@ class _Function:
         told = f"{self._as(left, kind)}, {self._as(right, kind)}"
         return self._made("i1", f"{word} {self._type(kind)} {told}")
 
+    def _better(self, op: ast.cmpop, b: Value, best: Value) -> Value:
+        kind = "real" if "real" in {b.kind, best.kind} else "i64"
+        taken = self._comparison(op, b, best).text
+        told = (f"{self._type(kind)} {self._as(value, kind)}" for value in (b, best))
+        return self._made(kind, f"select i1 {taken}, {', '.join(told)}")
+
     def _call(self, name: str, arguments: list[ast.expr]) -> Value:
         values = [self._value(argument) for argument in arguments]
         real = self._numbers.type
@@ -296,12 +302,10 @@ class _Function:
                 intrinsic = f"@llvm.fmuladd.{self._numbers.suffix}"
                 return self._made("real", f"call {real} {intrinsic}({given})")
             case "max" | "min":  # max(a, b) is b where b > a, else a
-                word = "ogt" if name == "max" else "olt"
-                best, *others = (self._as(value, "real") for value in values)
+                best, *others = values
                 for b in others:
-                    taken = self._made("i1", f"fcmp {word} {real} {b}, {best}").text
-                    best = self._made("real", f"select i1 {taken}, {real} {b}, {real} {best}").text
-                return Value("real", best)
+                    best = self._better(ast.Gt() if name == "max" else ast.Lt(), b, best)
+                return best
             case "log" | "exp":
                 function = self._numbers.function(name)
                 return self._made("real", f"call {real} {function}({real} {values[0].text})")

@@ -11,7 +11,13 @@ from typing import Any
 
 from lagcli.graph.nodes import Node, Symbol
 from lagcli.numerics.arithmetic import UndefinedFunction
-from lagcli.numerics.compiled.coupled import FEWEST, CoupledSeries, is_coupled
+from lagcli.numerics.compiled.coupled import (
+    FEWEST,
+    CoupledSeries,
+    Matrix,
+    correction_function,
+    is_coupled,
+)
 from lagcli.numerics.compiled.emission import (
     LONG,
     Series,
@@ -39,7 +45,7 @@ _KERNELS: dict[str, tuple[Any, ...]] = {
 _SUMS = {
     "inner": ("real", ("ptr", "ptr", "i64")),
     "factor": ("i64", ("ptr", "ptr", "i64")),
-    "solve": ("void", ("ptr", "ptr", "i64")),
+    "solve": ("void", ("ptr", "ptr", "ptr", "i64")),
     "couple": ("void", ("ptr", "ptr", "ptr", "ptr", "i64", "i64", "i64")),
 }
 #: Operations beyond which straight code takes too long to make.
@@ -115,15 +121,14 @@ class Machine:
         mask = 0
         for x in inputs:
             mask |= x.mask
-        free = not equations.rows
-        coupled = free and self.motion.n >= FEWEST and is_coupled(equations.mass, mask)
-        eliminated = None if coupled else equations.eliminated
+        self._coupled = self.motion.n >= FEWEST and is_coupled(equations.mass, mask)
+        eliminated = None if self._coupled else equations.eliminated
         roots: Sequence[Node]
+        minus_bias: Sequence[Node] = ()
         if eliminated is None:
-            if not free:
-                raise NotCompiled("the elimination is left to numbers")
             guards: Sequence[Any] = ()
-            roots = [*(node for row in equations.mass for node in row), *equations.forcing]
+            minus_bias = [equations.graph.scaled(node, -1) for node in equations.bias]
+            roots = [*_entries(equations.mass, equations.rows), *equations.forcing, *minus_bias]
         else:
             guards = eliminated.guards
             roots, _ = eliminated.motion(equations.forcing, equations.bias)
@@ -133,7 +138,9 @@ class Machine:
         if any(op.name.endswith("_of") for op in tape.ops):
             raise NotCompiled("the equations are not smooth")
         if eliminated is None:
-            made: Series = CoupledSeries(self.numbers, tape, equations.mass, equations.forcing)
+            made: Series = CoupledSeries(
+                self.numbers, tape, equations.mass, equations.forcing, equations.rows, minus_bias
+            )
         else:
             made = Series(self.numbers, tape, roots, guards)
         self.ops = len(tape.ops)
@@ -147,18 +154,21 @@ class Machine:
 
     def _constraints(self, inputs: Any) -> list[str]:
         e = self.motion.equations
-        made: list[tuple[str, Any, Any, Any]] = []
-        on_positions = e.eliminated_positions if e.holonomic else None
+        made: list[tuple[str, Any, Any]] = []
         if e.holonomic:
-            if on_positions is None:
-                raise NotCompiled("the elimination is left to numbers")
-            made.append(("positions", on_positions, e.positions, on_positions.guards))
-        made.append(("velocities", e.eliminated, e.rates, e.eliminated.guards))  # type: ignore[union-attr]
+            made.append(("positions", [e.rows[k] for k in e.holonomic], e.positions))
+        made.append(("velocities", e.rows, e.rates))
         texts = []
-        for name, eliminated, residuals, guards in made:
-            roots = [*eliminated.correction(residuals), *residuals]
-            tape = self._tape(inputs, roots, guards)
-            texts.append(values_function(name, self.numbers, tape, roots, guards))
+        for name, rows, residuals in made:
+            eliminated = e.eliminated if name == "velocities" else e.eliminated_positions
+            if self._coupled or eliminated is None:
+                tape = self._tape(inputs, [*_entries(e.mass, rows), *residuals], ())
+                text = correction_function(name, self.numbers, tape, e.mass, rows, residuals)
+            else:
+                roots = [*eliminated.correction(residuals), *residuals]
+                tape = self._tape(inputs, roots, eliminated.guards)
+                text = values_function(name, self.numbers, tape, roots, eliminated.guards)
+            texts.append(text)
         if not e.holonomic:
             empty = "define i64 @positions(ptr %state, ptr %out) nounwind {\nret i64 1\n}"
             texts.append(empty)
@@ -177,6 +187,10 @@ class Machine:
     def _kinds(self, name: str) -> list[Any]:
         real = self.numbers.c_type
         return [real if kind == "real" else kind for kind in _KERNELS[name]]
+
+
+def _entries(mass: Matrix, rows: Matrix) -> list[Node]:
+    return [node for row in (*mass, *rows) for node in row]
 
 
 @cache
