@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
-from time import process_time
 
 import sympy
 from sympy import Dummy, Expr, Symbol
 
+from lagcli.algebra.effort import EFFORT, Work
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients
 from lagcli.algebra.field import Element
@@ -22,6 +22,8 @@ from lagcli.algebra.ring import Poly, factorization
 
 _PASSES = 12
 _MAX_TERMS = 4000
+_OF_FACTORS = 20  # units of work for a term
+_UNLIMITED = Work(float("inf"))
 
 #: Whether an expression may be divided by: it does not vanish where the relations hold.
 Nonzero = Callable[[Expr], bool]
@@ -56,7 +58,7 @@ class Elimination:
         remove: Sequence[Symbol],
         nonzero: Nonzero,
         *,
-        deadline: float = float("inf"),
+        work: Work = _UNLIMITED,
     ) -> None:
         self.expression = expression
         self.relations = list(relations)
@@ -64,11 +66,11 @@ class Elimination:
         self.solutions: list[tuple[Symbol, Expr]] = []
         self._meaning: dict[Symbol, Expr] = {}  # of the symbols for a sine and a cosine
         self._divisible = nonzero
-        self._deadline = deadline
+        self._work = work
 
     def run(self) -> Eliminated:
         """Remove what can be removed."""
-        while not self._late():
+        while not self._work.over:
             if self._substitute_one():
                 continue
             if not self._split_angles():
@@ -78,9 +80,6 @@ class Elimination:
         return Eliminated(
             self.expression, frozenset(present), tuple(self.relations), tuple(self.solutions)
         )
-
-    def _late(self) -> bool:
-        return process_time() > self._deadline
 
     def _nonzero(self, divisor: Expr) -> bool:
         return self._divisible(divisor.xreplace(self._meaning))
@@ -123,6 +122,7 @@ class Elimination:
             return None
         ring = field.ring
         product = ring.one
+        EFFORT.done += _OF_FACTORS * element.size()
         for factor, _ in factorization(ring.lift(element.numerator))[1]:
             if not self._nonzero(field.polynomial_to_sympy(factor)):
                 product = product * ring.lift(factor)
@@ -188,7 +188,7 @@ class Elimination:
         """Reduce the expression modulo the relations that are left."""
         for _ in range(_PASSES):
             present = self._present(self.expression)
-            if not present or self._late():
+            if not present or self._work.over:
                 return
             before = self.expression
             for symbol in self.remove:
@@ -264,7 +264,7 @@ def eliminate(
     remove: Sequence[Symbol],
     nonzero: Nonzero,
     *,
-    deadline: float = float("inf"),
+    work: Work = _UNLIMITED,
 ) -> Eliminated:
     """The expression freed of symbols: at first by dividing by constants only, then by all."""
     wanted: Collection[Symbol] = set(remove)
@@ -272,8 +272,8 @@ def eliminate(
     def constant(divisor: Expr) -> bool:
         return not (divisor.free_symbols & wanted) and nonzero(divisor)
 
-    first = Elimination(expression, relations, remove, constant, deadline=deadline).run()
+    first = Elimination(expression, relations, remove, constant, work=work).run()
     if first.complete:
         return first
-    second = Elimination(expression, relations, remove, nonzero, deadline=deadline).run()
+    second = Elimination(expression, relations, remove, nonzero, work=work).run()
     return second if second.complete or len(second.left) < len(first.left) else first

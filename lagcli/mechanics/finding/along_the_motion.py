@@ -14,13 +14,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from time import process_time
 
 import mpmath
 from mpmath import mpf
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.effort import Work
 from lagcli.algebra.elimination import Eliminated, eliminate
 from lagcli.algebra.equations import written
 from lagcli.algebra.numeric import Evaluator
@@ -32,8 +32,8 @@ from lagcli.mechanics.noether import Noether
 from lagcli.mechanics.parameter_values import parameter_values
 from lagcli.mechanics.states import State
 
-#: Seconds that one question may take.
-BUDGET = 8.0
+#: Units of work for one question.
+UNITS = 12_000_000
 _STATES = 3
 _ZERO = mpf(10) ** -38
 _NONZERO = mpf(10) ** -25
@@ -46,7 +46,7 @@ class AlongTheMotion:
         self.dynamics = dynamics
         self.noether = noether
         self.system = dynamics.system
-        self.deadline = float("inf")
+        self.work = Work(float("inf"))
         self.why_not = ""
         self._named: dict[Symbol, Expr] = {}
 
@@ -108,8 +108,8 @@ class AlongTheMotion:
             value = simplify(found.expression)
             if self._agrees(subject - value):
                 return value
-        if process_time() > self.deadline:
-            self.why_not = f"not found within {BUDGET:g} s"
+        if self.work.over:
+            self.why_not = "it would take too much work"
         elif not self.why_not:
             self.why_not = self._not_determined(keep)
         return None
@@ -131,7 +131,7 @@ class AlongTheMotion:
         self, expression: Expr, relations: Sequence[Expr], remove: Sequence[Symbol]
     ) -> Eliminated:
         """The expression with symbols removed by the relations, within the time allowed."""
-        return eliminate(expression, relations, remove, self.nonzero, deadline=self.deadline)
+        return eliminate(expression, relations, remove, self.nonzero, work=self.work)
 
     def attempts(
         self, keep: Sequence[Symbol], *, with_time: bool

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from time import process_time
-
 from sympy import Symbol
 
+from lagcli.algebra.effort import Work
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.finding.along_the_motion import BUDGET, AlongTheMotion
+from lagcli.mechanics.finding.along_the_motion import UNITS, AlongTheMotion
 from lagcli.mechanics.finding.lasting import LastingAnswer
 from lagcli.mechanics.finding.passing import Passing
 from lagcli.mechanics.finding.where import Where
@@ -28,7 +27,7 @@ def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:
     known: dict[Symbol, Passing] = {}
     answers: dict[str, Answer] = {}
     for question in dynamics.system.problem.find:
-        along.deadline = process_time() + BUDGET
+        along.work = Work(UNITS)
         if isinstance(question, Rewrite):
             answers[question.name] = _rewritten(along, question)
         elif isinstance(question, Lasting | Reaching):

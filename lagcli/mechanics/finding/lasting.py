@@ -233,7 +233,7 @@ class LastingAnswer:
         present = {symbol for function in functions for symbol in function.free_symbols}
         others = [q for q in self.system.parameters if q is not self.p and q in present]
         scaled = special.scales([*variables, self.p], others, functions)
-        return ranges(special, others, verdict, self.along.deadline, scaled=scaled)
+        return ranges(special, others, verdict, self.along.work, scaled=scaled)
 
     def _passing(self, u: Symbol) -> Passing:
         if u not in self._known:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from functools import cached_property
-from time import process_time
 
 import mpmath
 from mpmath import mpf
@@ -109,8 +108,8 @@ class Passing:
             draws = self._informative(passage)
             times: list[bool] = []
             for index in draws:
-                if process_time() > self.along.deadline:
-                    self.along.why_not = "what the motion comes to was not decided in time"
+                if self.along.work.over:
+                    self.along.why_not = "what the motion comes to was not decided: too much work"
                     return None
                 times.append(self._passes(index, passage, angle=angle))
                 if len(times) >= _ENOUGH and any(times):
@@ -191,7 +190,7 @@ class Passing:
         shown = [p for p in values if p not in given]
         for p in shown:
             for simple in (mpf(-1 if p.is_negative else 1), mpf(mpmath.nstr(values[p], 2))):
-                if line is None or process_time() > self.along.deadline:
+                if line is None or self.along.work.over:
                     break
                 with suppress(ArithmeticError, ValueError, TypeError):
                     near = [{**values, p: simple * (1 + mpf(k) / 16)} for k in (0, 1, -1)]

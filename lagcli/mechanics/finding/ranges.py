@@ -19,17 +19,18 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
-from time import process_time
 
 import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol
 
+from lagcli.algebra.effort import EFFORT, Work
 from lagcli.mechanics.finding.special_values import DIGITS, SpecialValues
 from lagcli.mechanics.parameter_values import random_value
 from lagcli.record import record
 
 _DRAWS = 6
+_OF_MOTION = 10_000  # units of work: w(u) and its roots at 90 digits
 _SAME = mpf(10) ** -30
 _GIVE = "; --set gives them numbers"
 
@@ -56,7 +57,7 @@ def ranges(
     special: SpecialValues,
     others: Sequence[Symbol],
     verdict: Callable[[Values], bool | None],
-    deadline: float,
+    work: Work,
     *,
     scaled: bool,
 ) -> list[Bounds]:
@@ -70,6 +71,8 @@ def ranges(
         All parameters but p.
     verdict
         The answer for numbers in place of all parameters, None where they do not decide.
+    work
+        Undecided when none is left.
     scaled
         Whether one choice of the others stands for all.
 
@@ -79,12 +82,12 @@ def ranges(
         With the reason.
     """
     source = random.Random("lagcli ranges")
-    cells = _Cells(special, _draw(others, source, 0), verdict, deadline)
+    cells = _Cells(special, _draw(others, source, 0), verdict, work)
     pattern = cells.true_ones()
     if others and not scaled and not special.are_ordered(cells.order):
         names = ", ".join(other.name for other in others)
         for k in range(1, _DRAWS):
-            more = _Cells(special, _draw(others, source, k), verdict, deadline)
+            more = _Cells(special, _draw(others, source, k), verdict, work)
             if more.true_ones() != pattern:
                 raise Undecided(f"which values of {special.p} these are depends on {names}{_GIVE}")
         why = f"which values of {special.p} these are was not proved for all {names}"
@@ -112,12 +115,12 @@ class _Cells:
         special: SpecialValues,
         draw: Values,
         verdict: Callable[[Values], bool | None],
-        deadline: float,
+        work: Work,
     ) -> None:
         self.special = special
         self.draw = draw
         self.verdict = verdict
-        self.deadline = deadline
+        self.work = work
         self.points: list[mpf] = []
         self.order: list[list[int]] = []
         for value, index in special.sorted_numbers(draw):
@@ -166,8 +169,9 @@ class _Cells:
         return [*samples, _between(points[-1], high)]
 
     def _decided(self, sample: mpf) -> bool:
-        if process_time() > self.deadline:
-            raise Undecided("it took too long")
+        if self.work.over:
+            raise Undecided("it would take too much work")
+        EFFORT.done += _OF_MOTION
         found = self.verdict({**self.draw, self.special.p: sample})
         if found is None:
             number = mpmath.nstr(sample, 6)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from time import process_time
 
 import mpmath
 import sympy
@@ -212,7 +211,7 @@ class Where:
             if formula is not None and self.unknown in formula.free_symbols:
                 found = self._roots(formula, self.unknown)
                 return None if found is None else self._sorted(list(found.values))
-            if process_time() > self.along.deadline:
+            if self.along.work.over:
                 break
         self.along.why_not = f"constraints and conserved quantities do not determine {self.unknown}"
         return None

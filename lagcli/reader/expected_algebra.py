@@ -1,0 +1,81 @@
+"""What is expected of `algebra`: the Lie algebra, the counts, special values of parameters."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from lagcli.problem import ExpectAlgebra, ExpectSpecial
+from lagcli.reader.nodes import Node
+from lagcli.reader.scope import CONSTANTS, Role
+
+if TYPE_CHECKING:
+    from lagcli.diagnostics import Span
+    from lagcli.reader.sections import Sections
+
+_COUNTS = ("dimension", "independent", "in_involution")
+_KEYS = (*_COUNTS, "name", "integrable", "special")
+_SPECIAL = ("where", "charges", "discovered")
+_WORDS = {"yes": True, "no": False}
+_CHARGE = Role(order=1, why="an answer is free of accelerations")
+
+
+def read_algebra(
+    sections: Sections, node: Node, spans: dict[tuple[str, ...], Span]
+) -> ExpectAlgebra:
+    """`expect: {algebra: {dimension, name, independent, in_involution, integrable, special}}`."""
+    found: dict[str, Any] = {}
+    for name, (key, value) in sections.attributes(node, "'algebra'", _KEYS).items():
+        spans["algebra", name] = key.span
+        if name in _COUNTS:
+            found[name] = read_count(sections, value, name)
+        elif name == "special":
+            items = sections.items(value, "'special'", "write [] where there are none")
+            found[name] = tuple(
+                _special(sections, item, ("algebra", name, str(place)), spans)
+                for place, item in enumerate(items)
+            )
+        elif (text := sections.scalar(value, f"'{name}'")) is not None:
+            word = text.value.strip()
+            if name == "name":
+                found[name] = word
+            elif word in _WORDS:
+                found[name] = _WORDS[word]
+            else:
+                sections.error("'integrable' is yes or no", text.span)
+    return ExpectAlgebra(**found)
+
+
+def read_count(sections: Sections, node: Node, name: str) -> int | None:
+    """A whole number, 0 or more."""
+    text = sections.scalar(node, f"'{name}'")
+    if text is None:
+        return None
+    value = text.value.strip()
+    if not (value.isascii() and value.isdigit() and len(value) < 10):
+        sections.error(f"'{name}' is a whole number, 0 or more", text.span)
+        return None
+    return int(value)
+
+
+def _special(
+    sections: Sections, node: Node, path: tuple[str, ...], spans: dict[tuple[str, ...], Span]
+) -> ExpectSpecial:
+    """`{where: n = -1, charges: 4, discovered: {name: charge}}`."""
+    spans[path] = node.span
+    found: dict[str, Any] = {}
+    entries = sections.attributes(node, "a special value", _SPECIAL)
+    if "where" not in entries:
+        sections.error("a special value needs 'where', such as where: n = -1", node.span)
+    for name, (key, value) in entries.items():
+        spans[(*path, name)] = key.span
+        if name == "where":
+            found[name] = sections.equation(value, "the special value", CONSTANTS)
+        elif name == "charges":
+            found[name] = read_count(sections, value, name)
+        else:
+            found[name] = {}
+            for label, charge in sections.entries(value, "'discovered'"):
+                spans[(*path, name, label.label)] = label.span
+                what = f"the expected charge '{label.label}'"
+                found[name][label.label] = sections.expression(charge, what, _CHARGE)
+    return ExpectSpecial(**found)
