@@ -185,14 +185,19 @@ class QuadraticIntegrals:
 
     def _scalar(self, functions: Slots, eta: Sequence[Expr], _: Expr, /) -> Expr | None:
         """S(q) from its gradient."""
+        force, _ = self._slopes(eta)
+        return self._potential(force, functions)
+
+    def _slopes(self, eta: Sequence[Expr]) -> tuple[list[Expr], Expr]:
+        """The gradient of S, and dS/dt at fixed q: dQ/dt = 0 to first degree in q'."""
         equations = self.equations
         slot = Slot(("whole",), tuple(eta))
         a, b = slot.a(equations), slot.b(equations)
-        force = [
+        gradient = [
             expanded((b.diff(v) - equations.convected(x)).xreplace(self._still))
             for v, x in zip(equations.v, a, strict=True)
         ]
-        return self._potential(force, functions)
+        return gradient, expanded(b.xreplace(self._still))
 
     def _is_conserved(self, charge: Expr, eta: Sequence[Expr]) -> bool:
         """Whether dQ/dt = sum eta_j (d/dt dL/dq_j' - dL/dq_j) identically: then 0 on the motion."""

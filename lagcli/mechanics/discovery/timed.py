@@ -16,18 +16,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra import simplify
 from lagcli.mechanics.discovery.ansatz import Kinds, TimeFunctions, quadratic
 from lagcli.mechanics.discovery.boundary import gauge_of
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots
 from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.modular import NoPoint
+from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.slots import Equations, point_slots
 from lagcli.mechanics.noether import Noether, NoetherCharge
 
 _MOST_UNKNOWNS = 600
 _MOST_COORDINATES = 3
+_MOST_CANDIDATES = 400
+_WAVES = (sympy.sin, sympy.cos, sympy.exp)
 
 
 class TimedIntegrals(QuadraticIntegrals):
@@ -59,10 +63,41 @@ class TimedIntegrals(QuadraticIntegrals):
         ]  # fmt: skip
         return 1 < n <= _MOST_COORDINATES and not kinds.angles and len(plain) < 2 * n
 
-    def _scalar(self, _: Slots, eta: Sequence[Expr], moving: Expr, /) -> Expr | None:
+    def _scalar(self, functions: Slots, eta: Sequence[Expr], moving: Expr, /) -> Expr | None:
         """S(t, q) with dS/dt = sum eta_j (d/dt dL/dq_j' - dL/dq_j) - d(moving)/dt."""
+        found = self._of_given_shape(functions, eta)
+        if found is not None:
+            return found
         system = self.noether.system
         left = self.noether.dynamics.lagrange.left_sides
         along = sympy.Add(*(x * e for x, e in zip(eta, left, strict=True)))
         change = simplify(along - system.total_derivative(moving))
         return gauge_of(change, system, self.allowed)
+
+    def _of_given_shape(self, functions: Slots, eta: Sequence[Expr]) -> Expr | None:
+        """S as a sum of T(t) s(q), each s a term of L times a function of the coordinates."""
+        t, q = self.equations.t, self.equations.q
+        spaces = [*self._candidates(functions), sympy.S.One]
+        candidates = [T * s for T in self._times_of(functions) for s in spaces]
+        if len(candidates) > _MOST_CANDIDATES:
+            return None
+        gradient, rate = self._slopes(eta)
+        vectors = [[c.diff(x) for x in (t, *q)] for c in candidates]
+        try:
+            relation = Relation([*vectors, [-rate, *(-x for x in gradient)]], [t, *q], self.allowed)
+            values = relation.of_last()
+        except (NoPoint, ZeroDivisionError):
+            return None
+        if values is None:
+            return None
+        return sympy.Add(*(c * x for c, x in zip(candidates, values, strict=True)))
+
+    def _times_of(self, functions: Slots) -> list[Expr]:
+        """The functions of time of an integral, and those with the same arguments."""
+        waves = {w for _, f in functions for w in _waves(f, self.equations.t)}
+        inside = {w.args[0] for w in waves}
+        return [T for T in self.times if {w.args[0] for w in _waves(T, self.equations.t)} <= inside]
+
+
+def _waves(expression: Expr, t: Symbol) -> set[Expr]:
+    return {w for w in expression.atoms(*_WAVES) if t in w.free_symbols}
