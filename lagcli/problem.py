@@ -278,6 +278,27 @@ class ExpectHamiltonJacobi:
     functions: Mapping[str, Expression] = field(default_factory=dict)
 
 
+@record(kw_only=True)
+class ExpectSpecial:
+    """A relation of the parameters, how many charges there are with it, and some new ones."""
+
+    where: Equation | None = None
+    charges: int | None = None
+    discovered: Mapping[str, Expression] = field(default_factory=dict)
+
+
+@record(kw_only=True)
+class ExpectAlgebra:
+    """What is known of the discovered symmetries; `special`: all special values."""
+
+    dimension: int | None = None
+    name: str | None = None
+    independent: int | None = None
+    in_involution: int | None = None
+    integrable: bool | None = None
+    special: tuple[ExpectSpecial, ...] | None = None
+
+
 CanonicalKind = Literal["canonical", "extended canonical", "not canonical"]
 
 
@@ -310,6 +331,7 @@ class Expect:
     energy: Expression | None = None
     charges: Mapping[str, Expression | Literal["not conserved"]] = field(default_factory=dict)
     discovered: Mapping[str, Expression | Literal["not conserved"]] = field(default_factory=dict)
+    algebra: ExpectAlgebra | None = None
     modes: tuple[Expression, ...] | None = None  # angular frequencies
     find: Mapping[str, tuple[Expression, ...]] = field(default_factory=dict)
     #: answers that are ranges: each by its bounds

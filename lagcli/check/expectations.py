@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import cast
 
 from lagcli.answers import (
@@ -18,6 +19,7 @@ from lagcli.answers import (
     MomentaSection,
     MultipliersSection,
 )
+from lagcli.check.algebra import expected_algebra
 from lagcli.check.comparison import Comparison
 from lagcli.check.findings import Finding, Outcome
 from lagcli.check.following import follows
@@ -68,7 +70,10 @@ class Expectations:
         phase_space = PhaseSpace(self.derivation, self.answers)
         yield from phase_space.of_brackets()
         yield from phase_space.of_transformations()
-        for path, verdict, wanted, shown in Reductions(self.derivation, self.answers).findings():
+        judged = expected_algebra(self.expect, self.answers, self.comparison)
+        for path, verdict, wanted, shown in chain(
+            judged, Reductions(self.derivation, self.answers).findings()
+        ):
             yield self._judge(path, verdict, wanted, shown)
 
     # -- one comparison --------------------------------------------------------------------
@@ -303,6 +308,7 @@ _SECTIONS: Mapping[str, Callable[[Expect], object]] = {
     "hamiltonian": lambda expect: expect.hamiltonian is not None,
     "charges": lambda expect: expect.charges,
     "discovered": lambda expect: expect.discovered,
+    "algebra": lambda expect: expect.algebra is not None,
     "find": lambda expect: expect.find or expect.ranges,
     "modes": lambda expect: expect.modes is not None,
     "reduction": lambda expect: expect.reduction is not None,

@@ -8,6 +8,9 @@ from enum import Enum
 from lagcli.diagnostics import NOWHERE, Diagnostic, Source, Span
 from lagcli.record import record
 
+#: The path of an expectation, the verdict, what was expected and what was found.
+Judged = tuple[list[str], bool | None, str, str]
+
 
 class Outcome(Enum):
     """How the check of one problem ended."""

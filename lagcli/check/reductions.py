@@ -12,6 +12,7 @@ from sympy import Expr
 from lagcli.algebra import simplify
 from lagcli.answers import Answers, ReductionSection
 from lagcli.check.comparison import Comparison
+from lagcli.check.findings import Judged
 from lagcli.check.phase_space import free_comparison
 from lagcli.expression import Expression, Name
 from lagcli.formatters.grammar import to_grammar
@@ -20,9 +21,6 @@ from lagcli.mechanics.reduction.readable import deciding
 from lagcli.motions import HamiltonJacobiSection, SteadyMotion, SteadySection
 from lagcli.problem import ExpectSteady, Inequality
 from lagcli.reader.expected_reduction import CONSTANT_NAMES
-
-#: The path of an expectation, the verdict, what was expected and what was found.
-Judged = tuple[list[str], bool | None, str, str]
 
 
 class Reductions:

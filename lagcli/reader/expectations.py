@@ -10,6 +10,7 @@ from lagcli.problem import (
     Constraint,
     Contact,
     Expect,
+    ExpectAlgebra,
     ExpectCanonical,
     ExpectHamiltonJacobi,
     ExpectReduction,
@@ -25,6 +26,7 @@ from lagcli.problem import (
 )
 from lagcli.reader.columns import named_columns
 from lagcli.reader.dynamics import read_by_coordinate
+from lagcli.reader.expected_algebra import read_algebra, read_count
 from lagcli.reader.expected_ranges import read_ranges
 from lagcli.reader.expected_reduction import (
     read_hamilton_jacobi,
@@ -46,7 +48,7 @@ _KEYS = (
     "degrees_of_freedom", "equations", "accelerations", "multipliers", "constraint_forces",
     "forces", "friction_needed", "momenta", "hamiltonian", "energy", "charges", "discovered",
     "modes", "find", "trajectory", "reduction", "steady_motions", "hamilton_jacobi", "brackets",
-    "canonical",
+    "canonical", "algebra",
 )  # fmt: skip
 
 #: An answer holds what is left when accelerations and multipliers have been eliminated.
@@ -89,14 +91,7 @@ class ExpectReader:
         return Expect(**values, ranges=self.ranges, spans=self.spans)
 
     def _degrees_of_freedom(self, node: Node) -> int | None:
-        text = self.sections.scalar(node, "'degrees_of_freedom'")
-        if text is None:
-            return None
-        value = text.value.strip()
-        if not (value.isascii() and value.isdigit() and len(value) < 10):
-            self.sections.error("'degrees_of_freedom' is a whole number, 0 or more", text.span)
-            return None
-        return int(value)
+        return read_count(self.sections, node, "degrees_of_freedom")
 
     def _equations(self, node: Node) -> tuple[Equation, ...]:
         equations = []
@@ -175,6 +170,9 @@ class ExpectReader:
         self._note(node, "discovered")
         entries = self.sections.entries(node, "'discovered'")
         return {key.label: self._charge(key, value) for key, value in entries}
+
+    def _algebra(self, node: Node) -> ExpectAlgebra:
+        return read_algebra(self.sections, node, self.spans)
 
     def _modes(self, node: Node) -> tuple[Expression, ...]:
         modes = []
