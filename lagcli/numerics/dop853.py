@@ -34,6 +34,7 @@ ORDER = 8
 _END = 13  # the stage at the end of the step
 _LAST = 16
 _SAFETY, _SHRINK, _GROW = 0.9, 0.2, 6.0
+_FIRST = 1e-4  # of the longest step, for the first
 #: A step may be as short as this part of the time that has passed (or of the span).
 _SHORTEST = 4e-16
 #: So many steps that cover less than this part of the span are looked at: where a pivot of the
@@ -87,7 +88,7 @@ class Dop853:
         if motion.kinks:
             kinks.begin(t, q, v)
         rate = self._rate(t, q, v)
-        h = self._first(q, v, rate, until - begin, tolerance)
+        h = tolerance.first_step(q, v, rate, _FIRST, until - begin)
         lost = [0.0] * (2 * n)  # what rounding takes from the sums (Kahan)
         grow = _GROW
         attempts, since = 0, t
@@ -152,22 +153,6 @@ class Dop853:
     def _rate(self, t: float, q: Sequence[float], v: Sequence[float]) -> tuple[float, ...]:
         self.evaluations += 1
         return self.motion.accelerations(t, *q, *v)
-
-    def _first(
-        self,
-        q: list[float],
-        v: list[float],
-        rate: Sequence[float],
-        until: float,
-        tolerance: Tolerance,
-    ) -> float:
-        """A first step in which the state changes by a small part of itself."""
-        tolerance.see(q, v, [0.0] * (2 * self.n))
-        h = tolerance.longest
-        for x, dx in (*zip(q, v, strict=True), *zip(v, rate, strict=True)):
-            if dx and x:
-                h = min(h, 0.05 * abs(x / dx))
-        return min(max(h, 1e-4 * tolerance.longest), until)
 
     def _error(
         self, h: float, five: Sequence[float], three: Sequence[float], tolerance: Tolerance

@@ -31,6 +31,7 @@ ORDER = 5
 _STAGES = 3
 _ESTIMATE = 4  # the power of h in the error that is estimated
 _SAFETY, _SHRINK, _GROW = 0.9, 0.2, 6.0
+_FIRST = 1e-6  # of the longest step, for the first
 _NEWTON = 1e-3  # of the tolerance
 _SHORTEST = 4e-16
 
@@ -87,7 +88,7 @@ class Radau5:
         t, stages = begin, self._stages
         allowed = max(0.1 * tolerance.value ** (2 / 3), 1e-14)
         rate = self._rate(t, q, v)
-        h = self._first(q, v, rate, until - begin, tolerance)
+        h = tolerance.first_step(q, v, rate, _FIRST, until - begin)
         guess = [list(rate) for _ in range(_STAGES)]
         grow, fresh = _GROW, True
         while t < until:
@@ -132,22 +133,6 @@ class Radau5:
     def _rate(self, t: float, q: Sequence[float], v: Sequence[float]) -> tuple[float, ...]:
         self._more += 1
         return self.motion.accelerations(t, *q, *v)
-
-    def _first(
-        self,
-        q: Vector,
-        v: Vector,
-        rate: Sequence[float],
-        span: float,
-        tolerance: Tolerance,
-    ) -> float:
-        """A first step in which the state changes by a small part of itself."""
-        tolerance.see(q, v, [0.0] * (2 * self.n))
-        h = tolerance.longest
-        for x, dx in (*zip(q, v, strict=True), *zip(v, rate, strict=True)):
-            if dx and x:
-                h = min(h, 0.05 * abs(x / dx))
-        return min(max(h, 1e-6 * tolerance.longest), span)
 
     def _error(
         self,

@@ -103,6 +103,30 @@ class Tolerance:
             self.scales[j] = max(peaks[j], floor, 1e-3 * self.longest * peaks[n + j])
             self.scales[n + j] = max(peaks[n + j], floor, peaks[j] / self.span)
 
+    def first_step(
+        self,
+        q: Sequence[float],
+        v: Sequence[float],
+        rate: Sequence[float],
+        least: float,
+        span: float,
+    ) -> float:
+        """A step in which the state changes by a small part of itself.
+
+        Parameters
+        ----------
+        least
+            Of the longest step, this part at least.
+        span
+            And at most this long.
+        """
+        self.see(q, v, [0.0] * (2 * self.n))
+        h = self.longest
+        for x, dx in (*zip(q, v, strict=True), *zip(v, rate, strict=True)):
+            if dx and x:
+                h = min(h, 0.05 * abs(x / dx))
+        return min(max(h, least * self.longest), span)
+
     def rejected(self, errors: Sequence[float]) -> None:
         """Note which component a step failed by; one that is rounding fails again and again."""
         top = max(self.peaks)
