@@ -57,7 +57,6 @@ class Collocation:
         a = [[_integral(basis[j], nodes[i]) for j in range(s)] for i in range(s)]
         b = [_integral(basis[j], Fraction(1)) for j in range(s)]
         squared = [[sum(a[i][k] * a[k][j] for k in range(s)) for j in range(s)] for i in range(s)]
-        self.exact_nodes, self.exact_weights = nodes, b
         self.nodes = [float(c) for c in nodes]
         self.a = [[float(x) for x in row] for row in a]
         self.a_squared = [[float(x) for x in row] for row in squared]

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from sympy import Expr
-
 from lagcli.algebra import is_zero
 from lagcli.expression import Name
 from lagcli.mechanics.derivation import Derivation
@@ -43,8 +39,3 @@ class Teller:
     def damped(self) -> bool:
         """Whether there is a dissipation function."""
         return self.problem.dissipation is not None
-
-
-def vanishing(expressions: Sequence[Expr]) -> bool:
-    """Whether all are 0 for certain."""
-    return all(is_zero(each) is True for each in expressions)
