@@ -244,9 +244,10 @@ class Equilibrium:
 
 @record(kw_only=True)
 class EquilibriaSection:
-    """All equilibria found; None where the equations could not be solved."""
+    """All equilibria found; None where none could be, with a `reason`."""
 
     equilibria: tuple[Equilibrium, ...] | None
+    reason: str = ""
 
 
 @record(kw_only=True)
@@ -262,9 +263,10 @@ class Mode:
 
 @record(kw_only=True)
 class ModesSection:
-    """The normal modes; None where there was no equilibrium to expand about."""
+    """The normal modes; None where there are none, with a `reason`."""
 
     modes: tuple[Mode, ...] | None
+    reason: str = ""
 
 
 @record(kw_only=True)

@@ -113,7 +113,7 @@ def by_distances(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[
 def _inverted(equation: Expr, roots: Sequence[Symbol]) -> Expr:
     """The equation in w = 1/r, times every r that occurs."""
     own = [r for r in roots if r in equation.free_symbols]
-    return sympy.expand(equation.xreplace({r: 1 / r for r in own}) * sympy.Mul(*own))
+    return simplify(equation.xreplace({r: 1 / r for r in own}) * sympy.Mul(*own))
 
 
 def _linear(equations: Sequence[Expr], roots: Sequence[Symbol]) -> tuple[list[Expr], Expr] | None:

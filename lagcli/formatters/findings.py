@@ -137,7 +137,7 @@ def _ranges(unknown: str, ranges: Sequence[Range]) -> tuple[str | Formula, ...]:
 def equilibrium_blocks(section: EquilibriaSection) -> Iterator[Block]:
     """Say each state of rest with its stability."""
     if section.equilibria is None:
-        yield Paragraph(("Not found: the equations could not be solved.",))
+        yield Paragraph((f"Not found: {section.reason}.",))
     elif not section.equilibria:
         yield Paragraph(("There is none.",))
     for equilibrium in section.equilibria or ():
@@ -177,7 +177,7 @@ def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:
 def mode_blocks(section: ModesSection) -> Iterator[Block]:
     """Say the modes about each equilibrium: angular frequency and shape."""
     if section.modes is None:
-        yield Paragraph(("There is no equilibrium to expand about.",))
+        yield Paragraph((f"Not found: {section.reason}.",))
     elif not section.modes:
         yield Paragraph(("There is none.",))
     about: object = None

@@ -262,8 +262,8 @@ class LargeStatements(Stating):
 
     def _equilibria(self) -> EquilibriaSection:
         self._missing("the equilibria")
-        return EquilibriaSection(equilibria=None)
+        return EquilibriaSection(equilibria=None, reason=_WHY)
 
     def _modes(self) -> ModesSection:
         self._missing("the normal modes")
-        return ModesSection(modes=None)
+        return ModesSection(modes=None, reason=_WHY)

@@ -372,7 +372,7 @@ class Statements(Stating):
 
         section = equilibria(self.dynamics)
         if section.equilibria is None:
-            self._missing("the equilibria", "the equations of rest have no closed solution")
+            self._missing("the equilibria", section.reason)
         return section
 
     def _modes(self) -> ModesSection:
@@ -380,7 +380,7 @@ class Statements(Stating):
 
         section = modes(self.dynamics)
         if section.modes is None:
-            self._missing("the normal modes", "there is no equilibrium to expand about")
+            self._missing("the normal modes", section.reason)
         return section
 
     def _reduction(self) -> ReductionSection:

@@ -500,8 +500,8 @@ HOSTILE = Answers(
                 ),
             )
         ),
-        "equilibria": EquilibriaSection(equilibria=None),
-        "modes": ModesSection(modes=None),
+        "equilibria": EquilibriaSection(equilibria=None, reason="x_1 <&> 100%"),
+        "modes": ModesSection(modes=None, reason="x_1 <&> 100%"),
         "hamilton_jacobi": HamiltonJacobiSection(
             hamiltonian=long_sum,
             energy="E",

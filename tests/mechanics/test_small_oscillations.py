@@ -222,6 +222,34 @@ def test_no_equilibrium_no_modes(system):
     assert modes(dynamics(text)).modes is None
 
 
+def test_it_is_told_why_there_are_none():
+    driven = dynamics("coordinates: [x]\nT: x'^2/2\nV: x^2/2\nforces: {x: cos(t)}\n")
+    why = "the equations depend explicitly on the time"
+    assert equilibria(driven).reason == why
+    assert modes(driven).reason == f"no equilibrium is known ({why})"
+    assert "there is no" in modes(dynamics("coordinates: [x]\nT: x'^2/2\nV: x\n")).reason
+
+
+@pytest.mark.parametrize(
+    ("sign", "number", "condition"),
+    [("+", 4, ""), ("-", 4, "mu < 0")],
+    ids=["repulsion", "attraction"],
+)
+def test_two_powers_of_one_distance_balance(sign, number, condition):
+    """V = -1/r + mu/(3 r^3) has its minimum on the circle r^2 = mu, and none for -mu/(3 r^3)."""
+    assume = "positive" if sign == "+" else "real"
+    text = f"""
+coordinates: [x, y]
+parameters: {{mu: {{assume: {assume}}}}}
+T: (x'^2 + y'^2)/2
+V: -1/sqrt(x^2 + y^2) {sign} mu/(3*(x^2 + y^2)^(3/2))
+"""
+    found = equilibria(dynamics(text)).equilibria
+    assert found is not None
+    assert len(found) == number
+    assert {e.condition for e in found} == {condition}
+
+
 def test_the_singular_centre_of_a_force_is_no_equilibrium():
     kepler = """
 coordinates: [x, y]

@@ -40,7 +40,8 @@ def further(teller: Teller, also: Sequence[str]) -> tuple[list[Step], list[str]]
 def _rest(teller: Teller, section: Section) -> Iterator[Block]:
     from lagcli.mechanics.oscillations.equilibria import RestPoints
 
-    found = cast(EquilibriaSection, section).equilibria
+    states = cast(EquilibriaSection, section)
+    found = states.equilibria
     rest = RestPoints(teller.dynamics)
     constrained = bool(teller.dynamics.constraints.equations)
     yield says(
@@ -52,7 +53,7 @@ def _rest(teller: Teller, section: Section) -> Iterator[Block]:
     conditions = [teller.readable.as_written(e) for e in rest.equations]
     yield Equations(tuple(Row(ZERO, condition) for condition in conditions))
     if found is None:
-        yield says(f"They were not solved: {rest.reason}." if rest.reason else "No root was found.")
+        yield says(f"They were not solved: {states.reason}.")
         return
     if not found:
         yield says("They have no solution: there is no state of rest.")
@@ -74,9 +75,10 @@ def _state(at: Mapping[str, Expression]) -> Equations:
 def _oscillations(teller: Teller, section: Section) -> Iterator[Block]:
     from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
 
-    found = cast(ModesSection, section).modes
+    known = cast(ModesSection, section)
+    found = known.modes
     if not found:
-        yield says("There is no equilibrium to expand about.")
+        yield says(f"There are none to be told of: {known.reason}.")
         return
     oscillations = SmallOscillations(teller.dynamics)
     for at in list({tuple(mode.at.items()): mode.at for mode in found}.values()):

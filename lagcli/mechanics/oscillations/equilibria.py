@@ -66,7 +66,7 @@ class RestPoints:
         `complete` tells afterwards whether there can be no other.
         """
         if self._depends_on_time():
-            self.reason = "the system depends explicitly on the time"
+            self.reason = "the equations depend explicitly on the time"
             return None
         equations = self.equations
         solved = solve_system(equations, self.system.q)
@@ -80,7 +80,7 @@ class RestPoints:
             known = {tuple(p.values.get(q, q) for q in self.system.q) for p in found}
             found += [p for p in self._evident() if tuple(p.values.values()) not in known]
             if not found:
-                self.reason = "the equations of equilibrium could not be solved"
+                self.reason = "the equations of rest have no closed solution"
                 return None
         return tuple(found)
 
@@ -174,10 +174,17 @@ def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
         there = expression.subs(put_in, simultaneous=True)
         if not there.has(S.NaN, S.ComplexInfinity, S.Infinity, S.NegativeInfinity):
             return rounded(simplify(there))
+        roots = filter(_divides_by_root, expression.atoms(sympy.Pow))
+        if any(is_zero(p.base.subs(put_in, simultaneous=True)) is True for p in roots):
+            return S.NaN
     field = Field([expression])
     with suppress(ZeroDivisionError):
         expression = field.to_sympy(field(expression))
     return rounded(simplify(expression.subs(put_in, simultaneous=True)))
+
+
+def _divides_by_root(power: sympy.Pow) -> bool:
+    return bool(power.exp.is_Rational and not power.exp.is_Integer and power.exp < 0)
 
 
 def _polynomial(vectors: Sequence[Sequence[Expr]]) -> list[list[Expr]]:

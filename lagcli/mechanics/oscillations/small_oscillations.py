@@ -35,7 +35,7 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     oscillations = SmallOscillations(dynamics)
     places = oscillations.places
     if places is None:
-        return EquilibriaSection(equilibria=None)
+        return EquilibriaSection(equilibria=None, reason=oscillations.rest.reason)
     return EquilibriaSection(equilibria=tuple(map(oscillations.equilibrium, places)))
 
 
@@ -43,11 +43,17 @@ def modes(dynamics: Dynamics) -> ModesSection:
     """The normal modes about the equilibria that are not unstable, else about all."""
     oscillations = SmallOscillations(dynamics)
     places = oscillations.places
+    if places is None:
+        return ModesSection(
+            modes=None, reason=f"no equilibrium is known ({oscillations.rest.reason})"
+        )
     if not places:
-        return ModesSection(modes=None)
+        return ModesSection(modes=None, reason="there is no equilibrium to expand about")
     chosen = [p for p in places if p.verdict.stable is not False] or places
     found = [mode for place in chosen for mode in oscillations.modes(place)]
-    return ModesSection(modes=tuple(found) if found else None)
+    if not found:
+        return ModesSection(modes=None, reason="the motion about the equilibria is singular")
+    return ModesSection(modes=tuple(found))
 
 
 class Place:
@@ -143,6 +149,8 @@ def positive_condition(expression: Expr) -> str:
     terms = Add.make_args(simplify(expression).expand())
     above = Add(*(term for term in terms if not term.could_extract_minus_sign()))
     below = Add(*(-term for term in terms if term.could_extract_minus_sign()))
+    if above == 0:
+        return f"{_text(below)} < 0"
     if above == 1:
         return f"{_text(below)} < 1"
     return f"{_text(above)} > {_text(below)}"
