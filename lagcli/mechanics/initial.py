@@ -14,8 +14,10 @@ from mpmath import mpf
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import free_of
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import polynomial_roots
+from lagcli.algebra.linear import nullspace
 from lagcli.algebra.numeric import Evaluator
 from lagcli.diagnostics import Diagnostic, ProblemError, Span
 from lagcli.expression import Name
@@ -56,7 +58,7 @@ def initial_state(dynamics: Dynamics) -> InitialState:
 
 
 class _Completion:
-    """Fills in what the file leaves out, one equation after the other."""
+    """Fills in what the file leaves out, equation by equation, and then by several together."""
 
     def __init__(self, dynamics: Dynamics) -> None:
         self.dynamics = dynamics
@@ -87,9 +89,38 @@ class _Completion:
             open_ = [s for s in left_out if s not in self.values]
             if not open_:
                 break
-            self.values[open_[0]] = S.Zero
+            self.values.update(self._together(open_, equations) or {open_[0]: S.Zero})
         for constraint, equation in equations:
             self._must_hold(constraint, equation)
+
+    def _together(
+        self, unknowns: Sequence[Symbol], equations: Sequence[tuple[ConstraintEquation, Expr]]
+    ) -> dict[Symbol, Expr]:
+        """What the equations that are linear in the unknowns determine jointly.
+
+        The solutions are the vectors (x, 1) of the nullspace of [A, c] for A x + c = 0.
+        """
+        none = dict.fromkeys(unknowns, S.Zero)
+        rows = []
+        for _, equation in equations:
+            rest = equation.xreplace(self.values)
+            row = [rest.diff(s) for s in unknowns]
+            if any(row) and all(free_of(entry, unknowns) for entry in row):
+                rows.append([*row, rest.xreplace(none)])
+        vectors = nullspace(rows) if rows else []
+        solutions = [v for v in vectors if is_zero(v[-1]) is not True]
+        if not solutions:
+            return {}
+        one, *others = ([x / v[-1] for x in v] for v in solutions)
+        open_ways = [
+            *(v for v in vectors if is_zero(v[-1]) is True),
+            *([x - y for x, y in zip(v, one, strict=True)] for v in others),
+        ]
+        return {
+            s: simplify(one[k])
+            for k, s in enumerate(unknowns)
+            if all(is_zero(way[k]) is True for way in open_ways)
+        }
 
     def _propagate(
         self, left_out: Sequence[Symbol], equations: Sequence[tuple[ConstraintEquation, Expr]]

@@ -9,13 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import reduce
 from math import factorial
+from operator import or_
 from typing import Any
 
 from lagcli.diagnostics import NOWHERE, Diagnostic, Span
 from lagcli.expression import Name
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Constant, Node, Symbol
+from lagcli.numerics.determined import determined
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.polynomial import real_roots
 from lagcli.numerics.refusal import Refusal, told
@@ -112,7 +115,7 @@ def rounded_components(motion: Motion, q: Sequence[float], v: Sequence[float]) -
 
 
 class _Completion:
-    """Fills in what the file leaves out, one equation after the other."""
+    """Fills in what the file leaves out, equation by equation, and then by several together."""
 
     def __init__(self, motion: Motion) -> None:
         self.motion = motion
@@ -151,7 +154,22 @@ class _Completion:
             still = [s for s in left_out if s not in self.values]
             if not still:
                 return
-            self.values[still[0]] = 0.0
+            together = self._together(still, equations)
+            self.values.update(together or {still[0]: 0.0})
+
+    def _together(
+        self, unknowns: Sequence[Symbol], equations: list[tuple[int, Node]]
+    ) -> dict[Symbol, float]:
+        """What the equations that are linear in the unknowns determine jointly."""
+        mask = reduce(or_, (s.mask for s in unknowns))
+        rows, right = [], []
+        for which, node in equations:
+            slopes = [partial(self.equations.graph, s)(node) for s in unknowns]
+            if node.mask & mask and not any(x.mask & mask for x in slopes):
+                rest, *row = self._values_at([node, *slopes], unknowns, which)
+                rows.append(row)
+                right.append(-rest)
+        return {unknowns[k]: value for k, value in determined(rows, right).items()}
 
     def _propagate(self, left_out: Sequence[Symbol], equations: list[tuple[int, Node]]) -> None:
         """Use each equation that has one unknown left, until nothing new follows."""
@@ -173,7 +191,7 @@ class _Completion:
         while orders[-1].mask & unknown.mask and len(orders) <= _HIGHEST_DEGREE:
             orders.append(derivative(orders[-1]))
         polynomial = not orders[-1].mask & unknown.mask
-        at_zero = self._values_at(orders if polynomial else [node], unknown, which)
+        at_zero = self._values_at(orders if polynomial else [node], [unknown], which)
         if not polynomial:
             if abs(at_zero[0]) <= 1e-14:
                 return 0.0
@@ -186,15 +204,17 @@ class _Completion:
             raise self._open(unknown, which, f"could be any of {', '.join(map(repr, roots))}")
         return roots[0] if roots else None
 
-    def _values_at(self, nodes: Sequence[Node], unknown: Symbol, which: int) -> tuple[float, ...]:
-        """The nodes where the unknown is 0."""
-        known = {self.equations.t: 0.0, **self.values, unknown: 0.0}
+    def _values_at(
+        self, nodes: Sequence[Node], unknowns: Sequence[Symbol], which: int
+    ) -> tuple[float, ...]:
+        """The nodes where the unknowns are 0."""
+        known = {self.equations.t: 0.0, **self.values, **dict.fromkeys(unknowns, 0.0)}
         arguments = list(known)
         function = straight_line(arguments, nodes, self.motion.constants, self.motion.arithmetic)
         try:
             return function(*known.values())
         except (ArithmeticError, ValueError):
-            raise self._open(unknown, which, "does not follow in closed form") from None
+            raise self._open(unknowns[0], which, "does not follow in closed form") from None
 
     # -- mistakes ------------------------------------------------------------------------------
 

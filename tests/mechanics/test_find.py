@@ -313,6 +313,21 @@ def test_what_initial_leaves_out_follows_from_the_constraints():
     assert value(CONTRADICTION.replace("STATE", "x: 0, y: l, x': 3")) == formula("9")
 
 
+def test_what_several_constraints_determine_together_is_filled_in():
+    text = """
+coordinates: [x, y, z]
+parameters: {m: POSITIVE, g: POSITIVE, a: POSITIVE, w: POSITIVE}
+T: m*(x'^2 + y'^2 + z'^2)/2
+V: m*g*z
+constraints: {sum: x + y = 2*z, difference: x - 2*y = a}
+initial: {z: a, z': w}
+find:
+  asked: {value: x'^2, in_terms_of: [z]}
+"""
+    # x' = 4 z'/3, y' = 2 z'/3, so 29 (z'^2 - w^2)/18 = g (a - z)
+    assert value(text) == formula("(4/3)^2*(w^2 + 18*g*(a - z)/29)")
+
+
 def test_a_state_that_is_allowed_for_the_values_of_the_file_only_is_told():
     found = answers(CONTRADICTION.replace("STATE", "x: 0.6, y: 0.8"))["asked"]
     assert "values of the file only" in found.note

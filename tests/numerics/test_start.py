@@ -20,6 +20,21 @@ def test_what_the_constraints_determine_is_filled_in():
     assert first(text) == pytest.approx((6, 3, 4, 2))
 
 
+def test_what_several_constraints_determine_together_is_filled_in():
+    text = """{coordinates: [x, y, z], L: (x'^2+y'^2+z'^2)/2,
+      constraints: {one: x + y = 3, two: x - y = 1, three: y' + z' = z*x'}, initial: {z: 5}}"""
+    assert first(text) == pytest.approx((2, 1, 5, 0, 0, 0))
+    blades = """{coordinates: [x, y, u, v], L: (x'^2+y'^2+u'^2+v'^2)/2,
+      constraints: {one: u' + 2*v' = x', two: 3*u' - v' = 7*y'}, initial: {x': 1, y': 2}}"""
+    assert first(blades) == pytest.approx((0, 0, 0, 0, 1, 2, 29 / 7, -11 / 7))
+
+
+def test_of_dependent_constraints_what_is_open_is_0():
+    text = """{coordinates: [x, y, z], L: (x'^2+y'^2+z'^2)/2,
+      constraints: {one: x' + y' + z' = 1, two: x' + y' + 2*z' = 3, three: 2*x' + 2*y' + 3*z' = 4}}"""
+    assert first(text) == pytest.approx((0, 0, 0, 0, -1, 2))
+
+
 def test_what_is_not_determined_is_0():
     assert first("{coordinates: [x, y], L: (x'^2+y'^2)/2, initial: {y': 1}}") == (0, 0, 0, 1)
 
