@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from lagcli.problem import Known, KnownRow, Trajectory
 from lagcli.reader.nodes import Mapping as Map
@@ -24,13 +24,6 @@ _ENERGY = "energy"
 HAPPENINGS = (
     "contact lost", "contact closes", "impact", "comes to rest", "touches", "sticks", "slips",
 )  # fmt: skip
-
-
-class _Row(NamedTuple):
-    """The words of a row, and its columns."""
-
-    words: dict[str, Scalar]
-    known: tuple[Known, ...]
 
 
 class TrajectoryReader:
