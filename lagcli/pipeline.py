@@ -37,12 +37,15 @@ class Request:
         Out of `lagcli.answers.SECTIONS`; None for the usual ones.
     settings : tuple of str
         Each `name=value`: what is put in for a parameter before anything is derived.
+    state : tuple of str
+        Each `x=value` or `x'=value`: what is put in for the state at t = 0.
     numeric : bool
         Put in the values of the file as well, and give decimal numbers.
     """
 
     sections: tuple[str, ...] | None = None
     settings: tuple[str, ...] = ()
+    state: tuple[str, ...] = ()
     numeric: bool = False
 
 
@@ -65,13 +68,13 @@ def read(name: str, data: bytes, request: Request | None = None) -> Read:
     data
         The file's bytes.
     request
-        What is wanted of it; only `settings` and `numeric` matter here.
+        What is wanted of it; `sections` do not matter here.
     """
     from lagcli.reader import read_problem
 
     reading, request = read_problem(name, data), request or Request()
     problem = reading.problem
-    if problem is None or not (request.settings or request.numeric):
+    if problem is None or not (request.settings or request.state or request.numeric):
         return Read(reading.source, problem, reading.diagnostics)
     problem, mistakes = _with_values(problem, request)
     diagnostics = (*reading.diagnostics, *mistakes)
@@ -79,21 +82,24 @@ def read(name: str, data: bytes, request: Request | None = None) -> Read:
 
 
 def _with_values(problem: Problem, request: Request) -> tuple[Problem, list[Diagnostic]]:
-    from lagcli.reader.settings import set_parameters
+    from lagcli.reader.settings import set_parameters, set_state
     from lagcli.values import parameters_with_values, with_values_of
 
     mistakes: list[Diagnostic] = []
     names: dict[str, None] = {}
-    for setting in request.settings:
+    given = [("--set", set_parameters, setting) for setting in request.settings]
+    given += [("--at", set_state, setting) for setting in request.state]
+    for option, put_in, setting in given:
         try:
-            problem = set_parameters(problem, [setting])
+            problem = put_in(problem, [setting])
         except ProblemError as error:
             mistakes += [
-                replace(found, message=f"--set {setting}: {found.message}", span=NOWHERE)
+                replace(found, message=f"{option} {setting}: {found.message}", span=NOWHERE)
                 for found in error.diagnostics
             ]
         else:
-            names[normalize("NFC", setting.partition("=")[0].strip())] = None
+            if option == "--set":
+                names[normalize("NFC", setting.partition("=")[0].strip())] = None
     if request.numeric:
         names.update(dict.fromkeys(parameters_with_values(problem)))
     if mistakes:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.options import Output, StudyFormat
+from lagcli.cli.options import Output, State, StudyFormat
 from lagcli.cli.simulate import Accuracy, File, Set
 
 Until = Annotated[
@@ -36,6 +36,7 @@ def extremes(
     file: File,
     until: Until = None,
     settings: Set = None,
+    state: State = None,
     cases: Cases = None,
     accuracy: Accuracy = None,
     limit: Limit = 10.0,
@@ -64,6 +65,7 @@ def extremes(
         file=file,
         until=until,
         settings=tuple(settings or ()),
+        state=tuple(state or ()),
         cases=cases,
         accuracy=accuracy,
         limit=limit,

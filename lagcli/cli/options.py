@@ -22,6 +22,12 @@ Output = Annotated[
         "--output", "-o", metavar="PATH", help="Write to a file instead.", callback=_to_file
     ),
 ]
+State = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--at", metavar="X=VALUE", help='Begin with another coordinate or velocity: --at "x\'=1".'
+    ),
+]
 StudyFormat = Annotated[
     str,
     typer.Option(

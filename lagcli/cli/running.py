@@ -19,14 +19,14 @@ from lagcli.reader.suggest import did_you_mean
 _USUAL_ACCURACY = 1e-9
 
 
-def problem_of(file: str, settings: tuple[str, ...]) -> Problem | None:
+def problem_of(file: str, settings: tuple[str, ...], state: tuple[str, ...] = ()) -> Problem | None:
     """The file's problem with its Lagrangian; None once its mistakes are told."""
     try:
         data = read_input(file)
     except OSError as error:
         tell_line(f"{file}: error: {reason(error)}")
         return None
-    found = read(file, data, Request(settings=settings))
+    found = read(file, data, Request(settings=settings, state=state))
     tell(found.source, found.diagnostics)
     if found.problem is None:
         return None

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_column, complete_method, complete_table
-from lagcli.cli.options import Output
+from lagcli.cli.options import Output, State
 
 File = Annotated[str, typer.Argument(metavar="FILE", help="A problem; - is stdin.")]
 Until = Annotated[
@@ -84,6 +84,7 @@ def simulate(
     accuracy: Accuracy = None,
     samples: Samples = 101,
     settings: Set = None,
+    state: State = None,
     show: Show = None,
     format_name: Format = "table",
     output: Output = None,
@@ -116,6 +117,7 @@ def simulate(
         accuracy=accuracy,
         samples=samples,
         settings=tuple(settings or ()),
+        state=tuple(state or ()),
         show=tuple(show or ()),
         format_name=format_name,
         output=output,

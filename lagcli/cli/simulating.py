@@ -33,6 +33,7 @@ class Wish:
     accuracy: str | None
     samples: int
     settings: tuple[str, ...]
+    state: tuple[str, ...]
     show: tuple[str, ...]
     format_name: str
     output: Path | None
@@ -48,7 +49,7 @@ def simulate_file(wish: Wish) -> Status:
     known = is_known("--format", wish.format_name, TABLES)
     if not (known and _can_be_written(wish)) & has_place(wish.output):
         return Status.USAGE
-    problem = problem_of(wish.file, wish.settings)
+    problem = problem_of(wish.file, wish.settings, wish.state)
     if problem is None:
         return Status.USAGE
     asked = _asked(problem, wish)

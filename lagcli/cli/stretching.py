@@ -24,6 +24,7 @@ class Wish:
     file: str
     until: str | None
     settings: tuple[str, ...]
+    state: tuple[str, ...]
     cases: str | None
     accuracy: str | None
     limit: float
@@ -34,7 +35,7 @@ class Wish:
 def stretch_file(wish: Wish) -> Status:
     """Try all cases, write, and say how it ended."""
     good = is_known("--format", wish.format_name, STUDIES) & has_place(wish.output)
-    problem = problem_of(wish.file, wish.settings)
+    problem = problem_of(wish.file, wish.settings, wish.state)
     if problem is None:
         return Status.USAGE
     wanted = _wanted(problem, wish)

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_cost, complete_methods
-from lagcli.cli.options import Output, StudyFormat
+from lagcli.cli.options import Output, State, StudyFormat
 from lagcli.cli.simulate import File, Project, Set, Until
 
 Samples = Annotated[
@@ -54,6 +54,7 @@ def tradeoff(
     file: File,
     until: Until = None,
     settings: Set = None,
+    state: State = None,
     samples: Samples = 51,
     methods: Methods = None,
     cost: CostOption = "total",
@@ -85,6 +86,7 @@ def tradeoff(
         file=file,
         until=until,
         settings=tuple(settings or ()),
+        state=tuple(state or ()),
         samples=samples,
         methods=methods,
         cost=cost,

@@ -28,6 +28,7 @@ class Wish:
     file: str
     until: str | None
     settings: tuple[str, ...]
+    state: tuple[str, ...]
     samples: int
     methods: str | None
     cost: str
@@ -45,7 +46,7 @@ def weigh_file(wish: Wish) -> Status:
     methods = _methods(wish.methods)
     good = good & (methods is not None) & _can_be_drawn(wish.plot)
     good = good & has_place(wish.output) & has_place(wish.plot)
-    problem = problem_of(wish.file, wish.settings)
+    problem = problem_of(wish.file, wish.settings, wish.state)
     if problem is None:
         return Status.USAGE
     numbers = Numbers()
@@ -58,6 +59,7 @@ def weigh_file(wish: Wish) -> Status:
         name=problem.source.name,
         text=problem.source.text,
         settings=wish.settings,
+        state=wish.state,
         until=until,
         samples=wish.samples,
         project=wish.project,

@@ -8,7 +8,7 @@ from itertools import chain, islice
 
 from lagcli.diagnostics import Diagnostic, Severity, Span
 from lagcli.dimensions.demands import LAGRANGIAN
-from lagcli.dimensions.forms import ENERGY, Form, Key, minus, times, unknowns
+from lagcli.dimensions.forms import ENERGY, TIME, Form, Key, minus, plus, times, unknowns
 from lagcli.dimensions.inference import Inference, gives_units, quantities
 from lagcli.dimensions.kinds import kind
 from lagcli.dimensions.system import Incoherent, dimension_of
@@ -53,7 +53,7 @@ def check_formula(
     text
         What the formula's spans point into.
     quantity
-        The coordinate or parameter whose value the formula is.
+        The coordinate, velocity (x') or parameter whose value the formula is.
     """
     if not gives_units(problem) or check_dimensions(problem, 1):
         return []
@@ -61,7 +61,8 @@ def check_formula(
     names = {**inference.demands.names, JACOBI_FUNCTION.name: LAGRANGIAN}
     names.setdefault("energy", LAGRANGIAN)
     reader = Reader(names)
-    expected = names[quantity] if quantity else None
+    name = quantity.rstrip("'")
+    expected = plus(names[name], TIME, len(name) - len(quantity)) if quantity else None
     subject = f"the value of '{quantity}'" if quantity else ""
     reader.demand(reader.terms(formula, given_number=True), expected, subject)
     checker = _Checker(inference, text)

@@ -1,4 +1,4 @@
-"""`--set name=value`: values for parameters from the command line."""
+"""`--set name=value` and `--at x=value`: parameters and the state from the command line."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, ProblemError, Source
+from lagcli.expression import Name
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.positions import Excerpt
@@ -16,10 +17,13 @@ from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.text import Mistake, Text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from lagcli.expression import Expression
     from lagcli.problem import Problem
+
+#: The primes of a velocity, as they may be typed.
+_PRIMES = str.maketrans("’′", "''")
 
 
 def set_parameters(problem: Problem, settings: Iterable[str]) -> Problem:
@@ -41,7 +45,7 @@ def set_parameters(problem: Problem, settings: Iterable[str]) -> Problem:
     values = {one.name: one.value for one in problem.parameters if one.value is not None}
     for setting in settings:
         source = Source(f"--set {setting}", setting)
-        name, value = _read(source, scope)
+        name, value = _read(source, scope, tuple(scope.kinds), "parameter")
         if any(one.unit is not None for one in (*problem.coordinates, *problem.parameters)):
             _check_unit(problem, source, name, value)
         values[name] = value
@@ -56,17 +60,48 @@ def set_parameters(problem: Problem, settings: Iterable[str]) -> Problem:
     )
 
 
-def _read(source: Source, scope: Scope) -> tuple[str, Expression]:
-    """The name and the value of one setting."""
+def set_state(problem: Problem, settings: Iterable[str]) -> Problem:
+    """The problem with another state at t = 0; what is not named stays as it was.
+
+    Parameters
+    ----------
+    problem : Problem
+        The problem; it stays as it is.
+    settings : iterable of str
+        Each `x=value` or `x'=value`; a value is a number or an expression of parameters.
+
+    Raises
+    ------
+    ProblemError
+        At the first setting that names no coordinate or velocity, or has no value.
+    """
+    scope = Scope(kinds={one.name: "parameter" for one in problem.parameters})
+    state = {
+        str(name): name
+        for one in problem.coordinates
+        for name in (Name(one.name), Name(one.name, 1))
+    }
+    initial = dict(problem.initial)
+    for setting in settings:
+        source = Source(f"--at {setting}", setting)
+        name, value = _read(source, scope, tuple(state), "coordinate or velocity")
+        if any(one.unit is not None for one in (*problem.coordinates, *problem.parameters)):
+            _check_unit(problem, source, name, value)
+        initial[state[name]] = value
+    return replace(problem, initial=initial)
+
+
+def _read(source: Source, scope: Scope, names: Sequence[str], kind: str) -> tuple[str, Expression]:
+    """The name and the value of one setting; names are those of that kind."""
     text = Text.of(source)
     written, equals, value = source.text.partition("=")
-    name = unicodedata.normalize("NFC", written.strip())
+    name = unicodedata.normalize("NFC", written.strip()).translate(_PRIMES)
     if not equals:
         hint = "write name=value"
         raise ProblemError(source, (Diagnostic("an '=' is missing", text.span(0, 0), hint),))
-    if name not in scope.kinds:
-        hint = did_you_mean(name, scope.kinds) or "known are " + ", ".join(scope.kinds)
-        message = f"there is no parameter '{name}'"
+    if name not in names:
+        hint = did_you_mean(name, names) or "known are " + ", ".join(names)
+        message = f"there is no {kind} '{name}'"
         raise ProblemError(source, (Diagnostic(message, text.span(0, len(written)), hint),))
     start = len(written) + 1
     offsets = range(start, len(source.text) + 1)

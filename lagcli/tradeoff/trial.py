@@ -34,8 +34,8 @@ class Given:
 
     Attributes
     ----------
-    name, text, settings
-        The problem: its name in messages, its file, and `--set`.
+    name, text, settings, state
+        The problem: its name in messages, its file, `--set` and `--at`.
     until, samples
         The span, and how often the motion is looked at.
     method
@@ -51,6 +51,7 @@ class Given:
     name: str
     text: str
     settings: tuple[str, ...]
+    state: tuple[str, ...]
     until: float
     samples: int
     project: bool
@@ -99,7 +100,7 @@ def asked_of(given: Given) -> tuple[Problem, Asked]:
     from lagcli.pipeline import Request, read
     from lagcli.reader.columns import usual_columns
 
-    request = Request(settings=given.settings)
+    request = Request(settings=given.settings, state=given.state)
     problem = read(given.name, given.text.encode(), request).problem
     assert problem is not None  # it has been read before
     asked = Asked(
@@ -217,7 +218,7 @@ def main() -> None:
 
     collect_rarely()
     given: Mapping[str, Any] = json.load(sys.stdin)
-    made = Given(**{**given, "settings": tuple(given["settings"])})
+    made = Given(**{**given, **{name: tuple(given[name]) for name in ("settings", "state")}})
     json.dump(trial(made), sys.stdout)
 
 

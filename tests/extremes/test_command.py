@@ -191,3 +191,12 @@ def test_a_failure_and_a_hang_do_not_stop_the_others(monkeypatch):
     assert found["as given"].verdict == "right"
     assert found["m = 0"].verdict == "refused"
     assert made.bad == 2
+
+
+def test_another_state_is_the_given_one(extremes):
+    """From rest at the bottom nothing moves; x'' holds no large angle any more."""
+    found = extremes(PENDULUM, "-f", "json", "--cases", "given", "--at", "th=0", "--limit", "20")
+    assert found.status == 0
+    [case] = json.loads(found.out)["cases"]
+    assert case["name"] == "as given"
+    assert extremes(PENDULUM, "--at", "x=0").status == 2

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import math
 import subprocess
 import sys
 
@@ -128,3 +129,17 @@ def test_a_pendulum_needs_no_algebra():
         capture_output=True, text=True, check=True,
     )  # fmt: skip
     assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_another_state_is_begun_with():
+    """The oscillator from x = 2, x' = 3: 2 cos t + 3 sin t."""
+    text = "coordinates: [x]\nT: x'^2/2\nV: x^2/2\ninitial: {x: 1}\n"
+    options = ("--until", "3", "--samples", "2", "-f", "json", "--show", "x")
+    done = run("-", *options, "--at", "x=2", "--at", "x'=3", stdin=text)
+    assert done.returncode == 0
+    last = json.loads(done.stdout)["rows"][-1][1]
+    assert last == pytest.approx(2 * math.cos(3) + 3 * math.sin(3), abs=1e-9)
+    wrong = run("-", *options, "--at", "y=2", "--at", "x", stdin=text)
+    assert (wrong.returncode, wrong.stdout) == (2, "")
+    assert "--at y=2: there is no coordinate or velocity 'y'" in wrong.stderr
+    assert "--at x: an '=' is missing" in wrong.stderr

@@ -5,8 +5,8 @@ from fractions import Fraction
 import pytest
 
 from lagcli.diagnostics import ProblemError
-from lagcli.expression import Name, Number
-from lagcli.reader import read_problem, set_parameters
+from lagcli.expression import Name, Number, walk
+from lagcli.reader import read_problem, set_parameters, set_state
 
 PROBLEM = read_problem("f.yaml", b"coordinates: [x]\nparameters: [m, g]\nT: x'^2\n").checked()
 
@@ -34,3 +34,42 @@ def test_a_wrong_setting_has_a_place(setting, column, piece):
     (mistake,) = caught.value.diagnostics
     assert mistake.span.column == column
     assert piece in mistake.message + mistake.hint
+
+
+def test_a_state_is_put_in_for_that_of_the_file():
+    """What is not named stays; a velocity may be typed with any prime."""
+    text = b"coordinates: [x, y]\nparameters: [m]\nT: m*(x'^2 + y'^2)\ninitial: {x: 1, y': 2}\n"
+    problem = set_state(read_problem("f.yaml", text).checked(), ["x = 2*m", "y’=3", "x'=-1"])
+    state = {str(name): value for name, value in problem.initial.items()}
+    assert state["y'"] == Number(Fraction(3))
+    assert set(state) == {"x", "y'", "x'"}
+    assert Name("m") in walk(state["x"])
+
+
+@pytest.mark.parametrize(
+    ("setting", "column", "piece"),
+    [
+        ("x", 1, "'=' is missing"),
+        ("m=1", 1, "no coordinate or velocity 'm'"),
+        ("x''=1", 1, "no coordinate or velocity 'x'''"),
+        ("x=x", 3, "unknown name 'x'"),
+        ("x=", 3, "empty"),
+    ],
+)
+def test_a_wrong_state_has_a_place(setting, column, piece):
+    with pytest.raises(ProblemError) as caught:
+        set_state(PROBLEM, [setting])
+    (mistake,) = caught.value.diagnostics
+    assert mistake.span.column == column
+    assert piece in mistake.message + mistake.hint
+
+
+def test_a_state_has_the_units_of_its_coordinates():
+    text = (
+        b"coordinates: {x: {unit: m}}\nparameters: {m: {unit: kg}, v: {unit: m/s}}\nT: m*x'^2/2\n"
+    )
+    problem = read_problem("f.yaml", text).checked()
+    assert set_state(problem, ["x'=v", "x=1"]).initial
+    with pytest.raises(ProblemError) as caught:
+        set_state(problem, ["x=v"])
+    assert "m/s" in caught.value.diagnostics[0].message

@@ -158,3 +158,13 @@ initial: {x: 0.5}
     [trade] = [each for each in document["trades"] if each["name"].startswith("minimal")]
     assert trade["faster"] > 1
     assert all(each["residual"] is None for each in document["runs"])
+
+
+def test_from_another_state_the_files_solution_is_not_the_reference():
+    """From x = 2 the motion is 2 cos(w t), not the cos(w t) that the file expects of its own."""
+    text = OSCILLATOR.replace("EXPECTED", "cos(w*t)")
+    done = run("-", "-f", "json", "--methods", "dop853", "--at", "x=2", stdin=text)
+    assert done.returncode == 0, done.stderr
+    document = json.loads(done.stdout)
+    assert not document["reference"]["kind"].startswith("the exact solution")
+    assert min(each["error"] for each in document["runs"]) < 1e-11
