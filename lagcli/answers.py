@@ -233,11 +233,23 @@ class AlgebraSection:
 
 @record(kw_only=True)
 class Equilibrium:
-    """A state of rest; `stable` None where undecided."""
+    """A state of rest, which exists where each of `where` holds.
+
+    `stable` None: it depends on conditions, or was not decided.  `minimum` says where V has a
+    minimum, `hurwitz` where all roots have negative real parts, `spectrum` where all frequencies
+    are real and distinct, which is stability to first order; None: never, or not decided.
+    `gyroscopic`: the spectrum is that of terms that damping would outdo.
+    `asymptotic`: where it is stable by the first two, what is disturbed returns.
+    """
 
     at: Mapping[str, Expression]
     stable: bool | None
-    condition: str = ""
+    asymptotic: bool = False
+    where: tuple[Above, ...] = ()
+    minimum: tuple[Above, ...] | None = None
+    hurwitz: tuple[Above, ...] | None = None
+    spectrum: tuple[Above, ...] | None = None
+    gyroscopic: bool = False
     free: tuple[str, ...] = ()
     reason: str = ""
 

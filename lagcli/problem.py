@@ -270,6 +270,14 @@ class ExpectSteady:
 
 
 @record(kw_only=True)
+class ExpectEquilibrium:
+    """What is known of one state of rest; `stable` where: all of these inequalities."""
+
+    at: Mapping[str, Expression] = field(default_factory=dict)
+    stable: bool | tuple[Inequality, ...] | None = None
+
+
+@record(kw_only=True)
 class ExpectHamiltonJacobi:
     """Whether the variables separate, and W' and W by coordinate, up to sign and a constant."""
 
@@ -332,6 +340,7 @@ class Expect:
     charges: Mapping[str, Expression | Literal["not conserved"]] = field(default_factory=dict)
     discovered: Mapping[str, Expression | Literal["not conserved"]] = field(default_factory=dict)
     algebra: ExpectAlgebra | None = None
+    equilibria: tuple[ExpectEquilibrium, ...] = ()
     modes: tuple[Expression, ...] | None = None  # angular frequencies
     find: Mapping[str, tuple[Expression, ...]] = field(default_factory=dict)
     #: answers that are ranges: each by its bounds

@@ -310,6 +310,7 @@ _SECTIONS: Mapping[str, Callable[[Expect], object]] = {
     "discovered": lambda expect: expect.discovered,
     "algebra": lambda expect: expect.algebra is not None,
     "find": lambda expect: expect.find or expect.ranges,
+    "equilibria": lambda expect: expect.equilibria,
     "modes": lambda expect: expect.modes is not None,
     "reduction": lambda expect: expect.reduction is not None,
     "steady_motions": lambda expect: expect.steady_motions,

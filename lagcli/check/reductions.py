@@ -10,7 +10,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import simplify
-from lagcli.answers import Answers, ReductionSection
+from lagcli.answers import Answers, EquilibriaSection, Equilibrium, ReductionSection
 from lagcli.check.comparison import Comparison
 from lagcli.check.findings import Judged
 from lagcli.check.phase_space import free_comparison
@@ -18,8 +18,8 @@ from lagcli.expression import Expression, Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.readable import deciding
-from lagcli.motions import HamiltonJacobiSection, SteadyMotion, SteadySection
-from lagcli.problem import ExpectSteady, Inequality
+from lagcli.motions import Above, HamiltonJacobiSection, SteadyMotion, SteadySection
+from lagcli.problem import ExpectEquilibrium, ExpectSteady, Inequality
 from lagcli.reader.expected_reduction import CONSTANT_NAMES
 
 
@@ -42,6 +42,7 @@ class Reductions:
     def findings(self) -> Iterator[Judged]:
         """Every expectation of these sections with its verdict."""
         yield from self._reduction()
+        yield from self._equilibria()
         yield from self._steady_motions()
         yield from self._hamilton_jacobi()
 
@@ -74,6 +75,31 @@ class Reductions:
             verdict = True if True in verdicts else None if None in verdicts else False
             yield ["reduction", "period"], verdict, to_grammar(expect.period), _listed(periods)
 
+    def _equilibria(self) -> Iterator[Judged]:
+        expected = self.derivation.problem.expect.equilibria
+        if not expected:
+            return
+        found = cast(EquilibriaSection, self.answers.sections["equilibria"]).equilibria
+        for place, each in enumerate(expected):
+            verdicts = [self._same_equilibrium(state, each) for state in found or ()]
+            verdict = True if True in verdicts else None if None in verdicts else False
+            path = ["equilibria", str(place)]
+            missing = "none that is the same"
+            yield path, None if found is None else verdict, f"state of rest {place + 1}", missing
+
+    def _same_equilibrium(self, found: Equilibrium, expected: ExpectEquilibrium) -> bool | None:
+        verdicts: list[bool | None] = [
+            name in found.at and self.comparison.equal(found.at[name], formula)
+            for name, formula in expected.at.items()
+        ]
+        if isinstance(expected.stable, tuple):
+            if False not in verdicts:
+                given = (found.minimum, found.hurwitz, found.spectrum)
+                verdicts.append(self._same_conditions(given, expected.stable))
+        elif expected.stable is not None:
+            verdicts.append(found.stable is expected.stable)
+        return _conjunction(verdicts)
+
     def _steady_motions(self) -> Iterator[Judged]:
         expected = self.derivation.problem.expect.steady_motions
         if not expected:
@@ -103,7 +129,7 @@ class Reductions:
             squares = found.frequencies_squared
             verdicts.append(self.comparison.same_set(squares, expected.frequencies_squared))
         if isinstance(expected.stable, tuple):
-            verdicts.append(self._same_conditions(found, expected.stable))
+            verdicts.append(self._same_conditions((found.spectrum, found.minimum), expected.stable))
         elif expected.stable is not None:
             verdicts.append(found.stable is expected.stable)
         return _conjunction(verdicts)
@@ -143,11 +169,13 @@ class Reductions:
         )
         return self.comparison.vanishes(one**2 - other**2)
 
-    def _same_conditions(self, found: SteadyMotion, expected: tuple[Inequality, ...]) -> bool:
-        """Whether a minimum or the spectrum asks for the same, factors that are positive aside."""
+    def _same_conditions(
+        self, given: Sequence[tuple[Above, ...] | None], expected: tuple[Inequality, ...]
+    ) -> bool:
+        """Whether one of the lists asks for the same, factors that are positive aside."""
         build = self.comparison.build
         wanted = [build(a) - build(b) for a, b in map(_positive, expected)]
-        for conditions in (found.spectrum, found.minimum):
+        for conditions in given:
             derived = [build(each.left) - build(each.right) for each in conditions or ()]
             if len(derived) == len(wanted) and all(
                 any(_same_sign(a, b) for b in derived) for a in wanted

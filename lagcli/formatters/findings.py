@@ -23,8 +23,8 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power, operation_count
-from lagcli.formatters.conditions import conditions
 from lagcli.questions import FindSection, Range, Ranges, Rewritten, Solutions
+from lagcli.wording import conditions, stability
 
 _SOURCES = {
     "candidate": "candidate",
@@ -160,12 +160,10 @@ def state_blocks(at: Mapping[str, Expression], before: str = "") -> Iterator[Blo
 
 
 def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:
-    words = {True: "Stable", False: "Unstable", None: "Stability undecided"}[equilibrium.stable]
-    if equilibrium.reason:
-        words += f": {equilibrium.reason}"
-    parts: list[str | Formula] = [words.rstrip(".") + "."]
-    if equilibrium.condition:
-        parts.append(f" It exists where {equilibrium.condition.rstrip('.')}.")
+    parts: list[str | Formula] = []
+    if equilibrium.where:
+        parts += ["It exists where ", *conditions(equilibrium.where), ". "]
+    parts += stability(equilibrium)
     if equilibrium.free:
         parts.append(" Free: ")
         for position, name in enumerate(equilibrium.free):

@@ -254,8 +254,14 @@ def _range(unknown: str, range_: Range) -> list[str]:
 
 def _equilibrium(equilibrium: Equilibrium) -> Object:
     result: Object = {"at": _by_name(equilibrium.at), "stable": equilibrium.stable}
-    if equilibrium.condition:
-        result["condition"] = equilibrium.condition
+    if equilibrium.where:
+        result["condition"] = " and ".join(map(_above, equilibrium.where))
+    if equilibrium.asymptotic:
+        result["asymptotic"] = True
+    for name in ("minimum", "hurwitz", "spectrum"):
+        conditions = getattr(equilibrium, name)
+        if conditions is not None:
+            result[name] = [_above(each) for each in conditions]
     if equilibrium.free:
         result["free"] = equilibrium.free
     return result

@@ -15,11 +15,9 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Name
-from lagcli.formatters.conditions import conditions
 from lagcli.formatters.findings import state_blocks
 from lagcli.motions import OneFreedom, PeriodSeries
-
-POTENTIAL = Label("U", ("eff",))
+from lagcli.wording import POTENTIAL, conditions
 
 
 def reduction_blocks(section: ReductionSection) -> Iterator[Block]:

@@ -14,8 +14,8 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Name, Negative, Product
-from lagcli.formatters.conditions import conditions
 from lagcli.motions import ActionPart, HamiltonJacobiSection
+from lagcli.wording import conditions
 
 _NAMED = {
     True: "It separates in these coordinates",

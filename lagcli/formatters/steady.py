@@ -16,9 +16,8 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power
-from lagcli.formatters.conditions import conditions
-from lagcli.formatters.reductions import POTENTIAL
 from lagcli.motions import SteadyMotion, SteadySection
+from lagcli.wording import conditions, steady_stability
 
 _SQUARED = Power(Name("omega"), Number(Fraction(2)))
 
@@ -60,7 +59,7 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
         parts += ["The axes of the cyclic coordinates coincide here."]
     if parts:
         yield Paragraph(tuple(parts))
-    yield Paragraph(_stability(motion))
+    yield Paragraph(tuple(steady_stability(motion)))
     squares = dict.fromkeys(motion.frequencies_squared)
     if squares:
         yield Equations(tuple(Row(_SQUARED, square) for square in squares))
@@ -74,30 +73,6 @@ def _any_value(motion: SteadyMotion) -> list[str | Formula]:
         variable = name.rstrip("'")
         parts += [", " if position else "For any ", Name(variable, len(name) - len(variable))]
     return [*parts, "; " if motion.where else ". "] if parts else []
-
-
-def _stability(motion: SteadyMotion) -> tuple[str | Formula, ...]:
-    parts: list[str | Formula]
-    if motion.stable:
-        return ("Stable: ", POTENTIAL, " has a minimum (Lagrange and Dirichlet).")
-    if motion.stable is False:
-        return ("Unstable: a root of the characteristic equation has a positive real part.",)
-    parts = []
-    if motion.minimum:
-        parts += ["Stable, with a minimum of ", POTENTIAL, ", where "]
-        parts += [*conditions(motion.minimum), ". "]
-    if motion.spectrum is not None:
-        always = not motion.spectrum
-        parts += ["Stable to first order by gyroscopic terms, without a minimum of ", POTENTIAL]
-        parts += ["." if always else ", where ", *conditions(motion.spectrum)]
-        parts += [] if always else ["; unstable where one of these is reversed."]
-    elif len(motion.minimum or ()) == 1 and not motion.reason:
-        parts += ["Unstable where this is reversed."]
-    if motion.reason or not parts:
-        parts += [f"Otherwise undecided: {motion.reason}." if parts else "Stability undecided"]
-        if len(parts) == 1:
-            parts += [f": {motion.reason}." if motion.reason else "."]
-    return tuple(parts)
 
 
 def _linearized(motion: SteadyMotion) -> Iterator[Block]:

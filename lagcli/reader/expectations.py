@@ -12,6 +12,7 @@ from lagcli.problem import (
     Expect,
     ExpectAlgebra,
     ExpectCanonical,
+    ExpectEquilibrium,
     ExpectHamiltonJacobi,
     ExpectReduction,
     ExpectSteady,
@@ -29,6 +30,7 @@ from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.expected_algebra import read_algebra, read_count
 from lagcli.reader.expected_ranges import read_ranges
 from lagcli.reader.expected_reduction import (
+    read_equilibria,
     read_hamilton_jacobi,
     read_reduction,
     read_steady_motions,
@@ -47,8 +49,8 @@ if TYPE_CHECKING:
 _KEYS = (
     "degrees_of_freedom", "equations", "accelerations", "multipliers", "constraint_forces",
     "forces", "friction_needed", "momenta", "hamiltonian", "energy", "charges", "discovered",
-    "modes", "find", "trajectory", "reduction", "steady_motions", "hamilton_jacobi", "brackets",
-    "canonical", "algebra",
+    "equilibria", "modes", "find", "trajectory", "reduction", "steady_motions", "hamilton_jacobi",
+    "brackets", "canonical", "algebra",
 )  # fmt: skip
 
 #: An answer holds what is left when accelerations and multipliers have been eliminated.
@@ -198,6 +200,9 @@ class ExpectReader:
 
     def _reduction(self, node: Node) -> ExpectReduction:
         return read_reduction(self.sections, node, self.spans)
+
+    def _equilibria(self, node: Node) -> tuple[ExpectEquilibrium, ...]:
+        return read_equilibria(self.sections, node, self.spans)
 
     def _steady_motions(self, node: Node) -> tuple[ExpectSteady, ...]:
         return read_steady_motions(self.sections, node, self.spans)

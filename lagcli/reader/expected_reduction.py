@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from lagcli.problem import ExpectHamiltonJacobi, ExpectReduction, ExpectSteady
+from lagcli.problem import ExpectEquilibrium, ExpectHamiltonJacobi, ExpectReduction, ExpectSteady
 from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.nodes import Node, Scalar, Sequence
 from lagcli.reader.scope import Role
@@ -86,6 +86,25 @@ def read_steady_motions(
             spans["steady_motions", str(place)] = item.span
             motions.append(_steady(sections, item))
     return tuple(motions)
+
+
+def read_equilibria(
+    sections: Sections, node: Node, spans: dict[tuple[str, ...], Span]
+) -> tuple[ExpectEquilibrium, ...]:
+    """`expect: {equilibria: [{at, stable}]}`."""
+    found = []
+    for place, item in enumerate(sections.items(node, "'equilibria'")):
+        spans["equilibria", str(place)] = item.span
+        values: dict[str, Any] = {}
+        entries = sections.attributes(item, "an equilibrium", ("at", "stable"))
+        for name, (_, value) in entries.items():
+            if name == "stable":
+                values[name] = _stable(sections, value)
+            else:
+                what = "the expected place of '{}'"
+                values[name] = read_by_coordinate(sections, value, "'at'", what, _REDUCED)
+        found.append(ExpectEquilibrium(**values))
+    return tuple(found)
 
 
 def _steady(sections: Sections, node: Node) -> ExpectSteady:

@@ -292,8 +292,22 @@ HOOP = Answers(
         ),
         "equilibria": EquilibriaSection(
             equilibria=(
-                Equilibrium(at={"theta": ZERO}, stable=True, condition="g > 0", free=("x",)),
+                Equilibrium(at={"theta": ZERO}, stable=True, where=(Above(g, ZERO),), free=("x",)),
                 Equilibrium(at={"theta": Name("pi")}, stable=None),
+                Equilibrium(
+                    at={"theta": Name("pi")},
+                    stable=None,
+                    minimum=(Above(g, R),),
+                    spectrum=(Above(R, g), Above(R, ZERO)),
+                    gyroscopic=True,
+                ),
+                Equilibrium(
+                    at={"theta": ZERO},
+                    stable=None,
+                    asymptotic=True,
+                    hurwitz=(Above(g, R),),
+                    reason="there may be other equilibria",
+                ),
             )
         ),
         "modes": ModesSection(

@@ -268,7 +268,7 @@ def test_small_oscillations_go_from_the_matrices_to_the_textbooks_frequency():
     shown = {row.left: row.right for row in rows(explanation, "Small oscillations")}
     K, M = shown[Label("K", matrix=True)], shown[Label("M", matrix=True)]
     assert normal(shown[Name("omega")]) ** 2 == normal(K) / normal(M)
-    assert "It is stable" in words(explanation, "States of rest")
+    assert "Stable: V has a strict minimum" in words(explanation, "States of rest")
     assert "It is unstable" in words(explanation, "States of rest")
 
 

@@ -31,6 +31,9 @@ def mistakes(expect: str) -> list[str]:
             "{hamilton_jacobi: {functions: {r: beta_1*r}}}",
             "unknown name 'beta_1' in the expected part W of the action by 'r'",
         ),
+        ("{equilibria: {at: {r: 1}}}", "'equilibria' must be a list, not a map"),
+        ("{equilibria: [{place: {r: 1}}]}", "unknown key 'place' in an equilibrium"),
+        ("{equilibria: [{at: {r: 1}, stable: m >= 1}]}", "a condition of stability has > or <"),
         ("{energy: E}", "unknown name 'E' in the expected energy"),
     ],
 )

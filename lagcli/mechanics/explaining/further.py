@@ -17,10 +17,10 @@ from lagcli.mechanics.explaining.questions import questions
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says, shows
 from lagcli.mechanics.statements import Statements
+from lagcli.wording import POTENTIAL, stability
+from lagcli.wording import conditions as inequalities
 
 _SQUARE = Number(Fraction(2))
-_POTENTIAL = Label("U", ("eff",))
-_STABLE = {True: "It is stable", False: "It is unstable", None: "Its stability was not decided"}
 
 
 def further(teller: Teller, also: Sequence[str]) -> tuple[list[Step], list[str]]:
@@ -62,10 +62,9 @@ def _rest(teller: Teller, section: Section) -> Iterator[Block]:
         yield _state(each.at)
         if each.free:
             yield says(names(each.free), " is free." if len(each.free) == 1 else " are free.")
-        if each.condition:
-            yield says(f"It exists where {each.condition.rstrip('.')}.")
-        reason = f": {each.reason.rstrip('.')}" if each.reason else ""
-        yield says(f"{_STABLE[each.stable]}{reason}.")
+        if each.where:
+            yield says("It exists where ", *inequalities(each.where), ".")
+        yield says(stability(each))
 
 
 def _state(at: Mapping[str, Expression]) -> Equations:
@@ -175,7 +174,7 @@ def _reduction(teller: Teller, section: Section) -> Iterator[Block]:
         yield says(
             "What it has without velocities is the effective potential, with its sign turned:"
         )
-        yield shows(_POTENTIAL, reduced.effective_potential)
+        yield shows(POTENTIAL, reduced.effective_potential)
     if reduced.equations:
         yield says("Lagrange's equations with it:")
         yield Equations(tuple(Row(each.left, each.right) for each in reduced.equations))
@@ -189,16 +188,16 @@ def _one_freedom(reduced: ReductionSection) -> Iterator[Block]:
     q, E = Name(motion.coordinate), Name(motion.constant)
     yield says("One coordinate is left, ", q, ", and its energy is conserved:")
     yield shows(E, motion.energy)
-    yield says("It turns where its velocity is 0, ", _POTENTIAL, " = ", E, ":"
+    yield says("It turns where its velocity is 0, ", POTENTIAL, " = ", E, ":"
                if motion.turning_points else ".")  # fmt: skip
     if motion.turning_points:
         yield Equations(tuple(Row(q, root) for root in motion.turning_points))
     for each in motion.periods:
         if each.at:
-            yield says("Between turning points on both sides of the minimum of ", _POTENTIAL, " at")
+            yield says("Between turning points on both sides of the minimum of ", POTENTIAL, " at")
             yield _state(each.at)
         elif each.root_of is not None:
-            yield says("About the minimum of ", _POTENTIAL, ", where this vanishes,")
+            yield says("About the minimum of ", POTENTIAL, ", where this vanishes,")
             yield shows(ZERO, each.root_of)
         words = "for small oscillations" if not each.amplitude else "up to higher powers of "
         yield says("the period is twice the time from one to the other, ", words,

@@ -115,6 +115,12 @@ class Linearization:
 
     # -- its kind --------------------------------------------------------------------------------
 
+    @property
+    def damping(self) -> Matrix:
+        """The symmetric part of C, by which Rayleigh's function is x'.damping.x'/2."""
+        n = len(self.C)
+        return [[simplify((self.C[i][j] + self.C[j][i]) / 2) for j in range(n)] for i in range(n)]
+
     @cached_property
     def damped(self) -> bool:
         """Whether C has a symmetric part."""

@@ -16,9 +16,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 
-from sympy import Add, Expr
+from sympy import Expr
 
-from lagcli.algebra import simplify
 from lagcli.algebra.equations import written
 from lagcli.answers import EquilibriaSection, Equilibrium, Mode, ModesSection
 from lagcli.expression import Expression
@@ -28,6 +27,8 @@ from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
 from lagcli.mechanics.oscillations.stability import Stability, stability
+from lagcli.mechanics.reduction.readable import conditions
+from lagcli.motions import Above
 
 
 def equilibria(dynamics: Dynamics) -> EquilibriaSection:
@@ -100,18 +101,30 @@ class SmallOscillations:
     def equilibrium(self, place: Place) -> Equilibrium:
         """One equilibrium as a statement."""
         verdict = place.verdict
-        reasons = [verdict.reason]
-        if verdict.where:
-            reasons = ["stable where " + " and ".join(map(positive_condition, verdict.where))]
+        reasons = [verdict.reason] if verdict.reason else []
         if not self.rest.complete:
             reasons.append("there may be other equilibria")
         return Equilibrium(
             at=self._at(place.point),
             stable=verdict.stable,
-            condition=" and ".join(map(positive_condition, place.point.positive)),
+            asymptotic=verdict.asymptotic,
+            where=conditions(place.point.positive, self.system.order),
+            minimum=self._conditions(verdict.minimum, place.point),
+            spectrum=self._conditions(verdict.spectrum, place.point),
+            hurwitz=self._conditions(verdict.hurwitz, place.point),
+            gyroscopic=place.linear.gyroscopic and place.linear.has_potential
+            if verdict.spectrum is not None
+            else False,
             free=tuple(q.name for q in place.point.free),
             reason="; ".join(reasons),
         )
+
+    def _conditions(
+        self, expressions: Sequence[Expr] | None, point: RestPoint
+    ) -> tuple[Above, ...] | None:
+        if expressions is None:
+            return None
+        return conditions(expressions, self.system.order, point.positive)
 
     def modes(self, place: Place) -> list[Mode]:
         """The modes about one equilibrium as statements."""
@@ -142,20 +155,3 @@ class SmallOscillations:
 
     def _tree_or_none(self, expression: Expr | None) -> Expression | None:
         return None if expression is None else self._tree(expression)
-
-
-def positive_condition(expression: Expr) -> str:
-    """`a > b` for an expression a - b that is positive, `a < 1` for 1 - a."""
-    terms = Add.make_args(simplify(expression).expand())
-    above = Add(*(term for term in terms if not term.could_extract_minus_sign()))
-    below = Add(*(-term for term in terms if term.could_extract_minus_sign()))
-    if above == 0:
-        return f"{_text(below)} < 0"
-    if above == 1:
-        return f"{_text(below)} < 1"
-    return f"{_text(above)} > {_text(below)}"
-
-
-def _text(expression: Expr) -> str:
-    """SymPy's linear notation in the words of the grammar."""
-    return str(expression).replace("**", "^").replace("Abs(", "abs(")

@@ -104,16 +104,21 @@ def _beside_zero(factor: Expr) -> int | None:
 def conditions(
     expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
 ) -> tuple[Above, ...]:
-    """What must be positive, without what the earlier ones imply."""
+    """What must be positive, without what the others imply."""
     known = list(positive)
     found: list[Above] = []
+    kept: list[Expr] = []
     for expression in expressions:
         each = above(expression, order, known)
         rest = deciding(expression)
         if each is not None and not any(
             _implies(given, form) for given in known for form in (expression, rest)
         ):
+            implied = [n for n, earlier in enumerate(kept) if _implies(rest, earlier)]
+            found = [a for n, a in enumerate(found) if n not in implied]
+            kept = [e for n, e in enumerate(kept) if n not in implied]
             found.append(each)
+            kept.append(rest)
             known.append(rest)
     return tuple(dict.fromkeys(found))
 
@@ -136,4 +141,13 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
     all_terms = rest.expand().as_ordered_terms()
     right = -sympy.Add(*(term for term in all_terms if term.could_extract_minus_sign()))
     left = sympy.Add(*(term for term in all_terms if not term.could_extract_minus_sign()))
-    return Above(shape(left, order), shape(right, order))
+    found = Above(shape(left, order), shape(right, order))
+    constant, others = left.as_coeff_Add()
+    if constant > 0 and others != 0:  # 1 > 27 mu (1 - mu)
+        other = Above(shape(constant, order), shape(simplify(right - others), order))
+        found = min(found, other, key=_operations)
+    return found
+
+
+def _operations(each: Above) -> int:
+    return operation_count(each.left) + operation_count(each.right)

@@ -10,6 +10,7 @@ from lagcli.algebra.equations import written
 from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.feeding import cannot_feed
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.routh import Routh
@@ -75,6 +76,9 @@ class _Statement:
             else:
                 [[mass]] = self.steady.dynamics.lagrange.mass_matrix
                 judged = curvature(motion.curvature, at(mass, motion.values), motion.positive)
+                if not cannot_feed(self.steady.system):
+                    reason = "a force without a potential acts"
+                    judged = Verdict(None, None, False, judged.squares, reason)
         except ZeroDivisionError:
             pass
         system, names = self.steady.system, self.steady.full.names

@@ -25,7 +25,9 @@ from lagcli.algebra.equations import coefficients, rounded
 from lagcli.algebra.ring import factorization
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.characteristic import Characteristic, determinant_in
+from lagcli.mechanics.oscillations.feeding import cannot_feed
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
+from lagcli.mechanics.oscillations.stability import positive_definite
 from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.spectrum import real_and_distinct
 from lagcli.record import record
@@ -62,7 +64,9 @@ def verdict(linear: Linearization) -> Verdict:
     undecided = Verdict(None, None, False, squares)
     if not linear.M or not linear.regular:
         return _because(undecided, "the mass matrix is singular there")
-    if linear.nonholonomic or not linear.has_potential or linear.damped:
+    complete = linear.damped and positive_definite(linear.damping, positive)
+    feeds = not complete and (linear.damped or not cannot_feed(linear.system))
+    if linear.nonholonomic or not linear.has_potential or feeds:
         return _because(undecided, "the linearised forces are not those of a potential alone")
     if any(sign(e, positive) != 1 for e in _leading_minors(linear.M)):
         return _because(undecided, "the kinetic energy is not known to be positive definite")
@@ -75,7 +79,7 @@ def verdict(linear: Linearization) -> Verdict:
         return Verdict((), None, False, squares)
     if _sign(elementary[-1], positive) == 0:
         return _because(undecided, "neutral to first order in some direction")
-    if not linear.gyroscopic:
+    if complete or not linear.gyroscopic:  # Kelvin, Tait and Chetaev
         found = Verdict(minimum, None, fails, squares)
         return found if fails or minimum is not None else _because(found, _UNLESS)
     if _sign(elementary[-1], positive) == -1:

@@ -1,0 +1,85 @@
+"""Sentences that sections and explanations share: inequalities, and what is stable."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lagcli.answers import Equilibrium
+from lagcli.document import Formula, Label
+from lagcli.expression import ZERO
+from lagcli.motions import Above, SteadyMotion
+
+Part = str | Formula
+
+#: The effective potential.
+POTENTIAL = Label("U", ("eff",))
+_THEOREM = "(Kelvin, Tait and Chetaev)"
+_REVERSED = "; unstable where one of these is reversed. "
+
+
+def conditions(where: Sequence[Above]) -> list[Part]:
+    """Inequalities within a sentence."""
+    parts: list[Part] = []
+    for position, each in enumerate(where):
+        below = each.left == ZERO
+        sides: list[Part] = (
+            [each.right, " < ", each.left] if below else [each.left, " > ", each.right]
+        )
+        parts += [" and " if position else "", *sides]
+    return parts
+
+
+def stability(equilibrium: Equilibrium) -> list[Part]:
+    """Whether a state of rest is stable, and by which conditions, in sentences."""
+    reason = equilibrium.reason
+    stable = "Asymptotically stable" if equilibrium.asymptotic else "Stable"
+    if equilibrium.stable is not None:
+        words = stable if equilibrium.stable else "Unstable"
+        return [f"{words}: {reason}." if reason else f"{words}."]
+    parts: list[Part] = []
+    spectrum = equilibrium.spectrum
+    if equilibrium.minimum:
+        parts += [f"{stable} where ", *conditions(equilibrium.minimum), ", a minimum of V"]
+        parts += [". " if spectrum is not None else _reversed(equilibrium.minimum)]
+    if equilibrium.hurwitz:
+        parts += [f"{stable} where ", *conditions(equilibrium.hurwitz), " (Hurwitz)"]
+        parts += [_reversed(equilibrium.hurwitz)]
+    if spectrum is not None:
+        parts += ["Stable to first order, all frequencies being real and distinct"]
+        parts += [", where ", *conditions(spectrum), _reversed(spectrum)] if spectrum else [". "]
+        if equilibrium.gyroscopic:
+            parts += [f"Where V has no minimum, damping of all motions destroys this {_THEOREM}. "]
+    if not parts:
+        return ["Stability undecided" + (f": {reason}." if reason else ".")]
+    if reason:
+        parts += [f"{reason[0].upper()}{reason[1:]}."]
+    elif isinstance(parts[-1], str):
+        parts[-1] = parts[-1].rstrip()
+    return parts
+
+
+def _reversed(where: Sequence[Above]) -> str:
+    return "; unstable where this is reversed. " if len(where) == 1 else _REVERSED
+
+
+def steady_stability(motion: SteadyMotion) -> list[Part]:
+    """Whether a steady motion is stable, and by which conditions, in sentences."""
+    if motion.stable:
+        return ["Stable: ", POTENTIAL, " has a minimum (Lagrange and Dirichlet)."]
+    if motion.stable is False:
+        return ["Unstable: a root of the characteristic equation has a positive real part."]
+    parts: list[Part] = []
+    spectrum = motion.spectrum
+    if motion.minimum:
+        parts += ["Stable, with a minimum of ", POTENTIAL, ", where "]
+        parts += [*conditions(motion.minimum), ". "]
+    if spectrum is not None:
+        parts += ["Stable to first order by gyroscopic terms, without a minimum of ", POTENTIAL]
+        parts += [", where ", *conditions(spectrum), _reversed(spectrum)] if spectrum else [". "]
+        parts += [f"Damping of all these coordinates destroys that {_THEOREM}."]
+    elif len(motion.minimum or ()) == 1 and not motion.reason:
+        parts += ["Unstable where this is reversed."]
+    if motion.reason or not parts:
+        lead = "Otherwise undecided" if parts else "Stability undecided"
+        parts += [f"{lead}: {motion.reason}." if motion.reason else f"{lead}."]
+    return parts

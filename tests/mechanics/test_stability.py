@@ -1,0 +1,135 @@
+"""Stability with damping, gyroscopic terms and follower forces, against roots found by numbers."""
+
+from __future__ import annotations
+
+import mpmath
+import pytest
+from sympy import Rational
+
+from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.oscillations.hurwitz import hurwitz_conditions
+from lagcli.mechanics.oscillations.small_oscillations import equilibria
+
+from .derived import derive
+
+
+def origin(text: str):
+    found = equilibria(derive(text.replace("POSITIVE", "{assume: positive}")).dynamics).equilibria
+    assert found is not None
+    return found[0]
+
+
+def told(conditions) -> list[str]:
+    return [f"{to_grammar(each.left)} > {to_grammar(each.right)}" for each in conditions]
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("degree", [2, 3, 4, 5, 6])
+def test_the_criterion_is_that_of_the_roots(seed, degree):
+    """Products of factors with roots on either side of the axis."""
+    place = [((7 * seed + 5 * k * k + 3 * k) % 11) - 7 for k in range(degree)]
+    roots = [mpmath.mpf(p or -1) / 3 for p in place]
+    powers = [mpmath.mpf(1)]
+    for root in roots:
+        powers = [
+            (powers[k - 1] if k else 0) - root * (powers[k] if k < len(powers) else 0)
+            for k in range(len(powers) + 1)
+        ]
+    exact = [Rational(str(mpmath.nstr(p, 30))) for p in powers]
+    conditions = hurwitz_conditions(exact)
+    assert conditions is not None
+    assert all(c > 0 for c in conditions) == all(root < 0 for root in roots)
+
+
+def test_complete_damping_destroys_what_gyroscopic_terms_hold():
+    """Kelvin: the same saddle with and without damping."""
+    saddle = """
+coordinates: [x, y]
+parameters: {w: POSITIVE, b: POSITIVE}
+T: ((x' - w*y)^2 + (y' + w*x)^2)/2
+V: x^2 - y^2
+"""
+    free = origin(saddle)
+    assert free.stable is None
+    assert free.spectrum is not None
+    assert free.gyroscopic
+    damped = origin(saddle + "dissipation: b*(x'^2 + y'^2)/2\n")
+    assert damped.stable is False
+
+
+def test_damping_of_one_coordinate_reaches_the_other():
+    """Two masses joined by a spring, one of them damped: Hurwitz, not Lagrange alone."""
+    found = origin("""
+coordinates: [x, y]
+parameters: {k: POSITIVE, b: POSITIVE}
+L: (x'^2 + y'^2)/2 - k*(x^2 + y^2)/2 - k*(x - y)^2/2
+dissipation: b*x'^2/2
+""")
+    assert found.stable is True
+    assert found.asymptotic is True
+
+
+def test_damping_of_a_relative_motion_leaves_the_common_one():
+    """The common oscillation of two equal masses joined by a damper goes on for ever."""
+    found = origin("""
+coordinates: [x, y]
+parameters: {k: POSITIVE, b: POSITIVE}
+L: (x'^2 + y'^2)/2 - k*(x^2 + y^2)/2
+dissipation: b*(x' - y')^2/2
+""")
+    assert found.stable is True
+    assert found.asymptotic is False
+
+
+def test_negative_damping_is_unstable():
+    found = origin("""
+coordinates: [x]
+parameters: {k: POSITIVE, b: POSITIVE}
+L: x'^2/2 - k*x^2/2
+forces: {x: b*(1 - x^2)*x'}
+""")
+    assert found.stable is False
+
+
+def test_damping_of_either_sign_is_a_condition():
+    found = origin("""
+coordinates: [x]
+parameters: {k: POSITIVE, b: {}}
+L: x'^2/2 - k*x^2/2
+forces: {x: -b*x'}
+""")
+    assert found.stable is None
+    assert told(found.hurwitz) == ["b > 0"]
+
+
+def test_a_force_that_feeds_energy_in_third_order_is_not_overlooked():
+    found = origin("{coordinates: [x], L: x'^2/2 - x^2/2, forces: {x: x'^3}}")
+    assert found.stable is None
+    assert "may feed energy" in found.reason
+    drag = origin("{coordinates: [x], L: x'^2/2 - x^2/2, forces: {x: -x'^3}}")
+    assert drag.stable is True
+
+
+def test_flutter_agrees_with_the_roots_at_numbers():
+    """Ziegler's pendulum with damping, at a load on either side of the printed bound."""
+    found = origin("""
+coordinates: [a, b]
+parameters: {P: POSITIVE, d: POSITIVE}
+T: 3*a'^2/2 + a'*b'*cos(a - b) + b'^2/2
+V: (a^2 + (b - a)^2)/2
+dissipation: d*(a'^2 + (b' - a')^2)/2
+forces: {a: P*sin(a - b)}
+""")
+    assert told(found.hurwitz) == ["14*d^2 + 41 > 28*P"]
+    d = mpmath.mpf("0.3")
+    bound = (14 * d**2 + 41) / 28
+    for P, stable in ((bound - 0.01, True), (bound + 0.01, False)):
+        # det(s² M + s C + K) with M = (3 1; 1 1), C = d (2 -1; -1 1), K = (2 - P, P - 1; -1, 1)
+        at = [
+            (3 * s**2 + 2 * d * s + 2 - P) * (s**2 + d * s + 1)
+            - (s**2 - d * s + P - 1) * (s**2 - d * s - 1)
+            for s in map(mpmath.mpf, range(5))
+        ]
+        powers = mpmath.lu_solve(mpmath.matrix([[s**k for k in range(5)] for s in range(5)]), at)
+        roots = mpmath.polyroots([powers[k] for k in range(4, -1, -1)], maxsteps=200)
+        assert (max(root.real for root in roots) < 0) is stable
