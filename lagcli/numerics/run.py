@@ -277,8 +277,8 @@ class Run:
         """The defect q'' - f(t, q, q') of the dense output at a place that no stage knows."""
         self._probes += 1
         t = step.start + step.h * (self._probes * _GOLDEN % 1.0)
-        q, v, slope = (step.probe or step.inside)(t)
         try:
+            q, v, slope = (step.probe or step.inside)(t)
             rate = self.phases[-1].mode.motion.accelerations(t, *q, *v)
         except (ArithmeticError, ValueError):
             self.defect = float("inf")

@@ -24,6 +24,7 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from tests.bench import (
+    auto_rows,
     certificate,
     commands,
     cut_rows,
@@ -38,7 +39,7 @@ from tests.bench.measure import ROOT, Row, show
 
 #: What `--only` takes; without it the first three are measured.
 PARTS = (
-    "commands", "scaling", "library", "discovery", "motions", "integration", "cut", "certificate",
+    "commands", "scaling", "library", "discovery", "motions", "integration", "auto", "cut", "certificate",
 )  # fmt: skip
 _USUAL = PARTS[:3]
 
@@ -126,6 +127,9 @@ def _measure(part: str, run: Run, arguments: argparse.Namespace) -> None:
             run.take(long_rows.held_rows())
             if arguments.long:
                 run.take(iter([long_rows.kepler_row()]))
+        case "auto":
+            run.take(auto_rows.rows(2))
+            run.take(auto_rows.rows(2, kept=True))
         case "cut":
             run.take(cut_rows.rows())
         case "certificate":

@@ -284,6 +284,31 @@ def test_without_llvmlite_it_runs_in_python(monkeypatch):
     assert result.reason.endswith("; not taylor64: llvmlite is not installed")
 
 
+@pytest.mark.parametrize(
+    "text", [KEPLER, chain(4), TWICE.replace(", again: 2*x^2 + 2*y^2 = 2", "")]
+)
+def test_better_code_gives_the_same_numbers(monkeypatch, text):
+    """From the beginning, after some steps, and never."""
+    from lagcli.numerics.compiled import machine, method
+
+    found = []
+    monkeypatch.setattr(method, "_FIRST", 3)
+    for limit in (0.0, 3e4, math.inf):
+        monkeypatch.setattr(machine, "LONG_RUN", limit)
+        found.append(simulated(text, 5, 1e-9).rows)
+    assert found[0] == found[1] == found[2]
+
+
+def test_better_code_is_made_for_a_long_run():
+    motion, _ = motions(KEPLER)
+    made = Machine(motion, DOUBLE)
+    assert made.is_quick
+    made.improve(100, 20)
+    assert made.is_quick
+    made.improve(10**6, 20)
+    assert not made.is_quick
+
+
 def test_a_run_takes_up_where_a_call_of_the_loop_ends(monkeypatch):
     from lagcli.numerics.compiled import method
 

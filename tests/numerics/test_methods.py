@@ -10,7 +10,8 @@ from lagcli.numerics.constants import constants_of
 from lagcli.numerics.dop853 import Dop853
 from lagcli.numerics.equations import Equations
 from lagcli.numerics.motion import Motion
-from lagcli.numerics.steps import Tolerance
+from lagcli.numerics.run import Run
+from lagcli.numerics.steps import Step, Tolerance
 from lagcli.numerics.tableau_853 import DENSE, ERROR_3, ERROR_5, NODES, STAGES
 from lagcli.pipeline import with_lagrangian
 from tests.oracle.reference import Reference
@@ -106,3 +107,13 @@ def test_accelerations_are_those_of_the_definitions(path):
 
 def test_numbers_are_exact_until_they_are_doubles():
     assert Doubles().number(Fraction(1, 3)) == 1 / 3
+
+
+def test_a_probe_where_nothing_is_defined_is_a_defect():
+    def inside(_):
+        raise ValueError
+
+    run = object.__new__(Run)
+    run._probes = 0
+    run._probe(Step(0.0, 1.0, 1.0, [0.0], [0.0], inside))
+    assert run.defect == math.inf

@@ -25,8 +25,10 @@ from lagcli.numerics.steps import CannotGoOn, NotPossible, Step, Tolerance
 from lagcli.numerics.surface import Surface
 
 _HIGHEST = LAST - 2
-#: Steps of one call, and operations of one run: a minute or two.
-_CALL = 20_000
+#: Steps of the first call and of any, and operations of one run: a minute or two.
+_FIRST, _CALL = 50, 20_000
+#: Steps one by one between the looks whether better code pays.
+_LOOK = 64
 _LIMIT = 1_000_000_000
 #: Of the order in the logarithm of the tolerance, by what was measured.
 _ORDER, _LOWEST = 0.7, 8
@@ -144,6 +146,8 @@ class CompiledTaylor:
                     return
                 kinks.pass_through()
             t = end
+            if self.evaluations % (_LOOK * self.order) == 0:
+                self.machine.improve(self.evaluations / self.order * until / t, self.order)
 
     def _expand(self, state: Any) -> int:
         self.evaluations += self.order
@@ -205,16 +209,19 @@ class CompiledTaylor:
         for i in range(both):
             out[i] = state[i]
         counts[k.PENDING], counts[k.TIMES], counts[k.PROBES] = 1, len(times), probes
-        drive = self.machine.kernel("drive")
         given = [self._rows, self._other, self._signs, state, self._lost, self._ahead, self._peaks]
         given += [self._scales, self._held, facts, counts, asked, out]
-        status = k.MORE
+        status, call = k.MORE, min(_FIRST, _CALL)
         limit = run.step_limit = _LIMIT // max(10, self.machine.ops)
         while status == k.MORE and counts[k.STEPS] < limit:
-            counts[k.LIMIT] = min(_CALL, limit - counts[k.STEPS])
-            status = drive(*map(pointer, given))
+            counts[k.LIMIT] = min(call, limit - counts[k.STEPS])
+            status = self.machine.kernel("drive")(*map(pointer, given))
+            call = min(2 * call, _CALL)
+            part = float(state[both]) / times[-1]
+            if part > 0:
+                self.machine.improve(counts[k.STEPS] / part, self.order)
             if progress is not None:
-                progress(float(state[both]) / times[-1])
+                progress(part)
         if status == k.PIVOT:
             raise PivotVanishes
         done = int(counts[k.PENDING])
