@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import FUNCTIONS, Call, Diff, Expression, Name, PartialCall, walk
+from lagcli.problem import Assumption
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import closest, did_you_mean
 
@@ -168,6 +169,8 @@ def _advice(name: str, scope: Scope, role: Role) -> str:
     hint = did_you_mean(name, scope.usable(role))
     if not hint and name in {"e", "E"}:
         return "the exponential function is exp(…)"
+    if not hint and name in get_args(Assumption):
+        return f"an assumption is written {{assume: {name}}}"
     if not hint and name in {"I", "i", "j"}:
         return "every quantity is real; declare it under 'parameters'"
     return hint or "declare it under 'parameters'"

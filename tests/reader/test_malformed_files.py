@@ -273,3 +273,10 @@ def test_line_ends_and_byte_order_mark_change_no_place(name):
     }[name]
     (mistake,) = read_problem("bad.yaml", data).diagnostics
     assert (mistake.span.line, mistake.span.column) == (9, 4)
+
+
+def test_an_assumption_in_the_place_of_a_value_is_told_how_it_is_written():
+    text = b"coordinates: [x]\nparameters: {m: positive}\nT: m*x'^2/2\n"
+    (mistake,) = read_problem("f.yaml", text).diagnostics
+    assert (mistake.span.line, mistake.span.column) == (2, 17)
+    assert mistake.hint == "an assumption is written {assume: positive}"

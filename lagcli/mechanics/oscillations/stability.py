@@ -37,6 +37,11 @@ from lagcli.mechanics.reduction.spectrum import real_and_distinct
 from lagcli.record import record
 
 _MAY_FEED = "a force that is not linear, or has no potential, may feed energy"
+#: What the file leaves open, and how it would say it.
+NOT_DEFINITE = (
+    "the kinetic energy is not known to be positive definite (say which parameters are: "
+    "{assume: positive})"
+)
 
 
 @record
@@ -78,7 +83,7 @@ def stability(linear: Linearization, characteristic: Characteristic) -> Stabilit
             return Stability(False, "a root of the characteristic polynomial is positive")
         return Stability(None, "the linearised forces have no potential on the surface")
     if not positive_definite(linear.M, positive):
-        return Stability(None, "the kinetic energy is not known to be positive definite")
+        return Stability(None, NOT_DEFINITE)
     if not linear.has_potential:
         return _by_roots(linear, powers)
     complete = linear.damped and positive_definite(linear.damping, positive)

@@ -27,7 +27,7 @@ from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.characteristic import Characteristic, determinant_in
 from lagcli.mechanics.oscillations.feeding import cannot_feed
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
-from lagcli.mechanics.oscillations.stability import positive_definite
+from lagcli.mechanics.oscillations.stability import NOT_DEFINITE, positive_definite
 from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.spectrum import real_and_distinct
 from lagcli.record import record
@@ -69,7 +69,7 @@ def verdict(linear: Linearization) -> Verdict:
     if linear.nonholonomic or not linear.has_potential or feeds:
         return _because(undecided, "the linearised forces are not those of a potential alone")
     if any(sign(e, positive) != 1 for e in _leading_minors(linear.M)):
-        return _because(undecided, "the kinetic energy is not known to be positive definite")
+        return _because(undecided, NOT_DEFINITE)
     elementary = _relative_to(linear.M, linear.K)
     if elementary is None:
         return _because(undecided, "the characteristic polynomial was not found")
@@ -97,9 +97,7 @@ def curvature(potential: Expr, mass: Expr, positive: Sequence[Expr] = ()) -> Ver
     """The verdict on one coordinate with M and U'' given."""
     square = simplify(potential / mass)
     if sign(mass, positive) != 1:
-        return Verdict(
-            None, None, False, (square,), "the kinetic energy is not known to be positive definite"
-        )
+        return Verdict(None, None, False, (square,), NOT_DEFINITE)
     minimum, fails = _open([square], positive)
     found = Verdict(minimum, None, fails, (square,))
     return found if fails or minimum is not None else _because(found, _UNLESS)
