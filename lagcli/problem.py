@@ -204,6 +204,10 @@ class Reaching:
 Question = Where | Rewrite | Lasting | Reaching
 
 
+#: How a motion may be integrated.
+METHODS = ("auto", "taylor64", "taylor80", "taylor", "dop853", "radau5", "gauss8", "yoshida8")
+
+
 @record(kw_only=True)
 class Simulation:
     """Defaults of the numerical run; numbers are expressions without names."""

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-#: The forms of a table of `simulate`, those of them that are no text, and its methods.
+#: The forms of a table of `simulate`, and those of them that are no text.
 TABLES = ("table", "json", "csv", "npz", "parquet")
 BINARY = ("npz", "parquet")
-METHODS = ("auto", "taylor64", "taylor80", "taylor", "dop853", "radau5", "gauss8", "yoshida8")
 #: The forms of a study of `tradeoff`, and what it weighs.
 STUDIES = ("text", "json", "csv")
 COSTS = ("total", "integration", "evaluations")
@@ -44,6 +43,8 @@ def complete_table(incomplete: str) -> list[str]:
 
 def complete_method(incomplete: str) -> list[str]:
     """The methods that begin so."""
+    from lagcli.problem import METHODS
+
     return [name for name in METHODS if name.startswith(incomplete)]
 
 
@@ -72,5 +73,7 @@ def complete_cost(incomplete: str) -> list[str]:
 
 def complete_methods(incomplete: str) -> list[str]:
     """The methods that the last word of `a,b,c` may become."""
+    from lagcli.problem import METHODS
+
     before, comma, word = incomplete.rpartition(",")
     return [before + comma + name for name in METHODS[1:] if name.startswith(word)]

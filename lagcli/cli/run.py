@@ -33,6 +33,9 @@ def leave(status: int) -> NoReturn:
 
 def run(arguments: Sequence[str]) -> int:
     """The exit status of a command line; whatever goes wrong is told on standard error."""
+    if sys.stdout is None:
+        sys.stderr.write("standard output: error: it is closed\n")
+        return Status.USAGE
     try:
         from click import Abort, ClickException
 
@@ -53,6 +56,12 @@ def run(arguments: Sequence[str]) -> int:
     except BrokenPipeError:
         hush()
         return Status.WELL
+    except OSError as error:
+        from lagcli.cli.files import reason
+
+        where = error.filename or "standard output"
+        sys.stderr.write(f"{where}: error: {reason(error)}\n")
+        return Status.USAGE
     except Exception as error:  # noqa: BLE001 - the last resort: no traceback reaches a user
         from lagcli.failures import describe
 

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from lagcli.cli.files import read_input, reason
 from lagcli.cli.telling import tell, tell_line
 from lagcli.decimals import value_of
-from lagcli.diagnostics import ProblemError
+from lagcli.diagnostics import Diagnostic, ProblemError, Source
 from lagcli.expression import Expression
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.problem import Problem
@@ -38,19 +38,20 @@ def problem_of(file: str, settings: tuple[str, ...], state: tuple[str, ...] = ()
 
 
 class Numbers:
-    """Options that are numbers, with the file's where they are left out.
+    """Options that are numbers, with those of the `file` where they are left out.
 
     `good` is false once one of them is no number, or out of its range, which is told.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, file: Source) -> None:
+        self.file = file
         self.good = True
 
     def until(self, text: str | None, given: Expression | None) -> float | None:
         """The end; None where there is none."""
         until = self._number(text, given, "--until")
         if until is not None and not 0 < until < math.inf:
-            self._wrong(f"--until: the end must be a time after 0, not {until:g}")
+            self._wrong("--until", text, given, f"the end must be a time after 0{_not(until)}")
         return until
 
     def end(self, file: str, text: str | None, given: Expression | None) -> float | None:
@@ -66,7 +67,7 @@ class Numbers:
         """The accuracy asked for, or the usual one."""
         accuracy = self._number(text, given, "--accuracy")
         if accuracy is not None and not 0 < accuracy < 1:
-            self._wrong(f"--accuracy: it lies between 0 and 1, not {accuracy:g}")
+            self._wrong("--accuracy", text, given, f"it lies between 0 and 1{_not(accuracy)}")
         return _USUAL_ACCURACY if accuracy is None else accuracy
 
     def _number(self, text: str | None, given: Expression | None, option: str) -> float | None:
@@ -80,9 +81,19 @@ class Numbers:
             return None
         return None if formula is None else _value(formula)
 
-    def _wrong(self, sentence: str) -> None:
-        tell_line(f"lagcli: error: {sentence}")
+    def _wrong(
+        self, option: str, text: str | None, given: Expression | None, sentence: str
+    ) -> None:
+        if text is None and given is not None:
+            message = f"'{option.removeprefix('--')}': {sentence}"
+            tell(self.file, [Diagnostic(message, given.span)])
+        else:
+            tell_line(f"lagcli: error: {option}: {sentence}")
         self.good = False
+
+
+def _not(value: float) -> str:
+    return f", not {value:g}" if math.isfinite(value) else ", and a double"
 
 
 def _value(formula: Expression) -> float:

@@ -8,13 +8,14 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from lagcli.cli.choices import BINARY, METHODS, TABLES
+from lagcli.cli.choices import BINARY, TABLES
 from lagcli.cli.delivering import has_place, place
 from lagcli.cli.running import Numbers, is_known, problem_of, shared
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
 from lagcli.formatters.grammar import to_grammar
+from lagcli.problem import METHODS
 from lagcli.record import record
 
 if TYPE_CHECKING:
@@ -111,7 +112,7 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
         usual_columns,
     )
 
-    run, numbers = problem.simulation, Numbers()
+    run, numbers = problem.simulation, Numbers(problem.source)
     until = numbers.end(wish.file, wish.until, run.until)
     accuracy = numbers.accuracy(wish.accuracy, run.accuracy)
     method = run.method if wish.method == "auto" and run.method else wish.method

@@ -70,7 +70,7 @@ def _wanted(problem: Problem, wish: Wish) -> Wanted | None:
     """What each case is asked; None where an option is no number, which is told."""
     from lagcli.extremes.trial import Wanted
 
-    numbers = Numbers()
+    numbers = Numbers(problem.source)
     until = numbers.until(wish.until, problem.simulation.until)
     accuracy = numbers.accuracy(wish.accuracy, problem.simulation.accuracy)
     if not numbers.good:

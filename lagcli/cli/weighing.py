@@ -7,11 +7,12 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lagcli.cli.choices import COSTS, METHODS, STUDIES
+from lagcli.cli.choices import COSTS, STUDIES
 from lagcli.cli.delivering import has_place, place
 from lagcli.cli.running import Numbers, counted, is_known, problem_of
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
+from lagcli.problem import METHODS
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
 
@@ -49,7 +50,7 @@ def weigh_file(wish: Wish) -> Status:
     problem = problem_of(wish.file, wish.settings, wish.state)
     if problem is None:
         return Status.USAGE
-    numbers = Numbers()
+    numbers = Numbers(problem.source)
     until = numbers.end(wish.file, wish.until, problem.simulation.until)
     if until is None or not (good and numbers.good) or methods is None:
         return Status.USAGE

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lagcli.expression import Expression, Name
-from lagcli.problem import Lasting, Question, Reaching, Rewrite, Simulation, Where
+from lagcli.problem import METHODS, Lasting, Question, Reaching, Rewrite, Simulation, Where
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping
 from lagcli.reader.scope import NUMBERS, POSITION, QUESTION, VALUES, Role
@@ -156,6 +156,9 @@ def read_simulation(sections: Sections, node: Node) -> Simulation:
     if "method" in found:
         text = sections.scalar(found["method"][1], "'method'")
         method = text.value.strip() if text else None
+        if method is not None and method not in METHODS:
+            hint = did_you_mean(method, METHODS) or f"there are {', '.join(METHODS)}"
+            sections.error(f"unknown method '{method}'", found["method"][1].span, hint)
     return Simulation(until=until, accuracy=accuracy, method=method)
 
 

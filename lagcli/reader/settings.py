@@ -100,7 +100,8 @@ def _read(source: Source, scope: Scope, names: Sequence[str], kind: str) -> tupl
         hint = "write name=value"
         raise ProblemError(source, (Diagnostic("an '=' is missing", text.span(0, 0), hint),))
     if name not in names:
-        hint = did_you_mean(name, names) or "known are " + ", ".join(names)
+        known = f"known are {', '.join(names)}" if names else "the file declares none"
+        hint = did_you_mean(name, names) or known
         message = f"there is no {kind} '{name}'"
         raise ProblemError(source, (Diagnostic(message, text.span(0, len(written)), hint),))
     start = len(written) + 1

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
@@ -52,6 +54,24 @@ def test_a_reader_that_leaves_is_no_error(lagcli):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="SIGINT is sent otherwise")
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="the device is Linux's")
+@pytest.mark.parametrize("command", [["solve", "pendulum.yaml"], ["version"], ["--help"]])
+def test_a_full_standard_output_is_told_and_is_no_bug(command):
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run([sys.executable, "-m", "lagcli", *command], stdout=full,
+                              stderr=subprocess.PIPE, text=True, cwd=FILES, check=False)  # fmt: skip
+    assert done.stderr == "standard output: error: no space left on device\n"
+    assert done.returncode == 2
+
+
+def test_a_closed_standard_output_is_told():
+    line = shlex.join([sys.executable, "-m", "lagcli", "version"]) + " >&-"
+    done = subprocess.run(
+        ["sh", "-c", line], stderr=subprocess.PIPE, text=True, cwd=FILES, check=False
+    )
+    assert (done.stderr, done.returncode) == ("standard output: error: it is closed\n", 2)
+
+
 def test_an_interrupt_ends_with_130_and_without_a_traceback(tmp_path):
     pipe = tmp_path / "pipe.yaml"  # nobody ever writes to it: lagcli waits
     os.mkfifo(pipe)

@@ -92,6 +92,14 @@ def test_mistakes_of_the_command_line(arguments, word):
     assert done.stdout == ""
 
 
+def test_mistakes_of_the_file_are_shown_where_they_stand():
+    text = "coordinates: [x]\nT: x'^2/2\nsimulation: {until: -1, accuracy: 2}\n"
+    done = run("-", stdin=text)
+    assert done.returncode == 2
+    assert ":3:21: error: 'until': the end must be a time after 0, not -1\n" in done.stderr
+    assert ":3:35: error: 'accuracy': it lies between 0 and 1, not 2\n" in done.stderr
+
+
 def test_missing_values_are_named_with_their_places():
     done = run(
         "-", "--until", "1", stdin="coordinates: [x]\nparameters: [k, m]\nL: m*x'^2/2 - k*x^2\n"

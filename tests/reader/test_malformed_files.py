@@ -38,6 +38,9 @@ def asked(question: str) -> str:
 CANONICAL = "coordinates: [x]\nL: x'^2\ncanonical_transformations: {a: {Q: x, p_Q: p_x}}\n"
 
 FILES = [
+    # The numerical run.
+    (after("simulation: {until: 1, method: euler}\n"), "9:32", "unknown method 'euler'"),
+    (after("simulation: {method: tailor}\n"), "9:22", "did you mean 'taylor'?"),
     # Phase space.
     (after("observables: {A: x*p_y - y*px}\n"), "9:28", "unknown name 'px'"),
     (after("observables: {A: x*p_y, B: A'}\n"), "9:28", "no primes"),
