@@ -11,7 +11,10 @@ from lagcli.document import Block
 from lagcli.record import field, record
 
 #: The sections that are told as steps when they are asked for.
-FURTHER = ("find", "equilibria", "modes", "reduction")
+FURTHER = (
+    "find", "equilibria", "modes", "reduction", "steady_motions", "canonical_equations", "brackets",
+    "hamilton_jacobi",
+)  # fmt: skip
 
 
 @record

@@ -25,7 +25,8 @@ Also = Annotated[
     typer.Option(
         "--also",
         metavar="A,B",
-        help="Tell these as well: find, equilibria, modes, reduction.",
+        help="Tell these as well: find, equilibria, modes, reduction, steady_motions, "
+        "canonical_equations, brackets, hamilton_jacobi.",
     ),
 ]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import random
 import re
+from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
 
@@ -14,7 +15,8 @@ import sympy
 from lagcli.algebra.build import Builder
 from lagcli.document import Equations, Heading, Items, Label, Paragraph
 from lagcli.explanation import FURTHER
-from lagcli.expression import Diff, Expression, Name, Rate, walk
+from lagcli.expression import Diff, Expression, Name, Number, Power, Rate, walk
+from lagcli.formatters.grammar import to_grammar
 from lagcli.pipeline import derive, explain, load
 from lagcli.rewriting import rebuilt
 
@@ -259,7 +261,16 @@ def test_the_further_steps_are_told_only_when_asked_for():
     titles = [step.title for step in told("pendulums/plane-pendulum").steps]
     more = also("pendulums/plane-pendulum", *FURTHER)
     added = [step.title for step in more.steps if step.title not in titles]
-    assert added == ["The questions", "States of rest", "Small oscillations", "The reduction"]
+    assert added == [
+        "The questions",
+        "States of rest",
+        "Small oscillations",
+        "The reduction",
+        "Steady motions",
+        "The canonical equations",
+        "Poisson brackets",
+        "The equation of Hamilton and Jacobi",
+    ]
 
 
 def test_small_oscillations_go_from_the_matrices_to_the_textbooks_frequency():
@@ -270,6 +281,29 @@ def test_small_oscillations_go_from_the_matrices_to_the_textbooks_frequency():
     assert normal(shown[Name("omega")]) ** 2 == normal(K) / normal(M)
     assert "Stable: V has a strict minimum" in words(explanation, "States of rest")
     assert "Unstable: V has no minimum" in words(explanation, "States of rest")
+
+
+def test_a_steady_motion_goes_from_its_condition_to_its_frequency():
+    """Goldstein, chapter 3, and Landau and Lifshitz, section 14: the conical pendulum."""
+    explanation = also("steady/conical-pendulum", "steady_motions")
+    told = words(explanation, "Steady motions")
+    assert "the cyclic ones have constant velocities" in told
+    assert "Stable: " in told
+    shown = list(rows(explanation, "Steady motions"))
+    assert to_grammar(shown[1].right) == "sqrt(g/(l*cos(theta)))"
+    square = Power(Name("omega"), Number(Fraction(2)))
+    assert "g*(3*cos(theta) + 1/cos(theta))/l" in {
+        to_grammar(row.right) for row in shown if row.left == square
+    }
+
+
+def test_the_action_is_told_with_its_cases():
+    explanation = also("hamilton-jacobi/kepler-polar", "canonical_equations", "hamilton_jacobi")
+    assert "Levi-Civita" in words(explanation, "The equation of Hamilton and Jacobi")
+    lefts = [row.left for row in rows(explanation, "The equation of Hamilton and Jacobi")]
+    assert lefts.count(Label("W", ("r",))) == 3
+    pairs = {row.left: row.right for row in rows(explanation, "The canonical equations")}
+    assert to_grammar(pairs[Name("p_phi", 1)]) == "0"
 
 
 def test_the_reduction_ends_at_the_effective_potential():

@@ -13,6 +13,7 @@ from lagcli.answers import EquilibriaSection, ModesSection, ReductionSection, Se
 from lagcli.document import Block, Equations, Heading, Label, Matrix, Row
 from lagcli.explanation import Step
 from lagcli.expression import ZERO, Expression, Name, Number, Power, Product
+from lagcli.mechanics.explaining import phase_space
 from lagcli.mechanics.explaining.questions import questions
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says, shows
@@ -210,4 +211,8 @@ _TOLD: Mapping[str, tuple[str, Callable[[Teller, Section], Iterator[Block]]]] = 
     "equilibria": ("States of rest", _rest),
     "modes": ("Small oscillations", _oscillations),
     "reduction": ("The reduction", _reduction),
+    "steady_motions": ("Steady motions", phase_space.steady),
+    "canonical_equations": ("The canonical equations", phase_space.canonical_equations),
+    "brackets": ("Poisson brackets", phase_space.brackets),
+    "hamilton_jacobi": ("The equation of Hamilton and Jacobi", phase_space.hamilton_jacobi),
 }
