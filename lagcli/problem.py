@@ -205,7 +205,9 @@ Question = Where | Rewrite | Lasting | Reaching
 
 
 #: How a motion may be integrated.
-METHODS = ("auto", "taylor64", "taylor80", "taylor", "dop853", "radau5", "gauss8", "yoshida8")
+METHODS = (
+    "auto", "taylor64", "taylor80", "taylor128", "taylor", "dop853", "radau5", "gauss8", "yoshida8",
+)  # fmt: skip
 
 
 @record(kw_only=True)

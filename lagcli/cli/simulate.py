@@ -60,7 +60,7 @@ Method = Annotated[
     typer.Option(
         "--method",
         metavar="NAME",
-        help="auto, taylor64, taylor80, taylor (any number of digits), dop853, radau5 "
+        help="auto, taylor64, taylor80, taylor128, taylor (any number of digits), dop853, radau5 "
         "(stiff), gauss8 or yoshida8 (symplectic).",
         autocompletion=complete_method,
     ),

@@ -26,6 +26,7 @@ Runge-Kutta methods", IMA J. Numer. Anal. 16 (1996).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
@@ -82,8 +83,8 @@ class Controller:
         Makes a run.
     accuracy
         A.
-    finest
-        No tolerance below this makes sense.
+    first, finest
+        No run is made with a tolerance above, or below.
     span
         Of time.
     charges
@@ -100,10 +101,11 @@ class Controller:
         finest: float,
         span: float,
         charges: int,
+        first: float = math.inf,
         longest: Sequence[float] = LONGEST,
     ) -> None:
         self.runner = runner
-        self.accuracy, self.finest, self.span = accuracy, finest, span
+        self.accuracy, self.first, self.finest, self.span = accuracy, first, finest, span
         self.charges = charges
         self._longest = longest
         self.runs = self.evaluations = 0
@@ -114,7 +116,7 @@ class Controller:
     def outcome(self) -> Outcome:
         """The first pair of runs that agrees, or the last that could be made."""
         level = 0
-        tolerance = max(min(self.accuracy / _SHARE, 1e-4), self.finest * BETWEEN)
+        tolerance = max(min(self.accuracy / _SHARE, self.first, 1e-4), self.finest * BETWEEN)
         coarse, rows = self._run(tolerance, level, None)
         while True:
             finer = max(tolerance / BETWEEN, self.finest)

@@ -47,8 +47,8 @@ class Prepared:
     ----------
     run : OneRun
         Makes a run.
-    finest
-        No tolerance below this makes sense.
+    first, finest
+        No run is made with a tolerance above, or below.
     longest : tuple of float
         The longest step as parts of the span: at first, and where something was missed.
     floor
@@ -58,6 +58,7 @@ class Prepared:
     """
 
     run: OneRun
+    first: float = math.inf
     finest: float = FINEST_DOUBLE
     longest: Sequence[float] = LONGEST
     floor: float = 0.0
@@ -155,6 +156,7 @@ def outcome_of(simulation: Simulation, made: Prepared) -> Outcome:
         return Controller(
             runner,
             accuracy=asked.accuracy,
+            first=made.first,
             finest=made.finest,
             span=asked.until,
             charges=len(simulation.charges),
@@ -202,6 +204,12 @@ def _taylor80(simulation: Simulation, modes: Modes) -> Prepared | str:
     from lagcli.numerics.compiled.route import prepared_extended
 
     return prepared_extended(simulation, modes)
+
+
+def _taylor128(simulation: Simulation, modes: Modes) -> Prepared | str:
+    from lagcli.numerics.compiled.route import prepared_quadruple
+
+    return prepared_quadruple(simulation, modes)
 
 
 def _taylor(simulation: Simulation, modes: Modes) -> Prepared | str:
@@ -258,6 +266,14 @@ METHODS: dict[str, Entry] = {
             prepare=_taylor80,
         ),
         Entry(
+            name="taylor128",
+            order=None,
+            properties=("explicit", "smooth", "compiled"),
+            reason="power series in machine code of 128 bits: the accuracy lies within the "
+            "rounding of 80 bits",
+            prepare=_taylor128,
+        ),
+        Entry(
             name="taylor",
             order=None,
             properties=("explicit", "smooth", "any precision"),
@@ -275,5 +291,5 @@ STIFF = ("radau5",)
 AUTO: tuple[tuple[str, ...], ...] = (
     ("taylor64", "dop853"),
     ("taylor80",),
-    ("taylor",),
+    ("taylor128", "taylor"),
 )

@@ -95,6 +95,8 @@ class Simulation:
         #: so many of the times are those asked for, and what lies between them
         self.regular = len(self.times)
         self.finished = 0
+        #: whether a run was so long that doubles were left for numbers of more bits
+        self.is_long = False
         #: what is said beside the reason for the method
         self.remark = ""
         self.notes: list[str] = []
@@ -233,6 +235,9 @@ class Simulation:
                     found = outcome_of(self, made)
                 except NotPossible as reason:
                     made = str(reason)
+                    if self.is_long:
+                        self.remark += f"; not {name}: {made}"
+                        return None, nullcontext
                 else:
                     self.remark += remark
                     return found, made.precision

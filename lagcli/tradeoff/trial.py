@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 _SECONDS, _AGAIN = 0.05, 5
 #: The longest step of a single run is this part of the span: nothing is guarded against.
 _PARTS = 10.0
+#: The accuracy of a single run, which claims none, is told as this at least.
+_LEAST = 1e-14
 #: Significant digits of the numbers that are compared.
 _DIGITS = 50
 
@@ -51,7 +53,6 @@ class Given:
     name: str
     text: str
     settings: tuple[str, ...]
-    state: tuple[str, ...]
     until: float
     samples: int
     project: bool
@@ -60,6 +61,7 @@ class Given:
     accuracy: float | None
     limit: float
     whole: bool = False
+    state: tuple[str, ...] = ()
 
 
 class TooLong(Exception):
@@ -105,7 +107,7 @@ def asked_of(given: Given) -> tuple[Problem, Asked]:
     assert problem is not None  # it has been read before
     asked = Asked(
         until=given.until,
-        accuracy=given.accuracy or min(0.1, 100 * (given.tolerance or 0.0)),
+        accuracy=given.accuracy or min(0.1, max(_LEAST, 100 * (given.tolerance or 0.0))),
         samples=given.samples,
         columns=tuple(Column(*column) for column in usual_columns(problem)),
         project=given.project,

@@ -7,7 +7,7 @@ import mpmath
 import pytest
 
 from lagcli.numerics.arithmetic import Doubles
-from lagcli.numerics.compiled import kernels
+from lagcli.numerics.compiled import layout
 from lagcli.numerics.compiled.machine import Machine
 from lagcli.numerics.compiled.method import CompiledTaylor
 from lagcli.numerics.compiled.numbers import DOUBLE
@@ -108,9 +108,9 @@ def test_the_loop_gives_the_accelerations_that_the_null_space_gives():
     assert motion.held(0.0, *q, *v).multipliers == pytest.approx(known.multipliers, rel=1e-9)
     method = CompiledTaylor(Machine(motion, DOUBLE), None)
     state = method._prepare(q, v, 1.0, Tolerance(1e-12, n, 1.0, 1.0))
-    assert method._expand(state) == kernels.MORE
-    unit = method._rows[2 * n * kernels.STRIDE + 1]
-    found = [method._rows[(n + j) * kernels.STRIDE + 1] / unit for j in range(n)]
+    assert method._expand(state) == layout.MORE
+    unit = method._rows[2 * n * layout.STRIDE + 1]
+    found = [method._rows[(n + j) * layout.STRIDE + 1] / unit for j in range(n)]
     assert found == pytest.approx(known.accelerations, rel=1e-9)
 
 

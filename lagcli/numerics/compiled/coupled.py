@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 
 from lagcli.graph.nodes import Node
 from lagcli.numerics.compiled.emission import LONG, Series, in_blocks
-from lagcli.numerics.compiled.kernels import STRIDE
+from lagcli.numerics.compiled.layout import STRIDE
 from lagcli.numerics.compiled.numbers import Numbers
 from lagcli.numerics.compiled.tape import Scaled, Tape
 from lagcli.numerics.compiled.text import Text

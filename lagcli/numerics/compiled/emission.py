@@ -26,7 +26,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from lagcli.graph.nodes import Node
-from lagcli.numerics.compiled.kernels import STRIDE
+from lagcli.numerics.compiled.layout import STRIDE
 from lagcli.numerics.compiled.numbers import Numbers
 from lagcli.numerics.compiled.tape import Op, Tape
 from lagcli.numerics.compiled.text import Text
@@ -46,7 +46,8 @@ _FUNCTIONS = "sin cos sinh cosh tanh exp log pow asin acos atan asinh acosh atan
 def declarations(numbers: Numbers) -> str:
     """The functions of the C library."""
     real, suffix = numbers.type, numbers.suffix
-    lines = [f"declare {real} @llvm.{name}.{suffix}({real})" for name in ("sqrt", "fabs")]
+    names = (numbers.root, f"@llvm.fabs.{suffix}")
+    lines = [f"declare {real} {name}({real}) nounwind memory(none)" for name in names]
     for name in _FUNCTIONS:
         given = f"{real}, {real}" if name in {"pow", "atan2"} else real
         lines.append(f"declare {real} {numbers.function(name)}({given}) nounwind memory(none)")

@@ -61,6 +61,15 @@ _INTERFACE: dict[str, tuple[Any, list[Any]]] = {
     "GetFunctionAddress": (c_uint64, [c_void_p, c_char_p]),
 }
 
+#: What LLVM calls for numbers of 128 bits: operations of libgcc, functions of libm.
+_QUADRUPLE = (
+    "addtf3 subtf3 multf3 divtf3 eqtf2 netf2 lttf2 letf2 gttf2 getf2 unordtf2 "
+    "extenddftf2 trunctfdf2 floatditf fixtfdi floatsitf floatunsitf"
+).split()
+_FUNCTIONS = (
+    "sqrt sin cos sinh cosh tanh exp log pow asin acos atan asinh acosh atanh atan2"
+).split()
+
 #: What is done before code is made, by the time that the whole takes: mem2reg and little else.
 _PASSES = ("AlwaysInliner", "SROA", "InstCombine", "SimplifyCFG")
 _CODE_LEVEL = 2
@@ -87,8 +96,16 @@ class Engine:
         self._triple = self._told("GetProcessTriple")
         #: whether there are numbers of 80 bits, and `long double` is such a number
         self.extended = self._triple.startswith(b"x86_64-") and sys.platform != "win32"
+        self._has_quadruple: bool | None = None
         self._cpu = self._told("GetHostCPUName"), self._told("GetHostCPUFeatures")
         self._folder = None if os.environ.get("LAGCLI_NO_CACHE") else folder(os.environ)
+
+    @property
+    def quadruple(self) -> bool:
+        """Whether the C library computes with numbers of 128 bits."""
+        if self._has_quadruple is None:
+            self._has_quadruple = self.extended and sys.platform == "linux" and _knows_quadruple()
+        return self._has_quadruple
 
     def compiled(
         self, source: bytes, text: Callable[[], str], *, quickly: bool = False
@@ -215,6 +232,18 @@ def _library() -> ctypes.CDLL:
         return ctypes.CDLL(str(folder / "binding" / _LIBRARIES[sys.platform]))
     except (OSError, KeyError) as error:
         raise NoCompiler(f"llvmlite cannot be loaded: {error}") from None
+
+
+def _knows_quadruple() -> bool:
+    """Load what the operations with 128 bits are calls of; False where a function is missing."""
+    try:
+        operations = ctypes.CDLL("libgcc_s.so.1", mode=ctypes.RTLD_GLOBAL)
+        functions = ctypes.CDLL("libm.so.6", mode=ctypes.RTLD_GLOBAL)
+    except OSError:
+        return False
+    return all(hasattr(operations, f"__{name}") for name in _QUADRUPLE) and all(
+        hasattr(functions, f"{name}f128") for name in _FUNCTIONS
+    )
 
 
 def _release(folder: Path) -> str:

@@ -1,7 +1,7 @@
 """What `kernels` may use beside the operations: for those who read or check it.
 
-The functions exist in compiled code only; `series`, `positions`, `velocities`, `sizes` and
-`inner` are generated for the problem.
+The functions exist in compiled code only; `series`, `in_doubles`, `positions`,
+`velocities`, `sizes` and `inner` are generated for the problem.
 """
 
 from __future__ import annotations
@@ -11,6 +11,14 @@ from typing import Protocol
 
 class Reals(Protocol):
     """A place in memory with real numbers from there on."""
+
+    def __getitem__(self, index: int) -> float: ...
+
+    def __setitem__(self, index: int, value: float) -> None: ...
+
+
+class Doubles(Protocol):
+    """A place in memory with doubles, whatever the other real numbers are."""
 
     def __getitem__(self, index: int) -> float: ...
 
@@ -61,6 +69,11 @@ def series(rows: Reals, signs: Reals, order: int) -> int:
     The row of component i begins at `rows[i * STRIDE]`; the time comes after the 2 n
     components.  0 where a pivot of the elimination vanishes, else 1.
     """
+    raise NotImplementedError
+
+
+def in_doubles(rows: Doubles, signs: Reals, order: int) -> int:
+    """`series` in doubles, of equations without kinks: it reads no sign."""
     raise NotImplementedError
 
 

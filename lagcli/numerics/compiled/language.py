@@ -1,10 +1,10 @@
 """A small part of Python, translated to LLVM's language: what `kernels` is written in.
 
 Functions of numbers (`float`, the type of the run), whole numbers (`int`), places in
-memory (`Reals`, `Ints`); loops over `range` and `while`, `if`, assignments, the four
-operations and `//` of whole numbers that are not negative, comparisons of two, `and`, `or`,
-`not`, and calls of other functions.  A name in capitals is a constant of the module.  Both
-sides of `and` and `or` are worked out.
+memory (`Reals`, `Ints`, and `Doubles`, which are read and written as `float`); loops over
+`range` and `while`, `if`, assignments, the four operations and `//` of whole numbers that are
+not negative, comparisons of two, `and`, `or`, `not`, and calls of other functions.  A name in
+capitals is a constant of the module.  Both sides of `and` and `or` are worked out.
 """
 
 from __future__ import annotations
@@ -19,7 +19,16 @@ from lagcli.numerics.compiled.numbers import Numbers
 #: name -> (type of the result, types of the arguments)
 Signature = tuple[str, tuple[str, ...]]
 
-_KINDS = {"float": "real", "int": "i64", "Reals": "ptr", "Ints": "ints", "None": "void"}
+_KINDS = {
+    "float": "real",
+    "int": "i64",
+    "Reals": "ptr",
+    "Ints": "ints",
+    "Doubles": "doubles",
+    "None": "void",
+}
+#: Of what is in memory from a place on.
+_ENTRIES = {"ptr": "real", "ints": "i64", "doubles": "double"}
 _OPERATIONS: dict[tuple[type, str], str] = {
     (ast.Add, "real"): "fadd",
     (ast.Sub, "real"): "fsub",
@@ -42,7 +51,7 @@ _COMPARISONS: dict[type, tuple[str, str]] = {
 
 
 class Value(NamedTuple):
-    """What an expression gives: real, i64, i1, ptr or ints, and how it is written."""
+    """What an expression gives: real, i64, i1, ptr, ints or doubles, and how it is written."""
 
     kind: str
     text: str
@@ -85,8 +94,8 @@ def translated(
 def _head(numbers: Numbers, given: Iterable[str]) -> list[str]:
     head = [f"@at.{name} = global ptr null" for name in given]
     real, suffix = numbers.type, numbers.suffix
-    head += [f"declare {real} @llvm.{name}.{suffix}({real})" for name in ("fabs", "sqrt")]
-    head += [f"declare {real} {numbers.function(name)}({real})" for name in ("exp", "log")]
+    head += [f"declare {real} {name}({real})" for name in (numbers.root, f"@llvm.fabs.{suffix}")]
+    head += [f"declare double @{name}(double)" for name in ("exp", "log")]
     head.append(f"declare {real} @llvm.fmuladd.{suffix}({', '.join([real] * 3)})")
     return head
 
@@ -133,7 +142,7 @@ class _Function:
         return f"define {name} nounwind {{\n{body}\n}}"
 
     def _type(self, kind: str) -> str:
-        return {"real": self._numbers.type, "ints": "ptr"}.get(kind, kind)
+        return {"real": self._numbers.type, "ints": "ptr", "doubles": "ptr"}.get(kind, kind)
 
     # -- statements ------------------------------------------------------------------------------
 
@@ -175,7 +184,9 @@ class _Function:
                 self._set(name, value)
             case ast.Subscript():
                 place, kind = self._place(target)
-                told = self._as(value, kind)
+                told = self._as(value, "real" if kind == "double" else kind)
+                if kind == "double":
+                    told = self._converted("fptrunc", self._numbers.type, told, "double")
                 self._lines.append(f"store {self._type(kind)} {told}, ptr {place}")
             case _:
                 raise TypeError("only names and places are assigned to")
@@ -236,7 +247,8 @@ class _Function:
                 return self._name(name)
             case ast.Subscript():
                 place, kind = self._place(node)
-                return self._made(kind, f"load {self._type(kind)}, ptr {place}")
+                found = self._made(kind, f"load {self._type(kind)}, ptr {place}")
+                return self._extended(found.text) if kind == "double" else found
             case ast.BinOp(left=left, op=op, right=right):
                 return self._operation(op, self._value(left), self._value(right))
             case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=value)):
@@ -292,11 +304,11 @@ class _Function:
             case "int":
                 return self._made("i64", f"fptosi {real} {values[0].text} to i64")
             case "at":
-                kind = "i64" if values[0].kind == "ints" else "real"
-                return self._offset(values[0], kind, values[1])
+                return self._offset(values[0], _ENTRIES[values[0].kind], values[1])
             case "abs" | "sqrt":
-                intrinsic = f"@llvm.{'fabs' if name == 'abs' else 'sqrt'}.{self._numbers.suffix}"
-                return self._made("real", f"call {real} {intrinsic}({real} {values[0].text})")
+                root, suffix = self._numbers.root, self._numbers.suffix
+                function = root if name == "sqrt" else f"@llvm.fabs.{suffix}"
+                return self._made("real", f"call {real} {function}({real} {values[0].text})")
             case "fma":
                 given = ", ".join(f"{real} {self._as(value, 'real')}" for value in values)
                 intrinsic = f"@llvm.fmuladd.{self._numbers.suffix}"
@@ -306,9 +318,11 @@ class _Function:
                 for b in others:
                     best = self._better(ast.Gt() if name == "max" else ast.Lt(), b, best)
                 return best
-            case "log" | "exp":
-                function = self._numbers.function(name)
-                return self._made("real", f"call {real} {function}({real} {values[0].text})")
+            case "log" | "exp":  # of lengths of steps: doubles will do
+                given = self._converted("fptrunc", real, values[0].text, "double")
+                return self._extended(
+                    self._made("double", f"call double @{name}(double {given})").text
+                )
         result, kinds = self._signatures[name]
         told = ", ".join(
             f"{self._type(kind)} {self._as(value, kind)}"
@@ -333,9 +347,18 @@ class _Function:
         assert kind == value.kind, (kind, value)
         return value.text
 
+    def _extended(self, double: str) -> Value:
+        return Value("real", self._converted("fpext", "double", double, self._numbers.type))
+
+    def _converted(self, word: str, kind: str, text: str, other: str) -> str:
+        """A number of one type as one of another."""
+        if kind == other:
+            return text
+        return self._made(other, f"{word} {kind} {text} to {other}").text
+
     def _place(self, node: ast.Subscript) -> tuple[str, str]:
         base = self._value(node.value)
-        kind = "i64" if base.kind == "ints" else "real"
+        kind = _ENTRIES[base.kind]
         return self._offset(base, kind, self._value(node.slice)).text, kind
 
     def _offset(self, base: Value, kind: str, index: Value) -> Value:

@@ -36,12 +36,13 @@ from lagcli.numerics.compiled.text import values_function
 from lagcli.numerics.motion import Motion
 
 #: What the loop calls, made for each problem.
-_GIVEN = ("series", "positions", "velocities", "sizes")
+_OWN = ("series", "positions", "velocities", "sizes")
+_GIVEN = (*_OWN, "in_doubles")
 #: name -> the C types of the result and of the arguments
 _KERNELS: dict[str, tuple[Any, ...]] = {
-    "drive": (c_int64, *[c_void_p] * 13),
-    "expand": (c_int64, *[c_void_p] * 7),
-    "move": (c_int64, *[c_void_p] * 4, "real", *[c_void_p] * 2),
+    "drive": (c_int64, *[c_void_p] * 14),
+    "expand": (c_int64, *[c_void_p] * 8),
+    "move": (c_int64, *[c_void_p] * 4, "real", *[c_void_p] * 3),
     "inside": (None, *[c_void_p] * 2, c_int64, c_int64, "real"),
     "slopes": (None, *[c_void_p] * 2, c_int64, c_int64, "real"),
 }
@@ -73,6 +74,8 @@ class Machine:
         In numbers that are at least as good as `numbers`.
     numbers
         Of the machine code.
+    beside
+        The same equations in doubles, for the small terms of numbers of 80 bits.
 
     Attributes
     ----------
@@ -89,16 +92,16 @@ class Machine:
         Where nothing can be compiled.
     """
 
-    def __init__(self, motion: Motion, numbers: Numbers) -> None:
-        self.motion, self.numbers = motion, numbers
+    def __init__(self, motion: Motion, numbers: Numbers, beside: Machine | None = None) -> None:
+        self.motion, self.numbers, self.beside = motion, numbers, beside
         self.engine = engine()
         equations = motion.equations
         inputs = (*equations.q, *equations.qdot, equations.t)
         try:
             series = self._series(inputs)
             large = self.ops > LONG or isinstance(series, CoupledSeries)
-            beside = _calls(numbers) if large else convolution_for(numbers, self.ops)
-            parts = [declarations(numbers), beside, series.code()]
+            sums = _calls(numbers) if large else convolution_for(numbers, self.ops)
+            parts = [declarations(numbers), sums, series.code()]
             if equations.rows:
                 parts += self._constraints(inputs)
         except NoSeries as function:
@@ -112,6 +115,10 @@ class Machine:
 
     def _make(self) -> None:
         """The code of the problem and of the loop, quick or better, each calling the other."""
+        beside = self.beside
+        if beside is not None and beside.is_quick and not self.is_quick:
+            beside.is_quick = False
+            beside._make()
         text, numbers, quickly = self._text, self.numbers, self.is_quick
         self._problem = self.engine.compiled(
             text.encode(), lambda: text, quickly=quickly or self.ops > LONG
@@ -124,8 +131,15 @@ class Machine:
         self._made = {name: self._kernels.function(name, *self._kinds(name)) for name in _KERNELS}
         self._hooks = [
             (self._hook(self._kernels, name), self._problem.address(name))
-            for name in (_GIVEN if self.motion.equations.rows else _GIVEN[:1])
+            for name in (_OWN if self.motion.equations.rows else _OWN[:1])
         ]
+        if beside is not None:
+            self._hooks.append((self._hook(self._kernels, "in_doubles"), beside.address))
+
+    @property
+    def address(self) -> int:
+        """Where its function `series` is."""
+        return self._problem.address("series")
 
     def improve(self, steps: float, order: int) -> None:
         """Go over to better code where a run of so many steps is long."""
@@ -221,7 +235,8 @@ def _entries(mass: Matrix, rows: Matrix) -> list[Node]:
 @cache
 def _kernels(numbers: Numbers, *, quickly: bool = False) -> Compiled:
     """The loop, which is the same for all problems."""
-    source, outside, language = map(_source, ("kernels", "intrinsics", "language"))
+    outside, language = map(_source, ("intrinsics", "language"))
+    source = "\n".join(map(_source, ("layout", "expansion", "kernels")))
 
     def text() -> str:
         from lagcli.numerics.compiled.language import functions_of, translated

@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from ctypes import c_int64
+from ctypes import c_double, c_int64, memmove, sizeof
 from typing import Any
 
-from lagcli.numerics.compiled import kernels as k
+from lagcli.numerics.compiled import layout as k
 from lagcli.numerics.compiled.emission import LAST
 from lagcli.numerics.compiled.machine import Machine, pointer
-from lagcli.numerics.compiled.numbers import EXTENDED
+from lagcli.numerics.compiled.numbers import Extended
 from lagcli.numerics.compiled.text import exact
 from lagcli.numerics.kinks import Kinks
 from lagcli.numerics.run import Mark, Run
@@ -32,7 +32,8 @@ _LOOK = 64
 _LIMIT = 1_000_000_000
 #: Of the order in the logarithm of the tolerance, by what was measured.
 _ORDER, _LOWEST = 0.7, 8
-_FACTS, _COUNTS = 10, 10
+#: Constraints are held to so many roundings.
+_HELD = 3.6
 
 
 class PivotVanishes(NotPossible):
@@ -55,21 +56,23 @@ class CompiledTaylor:
 
     def __init__(self, machine: Machine, surface: Surface | None) -> None:
         self.machine, self.surface = machine, surface
-        self.name = "taylor80" if machine.numbers is EXTENDED else "taylor64"
+        self.name = machine.numbers.name
         self.n = machine.motion.n
         self.evaluations = 0
         self.reached: int | None = None
         self._array = machine.numbers.array
         both, motion = 2 * self.n, machine.motion
         self._rows, self._other = (self._zeros(machine.rows * k.STRIDE) for _ in range(2))
+        beside = machine.beside
+        self._small = (c_double * (beside.rows * k.STRIDE if beside else 1))()
         self._ahead = self._zeros(2 * both + 1 + 2 * (self.n + 2 * motion.m) + both + 1)
         self._lost = self._zeros(both)
         self._peaks, self._scales = self._zeros(both), self._array([1.0] * both)
         self._signs = self._zeros(max(1, len(motion.kinks)))
         self._held = self._zeros(max(1, 4 * motion.m))
-        self._facts = self._zeros(_FACTS)
-        self._counts = (c_int64 * _COUNTS)()
-        self._other[both * k.STRIDE + 1] = 1.0
+        self._facts = self._zeros(k.FACTS)
+        self._counts = (c_int64 * k.COUNTS)()
+        self._other[both * k.STRIDE + 1] = machine.numbers.cell(1.0)
 
     def _zeros(self, count: int) -> Any:
         return (self.machine.numbers.c_type * count)()
@@ -79,20 +82,29 @@ class CompiledTaylor:
         self.machine.take()
         motion, facts, counts = self.machine.motion, self._facts, self._counts
         self.order = min(_order(bound.value), _HIGHEST)
-        facts[k.UNTIL], facts[k.TOLERANCE], facts[k.LONGEST] = until, bound.value, bound.longest
-        facts[k.SPAN], facts[k.SCALE] = bound.span, 0.0
-        facts[k.SHORTEST] = 4 * self.machine.numbers.rounding
+        numbers = self.machine.numbers
+        for place, fact in (
+            (k.UNTIL, until),
+            (k.TOLERANCE, bound.value),
+            (k.LONGEST, bound.longest),
+            (k.SPAN, bound.span),
+            (k.SCALE, 0.0),
+            (k.SHORTEST, 4 * numbers.rounding),
+            (k.ROUNDING, _HELD * numbers.rounding),
+        ):
+            facts[place] = numbers.cell(fact)
         counts[k.N], counts[k.ORDER] = self.n, self.order
         counts[k.HOLONOMIC], counts[k.CONSTRAINTS] = len(motion.equations.holonomic), motion.m
+        counts[k.EXACT] = 0 if self.machine.beside is None else self.order
         n, peaks = self.n, bound.peaks
         for i, peak in enumerate(peaks):
-            self._peaks[i] = peak
-            self._scales[i] = max(peak, 1e-300, peaks[i - n] / bound.span if i >= n else 0.0)
-        state = self._array([*map(exact, q), *map(exact, v), 0.0])
+            least = peaks[i - n] / bound.span if i >= n else 0.0
+            self._peaks[i] = numbers.cell(peak)
+            self._scales[i] = numbers.cell(max(peak, 1e-300, least))
         if self.surface is not None:
             for i, scale in enumerate(self.surface.scales):
-                self._held[i] = scale
-        return state
+                self._held[i] = numbers.cell(float(scale))
+        return self._array([*map(exact, q), *map(exact, v), 0.0])
 
     # -- step by step ----------------------------------------------------------------------------
 
@@ -151,7 +163,15 @@ class CompiledTaylor:
 
     def _expand(self, state: Any) -> int:
         self.evaluations += self.order
-        given = (self._rows, self._signs, state, self._peaks, self._scales, self._facts)
+        given = (
+            self._rows,
+            self._small,
+            self._signs,
+            state,
+            self._peaks,
+            self._scales,
+            self._facts,
+        )
         status = self.machine.kernel("expand")(*map(pointer, given), pointer(self._counts))
         if status == k.PIVOT:
             raise PivotVanishes
@@ -159,7 +179,7 @@ class CompiledTaylor:
 
     def _move(self, state: Any, end: float, q: Any, v: Any) -> tuple[list[Any], list[Any]]:
         given = map(pointer, (self._rows, state, self._lost, self._ahead))
-        rest = map(pointer, (self._held, self._counts))
+        rest = map(pointer, (self._held, self._facts, self._counts))
         status = self.machine.kernel("move")(*given, end, *rest)
         if status == k.PIVOT:
             raise PivotVanishes
@@ -206,13 +226,12 @@ class CompiledTaylor:
             self.surface.measure(0.0, q, v)
         state = self._prepare(q, v, times[-1], run.tolerance)
         asked, out = self._array(times), self._zeros(len(times) * (both + 1))
-        for i in range(both):
-            out[i] = state[i]
+        memmove(out, state, sizeof(state))
         counts[k.PENDING], counts[k.TIMES], counts[k.PROBES] = 1, len(times), probes
-        given = [self._rows, self._other, self._signs, state, self._lost, self._ahead, self._peaks]
-        given += [self._scales, self._held, facts, counts, asked, out]
+        given = [self._rows, self._small, self._other, self._signs, state, self._lost]
+        given += [self._ahead, self._peaks, self._scales, self._held, facts, counts, asked, out]
         status, call = k.MORE, min(_FIRST, _CALL)
-        limit = run.step_limit = _LIMIT // max(10, self.machine.ops)
+        limit = run.step_limit = _LIMIT // (max(10, self.machine.ops) * self.machine.numbers.cost)
         while status == k.MORE and counts[k.STEPS] < limit:
             counts[k.LIMIT] = min(call, limit - counts[k.STEPS])
             status = self.machine.kernel("drive")(*map(pointer, given))
@@ -248,9 +267,10 @@ class CompiledTaylor:
         return run
 
     def _read(self, values: Any) -> list[Any]:
-        if self.machine.numbers is not EXTENDED:
+        numbers = self.machine.numbers
+        if not isinstance(numbers, Extended):
             return values[:]  # type: ignore[no-any-return]
-        return [*map(self.machine.motion.arithmetic.number, EXTENDED.fractions(values))]
+        return [*map(self.machine.motion.arithmetic.number, numbers.fractions(values))]
 
 
 def _order(tolerance: float) -> int:

@@ -1,7 +1,12 @@
-"""The two kinds of numbers that the hardware has: of 64 bits, and of 80 bits.
+"""The numbers of machine code: of 64, of 80 and of 128 bits.
 
-An extended number of 80 bits has a fraction of 64 bits: 19 digits.  It is a
-`long double` to C, and Python writes it as its 10 bytes.
+The hardware has the first two.  An extended number of 80 bits has a fraction of 64 bits: 19
+digits.  It is a `long double` to C, and Python writes it as its 10 bytes.  One of 128 bits has
+a fraction of 113 bits, 34 digits; what is done with it are calls of the C library.
+
+References
+----------
+IEEE 754-2019, section 3.4 (binary64, binary128).
 """
 
 from __future__ import annotations
@@ -12,7 +17,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 from typing import Any
 
-_FRACTION, _BIAS = 64, 16383
+_FRACTION, _QUADRUPLE, _BIAS = 64, 113, 16383
 _HIGHEST = 1 << 15
 
 
@@ -27,9 +32,18 @@ class Numbers:
         Half the distance from 1 to the next number.
     c_type
         To `ctypes`.
+    name : str
+        Of the method that computes with them.
+    root : str
+        The square root, to LLVM.
+    cost : int
+        Of an operation, where it is more than a few of those with doubles.
     """
 
     type, suffix = "double", "f64"
+    name = "taylor64"
+    root = "@llvm.sqrt.f64"
+    cost = 1
     rounding = 2.0**-53
     c_type: Any = ctypes.c_double
     _library = ""
@@ -43,6 +57,10 @@ class Numbers:
         """A function of the C library."""
         return f"@{name}{self._library}"
 
+    def cell(self, value: float) -> Any:
+        """A double, as what an entry of an array is set to."""
+        return value
+
     def array(self, values: Iterable[Fraction | float]) -> Any:
         """The values in memory, each rounded once."""
         found = list(map(float, values))
@@ -53,13 +71,16 @@ class Extended(Numbers):
     """Numbers of 80 bits."""
 
     type, suffix = "x86_fp80", "f80"
+    name = "taylor80"
+    root = "@llvm.sqrt.f80"
     rounding = 2.0**-64
-    c_type = ctypes.c_longdouble
+    c_type: Any = ctypes.c_longdouble
     _library = "l"
+    _fraction = _FRACTION
 
     def literal(self, value: Fraction | float) -> str:
         """Its sign and exponent, then its fraction."""
-        fraction, exponent = _bits(Fraction(value))
+        fraction, exponent = _bits(Fraction(value), _FRACTION)
         return f"0xK{exponent:04X}{fraction:016X}"
 
     def array(self, values: Iterable[Fraction | float]) -> Any:
@@ -68,7 +89,8 @@ class Extended(Numbers):
         array = (self.c_type * len(found))()
         size = ctypes.sizeof(self.c_type)
         data = b"".join(
-            struct.pack("<QH", *_bits(Fraction(value))).ljust(size, b"\0") for value in found
+            self._written(*_bits(Fraction(value), self._fraction)).ljust(size, b"\0")
+            for value in found
         )
         ctypes.memmove(array, data, len(data))
         return array
@@ -79,15 +101,64 @@ class Extended(Numbers):
         data = bytes(values)
         found = []
         for start in range(0, len(data), size):
-            fraction, exponent = struct.unpack_from("<QH", data, start)
+            fraction, exponent = self._read(data, start)
             sign = -1 if exponent & _HIGHEST else 1
-            power = (exponent & ~_HIGHEST) - _BIAS - _FRACTION + 1
+            power = (exponent & ~_HIGHEST) - _BIAS - self._fraction + 1
             found.append(sign * fraction * Fraction(2) ** power)
         return found
 
+    def _written(self, fraction: int, exponent: int) -> bytes:
+        return struct.pack("<QH", fraction, exponent)
 
-def _bits(value: Fraction) -> tuple[int, int]:
-    """The fraction of 64 bits, rounded to even, and the exponent with the sign.
+    def _read(self, data: bytes, start: int) -> tuple[int, int]:
+        fraction, exponent = struct.unpack_from("<QH", data, start)
+        return fraction, exponent
+
+
+class _Quadruple(ctypes.Structure):
+    """A number of 128 bits in memory."""
+
+    _fields_ = (("low", ctypes.c_uint64), ("high", ctypes.c_uint64))
+
+    def __float__(self) -> float:
+        return float(QUADRUPLE.fractions(self)[0])
+
+
+class Quadruple(Extended):
+    """Numbers of 128 bits."""
+
+    type, suffix = "fp128", "f128"
+    name = "taylor128"
+    root = "@sqrtf128"
+    cost = 100
+    rounding = 2.0**-113
+    c_type: Any = _Quadruple
+    _library = "f128"
+    _fraction = _QUADRUPLE
+
+    def literal(self, value: Fraction | float) -> str:
+        """Its lower half, then the one with the exponent."""
+        low, high = self.cell(value)
+        return f"0xL{low:016X}{high:016X}"
+
+    def cell(self, value: Fraction | float) -> tuple[int, int]:
+        """The two halves."""
+        low, high = struct.unpack("<QQ", self._written(*_bits(Fraction(value), _QUADRUPLE)))
+        return low, high
+
+    def _written(self, fraction: int, exponent: int) -> bytes:
+        # the first bit of the fraction is not kept: it is 1, but for 0
+        kept = fraction & ~(1 << (_QUADRUPLE - 1))
+        return (kept | exponent << (_QUADRUPLE - 1)).to_bytes(16, "little")
+
+    def _read(self, data: bytes, start: int) -> tuple[int, int]:
+        whole = int.from_bytes(data[start : start + 16], "little")
+        fraction, exponent = whole & ((1 << (_QUADRUPLE - 1)) - 1), whole >> (_QUADRUPLE - 1)
+        return fraction | (exponent & ~_HIGHEST != 0) << (_QUADRUPLE - 1), exponent
+
+
+def _bits(value: Fraction, bits: int) -> tuple[int, int]:
+    """The fraction of so many bits, rounded to even, and the exponent with the sign.
 
     Raises
     ------
@@ -100,15 +171,15 @@ def _bits(value: Fraction) -> tuple[int, int]:
     exponent = size.numerator.bit_length() - size.denominator.bit_length()
     if size < Fraction(2) ** exponent:
         exponent -= 1
-    fraction = round(size * Fraction(2) ** (_FRACTION - 1 - exponent))
-    if fraction >> _FRACTION:
+    fraction = round(size * Fraction(2) ** (bits - 1 - exponent))
+    if fraction >> bits:
         fraction >>= 1
         exponent += 1
     if exponent + _BIAS <= 0:
         return 0, 0
     if exponent >= _BIAS + 1:
-        raise OverflowError("too large for 80 bits")
+        raise OverflowError("too large for 80 or 128 bits")
     return fraction, exponent + _BIAS + (_HIGHEST if value < 0 else 0)
 
 
-DOUBLE, EXTENDED = Numbers(), Extended()
+DOUBLE, EXTENDED, QUADRUPLE = Numbers(), Extended(), Quadruple()

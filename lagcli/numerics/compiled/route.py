@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from lagcli.numerics.compiled.engine import NoCompiler, engine
 from lagcli.numerics.compiled.machine import Machine, NotCompiled
 from lagcli.numerics.compiled.method import CompiledTaylor
-from lagcli.numerics.compiled.numbers import DOUBLE, EXTENDED
+from lagcli.numerics.compiled.numbers import DOUBLE, EXTENDED, QUADRUPLE, Extended
 from lagcli.numerics.constants import constants_of
 from lagcli.numerics.methods import Prepared, Progress, nudged
 from lagcli.numerics.modes import MakeMethod, Mode, Modes
@@ -28,11 +29,26 @@ if TYPE_CHECKING:
 #: but for what is flat and then is not.
 LONGEST = (10.0, 200.0, 2000.0, 20000.0)
 _PROBES = 2000
-_FINEST_EXTENDED = 1e-22
-#: Bits of the parameters and initial values behind numbers of 64.
-_BITS = 128
-#: Numbers of 80 bits claim nothing better.
-_LEAST_EXTENDED = 1e-14
+#: No tolerance below these changes anything.
+_FINEST_EXTENDED, _FINEST_QUADRUPLE = 1e-22, 1e-36
+#: Bits of the parameters and initial values behind numbers of 80 and 128.
+_BITS = 160
+#: Numbers of 80 and of 128 bits claim nothing better.
+_LEAST_EXTENDED, _LEAST_QUADRUPLE = 1e-14, 1e-26
+_DIGITS_QUADRUPLE = 33
+
+
+#: Steps beyond which the rounding of doubles may cost charges 1e-12; and where so many are
+#: made anyhow, a tolerance that is not felt in charges costs little more.
+LONG = 2_000_000
+_FIRST_OF_LONG = 1e-17
+
+
+class RoundingAddsUp(NotPossible):
+    """So many steps are to be made in numbers of more bits."""
+
+    def __init__(self, steps: int) -> None:
+        super().__init__(f"over {steps:,} steps the rounding of doubles adds up")
 
 
 def double_machine(motion: Motion) -> Machine | str:
@@ -108,45 +124,69 @@ def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
     states = (q, v), nudged(simulation, doubles)
 
     def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
-        return runs.run(states[moved], bound, every, progress)
+        done = runs.run(states[moved], bound, every, progress)
+        if done.steps > LONG and simulation.asked.method == "auto" and not simulation.is_long:
+            simulation.is_long = not isinstance(prepared_extended(simulation, doubles), str)
+            if simulation.is_long:
+                raise RoundingAddsUp(done.steps)
+        return done
 
     return Prepared(run=run, longest=LONGEST)
 
 
 def prepared_extended(simulation: Simulation, doubles: Modes) -> Prepared | str:
     """Machine code in numbers of 80 bits made ready, or why there is none."""
-    equations, asked = simulation.equations, simulation.asked
-    if equations.kinks or doubles.first.conditions or simulation.goes_on:
-        return "events and kinks are followed in doubles only"
-    if asked.accuracy < _LEAST_EXTENDED:
+    if simulation.asked.accuracy < _LEAST_EXTENDED:
         return "80 bits claim nothing better than 1e-14"
+    return _beyond_doubles(simulation, doubles, EXTENDED, _FINEST_EXTENDED)
+
+
+def prepared_quadruple(simulation: Simulation, doubles: Modes) -> Prepared | str:
+    """Machine code in numbers of 128 bits made ready, or why there is none."""
+    asked = simulation.asked
+    if asked.digits is not None and asked.digits > _DIGITS_QUADRUPLE:
+        return f"128 bits are {_DIGITS_QUADRUPLE} digits"
+    if asked.accuracy < _LEAST_QUADRUPLE:
+        return f"128 bits claim nothing better than {_LEAST_QUADRUPLE:.0e}"
+    return _beyond_doubles(simulation, doubles, QUADRUPLE, _FINEST_QUADRUPLE)
+
+
+def _beyond_doubles(
+    simulation: Simulation, doubles: Modes, numbers: Extended, finest: float
+) -> Prepared | str:
+    if simulation.equations.kinks or doubles.first.conditions or simulation.goes_on:
+        return "events and kinks are followed in doubles only"
     try:
         with precision():
-            return _extended(simulation, doubles)
+            return _prepared(simulation, doubles, numbers, finest)
     except (Refusal, NoCompiler, NotCompiled, OverflowError) as reason:
         return str(reason)
 
 
-def _extended(simulation: Simulation, doubles: Modes) -> Prepared | str:
+def _prepared(
+    simulation: Simulation, doubles: Modes, numbers: Extended, finest: float
+) -> Prepared | str:
     from lagcli.numerics.arithmetic import Balls
 
-    if not engine().extended:
-        return "this processor has no numbers of 80 bits"
+    if not (engine().extended if numbers is EXTENDED else engine().quadruple):
+        return f"there are no numbers of {numbers.name.removeprefix('taylor')} bits here"
     equations, asked = simulation.equations, simulation.asked
     arithmetic = Balls()
     constants = constants_of(equations, simulation.all_nodes, arithmetic)
     modes = Modes(simulation, constants, arithmetic, doubles.make_method, 2.0**-_BITS)
     modes.first.conserved = doubles.first.conserved
     motion = modes.first.motion
-    runs = Runs(simulation, modes, Machine(motion, EXTENDED))
+    beside = double_machine(doubles.first.motion) if numbers is EXTENDED else ""
+    machine = Machine(motion, numbers, None if isinstance(beside, str) else beside)
+    runs = Runs(simulation, modes, machine)
     q, v = simulation.start
     exact_q, exact_v = refined_state(motion, modes.first.surface(), q, v, anew=not asked.project)
     inexact = rounded_components(motion, q, v)
-    beside = [
-        x * (1 + arithmetic.ball(EXTENDED.rounding) * 2) if each else x
+    moved_state = [
+        x * (1 + arithmetic.ball(numbers.rounding) * 2) if each else x
         for x, each in zip((*exact_q, *exact_v), inexact, strict=True)
     ]
-    states = (exact_q, exact_v), (beside[: motion.n], beside[motion.n :])
+    states = (exact_q, exact_v), (moved_state[: motion.n], moved_state[motion.n :])
 
     def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
         try:
@@ -154,12 +194,13 @@ def _extended(simulation: Simulation, doubles: Modes) -> Prepared | str:
         except OverflowError as reason:
             raise NotPossible(str(reason)) from None
 
-    return Prepared(run=run, finest=_FINEST_EXTENDED, longest=LONGEST, precision=precision)
+    first = _FIRST_OF_LONG if simulation.is_long else math.inf
+    return Prepared(run=run, first=first, finest=finest, longest=LONGEST, precision=precision)
 
 
 @contextmanager
 def precision() -> Iterator[None]:
-    """The bits of what stands behind numbers of 80."""
+    """The bits of what stands behind numbers of 80 and 128."""
     from flint import ctx
 
     usual, ctx.prec = ctx.prec, _BITS

@@ -45,11 +45,8 @@ class Text:
     def call(self, name: str, *arguments: str) -> str:
         """A function of the grammar."""
         given = ", ".join(f"{self.real} {x}" for x in arguments)
-        function = (
-            f"@llvm.{name}.{self.numbers.suffix}"
-            if name in {"sqrt", "fabs"}
-            else self.numbers.function(name)
-        )
+        intrinsics = {"sqrt": self.numbers.root, "fabs": f"@llvm.fabs.{self.numbers.suffix}"}
+        function = intrinsics.get(name) or self.numbers.function(name)
         return self.made(f"call {self.real} {function}({given})")
 
     def loaded(self, base: str, index: str | int) -> str:

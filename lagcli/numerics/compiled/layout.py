@@ -1,0 +1,41 @@
+"""Where the loop over the steps has its numbers, and what its calls come back with.
+
+`facts` and `counts` are single numbers, by the names in capitals.
+"""
+
+STRIDE = 44
+
+# facts
+UNTIL = 0
+TOLERANCE = 1
+LONGEST = 2
+SPAN = 3
+FLOOR = 4
+H = 5
+DEFECT = 6
+SHORTEST = 7
+ROUNDING = 8
+SCALE = 9
+FACTS = 10
+
+# counts
+N = 0
+ORDER = 1
+PENDING = 2
+TIMES = 3
+STEPS = 4
+LIMIT = 5
+PROBES = 6
+PROBED = 7
+HOLONOMIC = 8
+CONSTRAINTS = 9
+EXACT = 10
+COUNTS = 11
+
+# what a call comes back with
+MORE = 0
+DONE = 1
+STOPPED = 2
+PIVOT = 3
+
+LARGE = 1e300
