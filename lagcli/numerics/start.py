@@ -18,6 +18,7 @@ from lagcli.diagnostics import NOWHERE, Diagnostic, Span
 from lagcli.expression import Name
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Constant, Node, Symbol
+from lagcli.numerics.arithmetic import UndefinedFunction
 from lagcli.numerics.determined import determined
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.polynomial import real_roots
@@ -210,9 +211,12 @@ class _Completion:
         """The nodes where the unknowns are 0."""
         known = {self.equations.t: 0.0, **self.values, **dict.fromkeys(unknowns, 0.0)}
         arguments = list(known)
-        function = straight_line(arguments, nodes, self.motion.constants, self.motion.arithmetic)
+        constants, arithmetic = self.motion.constants, self.motion.arithmetic
         try:
-            return function(*known.values())
+            return straight_line(arguments, nodes, constants, arithmetic)(*known.values())
+        except UndefinedFunction as error:
+            message = f"the function '{error}' is left unspecified: it has no numbers"
+            raise Refusal(message) from None
         except (ArithmeticError, ValueError):
             raise self._open(unknowns[0], which, "does not follow in closed form") from None
 

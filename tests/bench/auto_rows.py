@@ -73,6 +73,7 @@ def _row(name: str, part: float, accuracy: float, runs: int) -> Row:
         name=name,
         text=text,
         settings=settings,
+        state=(),
         until=part * until,
         samples=101,
         project=False,

@@ -71,7 +71,7 @@ def givens(paths: Sequence[str], limit: float) -> Iterator[Given]:
 
 def _given(name: str, text: str, until: float, limit: float) -> Given:
     return Given(
-        name=name, text=text, settings=(), until=until, samples=_SAMPLES, project=False,
+        name=name, text=text, settings=(), state=(), until=until, samples=_SAMPLES, project=False,
         method="auto", tolerance=None, accuracy=ACCURACIES[0], limit=limit,
     )  # fmt: skip
 

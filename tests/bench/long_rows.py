@@ -97,7 +97,7 @@ def _ours(
     for method in ("taylor64", "taylor80"):
         for tolerance in _TOLERANCES:
             given = Given(
-                name="bench", text=system.problem(), settings=(), until=system.until, samples=101,
+                name="bench", text=system.problem(), settings=(), state=(), until=system.until, samples=101,
                 project=False, method=method, tolerance=tolerance, accuracy=None, limit=_LIMIT,
             )  # fmt: skip
             found = answer(given)

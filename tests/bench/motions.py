@@ -82,3 +82,36 @@ SYSTEMS: dict[str, System] = {
     "Pleiades": _pleiades(),
     "chain of 10": _chain(10),
 }
+
+
+class Held(NamedTuple):
+    """A system of a problem file, which may have constraints; every program reads that file."""
+
+    path: str
+    until: float
+    accuracy: float
+    #: parameters that the file leaves open
+    values: dict[str, str] = {}  # noqa: RUF012 - never changed
+    #: where the file has points instead
+    energies: dict[str, str] = {"T": "0", "V": "0"}  # noqa: RUF012
+    #: by which Baumgarte's method pulls scripts back onto the constraints, in 1/time
+    stabilized: float = 10.0
+
+
+HELD: dict[str, Held] = {
+    "spherical pendulum, Cartesian": Held(
+        *("problems/classics/spherical-pendulum-cartesian.yaml", 20.0, 1e-9),
+        values={"m": "1", "g": "9.81", "l": "1", "v0": "1"},
+        energies={"T": "m*(x'^2 + y'^2 + z'^2)/2", "V": "0"},
+    ),
+    "A01, simple pendulum": Held(
+        *("problems/benchmarks/simple-pendulum.yaml", 10.0, 1e-9),
+        energies={"T": "m*(x'^2 + y'^2)/2", "V": "0"},
+    ),
+    "A02, N four-bar": Held("tests/benchmarks/n-four-bar.yaml", 2.0, 1e-6),
+    "A03, Andrews' squeezer": Held(
+        "tests/benchmarks/andrews-squeezer.yaml", 0.03, 1e-6, stabilized=1000.0
+    ),
+    "A04, Bricard": Held("tests/benchmarks/bricard.yaml", 2.0, 1e-6),
+    "A05, flyball governor": Held("tests/benchmarks/flyball-governor.yaml", 2.0, 1e-6),
+}

@@ -115,3 +115,10 @@ def test_mass_and_constraint_singular_together_may_still_move(number):
     text = "{coordinates: [x, y], L: x'^2/2 - y, constraints: {tie: y = %d*x}, initial: {x: 0}}"
     result = simulated(text % number, 2)
     assert result.rows[-1][1] == pytest.approx(-2 * number, abs=1e-9)
+
+
+def test_a_constraint_by_an_unspecified_function_is_refused():
+    """Its value at the beginning would have to be known to fill in the rest."""
+    text = "{coordinates: [x, z], functions: {f: [x]}, L: (x'^2 + z'^2)/2, constraints: {bowl: z = f(x)}, initial: {x: 1}}"
+    with pytest.raises(Refusal, match="the function 'f' is left unspecified"):
+        simulated(text, 1)
