@@ -275,7 +275,7 @@ class Mode:
 
 @record(kw_only=True)
 class ModesSection:
-    """The normal modes; None where there are none, with a `reason`."""
+    """The normal modes; None where none was found, `reason` why there is none in either case."""
 
     modes: tuple[Mode, ...] | None
     reason: str = ""

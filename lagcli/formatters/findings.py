@@ -177,7 +177,7 @@ def mode_blocks(section: ModesSection) -> Iterator[Block]:
     if section.modes is None:
         yield Paragraph((f"Not found: {section.reason}.",))
     elif not section.modes:
-        yield Paragraph(("There is none.",))
+        yield Paragraph((f"There is none: {section.reason}.",))
     about: object = None
     for mode in section.modes or ():
         if mode.at != about:

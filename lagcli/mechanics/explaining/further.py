@@ -78,7 +78,7 @@ def _oscillations(teller: Teller, section: Section) -> Iterator[Block]:
     known = cast(ModesSection, section)
     found = known.modes
     if not found:
-        yield says(f"There are none to be told of: {known.reason}.")
+        yield says(f"There is none to be told of: {known.reason}.")
         return
     oscillations = SmallOscillations(teller.dynamics)
     for at in list({tuple(mode.at.items()): mode.at for mode in found}.values()):

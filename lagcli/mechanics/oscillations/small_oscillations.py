@@ -49,7 +49,7 @@ def modes(dynamics: Dynamics) -> ModesSection:
             modes=None, reason=f"no equilibrium is known ({oscillations.rest.reason})"
         )
     if not places:
-        return ModesSection(modes=None, reason="there is no equilibrium to expand about")
+        return ModesSection(modes=(), reason="there is no equilibrium to expand about")
     chosen = [p for p in places if p.verdict.stable is not False] or places
     found = [mode for place in chosen for mode in oscillations.modes(place)]
     if not found:
