@@ -53,7 +53,10 @@ def modes(dynamics: Dynamics) -> ModesSection:
     chosen = [p for p in places if p.verdict.stable is not False] or places
     found = [mode for place in chosen for mode in oscillations.modes(place)]
     if not found:
-        return ModesSection(modes=None, reason="the motion about the equilibria is singular")
+        return ModesSection(
+            modes=None,
+            reason="the equilibria are singular, or do not exist for the values of the file",
+        )
     return ModesSection(modes=tuple(found))
 
 
