@@ -34,12 +34,14 @@ class PointForce:
 class FrictionNeeded:
     """|friction| / |normal force| at one contact: the least coefficient of static friction.
 
+    It is so written where each of `where` is > 0, as it is for the values of the file.
     `coefficient` is None with a `reason`.
     """
 
     frictions: tuple[str, ...]
     normal: str | None
     coefficient: Expression | None
+    where: tuple[Expression, ...] = ()
     reason: str = ""
 
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from typing import cast
 
 from lagcli.answers import Answers
-from lagcli.expression import Expression, Product
-from lagcli.forces import ForcesSection, PointForce
+from lagcli.expression import Call, Expression, Product, walk
+from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.problem import Expect
 
 #: The path of an expectation, what was derived and what was expected.
@@ -24,11 +24,19 @@ def expected_forces(expect: Expect, answers: Answers) -> Iterator[Pair]:
         for point, expected in by_point.items():
             path = ["forces", constraint, point]
             yield from _of_force(path, found.get((constraint, point)), expected)
-    needed: Mapping[str | None, Expression | None] = {
-        each.normal: each.coefficient for each in section.friction_needed
+    needed: Mapping[str | None, FrictionNeeded] = {
+        each.normal: each for each in section.friction_needed
     }
-    for normal, coefficient in expect.friction_needed.items():
-        yield ["friction_needed", normal], needed.get(normal), coefficient
+    for normal, expected_size in expect.friction_needed.items():
+        each = needed.get(normal)
+        size = None if each is None else each.coefficient
+        if each is not None and each.where and size is not None and _has_modulus(expected_size):
+            size = Call("abs", (size,))
+        yield ["friction_needed", normal], size, expected_size
+
+
+def _has_modulus(expression: Expression) -> bool:
+    return any(isinstance(node, Call) and node.function == "abs" for node in walk(expression))
 
 
 def _of_force(

@@ -87,4 +87,9 @@ def _friction(needed: FrictionNeeded) -> Iterator[Block]:
         yield Paragraph((f"Not found: {needed.reason}.",))
         return
     yield Equations((Row(Label("mu", ("min",)), needed.coefficient),))
-    yield Paragraph((f"The least coefficient of static friction: |{names}| / |{needed.normal}|.",))
+    words: list[str | Formula] = [
+        f"The least coefficient of static friction: |{names}| / |{needed.normal}|"
+    ]
+    for position, positive in enumerate(needed.where):
+        words += [" and " if position else ", where ", positive, " > 0"]
+    yield Paragraph((*words, "."))

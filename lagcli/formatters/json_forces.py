@@ -50,4 +50,5 @@ def _friction(needed: FrictionNeeded) -> Object:
         "frictions": needed.frictions,
         "normal": needed.normal,
         "coefficient": None if coefficient is None else to_grammar(coefficient),
+        "where": [f"{to_grammar(each)} > 0" for each in needed.where],
     }

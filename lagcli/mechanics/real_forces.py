@@ -25,6 +25,7 @@ from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.mechanics.constraint_force import Vector, on_points, turning_coordinates
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.parameter_values import exact_values
 from lagcli.mechanics.readable import Readable
 from lagcli.problem import Constraint, pushing_sign
 from lagcli.record import record
@@ -231,6 +232,7 @@ class RealForces:
         values = {name: self._multipliers[name] for name in (normal, *frictions)}
         unknown = [name for name, value in values.items() if value is None]
         reason, coefficient = "", None
+        where: tuple[Expression, ...] = ()
         if unknown:
             reason = f"the multiplier of '{unknown[0]}' is not determined"
         elif is_zero(values[normal] or S.Zero, self.dynamics.constraints.relations) is True:
@@ -242,10 +244,27 @@ class RealForces:
                 / (values[normal] * self._length(c))
                 for axis in range(len(c))
             ]
-            coefficient = self.readable.on_surface(self._length(tuple(ratios)))
+            size, positive = self._without_moduli(self.shapes.simplify(self._length(tuple(ratios))))
+            coefficient = self.readable.on_surface(size)
+            where = tuple(map(self.readable.on_surface, positive))
         return FrictionNeeded(
-            frictions=tuple(frictions), normal=normal, coefficient=coefficient, reason=reason
+            frictions=tuple(frictions),
+            normal=normal,
+            coefficient=coefficient,
+            where=where,
+            reason=reason,
         )
+
+    def _without_moduli(self, size: Expr) -> tuple[Expr, list[Expr]]:
+        """|f(parameters)| as f or -f, by the values of the file, and what is positive there."""
+        positive = []
+        for modulus in sorted(size.atoms(sympy.Abs), key=str):
+            inside = modulus.args[0].xreplace(exact_values(self.system))
+            direction = None if inside.free_symbols else sign(inside)
+            if direction:
+                positive.append(direction * modulus.args[0])
+                size = size.xreplace({modulus: positive[-1]})
+        return size, positive
 
 
 def _inner(a: Vector, b: Vector) -> Expr:

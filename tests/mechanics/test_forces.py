@@ -203,3 +203,27 @@ def test_more_components_than_coordinates_are_not_unique():
     assert section.forces is None
     assert "not unique" in section.reason
     assert not answers.complete
+
+
+@pytest.mark.parametrize(
+    ("attributes", "coefficient", "where"),
+    [
+        ("{}", "abs(tan(a))", []),
+        ("{value: 0.4}", "tan(a)", ["tan(a)"]),
+        ("{value: -0.4}", "-tan(a)", ["-tan(a)"]),
+    ],
+    ids=["unknown", "up", "down"],
+)
+def test_the_values_of_the_file_decide_a_modulus(attributes, coefficient, where):
+    derivation = derive(f"""
+coordinates: [x, y]
+parameters: {{m: {{assume: positive}}, g: {{assume: positive}}, a: {attributes}}}
+points: {{block: {{position: [x, y], mass: m}}}}
+V: m*g*(y*cos(a) - x*sin(a))
+constraints:
+  incline: {{equation: y = 0, multiplier: N, holds_while: N >= 0}}
+  grip: {{equation: x = 0, acts_as: friction}}
+""")
+    [needed] = answered(derivation)[0].friction_needed
+    assert to_grammar(needed.coefficient) == coefficient
+    assert [to_grammar(each) for each in needed.where] == where
