@@ -114,7 +114,8 @@ class Line:
         for (one, _), (other, _) in combinations(self._polys, 2):
             yield self._field.polynomial_to_sympy(one.resultant(other, place))
         if self.rate is not None:
-            yield from self.at(sympy.pi / self.rate)
+            # of a pole there the coefficients of the highest powers tell
+            yield from (f for f in self.at(sympy.pi / self.rate) if not f.has(sympy.zoo, sympy.nan))
 
     def at_zero(self) -> list[Expr]:
         """What vanishes where a root or a pole goes through u = 0."""
