@@ -2,8 +2,10 @@
 
 A linkage that is flat can go on in two ways.  The equations know which one only beyond the
 place: next to it, rounding may turn the velocity from one branch to the other, and two runs
-in the same numbers turn alike.  So a run that has passed such a place must agree with one of
-more digits; where it does not, that one is taken, and without one the rows end before it.
+in the same numbers turn alike.  A length that differs by 1e-15 turns it, too, in a bend so sharp
+that steps of a usual tolerance pass over it.  So a run that has passed such a place must agree
+with one of more digits and finer steps; where it does not, that one is taken, and without one
+the rows end before it.
 
 The pivots of A M^-1 A^T vanish there as the square of the distance: between two rows where
 their root, drawn on as a straight line, meets 0.
@@ -17,11 +19,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from lagcli.numerics.accuracy import Outcome
+from lagcli.numerics.methods import METHODS, MORE_DIGITS, SHARP, one_run
 from lagcli.numerics.modes import Mode
-from lagcli.numerics.run import Mark
+from lagcli.numerics.run import Mark, Run
+from lagcli.numerics.steps import NotPossible
 from lagcli.numerics.straight_line import PIVOT_TOLERANCE
 from lagcli.record import replace
 
@@ -30,7 +35,6 @@ if TYPE_CHECKING:
     from lagcli.numerics.modes import Modes
     from lagcli.numerics.simulate import Simulation
 
-_MORE_DIGITS = "taylor"
 #: Rows after those that are good which are looked at: there the accuracy may have been lost.
 _BEYOND = 2
 
@@ -47,18 +51,20 @@ def on_one_branch(
     outcome, digits
         What a method gave, and its precision.
     """
-    if outcome.run.method_name == _MORE_DIGITS:
+    if _is_sharp(outcome):
         return outcome, digits
     with digits():
         place = meeting(outcome)
     if place is None:
         return outcome, digits
-    found, with_digits = simulation.attempt((_MORE_DIGITS,), modes)
-    if found is not None:
-        if found.good_rows >= outcome.good_rows and _agree(outcome, found):
-            return outcome, digits
-        if found.good_rows > min(place + 1, outcome.good_rows):
-            return found, with_digits
+    made = METHODS[MORE_DIGITS].prepare(simulation, modes)
+    if not isinstance(made, str):
+        with suppress(NotPossible):
+            if _agree(outcome, one_run(simulation, made, SHARP)):
+                return outcome, digits
+    found, with_digits = simulation.attempt((MORE_DIGITS,), modes, SHARP)
+    if found is not None and found.good_rows > min(place + 1, outcome.good_rows):
+        return found, with_digits
     if place + 1 >= outcome.good_rows:
         return outcome, digits
     reason = (
@@ -66,6 +72,31 @@ def on_one_branch(
         "which branch it goes on is within rounding"
     )
     return replace(outcome, reached=False, good_rows=place + 1, reason=reason), digits
+
+
+def through_meeting(
+    simulation: Simulation, modes: Modes, outcome: Outcome, digits: Precision
+) -> tuple[Outcome, Precision]:
+    """More digits where what is lost is lost at such a place, if they hold for longer.
+
+    Parameters
+    ----------
+    simulation, modes, outcome, digits
+        As for `on_one_branch`.
+    """
+    if _is_sharp(outcome) or simulation.asked.method != "auto":
+        return outcome, digits
+    with digits():
+        place = meeting(outcome)
+    if place is not None:
+        found, with_digits = simulation.attempt((MORE_DIGITS,), modes, SHARP)
+        if found is not None and found.good_rows > outcome.good_rows:
+            return found, with_digits
+    return outcome, digits
+
+
+def _is_sharp(outcome: Outcome) -> bool:
+    return outcome.run.method_name == MORE_DIGITS and outcome.tolerances[0] <= SHARP
 
 
 def meeting(outcome: Outcome) -> int | None:
@@ -103,9 +134,11 @@ def _roots(mode: Mode, marks: Sequence[Mark]) -> list[float]:
     return [math.sqrt(min(row[k] / whole[k] for k in kept)) for row in values]
 
 
-def _agree(outcome: Outcome, found: Outcome) -> bool:
+def _agree(outcome: Outcome, run: Run) -> bool:
     """Whether two runs have the same states, as far as they are claimed."""
-    pairs = list(zip(outcome.run.marks, found.run.marks, strict=False))[: outcome.good_rows]
+    if len(run.marks) < outcome.good_rows:
+        return False
+    pairs = list(zip(outcome.run.marks, run.marks, strict=False))[: outcome.good_rows]
     accuracy = outcome.controller.accuracy
     peaks = outcome.run.peaks
     return all(

@@ -131,8 +131,16 @@ def in_doubles(make: MakeMethod, simulation: Simulation, modes: Modes) -> Prepar
     return Prepared(run=run)
 
 
-def outcome_of(simulation: Simulation, made: Prepared) -> Outcome:
-    """The runs of a method, compared until they agree within the accuracy."""
+def outcome_of(simulation: Simulation, made: Prepared, first: float = 1.0) -> Outcome:
+    """The runs of a method, compared until they agree within the accuracy.
+
+    Parameters
+    ----------
+    simulation, made
+        What is asked, and the method.
+    first
+        The first tolerance is no coarser.
+    """
     asked = simulation.asked
     total = 2  # runs that progress is told of
     count = 0
@@ -156,12 +164,20 @@ def outcome_of(simulation: Simulation, made: Prepared) -> Outcome:
         return Controller(
             runner,
             accuracy=asked.accuracy,
-            first=made.first,
             finest=made.finest,
             span=asked.until,
             charges=len(simulation.charges),
             longest=made.longest,
+            first=min(first, made.first),
         ).outcome()
+
+
+def one_run(simulation: Simulation, made: Prepared, tolerance: float) -> Run:
+    """One run of a method, compared with nothing."""
+    n, until = len(simulation.equations.q), simulation.asked.until
+    bound = Tolerance(tolerance, n, until, until / made.longest[0], None, made.floor)
+    with made.precision():
+        return made.run(bound, 0, None, moved=False)
 
 
 def _dop853(simulation: Simulation, modes: Modes) -> Prepared | str:
@@ -286,10 +302,14 @@ METHODS: dict[str, Entry] = {
 
 #: What `auto` tries before all others where the motion is stiff.
 STIFF = ("radau5",)
+#: Its digits are as many as are needed.
+MORE_DIGITS = "taylor"
+#: A tolerance at which its steps do not pass over a bend that a rounding of doubles makes.
+SHARP = 1e-17
 #: What `auto` tries: of each group the first that is possible, the next group where more
 #: digits may reach what was not reached.
 AUTO: tuple[tuple[str, ...], ...] = (
     ("taylor64", "dop853"),
     ("taylor80",),
-    ("taylor128", "taylor"),
+    ("taylor128", MORE_DIGITS),
 )

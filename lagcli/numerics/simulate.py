@@ -12,14 +12,14 @@ from lagcli.graph.nodes import Node
 from lagcli.numerics.accuracy import Outcome
 from lagcli.numerics.arithmetic import Doubles
 from lagcli.numerics.asked import Asked, Result
-from lagcli.numerics.branches import on_one_branch
+from lagcli.numerics.branches import on_one_branch, through_meeting
 from lagcli.numerics.certificate import result_of
 from lagcli.numerics.columns import Column, Reading
 from lagcli.numerics.constants import constants_of
 from lagcli.numerics.contact import one_sided, with_contacts
 from lagcli.numerics.dop853 import dop853
 from lagcli.numerics.equations import Equations
-from lagcli.numerics.methods import AUTO, METHODS, STIFF, Precision, outcome_of
+from lagcli.numerics.methods import AUTO, METHODS, MORE_DIGITS, SHARP, STIFF, Precision, outcome_of
 from lagcli.numerics.modes import Modes
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import Refusal, told
@@ -192,6 +192,8 @@ class Simulation:
         if outcome is None:
             raise Refusal(f"no method for this problem{self.remark}", mistake=False)
         if not outcome.reached:
+            outcome, digits = through_meeting(self, modes, outcome, digits)
+        if not outcome.reached:
             with digits(), suppress(NotPossible):
                 outcome = outcome.controller.refined(outcome, self._between)
         outcome, digits = on_one_branch(self, modes, outcome, digits)
@@ -225,19 +227,28 @@ class Simulation:
             return ((self.asked.method,),)
         return AUTO[1:] if self.asked.accuracy < _LEAST_DOUBLE else AUTO
 
-    def attempt(self, group: Sequence[str], modes: Modes) -> tuple[Outcome | None, Precision]:
-        """What the first method gives that is possible, and its digits; why others are not."""
-        remark = ""
-        for name in group:
+    def attempt(
+        self, group: Sequence[str], modes: Modes, first: float = 1.0
+    ) -> tuple[Outcome | None, Precision]:
+        """What the first method gives that is possible, and its digits; why others are not.
+
+        Its first tolerance is no coarser than `first`.
+        """
+        remark, names = "", list(group)
+        while names:
+            name = names.pop(0)
             made = METHODS[name].prepare(self, modes)
             if not isinstance(made, str):
                 try:
-                    found = outcome_of(self, made)
+                    found = outcome_of(self, made, first)
                 except NotPossible as reason:
                     made = str(reason)
                     if self.is_long:
                         self.remark += f"; not {name}: {made}"
                         return None, nullcontext
+                    if names and reason.needs_digits and MORE_DIGITS not in names:
+                        names.insert(0, MORE_DIGITS)
+                        first = SHARP
                 else:
                     self.remark += remark
                     return found, made.precision

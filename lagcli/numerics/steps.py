@@ -45,7 +45,15 @@ class CannotGoOn(ArithmeticError):
 
 
 class NotPossible(Exception):
-    """The method is not for this problem, which it finds out on the way; the sentence says why."""
+    """The method is not for this problem, which it finds out on the way; the sentence says why.
+
+    Attributes
+    ----------
+    needs_digits
+        Whether the same equations with more digits may go on.
+    """
+
+    needs_digits = False
 
 
 class Tolerance:

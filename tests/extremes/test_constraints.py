@@ -39,15 +39,30 @@ initial:
 """
 
 
-def test_a_four_bar_linkage_through_its_flat_positions(simulate):
+@pytest.mark.parametrize("accuracy", [1e-6, 1e-9])
+def test_a_four_bar_linkage_through_its_flat_positions(simulate, accuracy):
     """The parallelogram turns evenly; flat at t = pi - 1 and 2 pi - 1, it could fold there."""
-    run = simulate(LINKAGE, 8, accuracy=1e-6, samples=9)
+    run = simulate(LINKAGE, 8, accuracy=accuracy, samples=9)
     assert run.status == 0
     assert run.held["holds_until"] == 8
     assert len(run.rows) == 9
     for row in run.rows:
-        assert row["x"] == pytest.approx(float(mp.cos(1 + row["t"])), abs=1e-6)
-        assert row["u"] == pytest.approx(float(2 + mp.cos(1 + row["t"])), abs=1e-6)
+        assert row["x"] == pytest.approx(float(mp.cos(1 + row["t"])), abs=accuracy)
+        assert row["u"] == pytest.approx(float(2 + mp.cos(1 + row["t"])), abs=accuracy)
+
+
+def test_a_coupler_too_long_by_1e_15_turns_the_motion_at_the_flat_position(simulate):
+    """It is never flat: the cranks go on as those of an antiparallelogram.
+
+    Of sides 1 and 2, tan(b/2) = -3 tan(a/2) for the angles of its cranks.
+    """
+    text = LINKAGE.replace("(v - y)^2 = 4", "(v - y)^2 = (2 + 1e-15)^2")
+    text = text.replace("u: 2 + cos(1)", "u: 2 + cos(1) + 1e-15")
+    run = simulate(text, 2.5, accuracy=1e-6, samples=2, show="x,y,u,v,energy")
+    assert run.status == 0
+    x, y, u, v = (run.last[name] for name in "xyuv")
+    assert v / (u - 1) == pytest.approx(-3 * y / (1 + x), rel=1e-6)
+    assert run.last["energy"] == pytest.approx(1, abs=1e-9)
 
 
 SLIDER_CRANK = """
@@ -59,7 +74,9 @@ initial: {a: 0.9, b: 0.9, a': %s, b': %s, x: 2*cos(0.9), x': -2*%s*sin(0.9)}
 """
 
 
-@pytest.mark.parametrize(("rate", "options"), [("1", ["--precision", "30"]), ("1e-3", [])])
+@pytest.mark.parametrize(
+    ("rate", "options"), [("1", ["--precision", "30"]), ("1", []), ("1e-3", [])]
+)
 def test_a_slider_crank_with_equal_arms_stays_on_its_branch(simulate, rate, options):
     """Flat at a = b = pi/2 it could leave its slider in the middle.
 

@@ -36,6 +36,18 @@ def test_the_known_motion_is_met(name):
     assert [found for found in findings if found is not None] == []
 
 
+def test_the_row_of_four_bars_is_the_pendulum_that_its_cranks_are():
+    """T = 3 psi'^2/2, V = 7 g sin(psi)/2; flat at t = 0.49, where loops could fold."""
+    minimal = "{coordinates: [psi], parameters: {g: 9.81}, L: 3*psi'^2/2 - 7*g*sin(psi)/2, "
+    minimal += "initial: {psi: pi/2, psi': -1}}"
+    known = simulated(minimal, 0.9, 1e-11, "cos(psi),sin(psi)", samples=4)
+    text = (FOLDER / "n-four-bar.yaml").read_text("utf-8")
+    result = simulated(text, 0.9, 1e-9, "x0,y0", samples=4)
+    assert result.certificate.reached
+    for row, other in zip(result.rows, known.rows, strict=True):
+        assert row == pytest.approx(other, abs=1e-9)
+
+
 def test_andrews_angles_are_those_of_the_test_set_to_ten_digits():
     problem = load(FOLDER / "andrews-squeezer.yaml")
     row = problem.expect.trajectory.rows[-1]

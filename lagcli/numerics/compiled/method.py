@@ -37,10 +37,12 @@ _HELD = 3.6
 
 
 class PivotVanishes(NotPossible):
-    """The written-out elimination divides by nothing: only `dependent` goes on from here."""
+    """An elimination divides by nothing at t: `dependent` goes on from here, or more digits."""
 
-    def __init__(self) -> None:
+    def __init__(self, t: float, constraints: int) -> None:
         super().__init__("the constraints become dependent")
+        # those that are dependent all the way stay so, and so does a singular mass matrix
+        self.needs_digits = t > 0 and constraints > 0
 
 
 class CompiledTaylor:
@@ -174,7 +176,7 @@ class CompiledTaylor:
         )
         status = self.machine.kernel("expand")(*map(pointer, given), pointer(self._counts))
         if status == k.PIVOT:
-            raise PivotVanishes
+            raise self._vanishes(state)
         return int(status)
 
     def _move(self, state: Any, end: float, q: Any, v: Any) -> tuple[list[Any], list[Any]]:
@@ -182,11 +184,14 @@ class CompiledTaylor:
         rest = map(pointer, (self._held, self._facts, self._counts))
         status = self.machine.kernel("move")(*given, end, *rest)
         if status == k.PIVOT:
-            raise PivotVanishes
+            raise self._vanishes(state)
         if status != k.MORE:
             raise CannotGoOn(float(state[2 * self.n]), q, v, "")
         n = self.n
         return list(self._ahead[:n]), list(self._ahead[n : 2 * n])
+
+    def _vanishes(self, state: Any) -> PivotVanishes:
+        return PivotVanishes(float(state[2 * self.n]), self.machine.motion.m)
 
     def _inside(self, start: float) -> Any:
         """Positions, velocities and accelerations anywhere in the step."""
@@ -242,7 +247,7 @@ class CompiledTaylor:
             if progress is not None:
                 progress(part)
         if status == k.PIVOT:
-            raise PivotVanishes
+            raise self._vanishes(state)
         done = int(counts[k.PENDING])
         whole = self._read(out)
         run.marks = [
