@@ -239,6 +239,16 @@ def test_it_is_told_why_there_are_none():
     assert (falling.modes, falling.reason) == ((), "there is no equilibrium to expand about")
 
 
+def test_what_a_moving_constraint_carries_along_is_not_at_rest():
+    """r = l + v t has a rate without t, and yet no state that stays."""
+    paid_out = dynamics(
+        "coordinates: [r, theta]\nparameters: {l: POSITIVE, v: POSITIVE}\n"
+        "T: (r'^2 + r^2*theta'^2)/2\nV: -r*cos(theta)\nconstraints: {string: r = l + v*t}\n"
+    )
+    assert equilibria(paid_out).equilibria is None
+    assert modes(paid_out).modes is None
+
+
 @pytest.mark.parametrize(
     ("sign", "number", "condition"),
     [("+", 4, []), ("-", 4, ["0 > mu"])],

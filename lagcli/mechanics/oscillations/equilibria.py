@@ -89,6 +89,7 @@ class RestPoints:
         everything = [
             *self.dynamics.lagrange.forcing,
             *(entry for e in constraints.equations for entry in (*e.row, e.drift)),
+            *(e.f for e in constraints.equations if e.holonomic),
         ]
         return not all(
             free_of(e, [system.t]) or is_zero(e.diff(system.t)) is True for e in everything
