@@ -244,3 +244,14 @@ def test_the_morse_potential():
     """
     x = Symbol("x")
     assert series((sympy.exp(-x) - 1) ** 2 / 2, S.One) == [0, Rational(1, 2), 0, Rational(1, 24)]
+
+
+def test_a_period_has_one_number():
+    """A cycloid: 4 pi sqrt(a/g), and not 2 pi times 2."""
+    section, _ = reduced("""
+coordinates: [phi]
+parameters: {a: {assume: positive}, g: {assume: positive}}
+L: a^2*(1 - cos(phi))*phi'^2 - g*a*cos(phi)
+""")
+    assert section.one_freedom is not None
+    assert [to_grammar(each.period) for each in section.one_freedom.periods] == ["4*pi*sqrt(a/g)"]

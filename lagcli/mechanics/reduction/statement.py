@@ -178,14 +178,29 @@ class _Statement:
 
 
 def _two_pi_times(root: Expression) -> Expression:
-    """2 pi root, as one product or one fraction."""
-    two_pi = (Number(Fraction(2)), Name("pi"))
-    match root:
-        case Quotient(numerator=above_, denominator=below):
-            return Quotient(_two_pi_times(above_), below)
-        case Number(value=value) if value == 1:
-            return Product(two_pi)
-        case Product(factors=factors):
-            return Product((*two_pi, *factors))
-        case _:
-            return Product((*two_pi, root))
+    """2 pi root, as one product or one fraction with one number."""
+    above_, below = (
+        (root.numerator, root.denominator) if isinstance(root, Quotient) else (root, ONE)
+    )
+    number, factors = _number_and_rest(above_)
+    divisor, divisors = _number_and_rest(below)
+    number = 2 * number / divisor
+    whole = [Name("pi"), *factors]
+    if number.numerator != 1:
+        whole.insert(0, Number(Fraction(number.numerator)))
+    if number.denominator != 1:
+        divisors.insert(0, Number(Fraction(number.denominator)))
+    period = _product(whole)
+    return Quotient(period, _product(divisors)) if divisors else period
+
+
+def _number_and_rest(product: Expression) -> tuple[Fraction, list[Expression]]:
+    factors = product.factors if isinstance(product, Product) else (product,)
+    number = Fraction(1)
+    for factor in factors:
+        number *= factor.value if isinstance(factor, Number) else 1
+    return number, [factor for factor in factors if not isinstance(factor, Number)]
+
+
+def _product(factors: list[Expression]) -> Expression:
+    return factors[0] if len(factors) == 1 else Product(tuple(factors))
