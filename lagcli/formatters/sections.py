@@ -324,7 +324,9 @@ def _algebra(section: AlgebraSection) -> Iterator[Block]:
     yield Paragraph((integrable[section.integrable],))
     for case in section.special:
         where = f"{case.parameter} = {to_grammar(case.value)}"
-        yield Heading(f"Where {where}: {case.number} charges, of which new", 2)
+        yield Heading(
+            f"Where {where}: {case.number} charge{'s' * (case.number != 1)}, of which new", 2
+        )
         yield _by_name(case.charges)
 
 

@@ -83,6 +83,8 @@ SPECIAL = {
         ("n", "-1"): (4, "runge_lenz_x runge_lenz_y"),
         ("n", "-2"): (4, "dilation conformal"),
     },
+    # Larmor's theorem: an isotropic oscillator at half the cyclotron frequency
+    "discovery/charge-in-turning-frame": {("omega", "Omega/2"): (10, "energy_x fradkin_xy")},
 }
 
 
@@ -93,6 +95,30 @@ def test_special_parameters_are_told_with_the_charges_they_add(name):
     for key, (number, names) in SPECIAL[name].items():
         assert cases[key].number == number
         assert set(names.split()) <= {c.name for c in cases[key].charges}
+
+
+@pytest.mark.parametrize(
+    ("text", "value", "number", "names"),
+    [
+        # Kohn, Phys. Rev. 123 (1961) 1242: the centre of mass of equal masses oscillates freely
+        (
+            "coordinates: [x1, x2]\nparameters: {m1: POS, m2: POS, k: POS, c: POS}\n"
+            "L: m1*x1'^2/2 + m2*x2'^2/2 - k*(x1^2 + x2^2)/2 - c/(x2 - x1)",
+            ("m2", "m1"), 4, "translation_cos translation_sin",
+        ),
+        # in the frame of Larmor an isotropic oscillator in space: its 12 symmetries
+        (
+            "coordinates: [x, y, z]\nparameters: {m: POS, O: POS, w: POS}\n"
+            "L: m*(x'^2 + y'^2 + z'^2)/2 + m*O*(x*y' - y*x')/2 - m*w^2*z^2/2",
+            ("w", "O/2"), 14, "conformal_cos conformal_sin",
+        ),
+    ],
+)  # fmt: skip
+def test_special_values_of_other_systems(text, value, number, names):
+    cases = derive(text.replace("POS", "{assume: positive}")).discovery.special
+    [case] = [c for c in cases if (c.parameter.name, str(c.value)) == value]
+    assert case.number == number
+    assert set(names.split()) <= {c.name for c in case.charges}
 
 
 def derived(name):

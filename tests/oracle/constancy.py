@@ -3,7 +3,8 @@
     python -m tests.oracle.constancy problems/central/kepler.yaml problems/rolling
 
 prints, for each problem, the seconds of the search, the number of charges that were
-discovered, and the digits to which the worst of them stays.
+discovered, special values of the parameters among them, and the digits to which the worst
+of them stays.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from lagcli.formatters.json import to_object
 from lagcli.pipeline import load, solve
 from lagcli.problem import Problem
 from lagcli.reader import parse_text
+from lagcli.record import replace
 
 from .jets import real_part
 from .motion import NoMotion, motion
@@ -49,12 +51,29 @@ def digits_kept(problem: Problem, charges: Sequence[Mapping[str, Any]]) -> dict[
         return kept
 
 
-def discovered(problem: Problem) -> tuple[list[dict[str, Any]], float]:
-    """What `--show discovered,algebra` prints, as JSON, and the seconds that it took."""
+def discovered(problem: Problem) -> tuple[list[dict[str, Any]], list[dict[str, Any]], float]:
+    """The charges, the special values that `--show discovered,algebra` prints, the seconds."""
     begun = time.process_time()
     answers = solve(problem, ["discovered", "algebra"])
     seconds = time.process_time() - begun
-    return json.loads(json.dumps(to_object(answers))).get("discovered") or [], seconds
+    found = json.loads(json.dumps(to_object(answers)))
+    return found.get("discovered") or [], (found.get("algebra") or {}).get("special", []), seconds
+
+
+def kept_at(problem: Problem, special: Mapping[str, Any]) -> dict[str, float]:
+    """The same for the new charges at a special value, which the parameter then stands for."""
+    parameter, value = special["parameter"], parse_text(special["value"])
+    there = replace(
+        problem,
+        parameters=tuple(p for p in problem.parameters if p.name != parameter),
+        definitions={parameter: value, **problem.definitions},
+    )
+    charges = [
+        {"name": name, "charge": charge, "conserved": True}
+        for name, charge in special["charges"].items()
+    ]
+    return {f"{n} at {parameter} = {special['value']}": d
+            for n, d in digits_kept(there, charges).items()}  # fmt: skip
 
 
 def main(arguments: Sequence[str]) -> None:
@@ -64,10 +83,15 @@ def main(arguments: Sequence[str]) -> None:
     number, untested, least, longest = 0, 0, mp.inf, 0.0
     for path in files:
         problem = load(path)
-        charges, seconds = discovered(problem)
+        charges, special, seconds = discovered(problem)
         kept = digits_kept(problem, charges)
+        for case in special:
+            kept |= kept_at(problem, case)
         number += len(kept)
-        untested += sum(bool(c["conserved"]) for c in charges) - len(kept)
+        wanted = sum(bool(c["conserved"]) for c in charges) + sum(
+            len(c["charges"]) for c in special
+        )
+        untested += wanted - len(kept)
         worst = min(kept.values(), default=mp.inf)
         least, longest = min(least, worst), max(longest, seconds)
         line = f"{seconds:6.1f} s {len(kept):3} charges {float(worst):6.1f} digits  {path}"

@@ -15,7 +15,7 @@ from lagcli.pipeline import load
 from lagcli.problem import Problem
 from lagcli.reader import parse_text
 
-from .constancy import digits_kept, discovered
+from .constancy import digits_kept, discovered, kept_at
 from .examine import DIGITS, examine
 from .reference import Reference
 from .states import random_moments
@@ -32,8 +32,10 @@ SOME = (
 
 def stays(path: Path) -> None:
     problem = load(path)
-    charges, _ = discovered(problem)
+    charges, special, _ = discovered(problem)
     kept = digits_kept(problem, charges)
+    for case in special:
+        kept |= kept_at(problem, case)
     assert {name: digits for name, digits in kept.items() if digits < 20} == {}
     for conditions in {tuple(c.get("where", ())) for c in charges}:
         given = [c for c in charges if tuple(c.get("where", ())) == conditions]
@@ -65,8 +67,16 @@ def test_no_library_problem_gets_a_false_charge(path: Path) -> None:
     stays(path)
 
 
+def test_a_special_charge_that_changes_elsewhere_is_noticed() -> None:
+    problem = load(LIBRARY / "particles/anisotropic-oscillator.yaml")
+    charge = {"charges": {"L_z": "m*(x*y' - y*x')"}, "parameter": "k2"}
+    [equal] = kept_at(problem, {**charge, "value": "k1"}).values()
+    [other] = kept_at(problem, {**charge, "value": "2*k1"}).values()
+    assert equal > 20 > other
+
+
 def test_a_charge_that_changes_is_noticed() -> None:
     problem = load(LIBRARY / "central/kepler.yaml")
-    [energy, *_], _ = discovered(problem)
+    [energy, *_], _, _ = discovered(problem)
     wrong = {**energy, "charge": energy["charge"] + " + x*x'/10^12"}
     assert 10 < digits_kept(problem, [wrong])["energy"] < 14

@@ -11,7 +11,7 @@ from sympy import Expr, Rational
 
 from lagcli.algebra import nullspace, simplify
 from lagcli.algebra.effort import EFFORT
-from lagcli.algebra.ring import Poly
+from lagcli.algebra.ring import Monomial, Poly
 from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, small_fraction
 
 _TOGETHER = 3  # parameters in one recognized monomial
@@ -95,7 +95,8 @@ class ExactSolver:
         rows: list[list[Poly]] = []
         rank = 0
         for entries in zip(*columns, strict=True):
-            for row in self.collected(entries):
+            for sparse in self.collected(entries):
+                row = [sparse.get(k, self.field.ring.zero) for k in range(width)]
                 values = [[self.points.constant_value(x) for x in each] for each in (*rows, row)]
                 if nmod_mat(values, PRIME).rank() > rank:
                     rows.append(row)
@@ -108,8 +109,8 @@ class ExactSolver:
         kernel = nullspace(matrix) if matrix else [[sympy.S.One]]
         return [simplify(x) for x in kernel[0]] if len(kernel) == 1 else None
 
-    def collected(self, entries: Sequence[Expr]) -> list[list[Poly]]:
-        """sum c_a entry_a = 0 as one row of constants for each monomial in t, q, q'."""
+    def collected(self, entries: Sequence[Expr]) -> list[dict[int, Poly]]:
+        """sum c_a entry_a = 0 as one sparse row of constants for each monomial in t, q, q'."""
         field, ring = self.field, self.field.ring
         elements = [field(e) for e in entries]
         common = ring.one
@@ -117,13 +118,13 @@ class ExactSolver:
             below = ring.lift(element.denominator)
             common = ring.lift(common)
             common = common * (below / common.gcd(below))
-        groups: dict[tuple[tuple[int, int], ...], list[list[tuple[object, int]]]] = {}
+        groups: dict[tuple[tuple[int, int], ...], dict[int, list[tuple[Monomial, int]]]] = {}
         for index, element in enumerate(elements):
             factor = ring.lift(common) / ring.lift(element.denominator)
             poly = ring.reduce(ring.lift(element.numerator) * factor)
             for monomial, coefficient in ring.terms(poly):
                 moving = tuple(p for p in monomial if not self.points.constant[p[0]])
                 fixed = tuple(p for p in monomial if self.points.constant[p[0]])
-                row = groups.setdefault(moving, [[] for _ in elements])
-                row[index].append((fixed, coefficient))
-        return [[ring.build(terms) for terms in row] for row in groups.values()]  # type: ignore[arg-type]
+                groups.setdefault(moving, {}).setdefault(index, []).append((fixed, coefficient))
+        rows = [{k: ring.build(terms) for k, terms in row.items()} for row in groups.values()]
+        return [{k: x for k, x in row.items() if x != 0} for row in rows]

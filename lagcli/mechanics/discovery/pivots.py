@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from flint import nmod_mat
 from sympy import Expr
 
 from lagcli.algebra.effort import EFFORT
@@ -18,12 +17,10 @@ from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.modular import PRIME
+from lagcli.mechanics.discovery.modular_rank import ModularRank, Row
 from lagcli.mechanics.discovery.search import Search
 
 _MOST_TERMS = 80
-
-Row = dict[int, Poly]
 
 
 class Pivots:
@@ -44,22 +41,18 @@ class Pivots:
         self.allowed = allowed
         columns = [search.formulas(i) for i in range(len(search.unknowns))]
         self.rows = list(self._rows(columns))
-        self.width = len(columns)
+        self._rank = ModularRank(self.exact.points, self.rows, len(columns), allowed)
 
     def factors(self) -> list[Expr]:
         """Irreducible polynomials in the parameters at whose roots the rank is lower."""
-        return [
-            self.field.polynomial_to_sympy(factor)
-            for factor in self._candidates()
-            if self._lowers_the_rank(factor)
-        ]
+        found = [f for f in self._candidates() if self._rank.is_lower_at(f)]
+        return [self.field.polynomial_to_sympy(f) for f in found if self._may_vanish(f)]
 
     def _rows(self, columns: Sequence[Sequence[Expr]]) -> Iterator[Row]:
         seen = set()
         for entries in zip(*columns, strict=True):
             self.allowed.check()
-            for row in self.exact.collected(entries):
-                sparse = {k: x for k, x in enumerate(row) if x != 0}
+            for sparse in self.exact.collected(entries):
                 key = tuple((k, str(x)) for k, x in sparse.items())
                 if sparse and key not in seen:
                     seen.add(key)
@@ -130,38 +123,9 @@ class Pivots:
         if poly.is_constant():
             return
         for factor, _ in factorization(poly)[1]:
-            if str(factor) not in found and self._may_vanish(factor):
+            if str(factor) not in found and not factor.is_constant():
                 found[str(factor)] = factor
 
     def _may_vanish(self, factor: Poly) -> bool:
         expression = self.field.polynomial_to_sympy(factor)
         return bool(expression.free_symbols) and sign(expression) not in (1, -1)
-
-    # -- modulo a prime -----------------------------------------------------------------------
-
-    def _lowers_the_rank(self, factor: Poly) -> bool:
-        values = dict(self.exact.points.constants)
-        for g in self.ring.used(factor):
-            parts = self.ring.coefficients(factor, g)
-            if max(parts) == 1 and self.field.generators[g].kind == "symbol":
-                slope, rest = (self._value(parts.get(k, self.ring.zero), values) for k in (1, 0))
-                if slope:
-                    values[g] = -rest * pow(slope, -1, PRIME) % PRIME
-                    return self._rank(values) < self._rank(self.exact.points.constants)
-        return True  # seen when the search is made anew
-
-    def _value(self, poly: Poly, values: dict[int, int]) -> int:
-        total = 0
-        for monomial, coefficient in self.ring.terms(poly):
-            for g, exponent in monomial:
-                coefficient = coefficient * pow(values[g], exponent, PRIME) % PRIME
-            total += coefficient
-        return total % PRIME
-
-    def _rank(self, values: dict[int, int]) -> int:
-        matrix = [[0] * self.width for _ in self.rows]
-        for dense, row in zip(matrix, self.rows, strict=True):
-            for k, x in row.items():
-                dense[k] = self._value(x, values)
-        self.allowed.spend(len(matrix) * self.width**2 // 700)
-        return int(nmod_mat(matrix, PRIME).rank())

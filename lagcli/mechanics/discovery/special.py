@@ -16,13 +16,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import permutations
+from itertools import combinations
 
 import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import simplify, to_expression
 from lagcli.algebra.equations import solve_for
+from lagcli.algebra.signs import sign
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import NoPoint, pivot_columns
 from lagcli.mechanics.discovery.relation import Relation
@@ -96,26 +97,37 @@ def new_charges(
 
 
 def _commensurate(parameters: Sequence[Symbol], exponents: Sequence[Exponent]) -> Iterator[Value]:
-    """f^2 = r^2 g^2 for two frequencies."""
-    swinging = [e.frequency for e in exponents if e.growth == 0 and e.frequency != 0]
+    """f = r g or g = r f for two frequencies: r^2 (f^2 + g^2)^2 = (1 + r^2)^2 f^2 g^2.
+
+    Of two roots of one polynomial the sum and the product have no roots in them.
+    """
+    squares = [e.frequency**2 for e in exponents if e.growth == 0 and e.frequency != 0]
     for ratio in _RATIOS:
-        for f, g in permutations(swinging, 2):
-            relation = sympy.numer(sympy.together(sympy.expand(f**2 - ratio**2 * g**2)))
-            yield from _solved(relation, parameters)
+        for one, other in combinations(squares, 2):
+            total, product = simplify(one + other), simplify(one * other)
+            relation = ratio**2 * total**2 - (1 + ratio**2) ** 2 * product
+            for factor, _ in sympy.factor_list(sympy.numer(sympy.together(relation)))[1]:
+                if sign(factor) not in (1, -1):
+                    yield from _solved(factor, parameters)
 
 
 def _solved(relation: Expr, parameters: Sequence[Symbol]) -> Iterator[Value]:
-    """The admissible values of the last parameter for which the relation can be solved."""
+    """The admissible values of the last parameter that has some without roots, or else some."""
+    found: list[tuple[Symbol, list[Expr]]] = []
     for parameter in reversed(parameters):
-        if parameter not in relation.free_symbols:
-            continue
-        roots = solve_for(relation, parameter)
-        if roots is None:
-            continue
-        for value in map(simplify, roots.values):
+        if parameter in relation.free_symbols:
+            roots = solve_for(relation, parameter)
+            if roots is not None:
+                found.append((parameter, [simplify(x) for x in roots.values]))
+    found.sort(key=lambda solved: not all(map(_is_rational, solved[1])))
+    for parameter, values in found[:1]:
+        for value in values:
             if not value.has(sympy.I) and _admissible(parameter, value):
                 yield parameter, value
-        return
+
+
+def _is_rational(value: Expr) -> bool:
+    return not any(p.exp.is_Rational and p.exp.q > 1 for p in value.atoms(sympy.Pow))
 
 
 def _admissible(parameter: Symbol, value: Expr) -> bool:

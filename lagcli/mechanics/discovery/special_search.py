@@ -27,10 +27,12 @@ from lagcli.mechanics.discovery.spectrum import Exponent
 if TYPE_CHECKING:
     from lagcli.mechanics.discovery.discovery import Discovery
 
-_MOST_COORDINATES = 3
+_MOST_COORDINATES = 4
 _UNITS = 10_000_000
 _FOR_PIVOTS = 0.4  # of these
 _MOST_UNKNOWNS = 150
+_MOST_OPERATIONS = 20
+_NOT_TRIED = "not all special values of the parameters were tried"
 _NOT_ALL = "not all special values of the parameters were sought"
 
 
@@ -41,11 +43,14 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
     if discovery.dynamics.constraints.equations or not few or not system.parameters:
         return ()
     allowed = Allowance(_UNITS)
-    exponents = _exponents(discovery)
     found: list[SpecialCase] = []
     try:
-        factors = list(dict.fromkeys(_factors(discovery, allowed)))
+        factors, complete = _factors(discovery, allowed)
+        exponents = () if complete else _exponents(discovery)
         for parameter, value in candidates(system, factors, exponents):
+            if sympy.count_ops(value) > _MOST_OPERATIONS:
+                discovery.words.append(_NOT_TRIED)
+                continue
             there = _at(discovery, parameter, value)
             allowed.check()
             if there is None or len(there.charges) <= len(discovery.charges):
@@ -56,7 +61,7 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
             if charges:
                 found.append(SpecialCase(parameter, value, len(there.charges), charges))
     except TooMuchWork:
-        discovery.words.append("not all special values of the parameters were tried")
+        discovery.words.append(_NOT_TRIED)
     return tuple(found)
 
 
@@ -85,17 +90,25 @@ def _at(discovery: Discovery, parameter: Symbol, value: Expr) -> Discovery | Non
         return None
 
 
-def _factors(discovery: Discovery, allowed: Allowance) -> Iterator[Expr]:
-    """Of the search for point symmetries, and of that for integrals of second degree."""
+def _factors(discovery: Discovery, allowed: Allowance) -> tuple[list[Expr], bool]:
+    """Of the search for point symmetries, and of that for integrals of second degree.
+
+    Also whether both were made: then the energies of parts and products of conjugate
+    integrals are among these, so that frequencies need not be compared.
+    """
     part = allowed.part(_FOR_PIVOTS)
+    found: dict[Expr, None] = {}
+    searches = 0
     try:
         for search in _searches(discovery, part):
             if search is None:
                 discovery.words.append(_NOT_ALL)
             else:
-                yield from Pivots(search, part).factors()
+                found |= dict.fromkeys(Pivots(search, part).factors())
+                searches += 1
     except (NoPoint, TooMuchWork, ZeroDivisionError):
         discovery.words.append(_NOT_ALL)
+    return list(found), searches == 2
 
 
 def _searches(discovery: Discovery, allowed: Allowance) -> Iterator[Search | None]:

@@ -1,0 +1,134 @@
+"""The rank of rows of polynomials modulo primes, at random values and where a factor vanishes.
+
+A rank that falls at a random point of the factor's zeros falls at all of them but for a set
+of lower dimension (Schwartz, J. ACM 27 (1980) 701).
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+
+from flint import nmod_mat, nmod_poly
+
+from lagcli.algebra.effort import EFFORT
+from lagcli.algebra.ring import Monomial, Poly, factorization
+from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, pivot_columns
+
+#: Entries by column.
+Row = dict[int, Poly]
+_Terms = list[tuple[Monomial, int]]
+
+#: Others, at which a factor of the numbers alone may have a zero that it has not at the first.
+_PRIMES = (PRIME, *(2**61 - k for k in (1, 31, 45, 229, 259, 283, 339)))
+_DRAWS = 16
+
+
+class ModularRank:
+    """The rank of one set of rows in the ring of the constants.
+
+    Parameters
+    ----------
+    points
+        The values of the constants.
+    rows, width
+        The matrix.
+    allowed
+        Raises TooMuchWork.
+    """
+
+    def __init__(
+        self, points: ModularPoints, rows: Sequence[Row], width: int, allowed: Allowance
+    ) -> None:
+        self.points = points
+        self.ring = points.field.ring
+        self.width = width
+        self.allowed = allowed
+        self._rows = [{k: list(self.ring.terms(x)) for k, x in row.items()} for row in rows]
+        self._source = random.Random("lagcli rank")
+        used = {g for row in rows for x in row.values() for g in self.ring.used(x)}
+        self._primes = _PRIMES if all(map(self._is_free, used)) else (PRIME,)
+        matrix = self._matrix(self._rows, points.constants, PRIME)
+        transposed = [list(column) for column in zip(*matrix, strict=True)]
+        self._basis = [self._rows[k] for k in pivot_columns(transposed)] if transposed else []
+
+    def is_lower_at(self, factor: Poly) -> bool:
+        """Whether the rank is lower where the factor vanishes; True where no zero was found."""
+        zero = self._zero(factor)
+        if zero is None:
+            return True
+        rank = len(self._basis)
+        return self._rank(self._basis, *zero) < rank and self._rank(self._rows, *zero) < rank
+
+    def _rank(
+        self, rows: Sequence[Mapping[int, _Terms]], values: Mapping[int, int], prime: int
+    ) -> int:
+        self.allowed.spend(len(rows) * self.width**2 // 700)
+        return int(nmod_mat(self._matrix(rows, values, prime), prime).rank())
+
+    def _matrix(
+        self, rows: Sequence[Mapping[int, _Terms]], values: Mapping[int, int], prime: int
+    ) -> list[list[int]]:
+        matrix = [[0] * self.width for _ in rows]
+        for dense, row in zip(matrix, rows, strict=True):
+            for k, terms in row.items():
+                dense[k] = _value(terms, values, prime)
+        return matrix
+
+    # -- zeros of a factor ----------------------------------------------------------------------
+
+    def _zero(self, factor: Poly) -> tuple[dict[int, int], int] | None:
+        """Values of the constants at which it vanishes, and the prime.
+
+        It is solved for a symbol on which no other generator depends.
+        """
+        for g in filter(self._is_free, self.ring.used(factor)):
+            parts = self.ring.coefficients(factor, g)
+            terms = {k: list(self.ring.terms(x)) for k, x in parts.items()}
+            for draw in range(_DRAWS):
+                prime = self._primes[draw % len(self._primes)]
+                values = self._drawn() if draw else dict(self.points.constants)
+                root = _root({k: _value(x, values, prime) for k, x in terms.items()}, prime)
+                if root is not None:
+                    return {**values, g: root}, prime
+        return None
+
+    def _is_free(self, g: int) -> bool:
+        generators = self.points.field.generators
+        symbol = generators[g].expression
+        return generators[g].kind == "symbol" and not any(
+            symbol in other.expression.free_symbols
+            for k, other in enumerate(generators)
+            if k != g and self.points.constant[k]
+        )
+
+    def _drawn(self) -> dict[int, int]:
+        """Other values of the symbols that stand for themselves."""
+        return {
+            k: self._source.randrange(2, PRIME - 2) if self._is_free(k) else value
+            for k, value in self.points.constants.items()
+        }
+
+
+def _value(terms: _Terms, values: Mapping[int, int], prime: int) -> int:
+    total = 0
+    EFFORT.done += len(terms)
+    for monomial, coefficient in terms:
+        value = coefficient
+        for g, exponent in monomial:
+            x = values[g]
+            value = value * (x if exponent == 1 else pow(x, exponent, prime)) % prime
+        total += value
+    return total % prime
+
+
+def _root(parts: Mapping[int, int], prime: int) -> int | None:
+    """A root of a polynomial in one unknown, None where it has none modulo the prime."""
+    poly = nmod_poly([parts.get(k, 0) for k in range(max(parts) + 1)], prime)
+    if poly.degree() < 1:
+        return None
+    for each, _ in factorization(poly)[1]:
+        if each.degree() == 1:
+            return int(-each[0] / each[1])
+    return None
