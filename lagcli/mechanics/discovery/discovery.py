@@ -236,6 +236,7 @@ class Discovery:
         for charge in charges:
             given = charge.transformation
             name = naming.of_point(given.changes, given.time)
+            name = name or naming.of_relative(charge.charge, given.changes, self.system.qdot)
             if name == "energy" and self._moved and charge.gauge != 0:
                 name = "moving_energy"
             if not name and self.dynamics.constraints.equations:

@@ -95,6 +95,31 @@ class Naming:
             return f"angular_momentum_{one.name}_{other.name}"
         return ""
 
+    def of_relative(self, charge: Expr, xi: Sequence[Expr], v: Sequence[Symbol]) -> str:
+        """L of two particles about their centre of mass: linear in p, of differences alone.
+
+        With one change for each of x1, x2, y1, y2 and no t, it is c (x y' - y x').
+        """
+        moved = [x for x, e in zip(self.q, xi, strict=True) if e != 0]
+        letters = sorted({_bare(x.name) for x in moved})
+        plane = "".join(letters)
+        if len(moved) != 4 or plane not in _AXES or self.t in charge.free_symbols:
+            return ""
+        rates = dict(zip(self.q, v, strict=True))
+        for letter in letters:
+            pair = [x for x in moved if _bare(x.name) == letter]
+            for group in (pair, [rates[x] for x in pair]):
+                if len(group) != 2 or sympy.expand(charge.diff(group[0]) + charge.diff(group[1])):
+                    return ""
+        one, other = (next(x for x in moved if _bare(x.name) == letter) for letter in letters)
+        slope = sympy.expand(charge.diff(one, rates[other]))
+        turning = sympy.expand(slope + charge.diff(other, rates[one])) == 0
+        if slope == 0 or slope.free_symbols & {*self.q, *v} or not turning:
+            return ""
+        if charge.diff(one, rates[one]) != 0 or charge.diff(other, rates[other]) != 0:
+            return ""
+        return f"L_{_AXES[plane]}_relative"
+
     def _rotation_of_sphere(self, moved: Mapping[Symbol, Expr]) -> str:
         """L_x: dtheta = -sin phi; L_y: dtheta = cos phi, for latitude and longitude."""
         if len(self.kinds.latitudes) != 1 or len(self.kinds.angles) != 2 or len(moved) != 2:
@@ -111,6 +136,11 @@ class Naming:
     def orientation(self, name: str, xi: Sequence[Expr]) -> Expr:
         """The sign that turns a charge into the textbook's: L_y = z p_x - x p_z."""
         moved = dict(zip(self.q, xi, strict=True))
+        if name.endswith("_relative"):
+            one, *_, other = sorted((x for x in moved if moved[x] != 0), key=lambda x: x.name)
+            slope = moved[other].diff(one)  # of y_2 by x_1: the other particle's is opposite
+            backward = not slope.could_extract_minus_sign()
+            return sympy.S.NegativeOne if backward != (name[2] == "y") else sympy.S.One
         if name not in ("L_x", "L_y", "L_z"):
             return sympy.S.One
         if len(self.kinds.latitudes) == 1 and moved[self.kinds.latitudes[0]] != 0:
