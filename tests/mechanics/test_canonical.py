@@ -222,3 +222,13 @@ def test_undone(text: str):
     value = sympy.N(f.subs(at), 30)
     roots = [sympy.N(r.subs(at), 30) for r in undone(f, x, value)]
     assert any(abs(root - sympy.Rational(3, 7)) < 1e-20 for root in roots)
+
+
+def test_a_new_momentum_belongs_to_its_coordinate_by_name():
+    found = transformed("""
+coordinates: [x, y]
+L: (x'^2 + y'^2)/2
+canonical_transformations:
+  same: {Q: x, R: y, p_R: p_y, p_Q: p_x}
+""")
+    assert found.kind == "canonical"

@@ -77,7 +77,8 @@ class CanonicalTest:
         self.P = tuple(symbol(f"p_{name}") for name in names)
         self.new: tuple[Symbol, ...] = (*self.Q, *self.P)
         self.functions = tuple(
-            system.build(each) for each in (*given.coordinates.values(), *given.momenta.values())
+            system.build(each)
+            for each in (*given.coordinates.values(), *(given.momenta[name] for name in names))
         )
         self.states = PhaseStates(system, self.functions)
 
