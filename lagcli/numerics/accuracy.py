@@ -40,8 +40,9 @@ _SHARE = 100.0  # the first tolerance is A / 100
 _PROBES = 1000
 #: A defect that a step would turn into an error of so many A is a feature stepped over.
 _DEFECT = 3.0
-#: So many differences of two runs bound the error; where the finer one meets rounding, which
-#: both share in part, the difference says less.
+#: So many differences of two runs bound the error; where the finer one meets rounding, the two
+#: differ by chance: the error was up to 9 differences in 390 pairs of nine problems, against 34
+#: digits, in doubles and in 80 bits, and up to 7 where the tolerance was still above the finest.
 _USUAL, _ROUNDED = 2.0, 20.0
 _CHARGES = 10.0
 LONGEST = (200.0, 2000.0, 20000.0)  # parts of the span
@@ -85,6 +86,8 @@ class Controller:
         A.
     first, finest
         No run is made with a tolerance above, or below.
+    rounded
+        Runs with this tolerance or less meet rounding.
     span
         Of time.
     charges
@@ -102,11 +105,12 @@ class Controller:
         span: float,
         charges: int,
         first: float = math.inf,
+        rounded: float = 0.0,
         longest: Sequence[float] = LONGEST,
     ) -> None:
         self.runner = runner
         self.accuracy, self.first, self.finest, self.span = accuracy, first, finest, span
-        self.charges = charges
+        self.charges, self.rounded = charges, rounded
         self._longest = longest
         self.runs = self.evaluations = 0
         self._finer = 0
@@ -143,7 +147,7 @@ class Controller:
 
     def factor(self, tolerance: float) -> float:
         """Times the difference of two runs that bounds the error, by the finer tolerance."""
-        return _USUAL if tolerance > self.finest else _ROUNDED
+        return _USUAL if tolerance > max(self.rounded, self.finest) else _ROUNDED
 
     def _tightened(self, tolerance: float, finer: float, bound: float) -> float:
         """The coarser tolerance of the next pair: the global error is in proportion to it."""

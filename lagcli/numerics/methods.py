@@ -28,6 +28,8 @@ Precision = Callable[[], AbstractContextManager[None]]
 
 #: Local tolerances below this change nothing: an estimate is rounded at h |rate| 1e-16.
 FINEST_DOUBLE = 1e-18
+#: Local tolerances meet rounding from so many of its units on.
+ROUNDED = 10.0
 
 
 class OneRun(Protocol):
@@ -49,6 +51,8 @@ class Prepared:
         Makes a run.
     first, finest
         No run is made with a tolerance above, or below.
+    rounded
+        Runs with this tolerance or less meet rounding.
     longest : tuple of float
         The longest step as parts of the span: at first, and where something was missed.
     floor
@@ -60,6 +64,7 @@ class Prepared:
     run: OneRun
     first: float = math.inf
     finest: float = FINEST_DOUBLE
+    rounded: float = 0.0
     longest: Sequence[float] = LONGEST
     floor: float = 0.0
     precision: Precision = nullcontext
@@ -165,6 +170,7 @@ def outcome_of(simulation: Simulation, made: Prepared, first: float = 1.0) -> Ou
             runner,
             accuracy=asked.accuracy,
             finest=made.finest,
+            rounded=made.rounded,
             span=asked.until,
             charges=len(simulation.charges),
             longest=made.longest,

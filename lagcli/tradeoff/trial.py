@@ -142,7 +142,7 @@ def _single(
         rows = run.rows()
         total = process_time()
         for _ in range(_AGAIN - 1):
-            if process_time() - total > _SECONDS:
+            if max(integration, process_time() - total) > _SECONDS:
                 break
             integration = min(integration, once()[1])
         if run.stop is not None:

@@ -94,3 +94,19 @@ def test_an_accuracy_that_is_lost_on_the_way_is_not_said_to_hold_to_the_end():
         pytest.skip("more bits than usual")
     assert 0 < result.certificate.holds_until < until
     assert result.rows[-1][0] == result.certificate.holds_until
+
+
+@pytest.mark.parametrize("angle", ["0.3", "1.1", "1.9", "2.6", "3"])
+def test_a_bound_at_the_rounding_of_doubles_holds(angle):
+    """Two runs that differ by chance: against 34 digits, row by row."""
+    text = f"coordinates: [a]\nL: a'^2/2 + cos(a)\ninitial: {{a: {angle}}}\n"
+    found = simulated(text, 40, 1e-12, samples=21, method="taylor64")
+    true = simulated(text, 40, 1e-20, samples=21, method="taylor128")
+    if true.method != "taylor128":
+        pytest.skip("no numbers of 128 bits")
+    assert found.certificate.estimated_by.startswith("20 times")
+    held = found.certificate.global_error
+    for j, name in enumerate(found.columns[1:], 1):
+        scale = max(1.0, *(abs(row[j]) for row in found.rows))
+        errors = [abs(a[j] - b[j]) for a, b in zip(found.rows, true.rows, strict=False)]
+        assert max(errors) <= (held[name] + 2.0**-53) * scale

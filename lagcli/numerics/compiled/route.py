@@ -12,7 +12,7 @@ from lagcli.numerics.compiled.machine import Machine, NotCompiled
 from lagcli.numerics.compiled.method import CompiledTaylor
 from lagcli.numerics.compiled.numbers import DOUBLE, EXTENDED, QUADRUPLE, Extended
 from lagcli.numerics.constants import constants_of
-from lagcli.numerics.methods import Prepared, Progress, nudged
+from lagcli.numerics.methods import ROUNDED, Prepared, Progress, nudged
 from lagcli.numerics.modes import MakeMethod, Mode, Modes
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import Refusal
@@ -131,7 +131,7 @@ def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
                 raise RoundingAddsUp(done.steps)
         return done
 
-    return Prepared(run=run, longest=LONGEST)
+    return Prepared(run=run, rounded=ROUNDED * DOUBLE.rounding, longest=LONGEST)
 
 
 def prepared_extended(simulation: Simulation, doubles: Modes) -> Prepared | str:
@@ -195,7 +195,14 @@ def _prepared(
             raise NotPossible(str(reason)) from None
 
     first = _FIRST_OF_LONG if simulation.is_long else math.inf
-    return Prepared(run=run, first=first, finest=finest, longest=LONGEST, precision=precision)
+    return Prepared(
+        run=run,
+        first=first,
+        finest=finest,
+        rounded=ROUNDED * numbers.rounding,
+        longest=LONGEST,
+        precision=precision,
+    )
 
 
 @contextmanager
