@@ -261,7 +261,7 @@ def test_charges_over_many_periods():
     if not engine().extended:
         pytest.skip("no numbers of 80 bits")
     text = KEPLER + "symmetries: {rotation: {x: -y, y: x}}\n"
-    held = simulated(text, 4000 * math.pi, 1e-10, method="taylor80").certificate
+    held = simulated(text, 4000 * math.pi, 1e-8, method="taylor80").certificate
     assert held.reached
     assert held.charges["energy"] <= 2e-15
     assert held.charges["rotation"] <= 2e-15
