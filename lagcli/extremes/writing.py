@@ -86,7 +86,7 @@ def to_text(study: Study) -> str:
         for verdict in ("right", "claimed", "refused", "wrong", "undecided")
     }
     told = ", ".join(f"{n} {verdict}" for verdict, n in count.items() if n)
-    lines += ["", f"{len(study.trials)} cases: {told}"]
+    lines += ["", f"{len(study.trials)} case{'s' * (len(study.trials) != 1)}: {told}"]
     return "".join(f"{line.rstrip()}\n" for line in lines)
 
 

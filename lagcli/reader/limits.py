@@ -21,6 +21,9 @@ EXPRESSION_CHARACTERS = 100_000
 #: Parentheses, signs, powers and divisions inside each other.
 NESTING_LEVELS = 200
 
+#: Functions inside each other: a derivative of the n-th has a product of n.
+CALL_LEVELS = 16
+
 #: Digits of one number, with its exponent written out.
 NUMBER_DIGITS = 1_000
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lagcli.reader.builder import mistake, span_of
-from lagcli.reader.limits import NESTING_LEVELS
+from lagcli.reader.limits import CALL_LEVELS, NESTING_LEVELS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,6 +22,7 @@ _OPERATORS = frozenset(
 class _Level:
     """What is pending inside one pair of parentheses."""
 
+    call: bool = False  # the parentheses of a function
     powers: int = 0  # of a^b^c and --a, until the factor ends
     divisions: int = 0  # of a/b/c, until the term ends
 
@@ -42,7 +43,13 @@ def check_nesting(tokens: Iterator[Token]) -> Iterator[Token]:
         match token.type:
             case "LPAR":
                 extra += here.extra
-                levels.append(_Level())
+                levels.append(_Level(call=previous == "NAME"))
+                if sum(level.call for level in levels) > CALL_LEVELS:
+                    raise mistake(
+                        f"more than {CALL_LEVELS} functions inside each other",
+                        span_of(token),
+                        f"the limit is {CALL_LEVELS} levels",
+                    )
             case "RPAR" if len(levels) > 1:
                 levels.pop()
                 extra -= levels[-1].extra

@@ -21,7 +21,7 @@ BOMBS = {
     "characters": (HEAD + "1+" * 50_000 + "1", "the limit is 100,000"),
     "parentheses": (HEAD + "(" * 99_999, "200 levels"),
     "closed parentheses": (HEAD + "(" * 201 + "x" + ")" * 201, "200 levels"),
-    "calls": (HEAD + "sin(" * 201 + "x" + ")" * 201, "200 levels"),
+    "calls": (HEAD + "sin(" * 201 + "x" + ")" * 201, "more than 16 functions"),
     "powers": (HEAD + "x^" * 300 + "x", "200 levels"),
     "signs": (HEAD + '"' + "-" * 300 + 'x"', "200 levels"),
     "divisions": (HEAD + "x/" * 300 + "x", "200 levels"),
@@ -54,6 +54,7 @@ def test_a_bomb_does_not_go_off(name):
 
 FAR = {
     "parentheses": "(" * 200 + "x" + ")" * 200,
+    "calls": "sin(" * 16 + "x" + ")" * 16,
     "signs": "-(" * 199 + "x" + ")" * 199,
     "powers": "x^" * 199 + "x",
     "digits": "9" * 1000,
