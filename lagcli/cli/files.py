@@ -8,7 +8,7 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
-from lagcli.cli.run import hush
+from lagcli.cli.streams import hush
 
 STANDARD = "-"
 

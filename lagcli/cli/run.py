@@ -10,6 +10,7 @@ from contextlib import suppress
 from typing import NoReturn
 
 from lagcli.cli.status import Status
+from lagcli.cli.streams import hush
 from lagcli.sparing import collect_rarely
 
 
@@ -68,9 +69,3 @@ def run(arguments: Sequence[str]) -> int:
         sys.stderr.write(f"lagcli: error: {describe(error)}\n")
         return Status.NOT_FOUND
     return outcome if isinstance(outcome, int) else Status.WELL
-
-
-def hush() -> None:
-    """Send what is still to be written to standard output nowhere: its reader has left."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, sys.stdout.fileno())

@@ -43,6 +43,7 @@ from lagcli.formatters.findings import bounds_of
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_forces import of_forces
 from lagcli.formatters.json_phase_space import of_phase_space
+from lagcli.formatters.json_values import SCHEMA, Object, Value
 from lagcli.formatters.options import Options
 from lagcli.motions import (
     Above,
@@ -58,11 +59,6 @@ from lagcli.phase_space import (
 )
 from lagcli.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
 
-#: The version of the contract.
-SCHEMA = 1
-
-Value = None | bool | int | str | Sequence["Value"] | Mapping[str, "Value"]
-Object = dict[str, Value]
 _Some = TypeVar("_Some")
 
 

@@ -13,7 +13,7 @@ from lagcli.document import Block, Equations, Formula, Heading, Items, Label, Ma
 from lagcli.explanation import Explanation
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
-from lagcli.formatters.json import SCHEMA, Object, Value
+from lagcli.formatters.json_values import SCHEMA, Object, Value
 from lagcli.formatters.options import Options
 
 

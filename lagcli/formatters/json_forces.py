@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.formatters.grammar import to_grammar
-
-if TYPE_CHECKING:
-    from lagcli.formatters.json import Object, Value
+from lagcli.formatters.json_values import Object, Value
 
 _ORIGIN = "origin"
 

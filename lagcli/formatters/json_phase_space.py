@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.json_values import Object, Value
 from lagcli.phase_space import (
     BracketsSection,
     ExaminedTransformation,
@@ -14,9 +14,6 @@ from lagcli.phase_space import (
     PoissonBracket,
     TransformationsSection,
 )
-
-if TYPE_CHECKING:
-    from lagcli.formatters.json import Object, Value
 
 
 def of_phase_space(section: BracketsSection | TransformationsSection) -> Value:
