@@ -48,6 +48,8 @@ SAFETY = 0.9
 FIRST = 1e-3
 WIDEST = 256.0
 STARTING = 4
+#: Terms whose step differs from the one before it by less than a sixth.
+ALIKE = 16.0
 #: 2^-15: doubles have 11 bits less than numbers of 80.
 SMALL = 0.000030517578125
 LOOKED_AT = 3
@@ -104,16 +106,41 @@ def rescale(peaks: Reals, scales: Reals, facts: Reals, n: int, top: float) -> No
         scales[n + j] = max(peaks[n + j], least, peaks[j] / facts[SPAN])
 
 
-def length(rows: Reals, scales: Reals, both: int, order: int, tolerance: float) -> float:
-    """The step after which the last terms are the tolerance times the scale, in units of s."""
+def length(
+    rows: Reals, scales: Reals, both: int, order: int, tolerance: float, guess: float
+) -> float:
+    """The step after which the last terms are the tolerance times the scale, in units of s.
+
+    Where they nearly are after the step before this one, that of the largest of them counts:
+    it misses the least step of all by 3 % at most.
+    """
+    power = raised(guess, order - 3)
+    worst = 0.0
+    top = 0.0
+    place = order
+    for k in range(order - 3, order + 1):
+        largest = largest_of(rows, scales, both, k)
+        if largest * power > worst:
+            worst = largest * power
+            top = largest
+            place = k
+        power = power * guess
+    if worst * ALIKE > tolerance and worst < tolerance * ALIKE:
+        return SAFETY * exp(log(tolerance / top) / place)
     h = LARGE
     for k in range(order, order - 4, -1):
-        largest = 0.0
-        for i in range(both):
-            largest = max(largest, abs(rows[i * STRIDE + k]) / scales[i])
+        largest = largest_of(rows, scales, both, k)
         if largest * raised(h, k) > tolerance:
             h = exp(log(tolerance / largest) / k)
     return SAFETY * h
+
+
+def largest_of(rows: Reals, scales: Reals, both: int, k: int) -> float:
+    """The largest coefficient of an order beside the scale of its component."""
+    largest = 0.0
+    for i in range(both):
+        largest = max(largest, abs(rows[i * STRIDE + k]) / scales[i])
+    return largest
 
 
 def raised(x: float, k: int) -> float:
@@ -203,7 +230,10 @@ def expand(
         if coefficients(rows, small, signs, counts, order) == 0:
             return PIVOT
         see(rows, peaks, scales, facts, counts, order)
-        h = facts[SCALE] * length(rows, scales, both, order, facts[TOLERANCE])
+        guess = 1.0
+        if facts[H] > 0:
+            guess = facts[H] / facts[SCALE] / SAFETY
+        h = length(rows, scales, both, order, facts[TOLERANCE], guess) * facts[SCALE]
         h = min(h, facts[LONGEST])
         part = h / facts[SCALE]
         if order == counts[ORDER] and part * WIDEST > 1 and part < WIDEST:
