@@ -56,9 +56,8 @@ class Ideal:
         """The remainder of a polynomial."""
         poly = self.field.ring.lift(poly)
         if self.field.ring.capacity != self._capacity:
-            basis = [self._outside(b).numerator for b in self.basis]
             self._open()
-            self.basis = [self._inside(b) for b in basis]
+            self.basis = [b.project_to_context(self.context) for b in self.basis]
         known = next((rest for other, rest in self._recent if other == poly), None)
         if known is None:
             known = self._outside(_remainder(self._inside(poly), self.basis))

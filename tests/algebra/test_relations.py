@@ -6,6 +6,7 @@ import sympy as sp
 from sympy import Expr, Symbol, cos, sin
 
 from lagcli.algebra import Relations, is_zero, shape, simplify
+from lagcli.algebra.entry import Field
 from lagcli.formatters.grammar import to_grammar
 
 R, R1, R2, length, m, g = (Symbol(n, positive=True) for n in "R R1 R2 l m g".split())
@@ -79,3 +80,16 @@ def test_a_single_velocity_is_not_read_instead_of_another() -> None:
     spin = Symbol("phi'", real=True)
     relations = Relations([(R1 + R2) * dtheta - R2 * spin], [spin], moving=[dtheta, spin])
     assert simplify(R2 * spin * dtheta, relations) == (R1 + R2) * dtheta**2
+
+
+def test_an_ideal_outlives_the_ring_that_grows() -> None:
+    field = Field([x, y, length])
+    relations = Relations([x**2 + y**2 - length**2])
+    poly = field(x**2 + y**2).numerator
+    assert relations.shorter(field, poly) == field(length**2).numerator
+    before = field.ring.capacity
+    field(sum(Symbol(f"u{k}", real=True) for k in range(2 * before)))
+    assert field.ring.capacity > before
+    u = Symbol("u0", real=True)
+    shorter = relations.shorter(field, field((x**2 + y**2) * u).numerator)
+    assert field.polynomial_to_sympy(shorter) == length**2 * u
