@@ -36,7 +36,10 @@ from lagcli.mechanics.energy import EnergyFunction
 from lagcli.mechanics.total_derivative import boundary_term
 from lagcli.mechanics.translations import constant_nullspace
 from lagcli.problem import Symmetry
-from lagcli.record import record
+from lagcli.record import record, replace
+
+_LAGRANGIAN = "the Lagrangian"
+_OTHER_GAUGE = "the gauge given (left out, the right one is found)"
 
 
 @record
@@ -117,8 +120,14 @@ class Noether:
     ) -> NoetherCharge:
         """The charge of a transformation; a boundary term that is not given is sought."""
         change = simplify(self.change_of_action(transformation))
-        found = gauge if gauge is not None else self._gauge(change)
-        return self._judged(name, source, transformation, found, change)
+        if gauge is None:
+            return self._judged(name, source, transformation, self._gauge(change), change)
+        judged = self._judged(name, source, transformation, gauge, change)
+        causes = judged.broken_by.split(", ")
+        if _LAGRANGIAN in causes and self._gauge(change) is not None:
+            broken_by = ", ".join(_OTHER_GAUGE if c == _LAGRANGIAN else c for c in causes)
+            return replace(judged, broken_by=broken_by)
+        return judged
 
     def change_of_action(self, transformation: Transformation) -> Expr:
         """K, the change of L dt per dt and unit of the small parameter."""
@@ -192,7 +201,7 @@ class Noether:
         system, dynamics = self.system, self.dynamics
         eta = self.characteristic(transformation)
         parts = {
-            "the Lagrangian": change - system.total_derivative(boundary),
+            _LAGRANGIAN: change - system.total_derivative(boundary),
             "the applied forces": _dot(system.forces, eta),
             "the dissipation": -sympy.Add(
                 *(system.D.diff(v) * e for v, e in zip(system.qdot, eta, strict=True))

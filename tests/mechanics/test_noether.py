@@ -125,3 +125,17 @@ def test_a_general_lagrangian_conserves_its_energy_function():
     energy = charge(d, "energy")
     assert energy.conserved is True
     assert same(d, energy.charge, "q'*diff(F, 2)(q, q') - F(q, q')")
+
+
+@pytest.mark.parametrize(
+    ("change", "cause"),
+    [
+        ("x: t, gauge: m*x", ""),
+        ("x: t, gauge: -m*x", "the gauge given (left out, the right one is found)"),
+        ("t: x, gauge: m*x", "the Lagrangian"),
+    ],
+)
+def test_a_wrong_gauge_is_told_from_a_transformation_that_is_no_symmetry(change: str, cause: str):
+    _, found = symmetry("T: m*(x'^2+y'^2)/2", change)
+    assert found.conserved is (not cause)
+    assert found.broken_by == cause

@@ -78,6 +78,14 @@ class Atoms:
             self._expressions[tree] = expression
         return number
 
+    def divides(self, atom: int) -> bool:
+        """Whether a sum may be divided by it: a parameter's name, or nowhere 0."""
+        tree = self.trees[atom]
+        if isinstance(tree, Name) and self.writer.ordering.is_parameter(tree):
+            return True
+        expression = self._expressions.get(tree)
+        return expression is not None and expression.is_nonzero is True
+
     def generator(self, number: int) -> Term:
         """A generator of the field in atoms."""
         known = self._of_generator.get(number)

@@ -89,7 +89,7 @@ class Shaper:
         if not 2 <= len(denominator) <= _MAX_DIVIDED:
             return
         for position, (atom, exponent) in enumerate(above.parts):
-            if not isinstance(atom, int) or exponent < 1:
+            if not isinstance(atom, int) or exponent < 1 or not self.atoms.divides(atom):
                 continue
             for terms in self.expansions.of(denominator):
                 quotient = {multiply(t, ((atom, -exponent),)): v for t, v in terms.items()}
