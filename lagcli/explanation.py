@@ -13,7 +13,7 @@ from lagcli.record import field, record
 #: The sections that are told as steps when they are asked for.
 FURTHER = (
     "find", "equilibria", "modes", "reduction", "steady_motions", "canonical_equations", "brackets",
-    "hamilton_jacobi",
+    "canonical", "hamilton_jacobi", "discovered", "algebra", "forces", "model", "dimensions",
 )  # fmt: skip
 
 

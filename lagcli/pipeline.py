@@ -163,7 +163,7 @@ def explain(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
         return explanation_of_large(large)
     from lagcli.mechanics.explaining.explain import explanation
 
-    return explanation(derivation, also)
+    return explanation(derivation, also, {"model": _model})
 
 
 def _statements(derivation: Derivation) -> Stating:

@@ -26,7 +26,8 @@ Also = Annotated[
         "--also",
         metavar="A,B",
         help="Tell these as well: find, equilibria, modes, reduction, steady_motions, "
-        "canonical_equations, brackets, hamilton_jacobi.",
+        "canonical_equations, brackets, canonical, hamilton_jacobi, discovered, algebra, forces, "
+        "model, dimensions.",
     ),
 ]
 

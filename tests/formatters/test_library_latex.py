@@ -44,3 +44,15 @@ def test_the_explanations_of_a_folder_compile(folder, tmp_path):
         assert display_width(line) <= 80, line
     for format_name in ("markdown", "html", "json"):
         assert explaining.render(told, format_name, Options())
+
+
+FURTHER = {
+    "central/kepler": ("canonical", "discovered", "algebra"),
+    "hamiltonian/oscillator-by-generating-function": ("canonical",),
+    "rolling/disk-on-incline-with-contact": ("forces", "model", "dimensions"),
+}
+
+
+def test_the_further_steps_of_an_explanation_compile(tmp_path):
+    told = [explain(derive(load(LIBRARY / f"{name}.yaml")), also) for name, also in FURTHER.items()]
+    compiled(explaining.render(told, "latex", Options(standalone=True)), tmp_path)

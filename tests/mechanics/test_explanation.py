@@ -269,7 +269,13 @@ def test_the_further_steps_are_told_only_when_asked_for():
         "Steady motions",
         "The canonical equations",
         "Poisson brackets",
+        "Canonical transformations",
         "The equation of Hamilton and Jacobi",
+        "Symmetries that nobody asked about",
+        "The algebra of the charges",
+        "The real forces",
+        "The model of a numerical run",
+        "The units",
     ]
 
 

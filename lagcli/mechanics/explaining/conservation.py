@@ -179,7 +179,7 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
             "derivative of"
         )
         yield shows(letters.G, write(gauge))
-    yield says(*_noether(teller, with_gauge=bool(boundary != 0), with_time=change.time != 0))
+    yield says(*noether_words(teller, with_gauge=bool(boundary != 0), with_time=change.time != 0))
     yield shows(letters.Q, teller.readable.by_terms(charge.charge), _stays(charge)
                 if charge.conserved is not None else "")  # fmt: skip
     if charge.conserved is None:
@@ -193,7 +193,7 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
             yield shows(Name(letters.Q.name, 1), teller.readable.on_surface(charge.rate))
 
 
-def _noether(teller: Teller, *, with_gauge: bool, with_time: bool) -> list[Part]:
+def noether_words(teller: Teller, *, with_gauge: bool, with_time: bool) -> list[Part]:
     """What Q is made of."""
     letters = teller.letters
     momentum = Diff(letters.L, letters.velocity)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from lagcli.explanation import Explanation, Step
 from lagcli.mechanics.derivation import Derivation
@@ -15,8 +16,13 @@ from lagcli.mechanics.explaining.large import UNSOLVED
 from lagcli.mechanics.explaining.scene import scene
 from lagcli.mechanics.explaining.teller import Teller
 
+if TYPE_CHECKING:
+    from lagcli.mechanics.explaining.further import Others
 
-def explanation(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
+
+def explanation(
+    derivation: Derivation, also: Sequence[str] = (), others: Others | None = None
+) -> Explanation:
     """The derivation as a teacher writes it.
 
     Parameters
@@ -25,6 +31,8 @@ def explanation(derivation: Derivation, also: Sequence[str] = ()) -> Explanation
         That of a system of readable size; a large one is told by `large`.
     also
         Out of `lagcli.explanation.FURTHER`, told after the rest.
+    others
+        Makers of sections that are none of mechanics, by name.
 
     Raises
     ------
@@ -56,7 +64,7 @@ def explanation(derivation: Derivation, also: Sequence[str] = ()) -> Explanation
     if also:
         from lagcli.mechanics.explaining.further import further
 
-        steps, unfound = further(teller, also)
+        steps, unfound = further(teller, also, others or {})
         told += steps
         missing = (*missing, *unfound)
     quantities = (*problem.coordinates, *problem.parameters)

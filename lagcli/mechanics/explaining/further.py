@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 from typing import cast
 
 from sympy import Expr
@@ -13,20 +14,29 @@ from lagcli.answers import EquilibriaSection, ModesSection, ReductionSection, Se
 from lagcli.document import Block, Equations, Heading, Label, Matrix, Row
 from lagcli.explanation import Step
 from lagcli.expression import ZERO, Expression, Name, Number, Power, Product
-from lagcli.mechanics.explaining import phase_space
+from lagcli.mechanics.explaining import phase_space, quantities, symmetries
 from lagcli.mechanics.explaining.questions import questions
+from lagcli.mechanics.explaining.real_forces import real_forces
 from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.transformations import transformations
 from lagcli.mechanics.explaining.words import Part, names, says, shows
 from lagcli.mechanics.statements import Statements
+from lagcli.mechanics.stating import Stating
 from lagcli.wording import POTENTIAL, stability
 from lagcli.wording import conditions as inequalities
+
+Others = Mapping[str, Callable[[Stating], Section]]
 
 _SQUARE = Number(Fraction(2))
 
 
-def further(teller: Teller, also: Sequence[str]) -> tuple[list[Step], list[str]]:
-    """The steps of these sections, and what was not found on the way."""
+def further(teller: Teller, also: Sequence[str], others: Others) -> tuple[list[Step], list[str]]:
+    """The steps of these sections, and what was not found on the way.
+
+    `others` makes sections that are none of mechanics.
+    """
     statements = Statements(teller.derivation)
+    statements.others.update({name: partial(make, statements) for name, make in others.items()})
     told = []
     for name in also:
         title, tell = _TOLD[name]
@@ -214,5 +224,11 @@ _TOLD: Mapping[str, tuple[str, Callable[[Teller, Section], Iterator[Block]]]] = 
     "steady_motions": ("Steady motions", phase_space.steady),
     "canonical_equations": ("The canonical equations", phase_space.canonical_equations),
     "brackets": ("Poisson brackets", phase_space.brackets),
+    "canonical": ("Canonical transformations", transformations),
     "hamilton_jacobi": ("The equation of Hamilton and Jacobi", phase_space.hamilton_jacobi),
+    "discovered": ("Symmetries that nobody asked about", symmetries.discovered),
+    "algebra": ("The algebra of the charges", symmetries.algebra),
+    "forces": ("The real forces", real_forces),
+    "model": ("The model of a numerical run", quantities.model),
+    "dimensions": ("The units", quantities.dimensions),
 }

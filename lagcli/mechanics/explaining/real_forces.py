@@ -1,0 +1,112 @@
+"""The step from multipliers to real forces: normal, friction, tension, and what they need."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import cast
+
+from lagcli.answers import Section
+from lagcli.document import Block, Equations, Heading, Label, Row
+from lagcli.expression import Name
+from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
+from lagcli.mechanics.constraint_force import on_points
+from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.words import Part, says, shows
+
+_KINDS = {"normal": "normal force", "friction": "friction", "tension": "tension"}
+
+
+def real_forces(teller: Teller, section: Section) -> Iterator[Block]:
+    """From lambda df/dr to a signed magnitude along a unit vector."""
+    found = cast(ForcesSection, section)
+    if found.forces is None:
+        yield says(f"They were not found: {found.reason}.")
+        return
+    equations = teller.dynamics.constraints.equations
+    if not equations:
+        yield says("There are no constraints, so there are no such forces.")
+        return
+    yield says(
+        "A constraint does the same work as a force on its points, for every displacement. So its "
+        "force on a point is the multiplier times the gradient of left less right side by the "
+        "point's Cartesian coordinates. The gradient is taken apart into its length and a unit "
+        "vector e."
+    )
+    gradients = on_points(teller.dynamics, {e.name: e.row for e in equations})
+    for equation in equations:
+        forces = [each for each in found.forces if each.constraint == equation.name]
+        torques = found.torques.get(equation.name, {})
+        if not forces and not torques:
+            continue
+        kind = next((each.kind for each in forces if each.kind), None)
+        yield Heading(f"{equation.name} ({_KINDS[kind]})" if kind else equation.name, 2)
+        for force in forces:
+            gradient = gradients.get(equation.name, {}).get(force.point, ())
+            rows = zip("xyz", gradient, strict=False)
+            multiplier = Name(equation.multiplier.name)
+            yield says(f"On {force.point} the force has the components")
+            yield Equations(
+                tuple(
+                    Row(
+                        Label("F", (force.point, axis)),
+                        teller.readable.on_surface(equation.multiplier * slope),
+                    )
+                    for axis, slope in rows
+                )
+            )
+            yield from _magnitude(force, multiplier)
+        if torques:
+            yield says("On an angle of a body, on which no point depends, it acts as a torque:")
+            yield Equations(tuple(Row(Label("Q", (q,)), value) for q, value in torques.items()))
+    for needed in found.friction_needed:
+        yield from _friction(needed)
+
+
+def _magnitude(force: PointForce, multiplier: Name) -> Iterator[Block]:
+    F = Label("F", (force.point,))
+    if force.force is None:
+        yield says("The constraints are redundant, so ", multiplier, " is not determined.")
+        return
+    where = "."
+    if force.allowed is not None:
+        where = ", to where the contact pushes." if force.allowed > 0 else "."
+    if force.towards is not None:
+        where = f", towards {force.towards or 'the origin'}."
+    elif force.away_from is not None:
+        where = f", away from {force.away_from or 'the origin'}."
+    yield says("The unit vector along it is", where.replace(".", ":") if where != "." else "")
+    yield Equations(
+        tuple(
+            Row(Label("e", (axis,)), part)
+            for axis, part in zip("xyz", force.direction, strict=False)
+        )
+    )
+    yield says("With ", multiplier, " put in, the force along it is")
+    yield shows(F, force.force)
+    if force.kind == "tension" and force.towards is not None:
+        yield says("It is a pull where this is positive, and a push where it is negative.")
+    if force.allowed is not None:
+        sign = "negative" if force.allowed > 0 else "positive"
+        yield says("The contact holds from one side only: it is lost where ", F,
+                   f" comes to 0 and would become {sign}.")  # fmt: skip
+
+
+def _friction(needed: FrictionNeeded) -> Iterator[Block]:
+    frictions = " and ".join(needed.frictions)
+    yield Heading(f"The coefficient that {frictions} needs", 2)
+    if needed.coefficient is None:
+        yield says(f"It was not found: {needed.reason}.")
+        return
+    several = len(needed.frictions) > 1
+    yield says(
+        "Static friction is at most its coefficient times the normal force. So nothing slips as "
+        "long as the coefficient is at least ",
+        f"the length of the sum of {frictions}" if several else f"that of {frictions}",
+        f" over that of {needed.normal}:",
+    )
+    yield shows(Label("mu", ("min",)), needed.coefficient)
+    parts: list[Part] = []
+    for position, positive in enumerate(needed.where):
+        parts += [" and " if position else "It is so written where ", positive, " > 0"]
+    if parts:
+        yield says(*parts, ".")

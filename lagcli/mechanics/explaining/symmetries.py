@@ -1,0 +1,193 @@
+"""The steps on symmetries that nobody asked about, and on their algebra."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import combinations
+from typing import cast
+
+from sympy import Expr, Symbol
+
+from lagcli.algebra import is_zero, shape, simplify
+from lagcli.algebra.build import free_of
+from lagcli.answers import AlgebraSection, Charge, ChargesSection, Section
+from lagcli.document import Block, Bracket, Equations, Heading, Label, Row
+from lagcli.expression import ZERO, Expression, Name, walk
+from lagcli.mechanics.canonical.poisson import poisson
+from lagcli.mechanics.discovery.limits import TooMuchWork
+from lagcli.mechanics.explaining.conservation import noether_words
+from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.words import Part, says, shows
+from lagcli.wording import conditions
+
+#: A table of brackets of more charges than these is not read.
+_MOST = 7
+
+_CHECKED = {"exact": "exactly", "50 digits": "at random states to 50 digits"}
+
+
+def discovered(teller: Teller, section: Section) -> Iterator[Block]:
+    """The ansatz, the condition, and each charge with its check."""
+    found = cast(ChargesSection, section).charges
+    discovery = teller.derivation.discovery
+    letters = teller.letters
+    constrained = bool(teller.dynamics.constraints.equations)
+    yield says(
+        "A symmetry changes the coordinates and the time so that the action changes only by a "
+        "boundary term. The search takes an ansatz with unknown coefficients: "
+        f"{discovery.ansatz}."
+    )
+    yield says(
+        "Lagrange's derivative of a total time derivative is 0, and of nothing else. So for a "
+        "point transformation that of the change of ",
+        letters.L,
+        " must vanish identically" + (" on the constraints" if constrained else "") + "; for an "
+        "integral of the motion its time derivative with the accelerations put in must. Both are "
+        "linear in the unknown coefficients, and these linear equations are solved exactly.",
+    )
+    if not found:
+        yield says("They have no solution but 0: within this ansatz there is no symmetry.")
+        return
+    charges = [each for each in found if each.source != "momentum equation"]
+    if charges:
+        timed = any("t" in each.transformation for each in charges)
+        gauge = any(each.gauge not in {None, ZERO} for each in charges)
+        law = noether_words(teller, with_gauge=gauge, with_time=timed)[:-1]
+        boundary: list[Part] = [", where the total time derivative of ", letters.G,
+                                " is the change of the action"] if gauge else []  # fmt: skip
+        yield says(*law, *boundary, ".")
+        levels = {each.verified for each in charges if each.verified}
+        how = f"; this was checked {_CHECKED[levels.pop()]}" if len(levels) == 1 else ""
+        yield says("The time derivative of each charge, with the accelerations put in, is 0"
+                   f"{how}. What lies beyond the ansatz was not searched.")  # fmt: skip
+    for charge in found:
+        yield from _charge(teller, charge)
+
+
+def _charge(teller: Teller, charge: Charge) -> Iterator[Block]:
+    letters = teller.letters
+    yield Heading(charge.name, 2)
+    moves = charge.source == "momentum equation"
+    rows = [Row(Label(name, change=True), by) for name, by in charge.transformation.items()]
+    if charge.gauge is not None and charge.gauge != ZERO:
+        rows.append(Row(letters.G, charge.gauge))
+    if charge.charge is not None:
+        rows.append(Row(letters.Q, charge.charge))
+    if moves and charge.rate is not None:
+        rows.append(Row(Name(letters.Q.name, 1), charge.rate))
+    yield Equations(tuple(rows))
+    if moves:
+        yield says("The constraints allow this displacement, but it changes from place to place: "
+                   "the momentum is not constant, and has this rate.")  # fmt: skip
+    elif any(_quick(change) for change in charge.transformation.values()):
+        yield says("The change depends on the velocities, so this is no point transformation; ",
+                   letters.L, " changes as it must on the motion.")  # fmt: skip
+    if charge.where:
+        yield says("It is real where ", conditions(charge.where),
+                   "; elsewhere its real and its imaginary part are conserved.")  # fmt: skip
+
+
+def _quick(change: Expression) -> bool:
+    return any(isinstance(node, Name) and node.primes for node in walk(change))
+
+
+# -- the algebra ---------------------------------------------------------------------------------
+
+
+def algebra(teller: Teller, section: Section) -> Iterator[Block]:
+    """Brackets of the charges, the algebra that they make, and Liouville's count."""
+    found = cast(AlgebraSection, section)
+    charges = teller.derivation.discovery.charges
+    if not charges:
+        yield says(f"No charge was found, so there is no algebra. Searched: {found.ansatz}.")
+        return
+    yield from _brackets(teller)
+    if found.name:
+        yield says(f"The algebra of dimension {found.dimension} is {found.name}.")
+    elif found.in_involution is not None:
+        yield says(f"The algebra has dimension {found.dimension}; it is none of those that have "
+                   "a name here.")  # fmt: skip
+    n = teller.dynamics.degrees_of_freedom
+    number = found.independent
+    yield says(f"Of the charges found, {number} {'is' if number == 1 else 'are'} independent: so "
+               "many of their gradients in phase space are.")  # fmt: skip
+    if found.in_involution is not None:
+        count = found.in_involution
+        yield says(
+            "By Liouville's theorem the motion is integrable when there are as many independent "
+            "constants, all of whose brackets with each other vanish, as degrees of freedom. "
+            f"There are {count}, and {n} degree{'s' * (n != 1)} of freedom: "
+            + (
+                "it is integrable."
+                if found.integrable
+                else "the charges found do not make it integrable."
+            )
+        )
+    for case in found.special:
+        yield Heading("More charges for one value of", 2, Name(case.parameter))
+        yield says("The linear equations lose rank, and have more solutions, where")
+        yield shows(Name(case.parameter), case.value)
+        new = len(case.charges)
+        yield says(f"There are {case.number} charges in all there, "
+                   f"{'this one' if new == 1 else 'these'} new:")  # fmt: skip
+        yield Equations(tuple(Row(Name(name), value) for name, value in case.charges.items()))
+
+
+def _brackets(teller: Teller) -> Iterator[Block]:
+    """{A, B} by multiples of the charges, where the Legendre transform is to be had."""
+    discovery, hamiltonian = teller.derivation.discovery, teller.derivation.hamiltonian
+    charges = discovery.charges
+    free = not teller.dynamics.constraints.equations and discovery.canonical
+    if not free or len(charges) < 2 or hamiltonian.velocities is None:
+        return
+    if len(charges) > _MOST:
+        yield says(f"The Poisson brackets of the {len(charges)} charges, taken two at a time, are "
+                   "sums of multiples of them.")  # fmt: skip
+        return
+    known = {each.name: hamiltonian.in_phase_space(each.charge) for each in charges}
+    rows, commuting, other = [], 0, 0
+    for one, two in combinations(known, 2):
+        value = poisson(known[one], known[two], teller.system)
+        if is_zero(value) is True:
+            commuting += 1
+            continue
+        try:
+            multiple = _multiple(teller, value, known)
+        except TooMuchWork:
+            multiple = None
+        if multiple is None:
+            other += 1
+            continue
+        order = (*teller.system.order, *known)
+        rows.append(Row(Bracket(Name(one), Name(two)), shape(multiple, order)))
+    if not rows and not other:
+        yield says("The Poisson bracket of the two charges vanishes." if commuting == 1 else
+                   "The Poisson brackets of the charges with each other all vanish.")  # fmt: skip
+        return
+    if rows:
+        yield says("The charges as functions of coordinates and momenta have the Poisson brackets")
+        yield Equations(tuple(rows))
+    if other:
+        yield says(f"{other} {'brackets are' if other > 1 else 'bracket is'} not 0 and no multiple "
+                   "of one charge.")  # fmt: skip
+    if commuting:
+        yield says("All others are 0.")
+
+
+def _multiple(teller: Teller, value: Expr, known: Mapping[str, Expr]) -> Expr | None:
+    """The bracket as a constant, or a constant times a charge, or that times the energy."""
+    system = teller.system
+    moving = (*system.q, *system.momenta, system.t)
+    if free_of(value, moving):
+        return value
+    energy = known.get("energy")
+    for scaled in (False, True):
+        for name, f in known.items():
+            if scaled and energy is None:
+                continue
+            divisor = f * energy if scaled and energy is not None else f
+            ratio = simplify(value / divisor)
+            if free_of(ratio, moving):
+                product = ratio * Symbol(name, real=True)
+                return product * Symbol("energy", real=True) if scaled else product
+    return None

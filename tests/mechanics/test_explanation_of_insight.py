@@ -1,0 +1,116 @@
+"""The further steps of an explanation: symmetries, phase space, forces, units, the model."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from lagcli.document import Bracket, Label
+from lagcli.explanation import FURTHER
+from lagcli.expression import Diff, Expression, Name
+from lagcli.formatters import explaining
+from lagcli.formatters.display_width import display_width
+from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.options import Options
+
+from .formulas import formula, normal
+from .test_explanation import also, rows, slope, value, words
+
+CANONICAL = "Canonical transformations"
+DISCOVERED = "Symmetries that nobody asked about"
+ALGEBRA = "The algebra of the charges"
+FORCES = "The real forces"
+UNITS = "The units"
+
+
+def test_the_slopes_of_new_variables_are_those_of_the_formulas_before_them():
+    told = also("hamiltonian/oscillator-by-generating-function", "canonical")
+    source = random.Random(1)
+    at = {name: source.uniform(0.3, 0.9) for name in ("x", "p_x", "m", "w", "t")}
+    shown, checked = {}, 0
+    for row in rows(told, CANONICAL):
+        match row.left:
+            case Diff():
+                of, by = row.left.operand, row.left.variable
+                expected = slope(shown[of], at, {by.name: 1.0})
+                assert value(row.right, at) == pytest.approx(expected, abs=1e-7)
+                checked += 1
+            case Name():
+                shown[row.left] = row.right
+    assert checked == 8
+
+
+def test_the_relations_of_a_generating_function_are_goldsteins():
+    """Goldstein, 3rd ed., eqs. (9.35) to (9.42): F1 of the oscillator, and its K."""
+    told = also("hamiltonian/oscillator-by-generating-function", "canonical")
+    shown = [(row.left, to_grammar(row.right)) for row in rows(told, CANONICAL)
+             if isinstance(row.right, Expression)]  # fmt: skip
+    assert (Name("p_x"), "m*w*x/tan(Q)") in shown
+    assert (Name("p_Q"), "m*w*x^2/(2*sin(Q)^2)") in shown
+    assert (Label("K"), "w*p_Q") in shown
+    assert "F generates" not in words(told, CANONICAL)
+    assert "Q does not occur in it, so p_Q is constant." in words(told, CANONICAL)
+
+
+def test_a_bracket_that_is_wrong_is_shown_with_what_it_should_be():
+    told = also("hamiltonian/exchange-of-coordinates-and-momenta", "canonical")
+    notes = {
+        (row.left.left, row.left.right): (to_grammar(row.right), row.note)
+        for row in rows(told, CANONICAL)
+        if isinstance(row.left, Bracket) and row.note
+    }
+    assert notes == {(Name("Y"), Name("p_Y")): ("nu", "should be 1")}
+
+
+def test_the_brackets_of_the_charges_of_kepler():
+    """Goldstein, 3rd ed., section 9.7: {A_x, A_y} = -2 m E L_z."""
+    told = also("central/kepler", "discovered", "algebra")
+    found = {
+        (row.left.left.name, row.left.right.name): normal(row.right)
+        for row in rows(told, ALGEBRA)
+        if isinstance(row.left, Bracket)
+    }
+    assert found == {
+        ("L_z", "runge_lenz_x"): formula("runge_lenz_y"),
+        ("L_z", "runge_lenz_y"): formula("-runge_lenz_x"),
+        ("runge_lenz_x", "runge_lenz_y"): formula("-2*m*energy*L_z"),
+    }
+    assert "All others are 0." in words(told, ALGEBRA)
+    assert "There are 2, and 2 degrees of freedom: it is integrable." in words(told, ALGEBRA)
+    assert "What lies beyond the ansatz was not searched." in words(told, DISCOVERED)
+
+
+def test_a_momentum_equation_is_told_with_its_rate():
+    told = also("nonholonomic/chaplygin-sleigh", "discovered")
+    assert Name("Q", 1) in {row.left for row in rows(told, DISCOVERED)}
+    assert "the momentum is not constant, and has this rate" in words(told, DISCOVERED)
+
+
+def test_the_friction_that_a_disk_needs_goes_from_multipliers_to_forces():
+    """Goldstein, 3rd ed., section 2.4: m g sin(alpha)/3 for the disk."""
+    told = also("rolling/disk-on-incline-with-contact", "forces")
+    shown = rows(told, FORCES)
+    assert (Label("F", ("disk", "x")), "-F") in {(r.left, to_grammar(r.right)) for r in shown}
+    magnitudes = [to_grammar(r.right) for r in shown if r.left == Label("F", ("disk",))]
+    assert magnitudes == ["m*g*cos(alpha)", "m*g*sin(alpha)/3"]
+    assert to_grammar(shown[-1].right) == "tan(alpha)/3"
+    assert "it is lost where … comes to 0 and would become negative" in words(told, FORCES)
+
+
+def test_units_go_from_those_given_to_those_of_momenta_and_forces():
+    told = also("rolling/disk-on-incline-with-contact", "dimensions", "model")
+    shown = {row.left: row.right for row in rows(told, UNITS)}
+    assert str(shown[Label("p_theta", unit=True)]) == "kg m^2/s"
+    assert str(shown[Label("Q", ("theta",), unit=True)]) == "N m"
+    assert str(shown[Label("F", unit=True)]) == "N"
+    assert "So it integrates x, y and theta." in words(told, "The model of a numerical run")
+
+
+@pytest.mark.parametrize("name", ["central/kepler", "contact/car-in-loop"])
+def test_every_further_step_is_set_in_every_format(name):
+    told = [also(name, *FURTHER)]
+    for line in explaining.render(told, "text", Options(width=80)).splitlines():
+        assert display_width(line) <= 80, line
+    for format_name in ("markdown", "html", "json", "latex"):
+        assert explaining.render(told, format_name, Options())
