@@ -240,9 +240,11 @@ class Equilibrium:
     are real and distinct, which is stability to first order; None: never, or not decided.
     `gyroscopic`: the spectrum is that of terms that damping would outdo.
     `asymptotic`: where it is stable by the first two, what is disturbed returns.
+    With `free` coordinates, or an equation `on`, a family, `stable` up to displacements along it.
     """
 
     at: Mapping[str, Expression]
+    on: tuple[Expression, Expression] | None = None
     stable: bool | None
     asymptotic: bool = False
     where: tuple[Above, ...] = ()
@@ -264,9 +266,10 @@ class EquilibriaSection:
 
 @record(kw_only=True)
 class Mode:
-    """A normal mode about an equilibrium; `frequency` is angular, None if not real."""
+    """A normal mode about an equilibrium, or all `on` a line; `frequency` None if not real."""
 
     at: Mapping[str, Expression]
+    on: tuple[Expression, Expression] | None = None
     frequency: Expression | None
     frequency_squared: Expression | None
     shape: Mapping[str, Expression] | None

@@ -58,6 +58,7 @@ class SteadyMotion:
     coincide, so only the momenta are known.  `minimum` and `spectrum` say where U_eff has a
     minimum, and where the spectrum lies on the imaginary axis: empty for always, None for
     never or not decided.  `stable` None: it depends on these, or was not decided.
+    The equation `on` ties coordinates of a family.
     """
 
     at: Mapping[str, Expression]
@@ -74,6 +75,7 @@ class SteadyMotion:
     velocity: tuple[tuple[Expression, ...], ...] = ()
     stiffness: tuple[tuple[Expression, ...], ...] = ()
     reason: str = ""
+    on: tuple[Expression, Expression] | None = None
 
 
 @record(kw_only=True)

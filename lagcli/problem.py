@@ -277,9 +277,10 @@ class ExpectSteady:
 
 @record(kw_only=True)
 class ExpectEquilibrium:
-    """What is known of one state of rest; `stable` where: all of these inequalities."""
+    """What is known of one state of rest, or of all `on` a line; `stable` where: all of these."""
 
     at: Mapping[str, Expression] = field(default_factory=dict)
+    on: Equation | None = None
     stable: bool | tuple[Inequality, ...] | None = None
 
 

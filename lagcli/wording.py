@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from lagcli.answers import Equilibrium
 from lagcli.document import Formula, Label
-from lagcli.expression import ZERO
+from lagcli.expression import ZERO, Name
 from lagcli.motions import Above, SteadyMotion
 
 Part = str | Formula
@@ -34,8 +34,10 @@ def stability(equilibrium: Equilibrium) -> list[Part]:
     reason = equilibrium.reason
     stable = "Asymptotically stable" if equilibrium.asymptotic else "Stable"
     if equilibrium.stable is not None:
-        words = stable if equilibrium.stable else "Unstable"
-        return [f"{words}: {reason}." if reason else f"{words}."]
+        words: list[Part] = [stable if equilibrium.stable else "Unstable"]
+        if equilibrium.stable:
+            words += _up_to(equilibrium)
+        return [*words, f": {reason}." if reason else "."]
     parts: list[Part] = []
     spectrum = equilibrium.spectrum
     if equilibrium.minimum:
@@ -55,6 +57,16 @@ def stability(equilibrium: Equilibrium) -> list[Part]:
         parts += [f"{reason[0].upper()}{reason[1:]}."]
     elif isinstance(parts[-1], str):
         parts[-1] = parts[-1].rstrip()
+    return parts
+
+
+def _up_to(equilibrium: Equilibrium) -> list[Part]:
+    """The displacements along a family, which nothing restores."""
+    if equilibrium.on is not None:
+        return [" up to displacements along the family"]
+    parts: list[Part] = []
+    for position, name in enumerate(equilibrium.free):
+        parts += [", " if position else " up to displacements of ", Name(name)]
     return parts
 
 

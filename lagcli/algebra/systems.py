@@ -26,10 +26,14 @@ _MAX_BRANCHES = 256
 
 @dataclass(frozen=True, slots=True)
 class SystemSolution:
-    """Values of unknowns, formulas in the free ones; it is there where `positive` > 0."""
+    """Values of unknowns, formulas in the free ones; it is there where `positive` > 0.
+
+    With a `relation` it is a family: the free unknowns are tied by relation = 0.
+    """
 
     values: Mapping[Symbol, Expr]
     positive: tuple[Expr, ...] = ()
+    relation: Expr | None = None
 
 
 @dataclass(slots=True)
@@ -41,20 +45,41 @@ class SolvedSystem:
 
 
 def solve_system(
-    equations: Sequence[Expr], unknowns: Sequence[Symbol], units: float = 3_000_000
+    equations: Sequence[Expr],
+    unknowns: Sequence[Symbol],
+    units: float = 3_000_000,
+    *,
+    families: bool = False,
 ) -> SolvedSystem:
-    """All real solutions of equations = 0 within the assumptions on the unknowns."""
-    solver = _Solver(equations, unknowns, Work(units))
+    """All real solutions of equations = 0 within the assumptions on the unknowns.
+
+    With `families`, those that one relation between unknowns gives are among them, and no
+    solution that lies on another.
+    """
+    solver = _Solver(equations, unknowns, Work(units), families=families)
     solver.branch(list(equations), {}, ())
-    return solver.found
+    found = solver.found
+    found.solutions = [
+        each for each in found.solutions
+        if not any(_lies_on(each, other) for other in found.solutions)
+    ]  # fmt: skip
+    return found
 
 
 class _Solver:
-    def __init__(self, given: Sequence[Expr], unknowns: Sequence[Symbol], allowed: Work) -> None:
+    def __init__(
+        self,
+        given: Sequence[Expr],
+        unknowns: Sequence[Symbol],
+        allowed: Work,
+        *,
+        families: bool,
+    ) -> None:
         self.unknowns = tuple(unknowns)
         self.found = SolvedSystem()
         self._given = given
         self._allowed = allowed
+        self._families = families
         self._branches = 0
         self._opened = False
 
@@ -74,6 +99,7 @@ class _Solver:
             if not factors:
                 return
             left.append(factors)
+        left = _without_repeats(left)
         if not left:
             self._keep(values, positive)
             return
@@ -84,8 +110,38 @@ class _Solver:
                 for factor in factors:
                     self._solve(factor, rest, values, positive)
                 return
-        if not self._reformed(left, values, positive):
+        if not (self._reformed(left, values, positive) or self._family(left, values, positive)):
             self.found.complete = False
+
+    def _family(
+        self, left: list[list[Expr]], values: dict[Symbol, Expr], positive: tuple[Expr, ...]
+    ) -> bool:
+        """Keep what a single relation gives: lines of translations, or the relation itself."""
+        if not self._families or len(left) != 1 or len(left[0]) != 1:
+            return False
+        [[relation]] = left
+        if len(self._in(relation)) == 1:
+            return False
+        lines = self._translated(relation)
+        for unknown, value in lines:
+            put = {unknown: value}
+            self._keep({**{s: v.xreplace(put) for s, v in values.items()}, **put}, positive)
+        if not lines:
+            self._keep(values, positive, relation)
+        return True
+
+    def _translated(self, relation: Expr) -> list[tuple[Symbol, Expr]]:
+        """Values of x where f depends on x + r y + … alone, r a number: of f(x) = 0, less r y."""
+        unknown, *others = self._in(relation)
+        slope = relation.diff(unknown)
+        shift = sympy.S.Zero
+        for other in others:
+            ratio = simplify(relation.diff(other) / slope)
+            if not ratio.is_Rational:
+                return []
+            shift += ratio * other
+        found = solve_for(relation.xreplace(dict.fromkeys(others, sympy.S.Zero)), unknown)
+        return [] if found is None else [(unknown, simplify(x - shift)) for x in found.values]
 
     def _reformed(
         self, left: list[list[Expr]], values: dict[Symbol, Expr], positive: tuple[Expr, ...]
@@ -212,10 +268,17 @@ class _Solver:
                 conditions.append(simplify(each))
         return conditions
 
-    def _keep(self, values: dict[Symbol, Expr], positive: tuple[Expr, ...]) -> None:
+    def _keep(
+        self,
+        values: dict[Symbol, Expr],
+        positive: tuple[Expr, ...],
+        relation: Expr | None = None,
+    ) -> None:
         plain = {s: simplify(v) for s, v in values.items()}
         ordered = {u: plain[u] for u in self.unknowns if u in plain}
-        if any(other.values == ordered for other in self.found.solutions):
+        if any(
+            other.values == ordered and other.relation == relation for other in self.found.solutions
+        ):
             return
         conditions = []
         for each in positive:
@@ -225,7 +288,39 @@ class _Solver:
                 return
             if known is None:
                 conditions.append(there)
-        self.found.solutions.append(SystemSolution(ordered, tuple(dict.fromkeys(conditions))))
+        self.found.solutions.append(
+            SystemSolution(ordered, tuple(dict.fromkeys(conditions)), relation)
+        )
+
+
+def _without_repeats(left: list[list[Expr]]) -> list[list[Expr]]:
+    """The equations without those that another one, which has one factor, makes 0."""
+    kept: list[list[Expr]] = []
+    for place, factors in enumerate(left):
+        others = [*kept, *left[place + 1 :]] if len(factors) > 1 else kept
+        alone = [other[0] for other in others if len(other) == 1]
+        if not any(_same(f, g) for f in factors for g in alone):
+            kept.append(factors)
+    return kept
+
+
+def _same(first: Expr, second: Expr) -> bool:
+    if first in (second, -second):
+        return True
+    if first.free_symbols != second.free_symbols:
+        return False
+    return bool(sympy.expand(first + second) == 0)
+
+
+def _lies_on(solution: SystemSolution, other: SystemSolution) -> bool:
+    """Whether a solution is one of a family that is given by a relation."""
+    if other is solution or other.relation is None:
+        return False
+    put_in = list(solution.values.items())
+    ties = [other.relation, *(s - v for s, v in other.values.items())]
+    there = [tie.subs(put_in, simultaneous=True) for tie in ties]
+    own = solution.relation
+    return all(is_zero(tie) is True or (own is not None and _same(tie, own)) for tie in there)
 
 
 def _substituted(expression: Expr, unknown: Symbol, root: Expr) -> Expr:

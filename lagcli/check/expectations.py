@@ -252,7 +252,7 @@ class Expectations:
             return
         groups: dict[object, list[Expression]] = {}
         for mode in modes:
-            groups.setdefault(tuple(mode.at.items()), []).extend(_frequencies(mode))
+            groups.setdefault((*mode.at.items(), mode.on), []).extend(_frequencies(mode))
         every = [frequency for group in groups.values() for frequency in group]
         verdicts = [
             self.comparison.same_set(found, expected) for found in (every, *groups.values())

@@ -14,7 +14,7 @@ from lagcli.answers import Answers, EquilibriaSection, Equilibrium, ReductionSec
 from lagcli.check.comparison import Comparison
 from lagcli.check.findings import Judged
 from lagcli.check.phase_space import free_comparison
-from lagcli.expression import Expression, Name
+from lagcli.expression import Equation, Expression, Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.readable import deciding
@@ -92,6 +92,8 @@ class Reductions:
             name in found.at and self.comparison.equal(found.at[name], formula)
             for name, formula in expected.at.items()
         ]
+        if expected.on is not None:
+            verdicts.append(self._same_family(found, expected.on))
         if isinstance(expected.stable, tuple):
             if False not in verdicts:
                 given = (found.minimum, found.hurwitz, found.spectrum)
@@ -99,6 +101,19 @@ class Reductions:
         elif expected.stable is not None:
             verdicts.append(found.stable is expected.stable)
         return _conjunction(verdicts)
+
+    def _same_family(self, found: Equilibrium, expected: Equation) -> bool | None:
+        """Whether f = 0 and g = 0 differ by a constant factor: f dg = g df along every q."""
+        if found.on is None:
+            return False
+        build = self.comparison.build
+        f, g = (build(a) - build(b) for a, b in (found.on, (expected.left, expected.right)))
+        return _conjunction(
+            [
+                self.comparison.vanishes(f * g.diff(q) - g * f.diff(q))
+                for q in self.derivation.system.q
+            ]
+        )
 
     def _steady_motions(self) -> Iterator[Judged]:
         expected = self.derivation.problem.expect.steady_motions

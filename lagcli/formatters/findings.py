@@ -36,6 +36,7 @@ _SOURCES = {
 
 #: A value with so many operations stands within a sentence.
 _SHORT = 3
+_SHORT_RELATION = 12
 
 _CHECKED = {
     "exact": ", checked exactly",
@@ -141,22 +142,29 @@ def equilibrium_blocks(section: EquilibriaSection) -> Iterator[Block]:
     elif not section.equilibria:
         yield Paragraph(("There is none.",))
     for equilibrium in section.equilibria or ():
-        yield from state_blocks(equilibrium.at)
+        yield from state_blocks(equilibrium.at, on=equilibrium.on)
         yield Paragraph(_stability(equilibrium))
 
 
-def state_blocks(at: Mapping[str, Expression], before: str = "") -> Iterator[Block]:
-    """A state: on one line where its values are short, else as equations."""
-    if all(operation_count(value) <= _SHORT for value in at.values()):
+def state_blocks(
+    at: Mapping[str, Expression],
+    before: str = "",
+    on: tuple[Expression, Expression] | None = None,
+) -> Iterator[Block]:
+    """A state, or a family: on one line where its values are short, else as equations."""
+    rows = [Row(*on)] if on is not None else []
+    rows += [Row(Name(name), value) for name, value in at.items()]
+    short = on is None or sum(map(operation_count, on)) <= _SHORT_RELATION
+    if short and all(operation_count(value) <= _SHORT for value in at.values()):
         parts: list[str | Formula] = [before]
-        for position, (name, value) in enumerate(at.items()):
-            parts += [", " if position else "", Name(name), " = ", value]
-        if at:
+        for position, row in enumerate(rows):
+            parts += [", " if position else "", row.left, " = ", row.right]
+        if rows:
             yield Paragraph((*parts, ":"))
         return
     if before:
         yield Paragraph((before,))
-    yield Equations(tuple(Row(Name(name), value) for name, value in at.items()))
+    yield Equations(tuple(rows))
 
 
 def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:
@@ -180,11 +188,11 @@ def mode_blocks(section: ModesSection) -> Iterator[Block]:
         yield Paragraph((f"There is none: {section.reason}.",))
     about: object = None
     for mode in section.modes or ():
-        if mode.at != about:
-            about = mode.at
-            yield from state_blocks(
-                mode.at, "Angular frequencies and shapes about the equilibrium "
-            )
+        if (mode.at, mode.on) != about:
+            about = (mode.at, mode.on)
+            place = "equilibrium" if mode.on is None else "equilibria"
+            before = f"Angular frequencies and shapes about the {place} "
+            yield from state_blocks(mode.at, before, mode.on)
         yield Equations(tuple(_mode(mode)))
 
 

@@ -249,7 +249,7 @@ def _range(unknown: str, range_: Range) -> list[str]:
 
 
 def _equilibrium(equilibrium: Equilibrium) -> Object:
-    result: Object = {"at": _by_name(equilibrium.at), "stable": equilibrium.stable}
+    result = _place(equilibrium) | {"stable": equilibrium.stable}
     if equilibrium.where:
         result["condition"] = " and ".join(map(_above, equilibrium.where))
     if equilibrium.asymptotic:
@@ -263,8 +263,15 @@ def _equilibrium(equilibrium: Equilibrium) -> Object:
     return result
 
 
+def _place(place: Equilibrium | Mode | SteadyMotion) -> Object:
+    result: Object = {"at": _by_name(place.at)}
+    if place.on is not None:
+        result["on"] = " = ".join(map(to_grammar, place.on))
+    return result
+
+
 def _mode(mode: Mode) -> Object:
-    result: Object = {"at": _by_name(mode.at), "frequency": _string(mode.frequency)}
+    result = _place(mode) | {"frequency": _string(mode.frequency)}
     if mode.frequency is None:
         result["frequency_squared"] = _string(mode.frequency_squared)
     shape = _unless_none(mode.shape, _by_name)
@@ -327,8 +334,7 @@ def _hamilton_jacobi(section: HamiltonJacobiSection) -> Object:
 
 
 def _steady(motion: SteadyMotion) -> Object:
-    return {
-        "at": _by_name(motion.at),
+    return _place(motion) | {
         "free": motion.free,
         "rates": _unless_none(motion.rates, _by_name),
         "momenta": _by_name(motion.momenta),

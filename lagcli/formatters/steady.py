@@ -40,7 +40,8 @@ def steady_blocks(section: SteadySection) -> Iterator[Block]:
 
 
 def _motion(motion: SteadyMotion) -> Iterator[Block]:
-    rows = [Row(Name(name), value) for name, value in motion.at.items()]
+    rows = [Row(*motion.on)] if motion.on is not None else []
+    rows += [Row(Name(name), value) for name, value in motion.at.items()]
     rates = motion.rates or {}
     rows += [Row(Name(name, 1), value) for name, value in rates.items() if value != Name(name, 1)]
     rows += [

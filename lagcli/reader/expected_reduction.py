@@ -26,6 +26,7 @@ AMPLITUDE_NAMES = ("a", "A", "a_0", "A_0")
 CONSTANT_NAMES = (*ENERGY_NAMES, *AMPLITUDE_NAMES, *SEPARATION_NAMES)
 
 _REDUCED = Role(order=1, why="an answer is free of accelerations", momenta=True)
+_PLACE = Role(order=0, why="a state of rest is a place")
 _STEADY = ("at", "rates", "momenta", "frequencies_squared", "stable")
 _OF_W = {
     "derivatives": "the expected derivative of W by '{}'",
@@ -91,15 +92,18 @@ def read_steady_motions(
 def read_equilibria(
     sections: Sections, node: Node, spans: dict[tuple[str, ...], Span]
 ) -> tuple[ExpectEquilibrium, ...]:
-    """`expect: {equilibria: [{at, stable}]}`."""
+    """`expect: {equilibria: [{at, on, stable}]}`."""
     found = []
     for place, item in enumerate(sections.items(node, "'equilibria'")):
         spans["equilibria", str(place)] = item.span
         values: dict[str, Any] = {}
-        entries = sections.attributes(item, "an equilibrium", ("at", "stable"))
+        entries = sections.attributes(item, "an equilibrium", ("at", "on", "stable"))
         for name, (_, value) in entries.items():
             if name == "stable":
                 values[name] = _stable(sections, value)
+            elif name == "on":
+                what = "the equation of a family of equilibria"
+                values[name] = sections.equation(value, what, _PLACE)
             else:
                 what = "the expected place of '{}'"
                 values[name] = read_by_coordinate(sections, value, "'at'", what, _REDUCED)

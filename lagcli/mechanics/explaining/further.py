@@ -70,7 +70,7 @@ def _rest(teller: Teller, section: Section) -> Iterator[Block]:
         yield says("They have no solution: there is no state of rest.")
     for number, each in enumerate(found, 1):
         yield Heading(f"State of rest {number}", 2)
-        yield _state(each.at)
+        yield _state(each.at, each.on)
         if each.free:
             yield says(names(each.free), " is free." if len(each.free) == 1 else " are free.")
         if each.where:
@@ -78,8 +78,11 @@ def _rest(teller: Teller, section: Section) -> Iterator[Block]:
         yield says(stability(each))
 
 
-def _state(at: Mapping[str, Expression]) -> Equations:
-    return Equations(tuple(Row(Name(name), value) for name, value in at.items()))
+def _state(
+    at: Mapping[str, Expression], on: tuple[Expression, Expression] | None = None
+) -> Equations:
+    ties = () if on is None else (Row(*on),)
+    return Equations((*ties, *(Row(Name(name), value) for name, value in at.items())))
 
 
 def _oscillations(teller: Teller, section: Section) -> Iterator[Block]:
@@ -91,13 +94,19 @@ def _oscillations(teller: Teller, section: Section) -> Iterator[Block]:
         yield says(f"There is none to be told of: {known.reason}.")
         return
     oscillations = SmallOscillations(teller.dynamics)
-    for at in list({tuple(mode.at.items()): mode.at for mode in found}.values()):
-        places = [p for p in oscillations.places or () if oscillations.equilibrium(p).at == at]
+    for at, on in {
+        (tuple(mode.at.items()), mode.on): (mode.at, mode.on) for mode in found
+    }.values():
+        places = [
+            p
+            for p in oscillations.places or ()
+            if (oscillations.equilibrium(p).at, oscillations.equilibrium(p).on) == (at, on)
+        ]
         yield says("To first order in the displacements from the state of rest")
-        yield _state(at)
-        yield from _linear(teller, places[0].linear.M, places[0].linear.C, places[0].linear.K)
+        yield _state(at, on)
+        yield from _linear(teller, *places[0].matrices)
         for mode in found:
-            if mode.at != at:
+            if (mode.at, mode.on) != (at, on):
                 continue
             square = Power(Name("omega"), _SQUARE)
             value = mode.frequency if mode.frequency is not None else mode.frequency_squared

@@ -56,8 +56,10 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
     free = [name for name in motion.free if not name.endswith("'")]
     if free:
         yield says("For any value of ", names(free), ",")
-    if motion.at:
-        yield Equations(tuple(Row(Name(name), value) for name, value in motion.at.items()))
+    if motion.at or motion.on is not None:
+        ties = () if motion.on is None else (Row(*motion.on),)
+        places = (Row(Name(name), value) for name, value in motion.at.items())
+        yield Equations((*ties, *places))
     if motion.rates:
         yield says("The cyclic coordinates then turn with")
         yield Equations(tuple(Row(Name(name, 1), rate) for name, rate in motion.rates.items()))

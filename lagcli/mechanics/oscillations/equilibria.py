@@ -23,8 +23,9 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import Field, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import is_decimal, rounded
-from lagcli.algebra.systems import solve_system
+from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.oscillations.family import Family, exists_where, family
 from lagcli.record import record
 
 _MAX_EVIDENT = 64
@@ -36,12 +37,13 @@ _PERIODIC = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 class RestPoint:
     """An equilibrium: values of coordinates as formulas in the free ones and parameters.
 
-    It is there where each of `positive` is > 0.
+    It is there where each of `positive` is > 0.  With a `family` it is one branch of that.
     """
 
     values: Mapping[Symbol, Expr]
     free: tuple[Symbol, ...]
     positive: tuple[Expr, ...] = ()
+    family: Family | None = None
 
 
 class RestPoints:
@@ -69,20 +71,37 @@ class RestPoints:
             self.reason = "the equations depend explicitly on the time"
             return None
         equations = self.equations
-        solved = solve_system(equations, self.system.q)
+        solved = solve_system(equations, self.system.q, families=True)
         self.complete = solved.complete
         found = [
-            RestPoint(s.values, tuple(q for q in self.system.q if q not in s.values), s.positive)
-            for s in solved.solutions
-            if self.balanced(s.values)
+            point
+            for point in map(self._point, solved.solutions)
+            if point is not None and self.balanced(point.values)
         ]
-        if not solved.complete:
+        if not self.complete:
             known = {tuple(p.values.get(q, q) for q in self.system.q) for p in found}
             found += [p for p in self._evident() if tuple(p.values.values()) not in known]
             if not found:
                 self.reason = "the equations of rest have no closed solution"
                 return None
         return tuple(found)
+
+    def _point(self, solution: SystemSolution) -> RestPoint | None:
+        q, values, known = self.system.q, dict(solution.values), None
+        positive = solution.positive
+        if solution.relation is not None:
+            room = exists_where(solution.relation, q)
+            if room is None:
+                return None
+            positive = (*positive, *room)
+            known = family(solution.relation, solution.values, q)
+            if known is None:
+                self.complete = False
+                return None
+            branch = {known.unknown: known.root}
+            values = {**{s: v.xreplace(branch) for s, v in values.items()}, **branch}
+        free = tuple(s for s in q if s not in values)
+        return RestPoint(values, free, positive, known)
 
     def _depends_on_time(self) -> bool:
         system, constraints = self.system, self.dynamics.constraints

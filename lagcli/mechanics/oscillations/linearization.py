@@ -51,6 +51,11 @@ class Linearization:
             else [[S.One if i == j else S.Zero for j in range(n)] for i in range(n)]
         )
 
+    @property
+    def forces_at_rest(self) -> tuple[Expr, ...]:
+        """forcing(q, q' = 0)."""
+        return self._rest.forces_at_rest
+
     @cached_property
     def M(self) -> Matrix:
         """The mass matrix."""

@@ -134,7 +134,12 @@ def _shape(
         for i in range(len(linear.system.q))
     ]
     first = next((x for x in displacement if x != 0), None)
-    return None if first is None else tuple(simplify(x / first) for x in displacement)
+    if first is None:
+        return None
+    known = linear.point.family
+    if known is not None:
+        return known.displacement(displacement)
+    return tuple(simplify(x / first) for x in displacement)
 
 
 # -- checks ------------------------------------------------------------------------------------
@@ -149,7 +154,9 @@ def _choices(linear: Linearization) -> list[dict[Symbol, mpf]]:
         When none were found.
     """
     free = {q: mpf(3 + k) / 7 for k, q in enumerate(linear.system.q)}
-    positive = Evaluator(list(linear.point.positive), _DIGITS)
+    known = linear.point.family
+    real = [] if known is None else known.radicands
+    positive = Evaluator([*linear.point.positive, *real], _DIGITS)
     found = []
     for choice in admissible_values(linear.system, _CHOICES):
         values = {**free, **choice}

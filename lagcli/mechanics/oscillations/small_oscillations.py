@@ -24,7 +24,8 @@ from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
-from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
+from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
 from lagcli.mechanics.oscillations.stability import Stability, stability
 from lagcli.mechanics.reduction.readable import conditions
@@ -68,6 +69,18 @@ class Place:
         self.linear = Linearization(rest, point)
         self.characteristic = Characteristic(self.linear)
 
+    @property
+    def matrices(self) -> tuple[Matrix, Matrix, Matrix]:
+        """M, C and K, of a family in all coordinates where they can be."""
+        linear, known = self.linear, self.point.family
+        if known is None:
+            return linear.M, linear.C, linear.K
+        M, C, K = (
+            [[known.written_back(e) or e for e in row] for row in matrix]
+            for matrix in (linear.M, linear.C, linear.K)
+        )
+        return M, C, K
+
     @cached_property
     def verdict(self) -> Stability:
         """Whether it is stable."""
@@ -109,6 +122,7 @@ class SmallOscillations:
             reasons.append("there may be other equilibria")
         return Equilibrium(
             at=self._at(place.point),
+            on=relation_sides(place.point, self.system.q, self.system.order),
             stable=verdict.stable,
             asymptotic=verdict.asymptotic,
             where=conditions(place.point.positive, self.system.order),
@@ -118,7 +132,7 @@ class SmallOscillations:
             gyroscopic=place.linear.gyroscopic and place.linear.has_potential
             if verdict.spectrum is not None
             else False,
-            free=tuple(q.name for q in place.point.free),
+            free=tuple(q.name for q in untied(place.point, self.system.q)),
             reason="; ".join(reasons),
         )
 
@@ -134,6 +148,7 @@ class SmallOscillations:
         return [
             Mode(
                 at=self._at(place.point),
+                on=relation_sides(place.point, self.system.q, self.system.order),
                 frequency=self._tree_or_none(mode.frequency),
                 frequency_squared=self._tree_or_none(mode.square),
                 shape=self._shape(mode.shape),
@@ -143,7 +158,7 @@ class SmallOscillations:
         ]
 
     def _at(self, point: RestPoint) -> dict[str, Expression]:
-        return {q.name: self._tree(value) for q, value in point.values.items()}
+        return {q.name: self._tree(value) for q, value in shown(point).items()}
 
     def _shape(self, displacements: Sequence[Expr] | None) -> dict[str, Expression] | None:
         if displacements is None:

@@ -24,11 +24,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from sympy import Expr, Symbol, count_ops
+from sympy import Expr, Pow, Symbol, count_ops
 
 from lagcli.algebra import simplify
+from lagcli.algebra.build import free_of
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.characteristic import Characteristic, determinant, determinant_in
+from lagcli.mechanics.oscillations.evenness import even
 from lagcli.mechanics.oscillations.feeding import cannot_feed
 from lagcli.mechanics.oscillations.hurwitz import hurwitz_conditions
 from lagcli.mechanics.oscillations.linearization import Linearization
@@ -76,6 +78,8 @@ def stability(linear: Linearization, characteristic: Characteristic) -> Stabilit
     if powers is None or len(powers) != 2 * len(linear.M) + 1:
         return Stability(None, "the characteristic polynomial was not found")
     positive = linear.point.positive
+    if not _same_on_branches(linear, powers):
+        return Stability(None, "the motion near it differs along the family")
     # det K / det M, the product of the roots s of det(s² M + s C + K)
     constant = simplify(powers[0] / powers[-1])
     if linear.nonholonomic:
@@ -171,8 +175,36 @@ def _minimum(
         return Stability(None, "neutral: no force to first order")
     if neutral > len(free):
         return Stability(None, "neutral to first order in some direction")
-    names = ", ".join(q.name for q in free)
-    return Stability(True, f"V has a strict minimum there up to displacements of {names}")
+    if not _even(linear):
+        return Stability(None, "V has a minimum across the family, perhaps not evenly along it")
+    return Stability(True, "V has a strict minimum across the family (Lagrange and Dirichlet)")
+
+
+def _same_on_branches(linear: Linearization, powers: Sequence[Expr]) -> bool:
+    """Whether no formula has the root by which one branch of a family was written."""
+    if linear.point.family is None:
+        return True
+    rates = [simplify(power / powers[-1]) for power in powers]
+    roots = {
+        power
+        for e in (*rates, *(e for row in (*linear.M, *linear.C) for e in row))
+        for power in e.atoms(Pow)
+        if not power.exp.is_Integer
+    }
+    return all(free_of(root, linear.system.q) for root in roots)
+
+
+def _even(linear: Linearization) -> bool:
+    point, dynamics = linear.point, linear.dynamics
+    known = point.family
+    return even(
+        point.values if known is None else known.given,
+        point.free,
+        linear.forces_at_rest,
+        [e.f for e in dynamics.constraints.equations if e.holonomic],
+        linear.system.q,
+        None if known is None else known.relation,
+    )
 
 
 def _squares(linear: Linearization, characteristic: Characteristic) -> list[Expr] | None:

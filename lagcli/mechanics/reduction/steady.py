@@ -29,6 +29,7 @@ from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.oscillations.characteristic import determinant
 from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.reduction.readable import deciding, weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.record import record
@@ -52,6 +53,8 @@ class Steady:
         It is there with all rates and momenta reversed, too.
     curvature
         The second derivative of U_eff, of a singular place; None elsewhere.
+    family
+        What ties the coordinates where the values are one branch of a family.
     """
 
     values: Mapping[Symbol, Expr]
@@ -59,6 +62,7 @@ class Steady:
     positive: tuple[Expr, ...] = ()
     mirrored: bool = False
     curvature: Expr | None = None
+    family: Family | None = None
 
 
 class SteadyMotions:
@@ -121,7 +125,7 @@ class SteadyMotions:
         points = self.rest.points
         self.complete = points is not None and self.rest.complete
         return [
-            Steady(point.values, self._rates(point.values), point.positive)
+            Steady(point.values, self._rates(point.values), point.positive, family=point.family)
             for point in points or ()
             if self._regular(point.values) and -1 not in map(weak_sign, point.positive)
         ]
@@ -180,7 +184,18 @@ class SteadyMotions:
                 best, least = found, cost
         if best is None:
             return self._by_momenta()
-        return best
+        return [one for one in best if not any(self._within(one, other) for other in best)]
+
+    def _within(self, one: Steady, other: Steady) -> bool:
+        """Whether a motion is one of a family in which more coordinates are free."""
+        q = self.system.q
+        if sum(s in one.values for s in q) <= sum(s in other.values for s in q):
+            return False
+        power = 2 if other.mirrored else 1
+        return all(
+            is_zero(one.values.get(s, s) ** power - at(value, one.values) ** power) is True
+            for s, value in other.values.items()
+        )
 
     def _charts(self) -> Iterator[tuple[Symbol, dict[Expr, Expr]]]:
         """What to solve for, and p_c by the rate of c where the rate is what is given."""
@@ -323,7 +338,7 @@ class SteadyMotions:
     def point(self, steady: Steady) -> RestPoint:
         """The same as an equilibrium of the reduced system."""
         free = tuple(q for q in self.system.q if q not in steady.values)
-        return RestPoint(steady.values, free, steady.positive)
+        return RestPoint(steady.values, free, steady.positive, steady.family)
 
 
 def _cost(value: Expr) -> int:

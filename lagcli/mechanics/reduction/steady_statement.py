@@ -6,10 +6,13 @@ from collections.abc import Sequence
 
 from sympy import Expr
 
+from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import written
 from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.family import Family
+from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.feeding import cannot_feed
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.reduction.readable import conditions
@@ -67,12 +70,14 @@ class _Statement:
         )
 
     def _motion(self, motion: Steady) -> SteadyMotion:
-        linear = None
+        matrices: tuple[Matrix, ...] = ()
         judged = Verdict(None, None, False, (), "the equations of motion are singular there")
         try:
             if motion.curvature is None:
                 linear = Linearization(self.steady.rest, self.steady.point(motion))
-                judged = verdict(linear)
+                judged, matrices = verdict(linear), (linear.M, linear.C, linear.K)
+                if motion.family is not None:
+                    judged, matrices = self._on_all(motion.family, judged, matrices)
             else:
                 [[mass]] = self.steady.dynamics.lagrange.mass_matrix
                 judged = curvature(motion.curvature, at(mass, motion.values), motion.positive)
@@ -84,9 +89,11 @@ class _Statement:
         system, names = self.steady.system, self.steady.full.names
         rates = motion.rates
         minimum = self._conditions(judged.minimum, motion)
-        coordinates = {q.name: motion.values[q] for q in system.q if q in motion.values}
+        point = self.steady.point(motion)
+        fixed = shown(point)
+        coordinates = {q.name: fixed[q] for q in system.q if q in fixed}
         momenta = {
-            names[j]: motion.values.get(p, p)
+            names[j]: self._whole(motion.values.get(p, p), motion)
             for j, p in zip(self.routh.cyclic, self.routh.momenta, strict=True)
         }
         return SteadyMotion(
@@ -94,7 +101,7 @@ class _Statement:
             free=self._free(motion),
             rates=None
             if rates is None
-            else {names[j]: self._shape(rate) for j, rate in rates.items()},
+            else {names[j]: self._shape(self._whole(rate, motion)) for j, rate in rates.items()},
             momenta={name: self._shape(value) for name, value in momenta.items()},
             where=self._conditions(motion.positive, motion, given=True) or (),
             mirrored=motion.mirrored,
@@ -102,10 +109,11 @@ class _Statement:
             minimum=minimum,
             spectrum=self._conditions(judged.spectrum, motion),
             frequencies_squared=tuple(map(self._shape, judged.squares)),
-            mass=self._matrix(linear.M) if linear else (),
-            velocity=self._matrix(linear.C) if linear else (),
-            stiffness=self._matrix(linear.K) if linear else (),
+            mass=self._matrix(matrices[0]) if matrices else (),
+            velocity=self._matrix(matrices[1]) if matrices else (),
+            stiffness=self._matrix(matrices[2]) if matrices else (),
             reason=judged.reason,
+            on=relation_sides(point, system.q, self.order),
         )
 
     def _conditions(
@@ -120,9 +128,26 @@ class _Statement:
         full = self.steady.full
         values = [*motion.values.values(), *(motion.rates or {}).values()]
         used = {s for value in values for s in value.free_symbols}
-        places = [q for q in self.steady.system.q if q not in motion.values]
+        places = untied(self.steady.point(motion), self.steady.system.q)
         others = [s for s in (*full.qdot, *self.routh.momenta) if s in used]
         return tuple(s.name for s in (*places, *others))
+
+    def _on_all(
+        self, family: Family, judged: Verdict, matrices: Sequence[Matrix]
+    ) -> tuple[Verdict, tuple[Matrix, ...]]:
+        """What was found on a branch, as far as it holds on the whole family."""
+        squares = [family.written_back(square) for square in judged.squares]
+        if not squares or any(s is None or not free_of(s, self.steady.system.q) for s in squares):
+            judged = Verdict(None, None, False, (), "the motion near it differs along the family")
+        whole = [[[family.written_back(e) for e in row] for row in m] for m in matrices]
+        if any(e is None for m in whole for row in m for e in row):
+            return judged, ()
+        return judged, tuple([[e for e in row if e is not None] for row in m] for m in whole)
+
+    def _whole(self, value: Expr, motion: Steady) -> Expr:
+        """A rate or a momentum, of a family in all coordinates where it can be."""
+        back = None if motion.family is None else motion.family.written_back(value)
+        return value if back is None else back
 
     def _matrix(self, matrix: Matrix) -> tuple[tuple[Expression, ...], ...]:
         return tuple(tuple(map(self._shape, row)) for row in matrix)

@@ -1,0 +1,87 @@
+"""Whether a family of equilibria can be stable as a whole.
+
+V is the same on all of it.  Where V has a strict minimum across it, and evenly so, motion that
+starts near the family stays near it, while along it nothing restores.  It is even where
+the family is compact, or V does not change along it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import sympy
+from sympy import Add, Expr, S, Symbol
+
+from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import free_of
+from lagcli.algebra.signs import sign
+from lagcli.mechanics.oscillations.characteristic import determinant
+
+_TURNING = (sympy.sin, sympy.cos)
+
+
+def even(
+    values: Mapping[Symbol, Expr],
+    free: Sequence[Symbol],
+    forces: Sequence[Expr],
+    surface: Sequence[Expr],
+    q: Sequence[Symbol],
+    relation: Expr | None = None,
+) -> bool:
+    """Whether the family is known to be compact, or V not to change along it.
+
+    `forces` are those at rest, `surface` what vanishes by constraints.
+    """
+    if relation is not None:
+        free = [s for s in free if s not in relation.free_symbols]
+        if not _bounded(relation, q):
+            return False
+    return all(
+        _turns(s, values, forces, surface) or _translates(s, values, forces, surface, q)
+        for s in free
+    )
+
+
+def _bounded(relation: Expr, q: Sequence[Symbol]) -> bool:
+    """A quadratic relation whose form of second degree is definite."""
+    tied = [s for s in q if s in relation.free_symbols]
+    second = [[simplify(relation.diff(a, b)) for b in tied] for a in tied]
+    if any(not free_of(entry, q) for row in second for entry in row):
+        return False
+    minors = [determinant([row[:k] for row in second[:k]]) for k in range(1, len(tied) + 1)]
+    signs = [None if minor is None else sign(minor) for minor in minors]
+    return signs == [1] * len(tied) or signs == [-1, 1] * (len(tied) // 2) + [-1] * (len(tied) % 2)
+
+
+def _turns(
+    angle: Symbol, values: Mapping[Symbol, Expr], forces: Sequence[Expr], surface: Sequence[Expr]
+) -> bool:
+    """Whether all is periodic in it, and so in what turns with it."""
+    following = [angle, *(s for s, value in values.items() if angle in value.free_symbols)]
+    hidden: dict[Expr, Expr] = {}
+    arguments = set()
+    for expression in (*forces, *surface):
+        for node in expression.atoms(*_TURNING):
+            hidden[node] = S.Zero
+            arguments.add(node.args[0])
+    rates = [simplify(a.diff(s)) for a in arguments for s in following]
+    return all(rate.is_Rational for rate in rates) and all(
+        free_of(e.xreplace(hidden), following) for e in (*forces, *surface)
+    )
+
+
+def _translates(
+    along: Symbol,
+    values: Mapping[Symbol, Expr],
+    forces: Sequence[Expr],
+    surface: Sequence[Expr],
+    q: Sequence[Symbol],
+) -> bool:
+    """Whether V does not change by constant displacements along the family, anywhere."""
+    shift = {s: value.diff(along) for s, value in values.items()}
+    steps = [S.One if s == along else shift.get(s, S.Zero) for s in q]
+    if any(not free_of(step, q) for step in steps):
+        return False
+    work = Add(*(step * force for step, force in zip(steps, forces, strict=True)))
+    moved = [Add(*(step * f.diff(s) for step, s in zip(steps, q, strict=True))) for f in surface]
+    return all(is_zero(each) is True for each in (work, *moved))

@@ -1,0 +1,108 @@
+"""Equilibria that are not isolated: what ties their coordinates, and what holds near all of them.
+
+A relation g(q) = 0 is solved for one coordinate to expand the motion about it; what was found is
+then written in all coordinates again.  As the two signs of a root are conjugate, it holds on
+the other branch as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import sympy
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import Field, is_zero, simplify
+from lagcli.algebra.equations import solve_for
+from lagcli.algebra.signs import sign
+from lagcli.record import record
+
+
+@record
+class Family:
+    """The equilibria with relation = 0 and the values `given`, and unknown = root on a branch."""
+
+    relation: Expr
+    given: Mapping[Symbol, Expr]
+    unknown: Symbol
+    root: Expr
+
+    @property
+    def tied(self) -> frozenset[Symbol]:
+        """What the relation ties, coordinates and parameters."""
+        return frozenset(self.relation.free_symbols)
+
+    @property
+    def radicands(self) -> list[Expr]:
+        """What is positive where the branch is real."""
+        power = _root_of(self.root)[0]
+        return [] if power is None else [power.base]
+
+    def displacement(self, parts: Sequence[Expr]) -> tuple[Expr, ...] | None:
+        """A displacement on the branch in all coordinates, without denominators."""
+        back = [self.written_back(part) for part in parts]
+        if any(part is None for part in back):
+            return None
+        field = Field(back)
+        elements = [field(part) for part in back]
+        common = field.ring.one
+        for each in elements:
+            below = field.ring.lift(each.denominator)
+            common = field.ring.lift(common) * (below / field.ring.lift(common).gcd(below))
+        whole = [each * field.polynomial(common) for each in elements]
+        return tuple(simplify(field.to_sympy(each)) for each in whole)
+
+    def written_back(self, expression: Expr) -> Expr | None:
+        """The formula on the branch as one on the whole family; None where that was not found."""
+        [power, factor] = _root_of(self.root)
+        if power is None:
+            return expression
+
+        def plain(node: Expr) -> Expr:
+            return (self.unknown / factor) ** (node.exp / power.exp)
+
+        back = simplify(
+            expression.replace(
+                lambda node: node.is_Pow and node.base == power.base and not node.exp.is_Integer,
+                plain,
+            )
+        )
+        other = {self.unknown: self.root}
+        same = is_zero(back.xreplace(other) - expression) is True
+        return back if same else None
+
+
+def family(relation: Expr, given: Mapping[Symbol, Expr], q: Sequence[Symbol]) -> Family | None:
+    """A family with a branch; None where the relation has no closed solution."""
+    for unknown in q:
+        found = solve_for(relation, unknown) if unknown in relation.free_symbols else None
+        if found is not None and found.values:
+            return Family(relation, given, unknown, simplify(found.values[0]))
+    return None
+
+
+def exists_where(relation: Expr, q: Sequence[Symbol]) -> tuple[Expr, ...] | None:
+    """What must be positive for x^2 + y^2 = c to have points; None where it has none.
+
+    Of other relations nothing is said.
+    """
+    tied = [s for s in q if s in relation.free_symbols]
+    constant = relation.xreplace(dict.fromkeys(tied, S.Zero))
+    terms = sympy.Add.make_args(sympy.expand(relation - constant))
+    signs = {sign(term / s**2) for term in terms for s in tied if term.has(s)}
+    if len(terms) != len(tied) or len(signs) != 1 or not signs <= {1, -1}:
+        return ()
+    room = simplify(-constant * signs.pop())
+    known = sign(room)
+    return None if known in (0, -1) else () if known == 1 else (room,)
+
+
+def _root_of(root: Expr) -> tuple[Expr | None, Expr]:
+    """The power in root = factor * power."""
+    factor, rest = S.One, None
+    for part in sympy.Mul.make_args(root):
+        if part.is_Pow and not part.exp.is_Integer and rest is None:
+            rest = part
+        else:
+            factor *= part
+    return rest, factor

@@ -1,0 +1,142 @@
+"""Equilibria that are not isolated; the verdicts are those of the theorem and of counterexamples.
+
+A family on which V is least is stable as a whole only where V rises evenly across it: with
+V = x^2/(1 + y^2) a motion that starts near x = 0 escapes along y and swings ever wider, for
+x^2 omega is an adiabatic invariant (Landau, Lifshitz, Mechanics, section 49).
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
+from lagcli.mechanics.reduction.steady_statement import steady_motions
+from lagcli.reader import read_problem
+
+_PLANE = """
+coordinates: [x, y]
+parameters: {m: {assume: positive}, k: {assume: positive}, a: {assume: positive}}
+T: m*(x'^2 + y'^2)/2
+"""
+_SPACE = _PLANE.replace("[x, y]", "[x, y, z]").replace("y'^2)", "y'^2 + z'^2)")
+_ANGLES = """
+coordinates: [theta, phi]
+parameters: {I: {assume: positive}, k: {assume: positive}}
+T: I*(theta'^2 + phi'^2)/2
+"""
+
+
+def derivation(text: str) -> Derivation:
+    return Derivation(read_problem("test.yaml", text.encode()).checked())
+
+
+def states(text: str) -> list[tuple[str, dict[str, str], tuple[str, ...], bool | None]]:
+    found = equilibria(derivation(text).dynamics).equilibria
+    assert found is not None
+    return [
+        (
+            "" if e.on is None else " = ".join(map(to_grammar, e.on)),
+            {name: to_grammar(value) for name, value in e.at.items()},
+            e.free,
+            e.stable,
+        )
+        for e in found
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        (
+            _PLANE + "V: k*(x^2 + y^2 - a^2)^2/4",
+            [("", {"x": "0", "y": "0"}, (), False), ("x^2 + y^2 = a^2", {}, (), True)],
+        ),
+        (
+            _PLANE + "V: -k*(x^2 + y^2 - a^2)^2/4",
+            [("", {"x": "0", "y": "0"}, (), True), ("x^2 + y^2 = a^2", {}, (), False)],
+        ),
+        (
+            _SPACE + "V: k*(x^2 + y^2 - a^2)^2/4 + k*(z - x)^2/2",
+            [
+                ("", {"x": "0", "y": "0", "z": "0"}, (), False),
+                ("y^2 + z^2 = a^2", {"x": "z"}, (), None),
+            ],
+        ),
+        (
+            _SPACE + "V: k*(x^2 + y^2 + z^2 - a^2)^2/4",
+            [
+                ("", {"x": "0", "y": "0", "z": "0"}, (), False),
+                ("x^2 + y^2 + z^2 = a^2", {}, (), True),
+            ],
+        ),
+        (
+            _SPACE + "V: k*(x^2 + y^2 - a^2)^2/4",
+            [
+                ("", {"x": "0", "y": "0"}, ("z",), False),
+                ("x^2 + y^2 = a^2", {}, ("z",), True),
+            ],
+        ),
+        # the branches of a hyperbola have no bound
+        (
+            _PLANE + "V: k*(x*y - a^2)^2/2",
+            [("", {"x": "0", "y": "0"}, (), False), ("x*y = a^2", {}, (), None)],
+        ),
+        (_PLANE + "V: k*x^2/(1 + y^2)", [("", {"x": "0"}, ("y",), None)]),
+        (_PLANE + "V: k*(x - y)^2/2", [("", {"x": "y"}, ("y",), True)]),
+        # across this circle V rises on all of it but at x = 0
+        (
+            _PLANE + "V: k*x^2*(x^2 + y^2 - a^2)^2/4",
+            [("", {"x": "0"}, ("y",), None), ("x^2 + y^2 = a^2", {}, (), None)],
+        ),
+        (
+            _ANGLES + "V: -k*cos(theta - phi)",
+            [
+                ("", {"theta": "phi"}, ("phi",), True),
+                ("", {"theta": "phi + pi"}, ("phi",), False),
+            ],
+        ),
+    ],
+)
+def test_a_family_is_one_state_and_not_some_of_its_points(text, expected):
+    found = states(text)
+    for each in expected:
+        assert each in found
+    assert sum(bool(e[0]) for e in found) == sum(bool(e[0]) for e in expected)
+
+
+def test_no_point_of_a_sphere_without_forces_is_told_alone():
+    sphere = _SPACE + "V: 0\nconstraints: {sphere: x^2 + y^2 + z^2 = a^2}"
+    assert states(sphere) == [("x^2 + y^2 + z^2 = a^2", {}, (), None)]
+
+
+def test_the_modes_of_a_ring_are_along_it_and_across_it():
+    found = modes(derivation(_PLANE + "V: k*(x^2 + y^2 - a^2)^2/4").dynamics).modes
+    assert found is not None
+    along, across = found
+    assert all(m.on is not None and tuple(map(to_grammar, m.on)) == ("x^2 + y^2", "a^2")
+               for m in found)  # fmt: skip
+    assert to_grammar(along.frequency) == "0"
+    assert {n: to_grammar(v) for n, v in along.shape.items()} == {"x": "y", "y": "-x"}
+    assert to_grammar(across.frequency_squared) == "2*k*a^2/m"
+    assert {n: to_grammar(v) for n, v in across.shape.items()} == {"x": "x", "y": "y"}
+
+
+def test_steady_motions_on_a_ring_and_beside_it():
+    text = _SPACE + "V: k*(x^2 + y^2 - a^2)^2/4"
+    section, _ = steady_motions(derivation(text))
+    assert section.motions is not None
+    top, ring = section.motions
+    assert top.stable is False
+    assert tuple(map(to_grammar, ring.on)) == ("x^2 + y^2", "a^2")
+    assert ring.stable is None
+    # K = V'' at any place of the ring, by hand: 2 k x_i x_j
+    assert to_grammar(ring.stiffness[0][1]) == "2*k*x*y"
+
+
+def test_a_point_of_a_family_of_steady_motions_is_not_told_beside_it():
+    text = _SPACE.replace("z'^2)", "(x^2 + y^2)*z'^2)") + "V: k*(x^2 + y^2 - a^2)^2/4"
+    section, _ = steady_motions(derivation(text))
+    assert section.motions is not None
+    assert [motion.free for motion in section.motions] == [("x", "y")]
