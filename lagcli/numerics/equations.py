@@ -16,6 +16,7 @@ from lagcli.graph.stable import stable_dynamics
 from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
 from lagcli.numerics.elimination import Eliminated, Factored, TooLong
 from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.straight_line import Generated
 from lagcli.problem import Problem
 
 _HALF = Fraction(1, 2)
@@ -86,6 +87,11 @@ class Equations:
     def holding(self, held: frozenset[int]) -> Equations:
         """The equations while only these constraints act."""
         return Equations(self.problem, self.whole, held)
+
+    @cached_property
+    def generated(self) -> Generated:
+        """The functions made of them, which numbers of all kinds share."""
+        return {}
 
     @cached_property
     def positions(self) -> list[Node]:

@@ -84,6 +84,7 @@ class Motion:
                 guards=guards,
                 otherwise=otherwise,
                 frozen=self._frozen if frozen else None,
+                generated=self.equations.generated,
             )
         except UndefinedFunction as error:
             message = f"the function '{error}' is left unspecified: it has no numbers"

@@ -34,6 +34,10 @@ def run_generated(lines: Sequence[str], name: str, given: Mapping[str, Any]) -> 
     return space[name]
 
 
+#: What has been generated: what it is for -> the function that makes it, and what that is given.
+Generated = dict[tuple[Any, ...], tuple[Callable[..., Any], Mapping[str, Any]]]
+
+
 def straight_line(
     arguments: Sequence[Symbol],
     roots: Sequence[Node],
@@ -43,6 +47,7 @@ def straight_line(
     guards: Sequence[Guard] = (),
     otherwise: Callable[..., Any] | None = None,
     frozen: Frozen | None = None,
+    generated: Generated | None = None,
 ) -> Callable[..., tuple[Any, ...]]:
     """A function of the arguments that gives the values of the roots.
 
@@ -63,6 +68,8 @@ def straight_line(
         Called with the same arguments where a pivot vanishes.
     frozen
         Arguments of abs and sign whose sign is given and not looked at.
+    generated
+        Where the text is remembered, which other constants and numbers share.
 
     Raises
     ------
@@ -71,12 +78,32 @@ def straight_line(
     UndefinedFunction
         When a function has no formula.
     """
-    watched = list(guards) if arithmetic.ordered else []
+    watched = tuple(guards) if arithmetic.ordered and otherwise is not None else ()
+    places, signs = frozen or ({}, [])
+    key = (tuple(arguments), tuple(roots), watched, tuple(places.items()))
+    known = None if generated is None else generated.get(key)
+    if known is None:
+        known = _made(arguments, roots, watched, places)
+        if generated is not None:
+            generated[key] = known
+    make, given = known
+    values = {name: _value(each, constants, arithmetic) for name, each in given.items()}
+    function: Callable[..., tuple[Any, ...]] = make(signs, otherwise, **values)
+    return function
+
+
+def _made(
+    arguments: Sequence[Symbol],
+    roots: Sequence[Node],
+    watched: Sequence[Guard],
+    places: Mapping[Node, int],
+) -> tuple[Callable[..., Any], Mapping[str, Any]]:
+    """What makes the function out of the signs, the way out and the numbers."""
     nodes = [*roots, *(node for pair in watched for node in pair)]
-    text = _Text(arguments, nodes, constants, arithmetic, frozen)
+    text = _Text(arguments, nodes, places)
     names = ", ".join(f"n{symbol.index}" for symbol in arguments)
     body = list(text.body)
-    if watched and otherwise is not None:
+    if watched:
         small = " and ".join(
             f"absolute({text.at(pivot)}) > {PIVOT_TOLERANCE!r}*absolute({text.at(entry)})"
             if pivot is not entry
@@ -85,38 +112,49 @@ def straight_line(
         )
         body += [f"if not ({small}):", f"    return otherwise({names})"]
     body += [f"return ({''.join(f'{text.at(root)}, ' for root in roots)})"]
-    if watched and otherwise is not None:  # a pivot that is 0 has already been divided by
+    if watched:  # a pivot that is 0 has already been divided by
         rescue = ["except divided:", f"    return otherwise({names})"]
         body = ["try:", *(f"    {line}" for line in body), *rescue]
     inner = [f"    def generated({names}):", *(f"        {line}" for line in body)]
-    head = f"def make({', '.join(text.given)}):"
+    head = f"def make({', '.join(('signs', 'otherwise', *text.given))}):"
     lines = [head, *(f"    {line}" for line in text.prologue), *inner, "    return generated"]
-    space = {"absolute": abs, "otherwise": otherwise, "divided": ZeroDivisionError}
-    make = run_generated(lines, "make", space)
-    made: Callable[..., tuple[Any, ...]] = make(**text.given)
-    return made
+    space = {"absolute": abs, "divided": ZeroDivisionError}
+    return run_generated(lines, "make", space), text.given
+
+
+def _value(
+    given: Symbol | Fraction | str, constants: Mapping[Symbol, Any], arithmetic: Arithmetic
+) -> Any:
+    """The number, or the function, that stands under a name of the text."""
+    match given:
+        case Fraction():
+            return arithmetic.number(given)
+        case Symbol(name="pi"):
+            return arithmetic.functions["pi"]()
+        case Symbol():
+            return constants[given]
+        case _:
+            function = arithmetic.functions.get(given)
+            if function is None:
+                raise UndefinedFunction(given)
+            return function
 
 
 class _Text:
     """The assignments, those that are made once and those of every call."""
 
     def __init__(
-        self,
-        arguments: Sequence[Symbol],
-        roots: Sequence[Node],
-        constants: Mapping[Symbol, Any],
-        arithmetic: Arithmetic,
-        frozen: Frozen | None,
+        self, arguments: Sequence[Symbol], roots: Sequence[Node], places: Mapping[Node, int]
     ) -> None:
-        self._places, signs = frozen or ({}, [])
-        self._arithmetic = arithmetic
-        self._constants = constants
+        self._places = places
         self._varying = 0
         for symbol in arguments:
             self._varying |= symbol.mask
         self._arguments = set(arguments)
         self._written: dict[Node, str] = {}
-        self.given: dict[str, Any] = {"signs": signs} if self._places else {}
+        #: name -> a parameter or pi, a number, or the name of a function
+        self.given: dict[str, Symbol | Fraction | str] = {}
+        self._numbers: dict[Fraction, str] = {}
         self.prologue: list[str] = []
         self.body: list[str] = []
         nodes = ancestry(roots)
@@ -152,28 +190,19 @@ class _Text:
 
     def _symbol(self, node: Symbol) -> str:
         name = f"n{node.index}"
-        if node in self._arguments:
-            return name
-        if node.name == "pi":
-            self.given[name] = self._arithmetic.functions["pi"]()
-        else:
-            self.given[name] = self._constants[node]
+        if node not in self._arguments:
+            self.given[name] = node
         return name
 
     def _number(self, value: Fraction) -> str:
-        number = self._arithmetic.number(value)
-        for name, known in self.given.items():
-            if name[0] == "c" and known is number:
-                return name
-        name = f"c{len(self.given)}"
-        self.given[name] = number
+        name = self._numbers.setdefault(value, f"c{len(self._numbers)}")
+        self.given[name] = value
         return name
 
     def _function(self, name: str) -> str:
-        known = self._arithmetic.functions.get(name)
-        if known is None or (name not in FUNCTIONS and name != "power"):
+        if name not in FUNCTIONS and name != "power":
             raise UndefinedFunction(name)
-        self.given[f"f_{name}"] = known
+        self.given[f"f_{name}"] = name
         return f"f_{name}"
 
     def _formula(self, node: Node) -> str:
