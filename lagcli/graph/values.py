@@ -115,7 +115,7 @@ class Program:
                     self._symbols.append((node.name + "'" * node.primes, place))
             else:
                 self._steps.append((place, self._step(node)))
-        self._roots = [self._place[root] for root in roots]
+        self.roots = [self._place[root] for root in roots]
 
     def __call__(self, values: Mapping[str, Any]) -> list[Any]:
         """The values at a point, given by names: `x`, `x'`.
@@ -130,7 +130,7 @@ class Program:
             slots[place] = values[name]
         for place, step in self._steps:
             slots[place] = step(slots)
-        return [slots[place] for place in self._roots]
+        return [slots[place] for place in self.roots]
 
     def _step(self, node: Node) -> Callable[[list[Any]], Any]:
         match node:

@@ -8,7 +8,7 @@ digits are taken or the answer is refused from the time on at which it is no lon
 
 What two runs may both step over is looked for: a step is at most 1/200 of the span, the
 defect is probed at a thousand places between the stages, conserved charges must stay.
-The runs begin one rounding of the initial values apart.
+The runs begin one rounding of the initial values apart, and more: see `beside`.
 
 Where things happen on the way (impacts, contacts lost), both runs must go through the same
 events in the same order.  A time that lies after an event in one run and before it in the
@@ -27,9 +27,10 @@ Runge-Kutta methods", IMA J. Numer. Anal. 16 (1996).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
+from lagcli.numerics.charges import changes
 from lagcli.numerics.run import Mark, Run
 from lagcli.numerics.steps import SINGULAR_MASS
 from lagcli.record import record, replace
@@ -280,13 +281,12 @@ class Controller:
             return "something acts in a time too short for the steps"
         for j in range(self.charges):
             column = len(rows[0]) - self.charges + j
-            for stretch in stretches(fine, j):
-                values = [float(rows[place][column]) for place in stretch]
-                scale = max(1.0, *map(abs, values))
-                drift, worst = max((abs(x - values[0]), k) for k, x in enumerate(values))
+            values = [row[column] for row in rows]
+            for places, found, scale in changes(fine, j, values):
+                drift, worst = max((abs(x), place) for place, x in zip(places, found, strict=True))
                 bound = _CHARGES * self.accuracy * scale
                 if drift > bound:
-                    felt = self._felt(fine, stretch[worst], column, values[worst])
+                    felt = self._felt(fine, worst, column, float(values[worst]))
                     if drift > _CHARGES * felt:
                         return "a conserved charge drifts"
         return ""
@@ -374,12 +374,3 @@ class Partners:
         # one run is already beyond the event: the nearest state on the same side
         ahead = place is None or self._marks[place].phase > mark.phase
         return self._sides.get((mark.phase, not ahead))
-
-
-def stretches(run: Run, charge: int) -> Iterator[list[int]]:
-    """The places of the rows of each phase in which a charge is conserved."""
-    for number, phase in enumerate(run.phases):
-        if phase.mode.conserved[charge]:
-            places = [place for place, mark in enumerate(run.marks) if mark.phase == number]
-            if len(places) > 1:
-                yield places

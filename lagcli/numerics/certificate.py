@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from lagcli.numerics.accuracy import Outcome, stretches
+from lagcli.numerics.accuracy import Outcome
 from lagcli.numerics.asked import Certificate, Result
+from lagcli.numerics.charges import changes, relative
 from lagcli.numerics.events import Event
 from lagcli.numerics.methods import METHODS
 from lagcli.numerics.motion import Motion
@@ -111,20 +112,13 @@ def _estimated_by(outcome: Outcome) -> str:
 
 
 def _drifts(simulation: Simulation, outcome: Outcome, kept: int) -> dict[str, float]:
-    """The largest change of each charge between events, relative to max(1, its magnitude)."""
+    """The largest change of each charge between events, relative to the sum of its terms."""
     first = len(simulation.nodes)
     drifts: dict[str, float] = {}
     for j, name in enumerate(simulation.charges):
-        for stretch in stretches(outcome.run, j):
-            values = [
-                float(outcome.rows[place][first + j])
-                for place in stretch
-                if place < kept and outcome.rows[place][first + j] is not None
-            ]
-            if values:
-                scale = max(1.0, *map(abs, values), 1.0)
-                change = max(abs(x - values[0]) for x in values) / scale
-                drifts[name] = max(drifts.get(name, 0.0), change)
+        values = [row[first + j] for row in outcome.rows[:kept]]
+        for _, found, scale in changes(outcome.run, j, values):
+            drifts[name] = max(drifts.get(name, 0.0), relative(found, scale))
     return drifts
 
 

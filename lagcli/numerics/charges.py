@@ -3,25 +3,32 @@
 A candidate's charge is p Delta q - h Delta t - gauge.  Whether it is conserved is asked of
 numbers: its rate along the motion, at random states on the constraints, beside the terms
 that the rate is the sum of.  A gauge that the file leaves out is not searched for.
+
+The change of a charge is measured against what it is the sum of: m x y' - m y x' against
+|m x y'| + |m y x'|, in whatever units, whether it is 0 or not.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from lagcli.graph.derivative import partial
+from lagcli.graph.nodes import Constant, Graph, Node, Product, Sum, Symbol
+from lagcli.graph.values import Floats, Program
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.surface import Surface
 from lagcli.problem import Coordinate
 
 if TYPE_CHECKING:
     from lagcli.numerics.modes import Mode
+    from lagcli.numerics.run import Run
 
 _ATTEMPTS, _ENOUGH = 40, 6
 _ZERO = 1e-9
 _SPREAD = 0.4
 _PROJECTIONS = 8
+_LOOKS = 8
 
 
 def conserved_charges(mode: Mode) -> set[str]:
@@ -105,6 +112,97 @@ def _allowed(coordinate: Coordinate, value: float) -> bool:
             return value < 0
         case _:
             return True
+
+
+def size(graph: Graph, node: Node) -> Node:
+    """The sum of the absolute values of a formula's terms, those of its factors among them."""
+    match node:
+        case Constant(value=value):
+            return graph.constant(abs(value))
+        case Sum(constant=constant, terms=terms):
+            sizes = [(size(graph, term), abs(c)) for term, c in terms]
+            return graph.combination([*sizes, (graph.one, abs(constant))])
+        case Product(factors=factors):
+            return graph.monomial(
+                (size(graph, base) if e > 0 else graph.call("abs", (base,)), e)
+                for base, e in factors
+            )
+        case _:
+            return graph.call("abs", (node,))
+
+
+class Sizes:
+    """What the charges of a mode are measured against.
+
+    Parameters
+    ----------
+    state
+        t, the coordinates and the velocities.
+    charges
+        The formulas.
+    constants
+        The values of the parameters.
+    """
+
+    def __init__(
+        self,
+        graph: Graph,
+        state: Sequence[Symbol],
+        charges: Sequence[Node],
+        constants: Mapping[Symbol, Any],
+    ) -> None:
+        self._program = Program([size(graph, charge) for charge in charges], Floats())
+        self._names = [_name(symbol) for symbol in state]
+        self._known = {_name(symbol): float(value) for symbol, value in constants.items()}
+
+    def largest(self, run: Run, places: Sequence[int]) -> list[float]:
+        """Of each charge the largest at some of the rows of a phase."""
+        found = [0.0] * len(self._program.roots)
+        for place in {*places[:: max(1, len(places) // _LOOKS)], places[-1]}:
+            mark = run.marks[place]
+            state = map(float, (mark.t, *mark.q, *mark.v))
+            try:
+                now = self._program(self._known | dict(zip(self._names, state, strict=True)))
+            except (ArithmeticError, ValueError):
+                continue
+            found = [max(pair) for pair in zip(found, now, strict=True)]
+        return found
+
+
+def _name(symbol: Symbol) -> str:
+    return symbol.name + "'" * symbol.primes
+
+
+def changes(
+    run: Run, charge: int, values: Sequence[Any]
+) -> Iterator[tuple[list[int], list[float], float]]:
+    """Of each phase in which a charge is conserved: its rows, its changes, and its scale.
+
+    Parameters
+    ----------
+    run, charge
+        The rows, and which of the charges.
+    values
+        Of the charge in each row, as far as they count; None where it is not defined.
+    """
+    for number, phase in enumerate(run.phases):
+        if not phase.mode.conserved[charge]:
+            continue
+        places = [
+            place
+            for place, mark in enumerate(run.marks[: len(values)])
+            if mark.phase == number and values[place] is not None
+        ]
+        if len(places) > 1:
+            found = [float(values[place] - values[places[0]]) for place in places]
+            peak = max(abs(float(values[place])) for place in places)
+            yield places, found, max(peak, phase.mode.sizes.largest(run, places)[charge])
+
+
+def relative(changes: Sequence[float], scale: float) -> float:
+    """The largest of the changes beside a scale; 0 where nothing changes."""
+    largest = max(map(abs, changes))
+    return largest / scale if largest else 0.0
 
 
 class _Numbers:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from lagcli.graph.nodes import Node, Symbol
 from lagcli.numerics.arithmetic import Arithmetic
-from lagcli.numerics.charges import conserved_charges
+from lagcli.numerics.charges import Sizes, conserved_charges
 from lagcli.numerics.columns import Values
 from lagcli.numerics.events import Condition
 from lagcli.numerics.friction import StuckMotion
@@ -100,6 +100,12 @@ class Mode:
         """Which of the charges stay as they are in this mode."""
         kept = conserved_charges(self)
         return [name in kept for name in self.modes.simulation.charges]
+
+    @cached_property
+    def sizes(self) -> Sizes:
+        """What the charges are measured against."""
+        e, charges = self.equations, [*self.modes.simulation.charges.values()]
+        return Sizes(e.graph, e.state, charges, self.modes.constants)
 
     @cached_property
     def tabulate(self) -> Callable[..., list[Any]]:

@@ -167,18 +167,17 @@ def _single(
 
 
 def _drift(run: Run, rows: list[list[Any]], first: int) -> float | None:
-    """The largest change of a charge, relative to max(1, its magnitude)."""
-    from lagcli.numerics.accuracy import stretches
+    """The largest change of a charge, relative to the sum of its terms."""
+    from lagcli.numerics.charges import changes, relative
 
-    found: float | None = None
-    for j in range(len(rows[0]) - first):
-        for stretch in stretches(run, j):
-            values = [row[first + j] for row in (rows[k] for k in stretch)]
-            known = [value for value in values if value is not None]
-            scale = max(1.0, *(abs(float(value)) for value in known), 1.0)
-            change = max((abs(float(value - known[0])) for value in known), default=0.0)
-            found = max(found or 0.0, change / scale)
-    return found
+    return max(
+        (
+            relative(found, scale)
+            for j in range(len(rows[0]) - first)
+            for _, found, scale in changes(run, j, [row[first + j] for row in rows])
+        ),
+        default=None,
+    )
 
 
 def _residual(run: Run) -> float | None:
