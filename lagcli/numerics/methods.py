@@ -12,8 +12,8 @@ from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, Any, Protocol
 
 from lagcli.numerics.accuracy import LONGEST, Controller, Outcome
+from lagcli.numerics.beside import are_felt, fast, moved_state, other_parameters
 from lagcli.numerics.run import Run
-from lagcli.numerics.start import rounded_components
 from lagcli.numerics.steps import Tolerance
 from lagcli.numerics.transitions import Transitions
 from lagcli.record import record
@@ -33,7 +33,7 @@ ROUNDED = 10.0
 
 
 class OneRun(Protocol):
-    """Makes a run: from the initial state, or from one a rounding beside it (`moved`)."""
+    """Makes a run: of the problem, or of one a rounding beside it (`moved`)."""
 
     def __call__(
         self, bound: Tolerance, every: int, progress: Progress | None, *, moved: bool
@@ -59,6 +59,8 @@ class Prepared:
         A component smaller than this part of the largest is taken for rounding.
     precision
         The digits within which runs are made and their rows worked out.
+    with_others : function, optional
+        The same with other parameters in the runs that are moved: see `beside`.
     """
 
     run: OneRun
@@ -68,6 +70,7 @@ class Prepared:
     longest: Sequence[float] = LONGEST
     floor: float = 0.0
     precision: Precision = nullcontext
+    with_others: Callable[[Modes], Prepared] | None = None
 
 
 #: Makes a method ready, or says why it is not for this problem.
@@ -100,20 +103,6 @@ class Entry:
     prepare: Prepare
 
 
-def nudged(simulation: Simulation, modes: Modes) -> tuple[Vector, Vector]:
-    """The next doubles to the initial state.
-
-    Every other run begins there: what the initial values are rounded by must not matter.
-    """
-    motion, (q, v) = modes.first.motion, simulation.start
-    rounded = rounded_components(motion, q, v)
-    moved = [
-        math.nextafter(x, math.inf) if inexact else x
-        for x, inexact in zip((*q, *v), rounded, strict=True)
-    ]
-    return moved[: motion.n], moved[motion.n :]
-
-
 def in_doubles(make: MakeMethod, simulation: Simulation, modes: Modes) -> Prepared:
     """A method of the usual kind made ready: steps in Python, one state after the other.
 
@@ -124,25 +113,31 @@ def in_doubles(make: MakeMethod, simulation: Simulation, modes: Modes) -> Prepar
     simulation, modes
         What is asked, and the modes in doubles.
     """
-    asked, beside = simulation.asked, nudged(simulation, modes)
-    modes = modes.by(make)
-    states = simulation.start, beside
+    asked = simulation.asked
+    states = simulation.start, moved_state(simulation, modes)
 
-    def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
-        made = Run(Transitions(modes, asked.accuracy, asked.until), bound, asked.accuracy)
-        q, v = states[moved]
-        return made.go(q, v, simulation.times, probe_every=every, progress=progress)
+    def prepared(others: Modes) -> Prepared:
+        usual = modes.by(make)
+        both = usual, usual if others is modes else others.by(make)
 
-    return Prepared(run=run)
+        def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
+            made = Run(Transitions(both[moved], asked.accuracy, asked.until), bound, asked.accuracy)
+            times = fast(simulation.times) if moved else simulation.times
+            q, v = states[moved]
+            return made.go(q, v, times, probe_every=every, progress=progress)
+
+        return Prepared(run=run, with_others=prepared)
+
+    return prepared(modes)
 
 
-def outcome_of(simulation: Simulation, made: Prepared, first: float = 1.0) -> Outcome:
+def outcome_of(simulation: Simulation, modes: Modes, made: Prepared, first: float = 1.0) -> Outcome:
     """The runs of a method, compared until they agree within the accuracy.
 
     Parameters
     ----------
-    simulation, made
-        What is asked, and the method.
+    simulation, modes, made
+        What is asked, the modes in doubles, and the method.
     first
         The first tolerance is no coarser.
     """
@@ -165,17 +160,27 @@ def outcome_of(simulation: Simulation, made: Prepared, first: float = 1.0) -> Ou
         simulation.finished += 1
         return run
 
-    with made.precision():
-        return Controller(
-            runner,
-            accuracy=asked.accuracy,
-            finest=made.finest,
-            rounded=made.rounded,
-            span=asked.until,
-            charges=len(simulation.charges),
-            longest=made.longest,
-            first=min(first, made.first),
-        ).outcome()
+    def found() -> Outcome:
+        with made.precision():
+            return Controller(
+                runner,
+                accuracy=asked.accuracy,
+                finest=made.finest,
+                rounded=made.rounded,
+                span=asked.until,
+                charges=len(simulation.charges),
+                longest=made.longest,
+                first=min(first, made.first),
+            ).outcome()
+
+    outcome = found()
+    if outcome.reached and made.with_others is not None:
+        others = other_parameters(simulation, modes)
+        if others is not None and are_felt(outcome.run, others, asked.accuracy):
+            made = made.with_others(others)
+            count = 0
+            return found()
+    return outcome
 
 
 def one_run(simulation: Simulation, made: Prepared, tolerance: float) -> Run:

@@ -240,7 +240,7 @@ class Simulation:
             made = METHODS[name].prepare(self, modes)
             if not isinstance(made, str):
                 try:
-                    found = outcome_of(self, made, first)
+                    found = outcome_of(self, modes, made, first)
                 except NotPossible as reason:
                     made = str(reason)
                     if self.is_long:

@@ -251,7 +251,7 @@ class CompiledTaylor:
         done = int(counts[k.PENDING])
         whole = self._read(out)
         run.marks = [
-            Mark(t, whole[j : j + self.n], whole[j + self.n : j + both], 0, sample)
+            Mark(float(t), whole[j : j + self.n], whole[j + self.n : j + both], 0, sample)
             for sample, t in enumerate(times[:done])
             for j in (sample * (both + 1),)
         ]

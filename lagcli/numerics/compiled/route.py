@@ -5,14 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from lagcli.numerics.beside import fast, moved_state
 from lagcli.numerics.compiled.engine import NoCompiler, engine
 from lagcli.numerics.compiled.machine import Machine, NotCompiled
 from lagcli.numerics.compiled.method import CompiledTaylor
 from lagcli.numerics.compiled.numbers import DOUBLE, EXTENDED, QUADRUPLE, Extended
 from lagcli.numerics.constants import constants_of
-from lagcli.numerics.methods import ROUNDED, Prepared, Progress, nudged
+from lagcli.numerics.methods import ROUNDED, Prepared, Progress
 from lagcli.numerics.modes import MakeMethod, Mode, Modes
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import Refusal
@@ -96,12 +98,13 @@ class Runs:
     def run(
         self,
         state: tuple[Sequence[Any], Sequence[Any]],
+        times: Sequence[Any],
         bound: Tolerance,
         every: int,
         progress: Callable[[float], None] | None,
     ) -> Run:
         """One run from a state."""
-        asked, times, mode = self.simulation.asked, self.simulation.times, self.modes.first
+        asked, mode = self.simulation.asked, self.modes.first
         transitions = Transitions(self.modes, asked.accuracy, asked.until)
         run = Run(transitions, bound, asked.accuracy)
         q, v = list(state[0]), list(state[1])
@@ -119,19 +122,36 @@ def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
     machine = double_machine(doubles.first.motion)
     if isinstance(machine, str):
         return machine
-    runs = Runs(simulation, doubles, machine, doubles.make_method)
-    q, v = simulation.start
-    states = (q, v), nudged(simulation, doubles)
+    states = simulation.start, moved_state(simulation, doubles)
 
-    def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
-        done = runs.run(states[moved], bound, every, progress)
-        if done.steps > LONG and simulation.asked.method == "auto" and not simulation.is_long:
-            simulation.is_long = not isinstance(prepared_extended(simulation, doubles), str)
-            if simulation.is_long:
-                raise RoundingAddsUp(done.steps)
-        return done
+    usual = Runs(simulation, doubles, machine, doubles.make_method)
 
-    return Prepared(run=run, rounded=ROUNDED * DOUBLE.rounding, longest=LONGEST)
+    def prepared(other: Runs) -> Prepared:
+        both = usual, other
+
+        def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
+            times = fast(simulation.times) if moved else simulation.times
+            done = both[moved].run(states[moved], times, bound, every, progress)
+            if done.steps > LONG and simulation.asked.method == "auto" and not simulation.is_long:
+                simulation.is_long = not isinstance(prepared_extended(simulation, doubles), str)
+                if simulation.is_long:
+                    raise RoundingAddsUp(done.steps)
+            return done
+
+        def with_others(others: Modes) -> Prepared:
+            found = double_machine(others.first.motion)
+            if isinstance(found, str):
+                raise NotPossible(found)
+            return prepared(Runs(simulation, others, found, others.make_method))
+
+        return Prepared(
+            run=run,
+            rounded=ROUNDED * DOUBLE.rounding,
+            longest=LONGEST,
+            with_others=with_others,
+        )
+
+    return prepared(usual)
 
 
 def prepared_extended(simulation: Simulation, doubles: Modes) -> Prepared | str:
@@ -189,8 +209,12 @@ def _prepared(
     states = (exact_q, exact_v), (moved_state[: motion.n], moved_state[motion.n :])
 
     def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
+        times: list[Any] = simulation.times
+        if moved:  # by a clock that is a rounding fast
+            clock = 1 + 2 * Fraction(numbers.rounding)
+            times = [*(Fraction(t) * clock for t in times[:-1]), times[-1]]
         try:
-            return runs.run(states[moved], bound, every, progress)
+            return runs.run(states[moved], times, bound, every, progress)
         except OverflowError as reason:
             raise NotPossible(str(reason)) from None
 

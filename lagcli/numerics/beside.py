@@ -1,0 +1,126 @@
+"""What lies a rounding beside a problem: its initial values, its clock, its parameters.
+
+Every other run begins a rounding of the initial values away and reads a clock that is a
+rounding fast, so that neither what doubles make of the file nor a frequency that they get
+wrong by a rounding is the same in both runs.  A parameter, too, is seldom a double.  Where
+the accelerations, or a column, feel that more than they feel the clock, as k - c does for
+two numbers that are almost the same, the runs are made again, every other one with
+parameters that lie so many times as far from the file's as the doubles do.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from lagcli.graph.nodes import Symbol
+from lagcli.numerics.arithmetic import Doubles
+from lagcli.numerics.constants import constants_of
+from lagcli.numerics.modes import Modes
+from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.run import Run
+from lagcli.numerics.start import rounded_components
+
+if TYPE_CHECKING:
+    from lagcli.numerics.simulate import Simulation
+
+Vector = list[Any]
+
+_EPSILON = 2.0**-52
+#: The other parameters lie so many times the rounding beyond the file's.
+_TIMES = 16
+#: What the clock's rounding, and the factor of the bound, make up for.
+_CLOCK = 4 * _EPSILON
+_LOOKS = 12
+#: For the rate at which a force changes with the time alone.
+_LATER = 1e-7
+_COLUMN = 0.25
+
+
+class BesideDoubles(Doubles):
+    """Doubles that miss a rational by more than its nearest double, to the same side of it."""
+
+    def number(self, value: Fraction) -> float:
+        """Of a rational that is no double, the double some 16 roundings beyond it."""
+        nearest = float(value)
+        missed = value - Fraction(nearest)
+        if not missed or not math.isfinite(nearest):
+            return nearest
+        unit = math.ulp(nearest)
+        steps = max(1, round(_TIMES * abs(missed) / Fraction(unit)))
+        return nearest + math.copysign(steps * unit, missed)
+
+
+def moved_state(simulation: Simulation, modes: Modes) -> tuple[Vector, Vector]:
+    """The next doubles to the initial state: what it is rounded by must not matter."""
+    motion, (q, v) = modes.first.motion, simulation.start
+    rounded = rounded_components(motion, q, v)
+    moved = [
+        math.nextafter(x, math.inf) if inexact else x
+        for x, inexact in zip((*q, *v), rounded, strict=True)
+    ]
+    return moved[: motion.n], moved[motion.n :]
+
+
+def fast(times: Sequence[float]) -> list[float]:
+    """The times, but for the last, by a clock that is a rounding of doubles fast."""
+    return [*(t * (1 + _EPSILON) for t in times[:-1]), times[-1]]
+
+
+def other_parameters(simulation: Simulation, modes: Modes) -> Modes | None:
+    """The same modes with parameters beside those of the file; None where all are exact."""
+    arithmetic = BesideDoubles()
+    try:
+        constants: Mapping[Symbol, Any] = constants_of(
+            simulation.equations, simulation.all_nodes, arithmetic
+        )
+    except Refusal:  # at the end of what is allowed
+        return None
+    others = Modes(simulation, constants, arithmetic, modes.make_method, modes.rounding)
+    others.first.conserved = modes.first.conserved
+    return others
+
+
+def are_felt(run: Run, others: Modes, accuracy: float) -> bool:
+    """Whether other parameters change what acts in a run by more than a clock does.
+
+    Parameters
+    ----------
+    run
+        In doubles.
+    others
+        Its modes with the parameters beside.
+    accuracy
+        That of the columns.
+    """
+    marks = run.marks[:: max(1, len(run.marks) // _LOOKS)]
+    n, columns = len(run.peaks) // 2, len(others.simulation.nodes)
+    least = [peak / others.simulation.asked.until for peak in run.peaks[n:]]
+    sizes, changes = least, [0.0] * n
+    heights, moves = [1.0] * columns, [0.0] * columns
+    for mark in marks:
+        mode = run.phases[mark.phase].mode
+        beside = others.mode(*mode.key)
+        state, later = (mark.t, *mark.q, *mark.v), mark.t * _LATER
+        try:
+            if mode.motion.kinks:
+                mode.motion.set_signs(*(mark.t, mark.q, mark.v))
+                beside.motion.signs[:] = mode.motion.signs
+            here, there = mode.motion.accelerations(*state), beside.motion.accelerations(*state)
+            then = mode.motion.accelerations(mark.t + later, *mark.q, *mark.v)
+        except (ArithmeticError, ValueError):
+            continue
+        for j, (a, b, c) in enumerate(zip(here, there, then, strict=True)):
+            sizes[j] = max(sizes[j], abs(a) + abs(c - a) / _LATER)
+            changes[j] = max(changes[j], abs(b - a))
+        rows = [m.tabulate(mark.t, mark.q, mark.v)[:columns] for m in (mode, beside)]
+        for j, (x, y) in enumerate(zip(*rows, strict=True)):
+            if x is not None and y is not None:
+                heights[j] = max(heights[j], abs(x))
+                moves[j] = max(moves[j], abs(y - x))
+    limit = _TIMES * _CLOCK
+    return any(d > limit * size for d, size in zip(changes, sizes, strict=True)) or any(
+        d > _COLUMN * accuracy * height for d, height in zip(moves, heights, strict=True)
+    )
