@@ -156,9 +156,9 @@ def _undefined(before: Problem, after: Problem) -> list[Diagnostic]:
         for part in walk(node):
             match part:
                 case Quotient(denominator=below) if _is_zero(below):
-                    places.append(below)
+                    places.append(part)
                 case Power(base=base, exponent=exponent) if _is_zero(base):
-                    places.extend([base] if _is_negative(exponent) else [])
+                    places.extend([part] if _is_negative(exponent) else [])
                 case _:
                     pass
         return node

@@ -106,6 +106,8 @@ class Builder:
         Unspecified function -> number of its arguments.
     derivative
         The total time derivative, for a prime on a name.
+    refused
+        The exception for a node that has no real value, such as sqrt(-1).
     """
 
     def __init__(
@@ -113,10 +115,16 @@ class Builder:
         names: Mapping[str, Expr],
         functions: Mapping[str, int],
         derivative: Callable[[Expr], Expr],
+        refused: Callable[[Expression], Exception] = ArithmeticError,
     ) -> None:
         self.names = dict(names)
         self.functions = dict(functions)
+        self._refused = refused
         self._derivative = derivative
+
+    def knowing(self, names: Mapping[str, Expr]) -> Builder:
+        """The same for formulas with other names beside these."""
+        return Builder({**self.names, **names}, self.functions, self._derivative, self._refused)
 
     def __call__(self, node: Expression) -> Expr:
         """The SymPy expression of a tree."""
@@ -132,16 +140,23 @@ class Builder:
             case Product(factors=factors):
                 return sympy.Mul(*map(self, factors))
             case Quotient(numerator=numerator, denominator=denominator):
-                return self(numerator) / self(denominator)
+                return self._real(node, self(numerator) / self(denominator))
             case Power(base=base, exponent=exponent):
-                return sympy.Pow(self(base), self(exponent))
+                return self._real(node, sympy.Pow(self(base), self(exponent)))
             case Call(function=function, arguments=arguments, primes=primes):
-                return self._call(function, [self(a) for a in arguments], (1,) * primes)
+                value = self._call(function, [self(a) for a in arguments], (1,) * primes)
+                return self._real(node, value)
             case PartialCall(function=function, indices=indices, arguments=arguments):
                 return self._call(function, [self(a) for a in arguments], tuple(sorted(indices)))
             case Diff(operand=operand, variable=variable):
                 return self(operand).diff(self._name(variable.name, variable.primes))
         raise TypeError(f"not an expression: {node!r}")
+
+    def _real(self, node: Expression, value: Expr) -> Expr:
+        unreal = value.is_number and value.is_extended_real is False
+        if unreal or value.has(sympy.I, sympy.zoo, sympy.nan):
+            raise self._refused(node)
+        return value
 
     def _name(self, name: str, primes: int) -> Expr:
         if name == "pi":

@@ -12,7 +12,8 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra.build import TIME, Builder, symbol
-from lagcli.expression import Expression
+from lagcli.diagnostics import Diagnostic, ProblemError
+from lagcli.expression import Call, Expression
 from lagcli.problem import Point, Problem
 from lagcli.record import record
 
@@ -65,7 +66,7 @@ class System:
             s.name: s for s in (*self.q, *self.parameters, *self.momenta, *self.multipliers)
         }
         arities = {name: len(args) for name, args in problem.functions.items()}
-        self.build = Builder(names, arities, self.total_derivative)
+        self.build = Builder(names, arities, self.total_derivative, self._unreal)
         for name, formula in problem.definitions.items():
             self.build.names[name] = self.build(formula)
 
@@ -79,6 +80,12 @@ class System:
             if variable in present
         ]
         return sympy.Add(*terms)
+
+    def _unreal(self, node: Expression) -> ProblemError:
+        message = "this has no real value"
+        if isinstance(node, Call):
+            message = f"'{node.function}' has no real value here"
+        return ProblemError(self.problem.source, (Diagnostic(message, node.span),))
 
     def symbol_of(self, name: str) -> Symbol:
         """The symbol printed as `name`: a coordinate, velocity, acceleration, parameter, …"""

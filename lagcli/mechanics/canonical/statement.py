@@ -71,8 +71,7 @@ class PhaseSpace:
         return found
 
     def _builder(self, names: Mapping[str, Expr]) -> Builder:
-        build = self.system.build
-        return Builder({**build.names, **names}, build.functions, self.system.total_derivative)
+        return self.system.build.knowing(names)
 
     @cached_property
     def _charges(self) -> dict[str, Expr]:

@@ -23,7 +23,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.antiderivative import antiderivative
-from lagcli.algebra.build import Builder, free_of, symbol
+from lagcli.algebra.build import free_of, symbol
 from lagcli.answers import Verification
 from lagcli.mechanics.canonical.inverse import candidates
 from lagcli.mechanics.canonical.poisson import poisson
@@ -142,12 +142,7 @@ class CanonicalTest:
         if self.given.generating is None:
             return None
         names = {s.name: s for s in self.new}
-        build = Builder(
-            {**self.system.build.names, **names},
-            self.system.build.functions,
-            self.system.total_derivative,
-        )
-        return build(self.given.generating)
+        return self.system.build.knowing(names)(self.given.generating)
 
     @cached_property
     def relations(self) -> tuple[Relation, ...]:
