@@ -12,6 +12,7 @@ from lagcli.numerics.events import Event
 from lagcli.numerics.methods import METHODS
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import told
+from lagcli.numerics.run import Run
 from lagcli.numerics.steps import CannotGoOn
 from lagcli.record import replace
 
@@ -60,7 +61,7 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
             constraints=_residuals(outcome, simulation),
         ),
         method=run.method_name or "dop853",
-        reason=METHODS[run.method_name or "dop853"].reason + simulation.remark,
+        reason=METHODS[run.method_name or "dop853"].reason + _apart(run) + simulation.remark,
         steps=run.steps,
         evaluations=outcome.evaluations,
         events=tuple(events),
@@ -68,6 +69,14 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
         cut=simulation.cut,
         refusal=refusal,
     )
+
+
+def _apart(run: Run) -> str:
+    """Which coordinates had steps of their own."""
+    if not run.apart:
+        return ""
+    parts = "; ".join(map(", ".join, run.apart))
+    return f"; subsystems that move without each other took steps of their own ({parts})"
 
 
 def _floats(row: Sequence[Any]) -> tuple[float | None, ...]:

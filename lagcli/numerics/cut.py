@@ -29,6 +29,7 @@ from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node, Symbol, ancestry
 from lagcli.graph.substitution import Substitution
 from lagcli.mechanics.rates import ConstraintRow
+from lagcli.numerics.coupling import coupling, needed
 from lagcli.numerics.equations import Equations
 from lagcli.record import record
 
@@ -231,6 +232,17 @@ class Reduction:
             )
         return found
 
+    def needed(
+        self,
+        mass: Sequence[Sequence[Node]],
+        forcing: Sequence[Node],
+        rows: Mapping[int, ConstraintRow],
+        asked: Sequence[Node],
+    ) -> list[bool]:
+        """Which of the coordinates left have a part in what is asked."""
+        q = [self.equations.q[j] for j in self.kept]
+        return needed(*coupling(self.graph, q, mass, forcing, rows.values()), asked)
+
 
 class CutEquations(Equations):
     """The equations of some of the coordinates.
@@ -304,58 +316,16 @@ def cut(
     reduction = Reduction(equations, constants, given)
     mass, forcing = reduction.matrices()
     rows = reduction.rows()
-    wanted = needed(reduction, mass, forcing, rows, [reduction.put(node) for node in asked])
+    wanted = reduction.needed(mass, forcing, rows, [reduction.put(node) for node in asked])
     if not reduction.solved and all(wanted):
         return None
     reduced = CutEquations(reduction, mass, forcing, rows, wanted)
-    if not reduced.q or _operations(reduced) > _operations(equations):
+    if not reduced.q or operations(reduced) > operations(equations):
         return None
     return reduced, reduction
 
 
-def needed(
-    reduction: Reduction,
-    mass: Sequence[Sequence[Node]],
-    forcing: Sequence[Node],
-    rows: Mapping[int, ConstraintRow],
-    asked: Sequence[Node],
-) -> list[bool]:
-    """Which of the coordinates left have a part in what is asked.
-
-    u_i needs u_j where the two are coupled by M or a constraint, or where its equation
-    names u_j.
-    """
-    e, zero = reduction.equations, reduction.graph.zero
-    masks = [
-        e.q[j].mask | e.qdot[j].mask | e.graph.symbol(e.q[j].name, 2).mask for j in reduction.kept
-    ]
-    named = [f.mask for f in forcing]
-    for i, row in enumerate(mass):
-        for j, entry in enumerate(row):
-            named[i] |= entry.mask | (masks[j] if entry is not zero else 0)
-    for each in rows.values():
-        inside = each.f.mask | each.bias.mask | each.drift.mask
-        for entry in each.row:
-            inside |= entry.mask
-        touched = [i for i, entry in enumerate(each.row) if entry is not zero]
-        for i in touched:
-            named[i] |= inside
-            for j in touched:
-                named[i] |= masks[j]
-    wanted = 0
-    for node in asked:
-        wanted |= node.mask
-    while True:
-        more = wanted
-        for mask, needs in zip(masks, named, strict=True):
-            if mask & wanted:
-                more |= needs | mask
-        if more == wanted:
-            return [bool(mask & wanted) for mask in masks]
-        wanted = more
-
-
-def _operations(equations: Equations) -> int:
+def operations(equations: Equations) -> int:
     """Of one evaluation of the accelerations; many, where they are left to loops."""
     eliminated = equations.eliminated
     if eliminated is None:

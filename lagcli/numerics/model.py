@@ -22,7 +22,8 @@ from lagcli.numerics.asked import Asked
 from lagcli.numerics.columns import Column
 from lagcli.numerics.constants import constants_of
 from lagcli.numerics.contact import with_contacts
-from lagcli.numerics.cut import MOST, Reduction, cut, needed
+from lagcli.numerics.coupling import coupling, groups
+from lagcli.numerics.cut import MOST, Reduction, cut
 from lagcli.numerics.equations import Equations
 from lagcli.numerics.refusal import Refusal
 from lagcli.numerics.simulate import Simulation
@@ -34,6 +35,7 @@ _STATES, _ZERO = 6, 1e-9
 
 _GIVEN = "the constraint {} gives it; a column with its multiplier keeps both"
 _INITIAL = "only the initial state depends on it"
+_OWN_STEPS = "a long one gives what moves apart steps of its own, where these are fewer"
 _IGNORABLE = "its momentum is conserved; its velocity is needed, so to reduce it spares nothing"
 
 
@@ -159,15 +161,18 @@ class _Model:
             return
         mass, forcing = reduction.matrices()
         rows = reduction.rows()
-        names = [e.q[j].name for j in reduction.kept]
+        left = [e.q[j] for j in reduction.kept]
+        names = [q.name for q in left]
+        parts = groups(*coupling(e.graph, left, mass, forcing, rows.values()))
+        own = f", and {_OWN_STEPS}" if len(parts) > 1 else ""
         for j, name in zip(reduction.kept, names, strict=True):
-            wanted = needed(reduction, mass, forcing, rows, [e.q[j], e.qdot[j]])
+            wanted = reduction.needed(mass, forcing, rows, [e.q[j], e.qdot[j]])
             others = [other for other in compress(names, wanted) if other != name]
             if len(others) + 1 < len(names):
                 depends = f"on {', '.join(others)} only" if others else "on no other coordinate"
                 yield (
                     name,
-                    f"its motion depends {depends}; a run that shows less leaves out the rest",
+                    f"its motion depends {depends}; a run that shows less leaves out the rest{own}",
                 )
 
     def _is_ignorable(self, j: int) -> bool:

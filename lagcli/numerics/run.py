@@ -72,6 +72,8 @@ class Run:
         Why it could not go on.
     steps, evaluations : int
         The work.
+    apart : tuple of tuple of str
+        The coordinates of each subsystem that took steps of its own.
     peaks : list of float
         The largest magnitude of each component.
     defect : float
@@ -95,6 +97,7 @@ class Run:
         self.defect = 0.0
         self.evaluations = 0
         self.method_name = ""
+        self.apart: tuple[tuple[str, ...], ...] = ()
         self._probes = 0
         self.step_limit = STEP_LIMIT
         self._changes: list[float] = []

@@ -207,6 +207,24 @@ class CompiledTaylor:
 
         return inside
 
+    def lengths(self, groups: Sequence[Sequence[int]]) -> list[float]:
+        """How long the last step would have been for the coordinates of each group alone."""
+        tolerance = float(self._facts[k.TOLERANCE])
+        scale, longest = float(self._facts[k.SCALE]), float(self._facts[k.LONGEST])
+        found = []
+        for group in groups:
+            rows = [*group, *(self.n + j for j in group)]
+            h = longest / scale
+            for power in range(self.order - 3, self.order + 1):
+                largest = max(
+                    abs(float(self._rows[i * k.STRIDE + power])) / float(self._scales[i])
+                    for i in rows
+                )
+                if largest > 0:
+                    h = min(h, (tolerance / largest) ** (1 / power))
+            found.append(scale * h)
+        return found
+
     # -- the whole run ---------------------------------------------------------------------------
 
     def go(

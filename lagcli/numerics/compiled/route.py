@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lagcli.numerics.beside import fast, moved_state
+from lagcli.numerics.compiled.apart import Apart, MakeMachine, apart
 from lagcli.numerics.compiled.engine import NoCompiler, engine
 from lagcli.numerics.compiled.machine import Machine, NotCompiled
 from lagcli.numerics.compiled.method import CompiledTaylor
@@ -70,6 +71,8 @@ class Runs:
         What is asked, and the modes with the numbers of the machine code or better.
     machine
         The equations of the first mode.
+    make
+        Makes the machine code of a part of that mode's motion; None keeps it in one.
     otherwise
         Makes the method of a mode for which there is no machine code.
     """
@@ -79,9 +82,14 @@ class Runs:
         simulation: Simulation,
         modes: Modes,
         machine: Machine,
+        make: MakeMachine | None,
         otherwise: MakeMethod | None = None,
     ) -> None:
         self.simulation, self._otherwise = simulation, otherwise
+        self._machine, self._make = machine, make
+        #: the subsystems, once it is known whether steps of their own pay
+        self._apart: Apart | None = None
+        self._is_weighed = make is None or simulation.asked.whole
         self._machines: dict[Motion, Machine | str] = {modes.first.motion: machine}
         self.modes = modes.by(self._method)
 
@@ -94,6 +102,15 @@ class Runs:
             assert self._otherwise is not None
             return self._otherwise(mode, surface)
         return CompiledTaylor(machine, surface)
+
+    def _parts(self, state: tuple[list[Any], list[Any]], bound: Tolerance) -> Apart | None:
+        """The subsystems, where they are run apart."""
+        if not self._is_weighed:
+            assert self._make is not None
+            self._is_weighed = True
+            mode, until = self.modes.first, self.simulation.asked.until
+            self._apart = apart(mode, self._machine, self._make, state, bound, until)
+        return self._apart
 
     def run(
         self,
@@ -111,10 +128,16 @@ class Runs:
         if mode.conditions or mode.motion.kinks:
             return run.go(q, v, times, probe_every=every, progress=progress)
         surface = mode.surface()
+        probes = _PROBES if every else 0
+        run.phases.append(Phase(mode, surface, 0.0))
+        parts = self._parts((q, v), bound)
+        if parts is not None:
+            if parts.go(run, (q, v), times, probes=probes, progress=progress):
+                return run
+            self._apart = None
         method = mode.method(surface)
         assert isinstance(method, CompiledTaylor)
-        run.phases.append(Phase(mode, surface, 0.0))
-        return method.go(run, q, v, times, probes=_PROBES if every else 0, progress=progress)
+        return method.go(run, q, v, times, probes=probes, progress=progress)
 
 
 def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
@@ -124,7 +147,7 @@ def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
         return machine
     states = simulation.start, moved_state(simulation, doubles)
 
-    usual = Runs(simulation, doubles, machine, doubles.make_method)
+    usual = Runs(simulation, doubles, machine, double_machine, doubles.make_method)
 
     def prepared(other: Runs) -> Prepared:
         both = usual, other
@@ -142,7 +165,7 @@ def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
             found = double_machine(others.first.motion)
             if isinstance(found, str):
                 raise NotPossible(found)
-            return prepared(Runs(simulation, others, found, others.make_method))
+            return prepared(Runs(simulation, others, found, double_machine, others.make_method))
 
         return Prepared(
             run=run,
@@ -196,9 +219,16 @@ def _prepared(
     modes = Modes(simulation, constants, arithmetic, doubles.make_method, 2.0**-_BITS)
     modes.first.conserved = doubles.first.conserved
     motion = modes.first.motion
-    beside = double_machine(doubles.first.motion) if numbers is EXTENDED else ""
-    machine = Machine(motion, numbers, None if isinstance(beside, str) else beside)
-    runs = Runs(simulation, modes, machine)
+
+    def with_doubles(motion: Motion) -> Machine:
+        own = Motion(motion.equations, doubles.constants, doubles.arithmetic)
+        beside = double_machine(own)
+        return Machine(motion, numbers, None if isinstance(beside, str) else beside)
+
+    if numbers is EXTENDED:
+        runs = Runs(simulation, modes, with_doubles(motion), with_doubles)
+    else:
+        runs = Runs(simulation, modes, Machine(motion, numbers), None)
     q, v = simulation.start
     exact_q, exact_v = refined_state(motion, modes.first.surface(), q, v, anew=not asked.project)
     inexact = rounded_components(motion, q, v)
