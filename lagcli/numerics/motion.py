@@ -263,6 +263,11 @@ class Motion:
         e = self.equations
         return self._correction(e.eliminated, e.rates, tuple(range(self.m)))
 
+    @cached_property
+    def residuals(self) -> Function:
+        """f of the holonomic constraints, then A q' + b of all."""
+        return self.function([*self.equations.positions, *self.equations.rates])
+
     def _correction(
         self, eliminated: Any, residuals: Sequence[Node], which: Sequence[int]
     ) -> Function:

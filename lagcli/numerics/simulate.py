@@ -205,12 +205,13 @@ class Simulation:
         constants = constants_of(self.equations, self.all_nodes, arithmetic)
         modes = Modes(self, constants, arithmetic, dop853, ROUNDING)
         self.start = initial_state(modes.first.motion, project=self.asked.project)
-        self._check_start(modes.first.motion, *self.start)
         self._keep_conserved(modes)
         reduced = None if self.asked.whole else cut_simulation(self, modes, *self.start)
-        if reduced is None:
-            return self, modes
-        return reduced, Modes(reduced, constants, arithmetic, dop853, ROUNDING)
+        if reduced is not None:
+            modes = Modes(reduced, constants, arithmetic, dop853, ROUNDING)
+        integrated = reduced or self
+        self._check_start(modes.first.motion, *integrated.start)
+        return integrated, modes
 
     def _between(self, good: float, bad: float) -> None:
         """Rows as they were up to a time, then many up to another."""

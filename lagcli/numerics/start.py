@@ -140,6 +140,8 @@ class _Completion:
             raise Refusal(
                 f"the constraints are not defined at the initial state: {told(error)}"
             ) from None
+        if max(surface.residuals) <= surface.rounding:
+            return q, v
         nearest = self._nearest(q, v)
         if off and not project:
             raise self._off(off[0], nearest)

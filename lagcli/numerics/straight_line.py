@@ -78,6 +78,9 @@ def straight_line(
     UndefinedFunction
         When a function has no formula.
     """
+    if not guards and all(isinstance(root, Constant) for root in roots):
+        numbers = tuple(arithmetic.number(root.value) for root in roots)  # type: ignore[attr-defined]
+        return lambda *_: numbers
     watched = tuple(guards) if arithmetic.ordered and otherwise is not None else ()
     places, signs = frozen or ({}, [])
     key = (tuple(arguments), tuple(roots), watched, tuple(places.items()))

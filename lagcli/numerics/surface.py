@@ -85,8 +85,5 @@ class Surface:
 
     def note(self, t: float, q: Vector, v: Vector) -> None:
         """Measure the residuals that are left at a state."""
-        n = self.n
-        positions = self.motion.position_correction(t, *q, *v)[n:] if self.count else ()
-        rates = self.motion.velocity_correction(t, *q, *v)[n:]
-        for k, value in enumerate((*positions, *rates)):
+        for k, value in enumerate(self.motion.residuals(t, *q, *v)):
             self.residuals[k] = max(self.residuals[k], self.relative(k, value))
