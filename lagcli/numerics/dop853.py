@@ -124,6 +124,7 @@ class Dop853:
                     raise CannotGoOn(t, q, v, reason)
                 if error < math.inf:
                     tolerance.rejected(five)
+                tolerance.forget()
                 continue
             tolerance.accepted()
             previous = (q, v, rate)

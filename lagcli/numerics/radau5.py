@@ -112,6 +112,7 @@ class Radau5:
             except (ArithmeticError, ValueError) as failure:
                 error, reason = math.inf, told(failure)
             if not error <= 1:
+                tolerance.forget()
                 factor = _SAFETY * error ** (-1 / _ESTIMATE) if error < math.inf else 0
                 h *= max(_SHRINK, factor)
                 grow = 1.0

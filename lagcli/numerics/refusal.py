@@ -33,6 +33,6 @@ def told(error: BaseException) -> str:
         case OverflowError():
             return "a number grows beyond all bounds"
         case ValueError():
-            return "a root or a logarithm has no real value"
+            return "a root, a logarithm or the like has no real value"
         case _:
             return str(error)

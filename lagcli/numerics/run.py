@@ -19,6 +19,9 @@ STEP_LIMIT = 200_000
 #: Weyl's sequence of the golden ratio: places as even as can be, the same in every run.
 _GOLDEN = 0.6180339887498949
 _EPSILON = 2.2e-16
+#: A row so soon after an event is before it, whatever the accuracy: who asks for 1e-2 does
+#: not want the ball below its floor for so long.
+_COINCIDES = 1e-9
 #: A step that is a larger part of the span is looked at in pieces.
 _WINDOWS = 200
 #: So many changes of mode at one time are an end.
@@ -193,7 +196,7 @@ class Run:
             if found is not None:
                 following = self.transitions.after(mode, found, *self._state_in(step, end))
                 if following.mode is not None:  # a sample that nobody can tell from it: before it
-                    self._mark_until(step, end + self._allowed * max(1.0, end))
+                    self._mark_until(step, end + min(self._allowed, _COINCIDES) * max(1.0, end))
                 self._end(end, *self._state_in(step, end))
                 return end, following
             self._look(step)

@@ -89,18 +89,26 @@ class Tolerance:
         self.peaks = list(peaks) if peaks is not None else [0.0] * (2 * n)
         self._floor = floor
         self._failures = 0
+        self._earlier: list[float] | None = None
         self.scales = [1.0] * (2 * n)
         self._rescale()
 
     def see(self, q: Sequence[float], v: Sequence[float], change: Sequence[float]) -> None:
         """Note a state and the state after it."""
-        higher = False
+        self._earlier = None
         for j, (x, d) in enumerate(zip((*q, *v), change, strict=True)):
             size = max(abs(x), abs(x + d))
             if size > self.peaks[j]:
+                self._earlier = self._earlier or self.peaks[:]
                 self.peaks[j] = size
-                higher = True
-        if higher:
+        if self._earlier:
+            self._rescale()
+
+    def forget(self) -> None:
+        """Take back the last state after: its step was not taken."""
+        if self._earlier:
+            self.peaks[:] = self._earlier
+            self._earlier = None
             self._rescale()
 
     def _rescale(self) -> None:
@@ -148,6 +156,7 @@ class Tolerance:
 
     def accepted(self) -> None:
         """A step has succeeded: a component that is resolved fails now and then only."""
+        self._earlier = None
         self._failures = max(0, self._failures - 1)
 
 

@@ -182,11 +182,11 @@ def _text(
     weight: str = "normal",
     markup: bool = False,
 ) -> str:
-    halo = ' paint-order="stroke" stroke="white" stroke-width="3"' if weight == "bold" else ""
-    return (
-        f'<text x="{a:.1f}" y="{b:.1f}" font-size="{size:g}" text-anchor="{anchor}" '
-        f'fill="{colour}" font-weight="{weight}"{halo}>{words if markup else escape(words)}</text>'
-    )
+    place = f'<text x="{a:.1f}" y="{b:.1f}" font-size="{size:g}" text-anchor="{anchor}"'
+    end = f' font-weight="{weight}">{words if markup else escape(words)}</text>'
+    # the halo stands by itself: not every renderer knows paint-order
+    halo = f'{place} stroke="white" stroke-width="3"{end}' if weight == "bold" else ""
+    return f'{halo}{place} fill="{colour}"{end}'
 
 
 def _power(value: float) -> str:

@@ -228,6 +228,15 @@ def test_an_impact_at_a_sample_is_compared_on_its_side():
     assert column(result, "y") == pytest.approx([5, 0, 0], abs=1e-9)
 
 
+@pytest.mark.parametrize("accuracy", [1e-2, 1e-3])
+def test_a_row_soon_after_an_impact_is_after_it_at_a_coarse_accuracy_too(accuracy):
+    """The impact is at t = 1 with 10 m/s, of which half is left."""
+    result = simulated(BALL, 1.0005, accuracy, "y,y'")
+    assert result.certificate.reached
+    assert result.rows[-1][1:] == pytest.approx((5 * 0.0005, 5), abs=1e-2)
+    assert result.rows[-1][1] > 0
+
+
 def test_a_grazing_gap_is_refused():
     """x = sin(t) touches the wall at 1: whether it strikes is within the error."""
     text = """

@@ -117,3 +117,13 @@ def test_a_probe_where_nothing_is_defined_is_a_defect():
     run._probes = 0
     run._probe(Step(0.0, 1.0, 1.0, [0.0], [0.0], inside))
     assert run.defect == math.inf
+
+
+def test_a_step_that_is_not_taken_leaves_nothing_in_the_scales():
+    """A stiff spring on which the first step is a thousand times too long."""
+    motion = motion_of("""{coordinates: [r, a], parameters: {k: 1e4, g: 9.81}, initial: {r: 1.01},
+      T: (r'^2 + r^2*a'^2)/2, V: k*(r - 1)^2/2 - g*r*cos(a)}""")
+    tolerance = Tolerance(1e-4, 2, 5.0, 0.5)
+    steps = list(Dop853(motion, None).steps([1.01, 0.5], [0.0, 0.0], 5.0, tolerance))
+    assert steps[-1].end == 5.0
+    assert tolerance.peaks == pytest.approx([1.01, 0.51, 1.0, 1.6], rel=0.2)
