@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from lagcli.decimals import Constant, value_of
 from lagcli.diagnostics import Diagnostic
-from lagcli.expression import Diff, Expression, Name, Power, Quotient, walk
+from lagcli.expression import Diff, Expression, Name, Negative, Power, Product, Quotient, walk
 from lagcli.problem import Lasting, Parameter, Problem, Question, Reaching, Rewrite
 from lagcli.rewriting import rebuilt, rewritten
 
@@ -164,14 +164,20 @@ def _undefined(before: Problem, after: Problem) -> list[Diagnostic]:
         return node
 
     rewritten(replace(after, expect=before.expect), look)
-    return (
-        [Diagnostic("with these values something is divided by zero", places[0].span)]
-        if (places)
-        else []
-    )
+    spans = sorted({place.span for place in places})
+    return [Diagnostic("with these values something is divided by zero", span) for span in spans]
 
 
 def _is_zero(node: Expression) -> bool:
+    match node:
+        case Product(factors=factors):
+            return any(map(_is_zero, factors))
+        case Quotient(numerator=above):
+            return _is_zero(above)
+        case Negative(operand=operand):
+            return _is_zero(operand)
+        case _:
+            pass
     try:
         return value_of(node) == 0
     except (ArithmeticError, ValueError):

@@ -84,3 +84,10 @@ def test_a_division_by_zero_is_seen():
     assert [d.message for d in found.diagnostics] == [
         "with these values something is divided by zero"
     ]
+
+
+def test_every_division_by_zero_is_seen_also_of_a_name():
+    file = FILE.replace(b"V: k*x^2/2", b"V: x^2/(k - 4) + 1/(x*(k - 4)) + ((k - 4)/m)^(-1)")
+    found = read("file.yaml", file, Request(settings=("k=4",)))
+    assert len(found.diagnostics) == 3
+    assert len({d.span for d in found.diagnostics}) == 3

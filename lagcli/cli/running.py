@@ -6,6 +6,7 @@ import math
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TypeVar
 
 from lagcli.cli.files import read_input, reason
 from lagcli.cli.telling import tell, tell_line
@@ -18,9 +19,19 @@ from lagcli.reader.suggest import did_you_mean
 
 _USUAL_ACCURACY = 1e-9
 
+Options = TypeVar("Options")
 
-def problem_of(file: str, settings: tuple[str, ...], state: tuple[str, ...] = ()) -> Problem | None:
-    """The file's problem with its Lagrangian; None once its mistakes are told."""
+
+def understood(
+    file: str,
+    settings: tuple[str, ...],
+    state: tuple[str, ...],
+    options: Callable[[Problem], Options | None],
+) -> tuple[Problem, Options] | None:
+    """The file's problem with its Lagrangian, and the options; None once all mistakes are told.
+
+    Where a setting is wrong, the options are read beside the values of the file.
+    """
     try:
         data = read_input(file)
     except OSError as error:
@@ -28,13 +39,19 @@ def problem_of(file: str, settings: tuple[str, ...], state: tuple[str, ...] = ()
         return None
     found = read(file, data, Request(settings=settings, state=state))
     tell(found.source, found.diagnostics)
-    if found.problem is None:
+    problem = found.problem
+    if problem is None:
+        plain = read(file, data).problem
+        if plain is not None:
+            options(plain)
         return None
     try:
-        return with_lagrangian(found.problem)
+        problem = with_lagrangian(problem)
     except ProblemError as error:
         tell(error.source, error.diagnostics)
         return None
+    wanted = options(problem)
+    return None if wanted is None else (problem, wanted)
 
 
 class Numbers:

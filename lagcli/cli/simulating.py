@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from lagcli.cli.choices import BINARY, TABLES
 from lagcli.cli.delivering import has_place, place
-from lagcli.cli.running import Numbers, is_known, problem_of, shared
+from lagcli.cli.running import Numbers, is_known, shared, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
@@ -50,13 +50,8 @@ def simulate_file(wish: Wish) -> Status:
     known = is_known("--format", wish.format_name, TABLES)
     if not (known and _can_be_written(wish)) & has_place(wish.output):
         return Status.USAGE
-    problem = problem_of(wish.file, wish.settings, wish.state)
-    if problem is None:
-        return Status.USAGE
-    asked = _asked(problem, wish)
-    if asked is None:
-        return Status.USAGE
-    return _run(problem, asked, wish)
+    found = understood(wish.file, wish.settings, wish.state, lambda p: _asked(p, wish))
+    return Status.USAGE if found is None else _run(*found, wish)
 
 
 def _run(problem: Problem, asked: Asked, wish: Wish) -> Status:

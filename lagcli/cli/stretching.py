@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import STUDIES
 from lagcli.cli.delivering import has_place, place
-from lagcli.cli.running import Numbers, counted, is_known, problem_of
+from lagcli.cli.running import Numbers, counted, is_known, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.record import record
@@ -35,13 +35,8 @@ class Wish:
 def stretch_file(wish: Wish) -> Status:
     """Try all cases, write, and say how it ended."""
     good = is_known("--format", wish.format_name, STUDIES) & has_place(wish.output)
-    problem = problem_of(wish.file, wish.settings, wish.state)
-    if problem is None:
-        return Status.USAGE
-    wanted = _wanted(problem, wish)
-    if wanted is None or not good:
-        return Status.USAGE
-    return _study(problem, wanted, wish)
+    found = understood(wish.file, wish.settings, wish.state, lambda p: _wanted(p, wish))
+    return _study(*found, wish) if good and found is not None else Status.USAGE
 
 
 def _study(problem: Problem, wanted: Wanted, wish: Wish) -> Status:

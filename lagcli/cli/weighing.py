@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import COSTS, STUDIES
 from lagcli.cli.delivering import has_place, place
-from lagcli.cli.running import Numbers, counted, is_known, problem_of
+from lagcli.cli.running import Numbers, counted, is_known, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.problem import METHODS
@@ -47,13 +47,10 @@ def weigh_file(wish: Wish) -> Status:
     methods = _methods(wish.methods)
     good = good & (methods is not None) & _can_be_drawn(wish.plot)
     good = good & has_place(wish.output) & has_place(wish.plot)
-    problem = problem_of(wish.file, wish.settings, wish.state)
-    if problem is None:
+    found = understood(wish.file, wish.settings, wish.state, lambda p: _end(p, wish))
+    if found is None or not good or methods is None:
         return Status.USAGE
-    numbers = Numbers(problem.source)
-    until = numbers.end(wish.file, wish.until, problem.simulation.until)
-    if until is None or not (good and numbers.good) or methods is None:
-        return Status.USAGE
+    problem, until = found
     from lagcli.tradeoff.trial import Given
 
     given = Given(
@@ -70,6 +67,12 @@ def weigh_file(wish: Wish) -> Status:
         limit=wish.limit,
     )
     return _study(problem, given, methods, wish)
+
+
+def _end(problem: Problem, wish: Wish) -> float | None:
+    numbers = Numbers(problem.source)
+    until = numbers.end(wish.file, wish.until, problem.simulation.until)
+    return until if numbers.good else None
 
 
 def _study(problem: Problem, given: Given, methods: tuple[str, ...], wish: Wish) -> Status:

@@ -183,7 +183,7 @@ def _read(text: str, option: str, scope: Scope, role: Role) -> Expression:
     try:
         expression = read_expression(Excerpt.whole(source))
     except Mistake as error:
-        raise ProblemError(source, (error.diagnostic,)) from None
+        raise ProblemError(source, error.diagnostics) from None
     mistakes = tuple(name_mistakes(expression, scope, role, option))
     if mistakes:
         raise ProblemError(source, mistakes)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from lagcli.expression import (
     Call,
     Expression,
+    Name,
     Negative,
     Number,
     Power,
@@ -24,9 +25,12 @@ from lagcli.expression import (
 )
 from lagcli.reader.builder import mistake
 from lagcli.reader.limits import NUMBER_DIGITS, POWER_DIGITS, thousands
+from lagcli.reader.text import Mistake
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
+
+    from lagcli.diagnostics import Diagnostic
 
 #: Functions without a value at 0.
 _UNDEFINED_AT_ZERO = frozenset({"log", "cot", "csc"})
@@ -47,24 +51,53 @@ class _Constant(NamedTuple):
 _NOTHING = _Constant()
 
 
-def check_constants(expression: Expression) -> None:
-    """`Mistake` at the first power too large, or division by 0, among constants."""
-    if not any(isinstance(node, Power | Quotient | Call) for node in _postorder(expression)):
-        return
+def check_constants(*expressions: Expression) -> None:
+    """`Mistake` with every power too large, and division by 0, among constants."""
+    found: list[Diagnostic] = []
+    for expression in expressions:
+        if any(isinstance(node, Power | Quotient | Call) for node in _postorder(expression)):
+            _follow(expression, {}, found)
+    if found:
+        raise Mistake(*sorted(found, key=lambda diagnostic: diagnostic.span))
+
+
+def rational_value(expression: Expression, known: Mapping[str, Fraction]) -> Fraction | None:
+    """The number that an expression is for values of names; None where it is not known exactly."""
+    wrong: list[Diagnostic] = []
+    value = _follow(expression, known, wrong).value
+    return None if wrong else value
+
+
+def _follow(
+    expression: Expression, known: Mapping[str, Fraction], wrong: list[Diagnostic]
+) -> _Constant:
+    """What is known of the whole, and in `wrong` the parts that have no value."""
     values: list[_Constant] = []
     for node in _postorder(expression):
         count = len(children(node))
         parts = values[len(values) - count :]
         del values[len(values) - count :]
-        found = _evaluate(node, parts)
-        if found.digits > POWER_DIGITS:
-            bound = thousands(POWER_DIGITS)
-            what = "power" if isinstance(node, Power) else "number"
-            message = f"a constant {what} of more than {bound} digits"
-            raise mistake(message, node.span, f"the limit is {bound}")
-        if found.value is not None and found.digits > NUMBER_DIGITS:
-            found = _Constant(found.digits)
-        values.append(found)
+        if isinstance(node, Name) and node.primes == 0 and node.name in known:
+            values.append(_Constant.of(known[node.name]))
+            continue
+        try:
+            values.append(_evaluated(node, parts))
+        except Mistake as error:
+            wrong += error.diagnostics
+            values.append(_NOTHING)
+    return values[0]
+
+
+def _evaluated(node: Expression, parts: list[_Constant]) -> _Constant:
+    found = _evaluate(node, parts)
+    if found.digits > POWER_DIGITS:
+        bound = thousands(POWER_DIGITS)
+        what = "power" if isinstance(node, Power) else "number"
+        message = f"a constant {what} of more than {bound} digits"
+        raise mistake(message, node.span, f"the limit is {bound}")
+    if found.value is not None and found.digits > NUMBER_DIGITS:
+        return _Constant(found.digits)
+    return found
 
 
 def _postorder(expression: Expression) -> Sequence[Expression]:

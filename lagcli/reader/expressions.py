@@ -34,16 +34,14 @@ def read_expression(excerpt: Excerpt) -> Expression:
 def read_equation(excerpt: Excerpt) -> Equation:
     """`left = right`, or an expression, which is `expression = 0`."""
     equation = cast("Equation", _parse(excerpt, "equation"))
-    check_constants(equation.left)
-    check_constants(equation.right)
+    check_constants(equation.left, equation.right)
     return equation
 
 
 def read_comparison(excerpt: Excerpt) -> Inequality:
     """One comparison, such as `N >= 0`."""
     comparison = cast("Inequality", _parse(excerpt, "comparison"))
-    check_constants(comparison.left)
-    check_constants(comparison.right)
+    check_constants(comparison.left, comparison.right)
     return comparison
 
 
@@ -59,7 +57,7 @@ def parse_text(text: str, source_name: str = "<expression>") -> Expression:
     try:
         return read_expression(Excerpt.whole(source))
     except Mistake as error:
-        raise ProblemError(source, (error.diagnostic,)) from None
+        raise ProblemError(source, error.diagnostics) from None
 
 
 def parse_equation_text(text: str, source_name: str = "<equation>") -> Equation:
@@ -74,7 +72,7 @@ def parse_equation_text(text: str, source_name: str = "<equation>") -> Equation:
     try:
         return read_equation(Excerpt.whole(source))
     except Mistake as error:
-        raise ProblemError(source, (error.diagnostic,)) from None
+        raise ProblemError(source, error.diagnostics) from None
 
 
 def _parse(excerpt: Excerpt, start: str) -> Expression | Equation | Inequality:

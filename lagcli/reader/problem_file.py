@@ -33,6 +33,7 @@ from lagcli.reader.restrictions import declare_constraints, read_constraints, re
 from lagcli.reader.scope import PHASE_SPACE, STATE, Role
 from lagcli.reader.sections import Sections
 from lagcli.reader.text import Mistake, Text, decode
+from lagcli.reader.value_checks import check_values
 from lagcli.record import record
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ def read_problem(source_name: str, data: bytes) -> Reading:
     try:
         root, diagnostics = compose(Text.of(source))
     except Mistake as error:
-        return Reading(source, None, (error.diagnostic,))
+        return Reading(source, None, error.diagnostics)
     sections = Sections(diagnostics=diagnostics)
     problem = _read(sections, source, root)
     if problem is not None and not sections.diagnostics:
@@ -175,6 +176,8 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
         expect=expect.read(section("expect")),
     )
     check_masses(sections, problem, section("points").span)
+    if not sections.diagnostics:
+        check_values(sections, problem)
     return problem
 
 

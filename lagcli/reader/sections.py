@@ -148,7 +148,7 @@ class Sections:
         try:
             return read(node.excerpt())
         except Mistake as error:
-            self.diagnostics.append(error.diagnostic)
+            self.diagnostics += error.diagnostics
             return None
 
     # Names.

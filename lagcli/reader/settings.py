@@ -109,7 +109,7 @@ def _read(source: Source, scope: Scope, names: Sequence[str], kind: str) -> tupl
     try:
         expression = read_expression(Excerpt(value, text, offsets))
     except Mistake as error:
-        raise ProblemError(source, (error.diagnostic,)) from None
+        raise ProblemError(source, error.diagnostics) from None
     what = f"the value of '{name}'"
     mistakes = tuple(name_mistakes(expression, scope, VALUES, what))
     if mistakes:

@@ -12,11 +12,11 @@ BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
 
 class Mistake(Exception):
-    """One mistake that ends the reading of an expression or of the whole file."""
+    """The mistakes that end the reading of an expression or of the whole file."""
 
-    def __init__(self, diagnostic: Diagnostic) -> None:
+    def __init__(self, diagnostic: Diagnostic, *further: Diagnostic) -> None:
         super().__init__(diagnostic.message)
-        self.diagnostic = diagnostic
+        self.diagnostics = (diagnostic, *further)
 
 
 class Text(NamedTuple):

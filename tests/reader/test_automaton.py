@@ -31,7 +31,7 @@ def outcome(parse, wrong, text, start):
     try:
         return parse(text, start)
     except Mistake as mistake:
-        return str(mistake.diagnostic)
+        return str(mistake.diagnostics)
     except wrong:
         return None
     finally:

@@ -1,0 +1,61 @@
+"""Numbers that the file gives and that cannot be: of parameters, and coefficients of restitution.
+
+Values are followed exactly where they are rational; others are looked at when they are used.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lagcli.reader.constants import rational_value
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from fractions import Fraction
+
+    from lagcli.problem import Problem
+    from lagcli.reader.sections import Sections
+
+_BREAKS: dict[str, Callable[[Fraction], bool]] = {
+    "positive": lambda value: value <= 0,
+    "nonnegative": lambda value: value < 0,
+    "nonzero": lambda value: value == 0,
+    "negative": lambda value: value >= 0,
+    "real": lambda _: False,
+}
+
+
+def check_values(sections: Sections, problem: Problem) -> None:
+    """Mistakes where a value breaks an assumption, or restitution is not from 0 to 1."""
+    known = _known(problem)
+    for parameter in problem.parameters:
+        value = known.get(parameter.name)
+        if value is None or parameter.value is None:
+            continue
+        if _BREAKS[parameter.assume](value):
+            message = f"'{parameter.name}' is {parameter.assume}, and its value is not"
+            sections.error(message, parameter.value.span)
+        elif parameter.integer and value.denominator != 1:
+            message = f"'{parameter.name}' is an integer, and its value is not"
+            sections.error(message, parameter.value.span)
+    striking = {one.name: one.restitution for one in problem.constraints}
+    striking |= {one.name: one.restitution for one in problem.contacts}
+    for name, formula in striking.items():
+        value = None if formula is None else rational_value(formula, known)
+        if formula is not None and value is not None and not 0 <= value <= 1:
+            message = f"the restitution of '{name}' lies between 0 and 1, and is {value}"
+            hint = "1 loses no energy, after 0 nothing rebounds"
+            sections.error(message, formula.span, hint)
+
+
+def _known(problem: Problem) -> dict[str, Fraction]:
+    """The values that are rational numbers, those of others by them."""
+    left = {p.name: p.value for p in problem.parameters if p.value is not None}
+    known: dict[str, Fraction] = {}
+    while True:
+        found = {name: rational_value(value, known) for name, value in left.items()}
+        new = {name: value for name, value in found.items() if value is not None}
+        if not new:
+            return known
+        known |= new
+        left = {name: value for name, value in left.items() if name not in new}
