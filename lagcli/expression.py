@@ -166,6 +166,18 @@ def walk(node: Expression) -> Iterator[Expression]:
         stack.extend(reversed(children(top)))
 
 
+def postorder(node: Expression) -> list[Expression]:
+    """The node and everything below it, each after its parts."""
+    order: list[Expression] = []
+    stack = [node]
+    while stack:
+        top = stack.pop()
+        order.append(top)
+        stack.extend(children(top))
+    order.reverse()
+    return order
+
+
 def operation_count(node: Expression) -> int:
     """How many operations a formula shows: signs, sums, products, powers, calls.
 

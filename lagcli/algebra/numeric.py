@@ -45,6 +45,12 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
 }
 
 
+#: Binary digits before the point beyond which a function takes all memory: of the exponent of
+#: exp(x), of the multiples of pi in x.
+_LARGEST = dict.fromkeys(("exp", "sinh", "cosh", "tanh", "coth"), 64)
+_LARGEST |= dict.fromkeys(("sin", "cos", "tan", "cot", "sec", "csc"), 4096)
+
+
 class ConcreteFunction:
     """f(x_1, …, x_n) = 2 + sum_k a_k prod_j exp(b_kj x_j), and its partial derivatives.
 
@@ -167,10 +173,20 @@ class Evaluator:
             indices = getattr(kind, "indices", ())
             concrete = self._functions.get(base) or concrete_function(base, len(node.args))
             return (lambda v: concrete(v, indices)), node.args
-        function = _FUNCTIONS.get(type(node).__name__)
+        name = type(node).__name__
+        function = _FUNCTIONS.get(name)
         if function is None:
             raise TypeError(f"no numeric value for {node!r}")
+        largest = _LARGEST.get(name)
+        if largest is not None:
+            return (lambda v: function(_bounded(v[0], largest))), node.args
         return (lambda v: function(*v)), node.args
+
+
+def _bounded(x: Any, largest: int) -> Any:
+    if mpmath.mag(x) > largest:
+        raise OverflowError
+    return x
 
 
 def _constant(node: Expr) -> Any:

@@ -22,13 +22,14 @@ from lagcli.expression import (
     Quotient,
     Sum,
     children,
+    postorder,
 )
 from lagcli.reader.builder import mistake
 from lagcli.reader.limits import NUMBER_DIGITS, POWER_DIGITS, thousands
 from lagcli.reader.text import Mistake
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
     from lagcli.diagnostics import Diagnostic
 
@@ -55,7 +56,7 @@ def check_constants(*expressions: Expression) -> None:
     """`Mistake` with every power too large, and division by 0, among constants."""
     found: list[Diagnostic] = []
     for expression in expressions:
-        if any(isinstance(node, Power | Quotient | Call) for node in _postorder(expression)):
+        if any(isinstance(node, Power | Quotient | Call) for node in postorder(expression)):
             _follow(expression, {}, found)
     if found:
         raise Mistake(*sorted(found, key=lambda diagnostic: diagnostic.span))
@@ -73,7 +74,7 @@ def _follow(
 ) -> _Constant:
     """What is known of the whole, and in `wrong` the parts that have no value."""
     values: list[_Constant] = []
-    for node in _postorder(expression):
+    for node in postorder(expression):
         count = len(children(node))
         parts = values[len(values) - count :]
         del values[len(values) - count :]
@@ -98,18 +99,6 @@ def _evaluated(node: Expression, parts: list[_Constant]) -> _Constant:
     if found.value is not None and found.digits > NUMBER_DIGITS:
         return _Constant(found.digits)
     return found
-
-
-def _postorder(expression: Expression) -> Sequence[Expression]:
-    """The nodes, each after its parts, without recursion."""
-    order: list[Expression] = []
-    stack = [expression]
-    while stack:
-        node = stack.pop()
-        order.append(node)
-        stack.extend(children(node))
-    order.reverse()
-    return order
 
 
 def _evaluate(node: Expression, parts: list[_Constant]) -> _Constant:

@@ -24,6 +24,9 @@ NESTING_LEVELS = 200
 #: Functions inside each other: a derivative of the n-th has a product of n.
 CALL_LEVELS = 16
 
+#: Exponentials inside each other, and powers with names in the exponent.
+EXPONENTIAL_LEVELS = 3
+
 #: Digits of one number, with its exponent written out.
 NUMBER_DIGITS = 1_000
 

@@ -68,6 +68,7 @@ class Definition:
     place: int  # its rank in the file: earlier definitions may be used, later ones may not
     order: int = CONSTANT  # the highest time derivative of a coordinate in it
     time: bool = False  # whether t is in it
+    exponentials: int = 0  # inside each other
 
 
 @dataclass(slots=True, eq=False, repr=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import mpmath
+import pytest
 import sympy as sp
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -154,3 +155,10 @@ def test_solutions_satisfy_their_equations(entries: list[Expr]) -> None:
         for row, right in zip(A_, b_, strict=True):
             terms = [a * x for a, x in zip(row, solution.values, strict=True)]
             assert is_zero(sp.Add(*terms) - right) is True
+
+
+@pytest.mark.parametrize("function", [sp.exp, sp.sin, sp.tanh])
+def test_a_number_that_would_take_all_memory_is_none(function):
+    x = Symbol("x", real=True)
+    with pytest.raises(OverflowError):
+        Evaluator([function(x ** (2**20))], 50)({x: 3})

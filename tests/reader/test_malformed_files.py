@@ -160,6 +160,13 @@ FILES = [
     (after("V: 1/0\n"), "9:6", "division by zero"),
     (after("V: x/(2 - 2)\n"), "9:6", "division by zero"),
     (after("V: log(0)\n"), "9:4", "not a number"),
+    (after("V: x + exp(cosh(2^(exp(x))))\n"), "9:8", "more than 3 exponentials"),
+    (after("V: y^(m^(g^(x^y)))\n"), "9:4", "more than 3 exponentials"),
+    (
+        GOOD.replace("d: x' + y", "a: exp(x), b: exp(a), d: x' + y") + "V: exp(sinh(b))\n",
+        "9:4",
+        "more than 3 exponentials",
+    ),
     (after("V: x/0 + y/0 + log(0)\n"), "9:6", "division by zero"),
     (after("V: x/0 + y/0 + log(0)\n"), "9:12", "division by zero"),
     (after("V: x/0 + y/0 + log(0)\n"), "9:16", "not a number"),
