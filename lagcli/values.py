@@ -6,11 +6,25 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from typing import TypeVar
 
-from lagcli.decimals import Constant, value_of
+from lagcli.decimals import Constant, number, value_of
 from lagcli.diagnostics import Diagnostic
-from lagcli.expression import Diff, Expression, Name, Negative, Power, Product, Quotient, walk
+from lagcli.expression import (
+    ZERO,
+    Diff,
+    Expression,
+    Name,
+    Negative,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    walk,
+)
 from lagcli.problem import Lasting, Parameter, Problem, Question, Reaching, Rewrite
 from lagcli.rewriting import rebuilt, rewritten
+
+#: Beside the terms of a constraint, a residual that is rounding.
+_ROUNDED = 1e-9
 
 Values = Mapping[str, Expression]
 Value = TypeVar("Value")
@@ -52,6 +66,51 @@ def with_values_of(
     changed = substituted(replace(problem, parameters=remaining, find=()), values)
     changed = replace(changed, find=questions)
     return changed, tuple(_undefined(problem, changed))
+
+
+def off_constraints(problem: Problem) -> list[Diagnostic]:
+    """Warnings of the constraints that `initial`, with all that is in them, does not satisfy."""
+    formulas: dict[str, Expression] = {p.name: p.value for p in problem.parameters if p.value}
+    formulas |= {**problem.definitions, "t": ZERO}
+    formulas |= {str(name): value for name, value in problem.initial.items()}
+    numbers: dict[str, Constant | None] = {}
+
+    def put_in(node: Expression) -> Expression:
+        if not isinstance(node, Name):
+            return rebuilt(node, put_in)
+        name = str(node)
+        if name in formulas and name not in numbers:
+            numbers[name] = value_of(put_in(formulas[name]))
+        known = numbers.get(name)
+        return node if known is None else number(known)
+
+    found = []
+    for one in problem.constraints:
+        try:
+            sides = [put_in(side) for side in (one.equation.left, one.equation.right)]
+            left, right = value_of(sides[0]), value_of(sides[1])
+            parts = [value_of(term) for side in sides for term in _terms(side)]
+        except (ArithmeticError, ValueError):
+            continue
+        sizes = [abs(float(part)) for part in parts if part is not None]
+        if left is None or right is None:
+            continue
+        difference = float(left) - float(right)
+        if abs(difference) <= _ROUNDED * sum(sizes):
+            continue
+        found.append(
+            Diagnostic(
+                f"the initial state does not satisfy the constraint '{one.name}'",
+                one.equation.span,
+                f"with the values of the file, left - right is {difference:.6g}",
+                severity="warning",
+            )
+        )
+    return found
+
+
+def _terms(side: Expression) -> tuple[Expression, ...]:
+    return side.terms if isinstance(side, Sum) else (side,)
 
 
 def substituted(value: Value, values: Values) -> Value:

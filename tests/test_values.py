@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from lagcli.pipeline import Request, derive, read, state
+from lagcli.values import off_constraints
 
 FILE = b"""\
 coordinates: [x]
@@ -91,3 +92,30 @@ def test_every_division_by_zero_is_seen_also_of_a_name():
     found = read("file.yaml", file, Request(settings=("k=4",)))
     assert len(found.diagnostics) == 3
     assert len({d.span for d in found.diagnostics}) == 3
+
+
+@pytest.mark.parametrize(
+    ("initial", "number"),
+    [
+        ("{x: 3/10, y: -4/10}", 0),
+        ("{x: sqrt(1/8), y: -sqrt(l/4)}", 0),
+        ("{x: 3/10, y: -4/10 - 1e-6}", 1),
+        ("{x: 3/10}", 0),  # y follows
+        ("{x: 3/10, y: -4/10, x': 1, y': 3/4}", 0),
+        ("{x: 3/10, y: -4/10, x': 1, y': 1}", 1),
+    ],
+)
+def test_an_initial_state_beside_the_constraints_is_a_warning(initial, number):
+    text = f"""
+coordinates: [x, y]
+parameters: {{l: 0.5, k: {{}}}}
+definitions: {{r: sqrt(x^2 + y^2)}}
+L: (x'^2 + y'^2)/2 - k*y
+constraints: {{rod: r = l, along: x*x' + y*y'}}
+initial: {initial}
+"""
+    problem = read("file.yaml", text.encode()).problem
+    assert problem is not None
+    found = off_constraints(problem)
+    assert len(found) == number
+    assert all(not each.is_error and each.span.line == 6 for each in found)

@@ -33,6 +33,7 @@ def check_problem(name: str, data: bytes) -> Report:
 def _check(found: Read) -> Report:
     from lagcli.check.comparison import Comparison
     from lagcli.check.expectations import Expectations, sections_expected
+    from lagcli.check.initial import initial_mistakes
     from lagcli.check.laws import SECTIONS, Laws
     from lagcli.check.trajectory import TrajectoryCheck
 
@@ -44,6 +45,9 @@ def _check(found: Read) -> Report:
         derivation = derive(problem)
         if derivation.no_lagrangian:
             return _check_phase_space(derivation, source)
+        off = initial_mistakes(derivation.problem)
+        if off:
+            return Report(found.source, diagnostics=off)
         answers = state(derivation, Request(sections=sections))
         comparison = Comparison(derivation)
         results = list(

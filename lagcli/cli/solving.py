@@ -98,6 +98,10 @@ def _read(name: str, data: bytes | OSError, request: Request, tally: Tally) -> P
     found = read(name, data, request)
     tally.said.append(tell(found.source, found.diagnostics))
     tally.wrong = tally.wrong or found.problem is None
+    if found.problem is not None and found.problem.initial:
+        from lagcli.values import off_constraints
+
+        tally.said.append(tell(found.source, off_constraints(found.problem)))
     return found.problem
 
 

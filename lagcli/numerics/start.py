@@ -115,6 +115,10 @@ def rounded_components(motion: Motion, q: Sequence[float], v: Sequence[float]) -
     return [bool(value) and not exact.get(symbol, False) for symbol, value in symbols]
 
 
+class OffConstraints(Refusal):
+    """What the file gives at t = 0 is not on the constraints."""
+
+
 class _Completion:
     """Fills in what the file leaves out, equation by equation, and then by several together."""
 
@@ -274,9 +278,9 @@ class _Completion:
         else:
             state = zip((*e.q, *e.qdot), (*nearest[0], *nearest[1]), strict=True)
             told = ", ".join(f"{s.name}{chr(39) * s.primes}: {value!r}" for s, value in state)
-            hint = f"--project takes the nearest state that does: {{{told}}}"
+            hint = f"the nearest state that does, which simulate --project takes: {{{told}}}"
         message = f"the initial state does not {what} the constraint '{constraint.name}'"
-        return Refusal((Diagnostic(message, constraint.equation.span, hint),))
+        return OffConstraints((Diagnostic(message, constraint.equation.span, hint),))
 
     def _nearest(self, q: list[float], v: list[float]) -> tuple[list[float], list[float]] | None:
         """The state on the constraints, by Newton steps in the metric M."""
