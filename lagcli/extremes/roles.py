@@ -198,6 +198,8 @@ def unstable_rest(scene: Scene) -> Iterator[tuple[Vector, Vector, float]]:
         if q is None or any(math.dist(q, known) < _NEAR for known in seen):
             continue
         seen.append(q)
+        if any(s.name in turning and abs(x) > math.tau for s, x in zip(e.q, q, strict=True)):
+            continue  # Newton's steps went whole turns away
         by_q, _ = blocks(0.0, *q, *([0.0] * scene.n))
         rate, direction = _fastest(by_q)
         if rate > 0 and not all(abs(x) > 4 for x in q):

@@ -122,6 +122,14 @@ def test_a_potential_with_two_hills():
     assert {round(rate, 9) for _, _, rate in unstable_rest(scene)} == {round(math.sqrt(2), 9)}
 
 
+def test_an_equilibrium_whole_turns_away_is_not_listed():
+    """An elastic pendulum is unstable upright alone; Newton's steps find it at 983 pi too."""
+    scene = scene_of("""{coordinates: [r, a], parameters: {k: 1e4, g: 9.81}, initial: {r: 1.01, a: 0.5},
+      T: (r'^2 + r^2*a'^2)/2, V: k*(r - 1)^2/2 - g*r*cos(a)}""")
+    [(rest, _, _)] = unstable_rest(scene)
+    assert [rest[0], abs(rest[1])] == pytest.approx([1 - 9.81e-4, math.pi])
+
+
 def test_the_speed_of_light():
     text = """
 coordinates: [x, y]
