@@ -7,7 +7,7 @@ the nearest one that is on them.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import reduce
 from math import factorial
@@ -116,7 +116,17 @@ def rounded_components(motion: Motion, q: Sequence[float], v: Sequence[float]) -
 
 
 class OffConstraints(Refusal):
-    """What the file gives at t = 0 is not on the constraints."""
+    """What the file gives at t = 0 is not on the constraints.
+
+    Attributes
+    ----------
+    nearest : mapping of str to float
+        The state on them next to it; empty where there is none.
+    """
+
+    def __init__(self, diagnostics: tuple[Diagnostic, ...], nearest: Mapping[str, float]) -> None:
+        super().__init__(diagnostics)
+        self.nearest = nearest
 
 
 class _Completion:
@@ -273,14 +283,16 @@ class _Completion:
         which = e.holonomic[residual] if residual < count else residual - count
         constraint = e.declared[which]
         what = "satisfy" if residual < count else "move along"
+        state: dict[str, float] = {}
         if nearest is None:
             hint = "no state near it does: do the constraints contradict each other?"
         else:
-            state = zip((*e.q, *e.qdot), (*nearest[0], *nearest[1]), strict=True)
-            told = ", ".join(f"{s.name}{chr(39) * s.primes}: {value!r}" for s, value in state)
+            names = [s.name + "'" * s.primes for s in (*e.q, *e.qdot)]
+            state = dict(zip(names, (*nearest[0], *nearest[1]), strict=True))
+            told = ", ".join(f"{name}: {value!r}" for name, value in state.items())
             hint = f"the nearest state that does, which simulate --project takes: {{{told}}}"
         message = f"the initial state does not {what} the constraint '{constraint.name}'"
-        return OffConstraints((Diagnostic(message, constraint.equation.span, hint),))
+        return OffConstraints((Diagnostic(message, constraint.equation.span, hint),), state)
 
     def _nearest(self, q: list[float], v: list[float]) -> tuple[list[float], list[float]] | None:
         """The state on the constraints, by Newton steps in the metric M."""
