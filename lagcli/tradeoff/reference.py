@@ -14,6 +14,7 @@ from time import process_time
 from typing import TYPE_CHECKING, Any
 
 from lagcli.numerics.asked import Asked
+from lagcli.numerics.coupling import coupling, groups
 from lagcli.numerics.methods import Prepared
 from lagcli.numerics.modes import Modes
 from lagcli.numerics.refusal import Refusal
@@ -54,7 +55,7 @@ class Reference:
     seconds
         What it took.
     cut
-        Whether a run integrates less than the file has.
+        Whether a run integrates less than the file has, or parts that move without each other.
     warnings
         What was noticed on the way.
     """
@@ -112,7 +113,9 @@ def reference(problem: Problem, asked: Asked, limit: float) -> Reference:
     # of the model as it stands in the file: what was cut from it is checked too
     simulation, modes = Simulation(problem, replace(asked, whole=True)).ready()
     less, _ = Simulation(problem, asked).ready()
-    cut = len(less.equations.q) < len(simulation.equations.q)
+    e = less.equations
+    parts = groups(*coupling(e.graph, e.q, e.mass, e.forcing, e.constraints))
+    cut = len(e.q) < len(simulation.equations.q) or len(parts) > 1
     warnings: list[str] = []
     found = _exact(simulation, modes, warnings) or _precise(simulation, modes, limit, warnings)
     if found is None:

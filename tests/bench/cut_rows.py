@@ -1,17 +1,25 @@
-"""What the model cut to what is asked saves: integration at equal accuracy, cut against whole.
+"""What the model cut to what is asked saves: whole runs, certificate included, cut against uncut.
 
-Every problem of the library whose model is cut, in two ways: all coordinates as columns
-(constraints are solved), and the first coordinate alone (what it does not depend on is left
-out).  A problem without values gets numbers between 1 and 2, and without an initial state the
-nearest one on its constraints to such numbers.  The span is made longer until the whole model
-takes so long that integration is what costs; a motion whose series ends, like a fall, has no
-such span and is counted apart.
+Three kinds of cases, each by `auto` at the same accuracy, which both runs must reach:
+
+- constraints: every coordinate and velocity of a problem of the library whose constraints are
+  solved, against the same columns by the model as it stands in the file;
+- one column: the first coordinate of a problem of which more is left out than that, against all
+  that the file has: coordinates, velocities, multipliers, constraint forces, charges;
+- scene: the coordinates of one problem of the library in a file with the one after it, against
+  all that that file has.
+
+A problem without values gets numbers between 1 and 2, and without an initial state the nearest
+one on its constraints to such numbers.  The time is that of the process from the problem to the
+result.  Over the span of a file it is mostly what a run costs before its first step, so the span
+is also made longer until the uncut run takes so long that its steps are what costs; a motion
+whose series ends, like a fall, has no such span and counts over that of its file alone.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from statistics import median
 from time import process_time
@@ -22,132 +30,153 @@ from lagcli.decimals import value_of
 from lagcli.diagnostics import ProblemError
 from lagcli.numerics.asked import Asked
 from lagcli.numerics.columns import Column
-from lagcli.numerics.methods import METHODS, Prepared
 from lagcli.numerics.refusal import Refusal
 from lagcli.numerics.simulate import Simulation
-from lagcli.numerics.steps import NotPossible, Tolerance
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.problem import Problem
-from lagcli.reader.columns import usual_columns
+from lagcli.reader.columns import read_columns, usual_columns
 from lagcli.record import replace
 from tests.bench.measure import ROOT, Row, show
+from tests.bench.scenes import scenes
 
 _BAR = 2.0
-_TOLERANCE, _ACCURACY = 1e-11, 1e-9
-#: The span of a file that gives none, how much longer it may become, the parts of it that a step
-#: may take at most.
-_UNTIL, _LONGEST, _PARTS = 10.0, 1e5, 10.0
-#: From so many seconds on it is integration that costs.
-_MATTERS = 0.01
+_ACCURACY, _SAMPLES = 1e-9, 101
+#: The span of a file that gives none, and how much longer it may become.
+_UNTIL, _LONGEST = 10.0, 1e5
+#: From so many seconds of the uncut run on it is its steps that cost.
+_MATTERS = 0.25
+#: A run of no more steps, over a hundred times the span of a file, has a series that ends.
+_FEW = 50
 #: A run is repeated until so many seconds or times, the shortest counts.
-_SECONDS, _TIMES = 0.1, 10
-_METHODS = ("taylor64", "dop853")
+_SECONDS, _TIMES = 0.2, 3
+_GROUPS = ("multipliers", "constraint_forces", "charges")
+_KINDS = ("constraints", "one column", "scene")
+
+#: The problem, what is asked of the cut model, and of the whole one.
+Case = tuple[Problem, tuple[Column, ...], tuple[Column, ...]]
 
 
-def rows() -> Iterator[Row]:
-    """For each method the cases, least first, and their median."""
-    problems = list(_problems())
-    for method in _METHODS:
-        gains: dict[str, float] = {}
-        short: dict[str, float] = {}
-        for name, problem in problems:
-            for kind, columns in _columns(problem).items():
-                found = _gain(problem, columns, method)
-                if found is not None:
-                    gain, matters = found
-                    (gains if matters else short)[f"{name}, {kind}"] = gain
-        for told, kinds in (("", gains), (", no span matters", short)):
-            for name, gain in sorted(kinds.items(), key=lambda pair: pair[1]):
-                yield Row(f"  {name}", gain, f"x {method}{told}")
-        middle = median(gains.values()) if gains else None
-        note = f"{len(gains)} cases; {len(short)} more have no span that matters"
-        what = f"cut model, gain by {method}"
-        yield Row(what, middle, "x", _BAR, at_least=True, note=note)
+def rows(kinds: Sequence[str] = _KINDS) -> Iterator[Row]:
+    """Of each kind the cases, least first, and their median; then the median of all."""
+    every: list[float] = []
+    near: list[float] = []
+    cases = list(_cases())
+    for kind in kinds:
+        gains: list[tuple[float, str, float, bool]] = []
+        for name, case in ((name, case) for of, name, case in cases if of == kind):
+            found = _gains(*case)
+            if found is not None:
+                first, last, until, matters = found
+                near.append(first)
+                gains.append((last, f"{name}, t = {until:g}", first, matters))
+        for gain, name, first, matters in sorted(gains):
+            told = "" if matters else "; no span matters"
+            yield Row(f"  {name}", gain, f"x ({first:.2f} over the file's span{told})")
+        long = [gain for gain, _, _, matters in gains if matters]
+        every += long
+        middle = median(long) if long else None
+        yield Row(f"cut model, {kind}", middle, "x", note=f"{len(long)} cases")
+    yield Row(
+        "cut model, over the spans of the files", median(near), "x", note=f"{len(near)} cases"
+    )
+    yield Row(
+        "cut model, all kinds", median(every), "x", _BAR, at_least=True, note=f"{len(every)} cases"
+    )
 
 
-def _problems() -> Iterator[tuple[str, Problem]]:
-    """The library with numbers."""
+def _cases() -> Iterator[tuple[str, str, Case]]:
     for path in sorted((ROOT / "problems").rglob("*.yaml")):
-        data = path.read_bytes()
-        problem = read(str(path), data, Request()).problem
+        problem = _with_numbers(path.read_bytes())
         if problem is None:
             continue
-        missing = [p.name for p in problem.parameters if p.value is None]
-        settings = tuple(f"{x}={1 + (0.618 * (k + 1)) % 1}" for k, x in enumerate(missing))
+        name = str(path.relative_to(ROOT / "problems"))
+        usual = tuple(Column(*each) for each in usual_columns(problem))
+        yield "constraints", name, (problem, usual, usual)
+        if len(problem.coordinates) > 1:
+            yield "one column", name, (problem, usual[:2], _all(problem))
+    for name, text, count in scenes():
+        problem = _with_numbers(text.encode())
+        if problem is not None:
+            asked = [Column(*each) for each in usual_columns(problem)][: 1 + count]
+            yield "scene", name, (problem, tuple(asked), _all(problem))
+
+
+def _with_numbers(data: bytes) -> Problem | None:
+    problem = read("", data, Request()).problem
+    if problem is None:
+        return None
+    missing = [p.name for p in problem.parameters if p.value is None]
+    settings = tuple(f"{x}={1 + (0.618 * (k + 1)) % 1}" for k, x in enumerate(missing))
+    try:
+        problem = read("", data, Request(settings=settings)).problem
+        return None if problem is None else with_lagrangian(problem)
+    except ProblemError:
+        return None
+
+
+def _all(problem: Problem) -> tuple[Column, ...]:
+    """All that the file has."""
+    found = dict(usual_columns(problem))
+    for group in _GROUPS:
         try:
-            problem = read(str(path), data, Request(settings=settings)).problem
-            if problem is not None:
-                yield str(path.relative_to(ROOT / "problems")), with_lagrangian(problem)
-        except ProblemError:
+            found |= dict(read_columns(problem, [group]))
+        except ProblemError:  # there is none of these
             continue
+    return tuple(Column(*each) for each in found.items())
 
 
-def _columns(problem: Problem) -> dict[str, tuple[Column, ...]]:
-    every = tuple(Column(*each) for each in usual_columns(problem))
-    ways = {"all columns": every}
-    if len(problem.coordinates) > 1:
-        ways["one column"] = (every[0], every[1])
-    return ways
-
-
-def _gain(problem: Problem, columns: tuple[Column, ...], method: str) -> tuple[float, bool] | None:
-    """Time of the whole model over that of the cut one, and whether it matters.
+def _gains(
+    problem: Problem, columns: tuple[Column, ...], every: tuple[Column, ...]
+) -> tuple[float, float, float, bool] | None:
+    """How many times less, over the file's span and over the last one; that; whether it matters.
 
     None where nothing is cut.
     """
     end = problem.simulation.until
-    until = float((end and value_of(end)) or _UNTIL)
-    asked = Asked(until=until, accuracy=_ACCURACY, samples=11, columns=columns, project=True)
-    last: tuple[float, bool] | None = None
-    longest = _LONGEST * until
-    while until <= longest:
-        found = _times(problem, replace(asked, until=until), method)
-        if found is None:
-            return last
-        quick, slow = found
-        last = slow / quick, slow >= _MATTERS
-        if last[1]:
-            return last
+    until = span = float((end and value_of(end)) or _UNTIL)
+    asked = Asked(until=until, accuracy=_ACCURACY, samples=_SAMPLES, columns=columns, project=True)
+    first: float | None = None
+    last = (0.0, until, False)
+    while until <= _LONGEST * span and not last[2]:
+        less = replace(asked, until=until)
+        try:
+            if first is None and not _is_less(Simulation(problem, less).ready()[0], every):
+                return None
+            slow, steps = _shortest(problem, replace(less, columns=every, whole=True))
+            quick, _ = _shortest(problem, less)
+        except (Refusal, ArithmeticError):
+            break
+        if quick is None or slow is None:
+            break
+        last = (slow / quick, until, slow >= _MATTERS)
+        first = first or last[0]
+        if until >= 100 * span and steps <= _FEW:
+            break
         until *= 10
-    return last
+    return None if first is None else (first, *last)
 
 
-def _times(problem: Problem, asked: Asked, method: str) -> tuple[float, float] | None:
-    """Seconds of the cut model and of the whole one."""
-    try:
-        cut, modes = Simulation(problem, asked).ready()
-        if cut.cut is None:
-            return None
-        whole, all_modes = Simulation(problem, replace(asked, whole=True)).ready()
-    except Refusal:
-        return None
-    entry = METHODS[method]
-    less, more = entry.prepare(cut, modes), entry.prepare(whole, all_modes)
-    if isinstance(less, str) or isinstance(more, str):
-        return None
-    try:
-        quick, slow = _shortest(cut, less), _shortest(whole, more)
-    except NotPossible:
-        return None
-    return None if quick is None or slow is None else (quick, slow)
+def _is_less(simulation: Simulation, every: tuple[Column, ...]) -> bool:
+    """Whether something is cut; where all is shown, whether a constraint is solved."""
+    cut = simulation.cut
+    shows_all = simulation.asked.columns == every
+    return cut is not None and bool(cut.eliminated or (cut.dropped and not shows_all))
 
 
-def _shortest(simulation: Simulation, made: Prepared) -> float | None:
-    """Seconds of a run; None where it does not come to the end."""
-    until = simulation.asked.until
+def _shortest(problem: Problem, asked: Asked) -> tuple[float | None, int]:
+    """Seconds of a run, None where it does not claim the accuracy, and its steps."""
     best, begun = float("inf"), process_time()
     for _ in range(_TIMES):
-        n = len(simulation.equations.q)
-        bound = Tolerance(_TOLERANCE, n, until, until / _PARTS, None, made.floor)
         before = process_time()
-        if made.run(bound, 0, None, moved=False).stop is not None:
-            return None
+        found = Simulation(problem, asked).result()
+        if not found.certificate.reached:
+            return None, found.steps
         best = min(best, process_time() - before)
         if process_time() - begun > _SECONDS:
             break
-    return best
+    return best, found.steps
 
 
 if __name__ == "__main__":
-    for row in rows():
+    for row in rows(sys.argv[1:] or _KINDS):
         show(row)
