@@ -37,8 +37,8 @@ class Roots:
 def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
     """All roots of expression = 0 that may be real; None where no closed form was found.
 
-    The unknown occurs either as a polynomial variable or inside sines and cosines of
-    integer multiples of it, or of one constant multiple of it.
+    The unknown occurs as a polynomial variable, or inside sines and cosines of integer multiples
+    of it, or of one constant multiple of it, or so inside hyperbolic ones or exponentials.
     """
     field = Field([expression])
     try:
@@ -55,28 +55,28 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
     if used == [field.number_of(unknown)]:
         found = polynomial_roots(field, poly, used[0])
         return None if found is None else Roots(tuple(found), angle=False)
-    if first.kind not in ("cos", "sin") or first.argument is None:
+    if first.kind not in ("cos", "sin", "cosh", "sinh", "exp") or first.argument is None:
         return None
-    cosine = used[0] if first.kind == "cos" else first.partner
-    if not set(used) <= {cosine, cosine + 1}:
+    cosine = first.partner if first.kind in ("sin", "sinh") else used[0]
+    if not set(used) <= ({cosine} if first.kind == "exp" else {cosine, cosine + 1}):
         return None
     factor = first.argument / unknown
     if unknown in factor.free_symbols:
         return None
+    if first.kind not in ("cos", "sin"):
+        open_roots = _logarithms if first.kind == "exp" else _hyperbolic
+        values = open_roots(field, poly, cosine)
+        return None if values is None else Roots(tuple(v / factor for v in values), angle=False)
     angles = angle_roots(field, poly, cosine)
     if angles is None:
         return None
     angles = [rounded(angle) for angle in angles]
     if factor == 1:
         return Roots(tuple(angles), angle=True)
-    if factor.is_Rational and factor.p == 1:
+    if factor.is_Rational and factor.p == 1 and not any(a.free_symbols for a in angles):
         # sin and cos of theta/n: theta lies in (-pi, pi] where theta/n is in (-pi/n, pi/n]
-        return (
-            None
-            if any(a.free_symbols for a in angles)
-            else Roots(
-                tuple(a / factor for a in angles if -sympy.pi < a / factor <= sympy.pi), angle=True
-            )
+        return Roots(
+            tuple(a / factor for a in angles if -sympy.pi < a / factor <= sympy.pi), angle=True
         )
     return Roots(tuple(a / factor for a in angles), angle=False)
 
@@ -188,9 +188,9 @@ def _radicals(powers: Sequence[Expr], k: int) -> list[Expr] | None:
                 continue
             root = simplify(sympy.Pow(value, Rational(1, k)))
             roots += [-root, root]
-        elif value.is_positive:
+        elif value.is_nonnegative:
             roots.append(sympy.Pow(value, Rational(1, k)))
-        elif value.is_negative:
+        elif value.is_nonpositive:
             roots.append(-sympy.Pow(-value, Rational(1, k)))
         else:
             return None
@@ -275,6 +275,40 @@ def _without_cosine(field: Field, poly: Poly, cosine: int) -> Poly | None:
         rest = tuple(pair for pair in monomial if pair[0] != cosine)
         result += ring.build([(rest, coefficient)]) * (ring.one - s * s) ** (exponent // 2)
     return result
+
+
+def _logarithms(field: Field, poly: Poly, exponential: int) -> list[Expr] | None:
+    """The x at which a polynomial in exp(x) vanishes."""
+    values = polynomial_roots(field, poly, exponential)
+    return None if values is None else [sympy.log(v) for v in values if not _below_zero(v)]
+
+
+def _hyperbolic(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
+    """The x at which a polynomial in cosh(x) and sinh(x) vanishes, each factor in one of them."""
+    ring = field.ring
+    roots: list[Expr] = []
+    for factor, _ in factorization(ring.lift(poly))[1]:
+        used = {cosine, cosine + 1} & set(ring.used(factor))
+        if not used:
+            continue
+        values = polynomial_roots(field, ring.lift(factor), min(used))
+        if values is None or len(used) > 1:
+            return None
+        if cosine in used:
+            values = [v for v in values if not _below_zero(v - 1 if v.is_number else v)]
+            roots += [sign * sympy.acosh(v) for v in values for sign in (-1, 1)]
+        else:
+            roots += map(sympy.asinh, values)
+    return list(dict.fromkeys(roots))
+
+
+def _below_zero(value: Expr) -> bool:
+    """Whether it is not positive wherever it is real: a square root with a minus, say."""
+    if value.is_number:
+        return bool(value.evalf() < 0)
+    return value.is_nonpositive or all(
+        f.is_nonnegative or (f.is_Pow and f.exp == S.Half) for f in sympy.Mul.make_args(-value)
+    )
 
 
 def _with_cosine(value: Expr) -> list[Expr]:

@@ -251,6 +251,10 @@ class _Solver:
                 wanted += [1 - k, 1 + k]
             elif node.is_Pow and node.exp.is_Rational and node.exp.q % 2 == 0:
                 wanted.append(node.base)
+            elif isinstance(node, sympy.acosh):
+                wanted.append(node.args[0] - 1)
+            elif isinstance(node, sympy.log):
+                wanted.append(node.args[0])
         if unknown.is_positive or (unknown.is_nonnegative and root != 0):
             wanted.append(root)
         elif unknown.is_negative:

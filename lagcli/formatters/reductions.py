@@ -108,9 +108,10 @@ def _period(period: PeriodSeries, coordinate: str) -> Iterator[Block]:
         yield from state_blocks(period.at, "Oscillations about ")
         yield Paragraph((Name(period.amplitude), " is half the distance of the turning points:"))
     else:
-        yield from state_blocks(period.at, "Small oscillations about ")
-    yield Equations(
-        (Row(Label("T"), period.period, f"to order {period.order}" if period.order else ""),)
-    )
+        small = "" if period.order else "small "
+        yield from state_blocks(period.at, f"{small}oscillations about ".capitalize())
+    note = f"to order {period.order}" if period.order else ""
+    alike = "whatever the amplitude, " if note and not period.amplitude else ""
+    yield Equations((Row(Label("T"), period.period, alike + note),))
     if period.where:
         yield Paragraph(("where ", *conditions(period.where), "."))

@@ -26,7 +26,9 @@ def steady_blocks(section: SteadySection) -> Iterator[Block]:
     """Say the conditions, then each steady motion."""
     if section.conditions:
         yield Paragraph(("A steady motion has",))
-        yield Equations(tuple(Row(ZERO, value) for value in section.conditions.values()))
+        found = dict.fromkeys(section.conditions.values())
+        wanted = [value for value in found if value != ZERO] or found
+        yield Equations(tuple(Row(ZERO, value) for value in wanted))
     if section.motions is None:
         yield Paragraph((f"Not found: {section.reason}.",))
         return

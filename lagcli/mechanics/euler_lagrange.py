@@ -20,7 +20,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra.build import free_of
-from lagcli.mechanics.system import System
+from lagcli.mechanics.system import System, without_jumps
 
 
 class EulerLagrange:
@@ -47,7 +47,9 @@ class EulerLagrange:
             return self._mass_matrix_of_points()
         n = len(system.q)
         upper = {
-            (i, j): self.momenta[i].diff(system.qdot[j]) for i in range(n) for j in range(i, n)
+            (i, j): without_jumps(self.momenta[i].diff(system.qdot[j]))
+            for i in range(n)
+            for j in range(i, n)
         }
         return tuple(tuple(upper[min(i, j), max(i, j)] for j in range(n)) for i in range(n))
 

@@ -79,7 +79,7 @@ class System:
             for variable, rate in self._flow.items()
             if variable in present
         ]
-        return sympy.Add(*terms)
+        return without_jumps(sympy.Add(*terms))
 
     def _unreal(self, node: Expression) -> ProblemError:
         message = "this has no real value"
@@ -196,3 +196,10 @@ class System:
         return tuple(
             force - self.D.diff(v) for force, v in zip(self.forces, self.qdot, strict=True)
         )
+
+
+def without_jumps(expression: Expr) -> Expr:
+    """Beside the places where a sign changes: its derivative is 0 there."""
+    if not expression.has(sympy.DiracDelta):
+        return expression
+    return expression.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero)

@@ -56,12 +56,37 @@ def _solutions(equations: list[Known], unknowns: list[Symbol]) -> Iterator[dict[
         others = [each for i, each in enumerate(equations) if i != place]
         left = [u for u in unknowns if u != unknown]
         for root in roots:
-            reduced = [(simplify(f.xreplace({unknown: root})), value) for f, value in others]
+            put_in = {**_root_of(unknown, root), unknown: root}
+            reduced = [(_tangents(simplify(f.xreplace(put_in))), value) for f, value in others]
             if any(sympy.count_ops(f) > _MOST_OPERATIONS for f, _ in reduced):
                 continue
             for solution in _solutions(reduced, left):
                 yield {**solution, unknown: simplify(root.xreplace(solution))}
         return
+
+
+def _root_of(unknown: Symbol, value: Expr) -> dict[Expr, Expr]:
+    """{sqrt(x): y} where x = y^2, without the modulus: another branch has the other sign."""
+    halves = []
+    for factor in sympy.Mul.make_args(value):
+        base, exponent = factor.as_base_exp()
+        if factor.is_positive:
+            halves.append(sympy.sqrt(factor))
+        elif exponent.is_Integer and exponent % 2 == 0:
+            halves.append(base ** (exponent / 2))
+        else:
+            return {}
+    return {sympy.sqrt(unknown): sympy.Mul(*halves)}
+
+
+def _tangents(expression: Expr) -> Expr:
+    """With tan for sin/cos where no other sine or cosine of the angle is left."""
+    for sine in expression.atoms(sympy.sin):
+        angle = sine.args[0]
+        found = expression.xreplace({sine: sympy.tan(angle) * sympy.cos(angle)})
+        if not found.has(sine, sympy.cos(angle)):
+            expression = found
+    return expression
 
 
 def _steps(

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import combinations
 
+import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, shape, simplify
@@ -117,15 +118,22 @@ class PhaseSpace:
         )
 
     def _named(self, value: Expr, names: Mapping[str, Expr]) -> Expression | None:
-        """The value as a constant times an observable or a charge."""
+        """The value as a constant times an observable or a charge, or times that and H."""
         moving = (*self.system.q, *self.system.momenta, self.system.t)
         if free_of(value, moving):
             return None
-        for name, f in names.items():
-            if is_zero(f) is not True:
-                ratio = simplify(value / f)
+        factors: list[tuple[Expr, list[str]]] = [(sympy.S.One, [])]
+        H = self.hamiltonian.function
+        if H is not None and _HAMILTONIAN not in {*self.system.build.names, *self._observables}:
+            factors.append((H, [_HAMILTONIAN]))
+        for factor, more in factors:
+            for name, f in names.items():
+                if is_zero(f) is True or (more and name == _HAMILTONIAN):
+                    continue
+                ratio = simplify(value / (f * factor))
                 if free_of(ratio, moving):
-                    return self._written(ratio * Symbol(name, real=True), [name])
+                    product = sympy.Mul(*(Symbol(n, real=True) for n in (*more, name)))
+                    return self._written(ratio * product, [*more, name])
         return None
 
     def _rates(self) -> tuple[dict[str, Expression] | None, str]:

@@ -219,7 +219,9 @@ def _one_freedom(reduced: ReductionSection) -> Iterator[Block]:
         elif each.root_of is not None:
             yield says("About the minimum of ", POTENTIAL, ", where this vanishes,")
             yield shows(ZERO, each.root_of)
-        words = "for small oscillations" if not each.amplitude else "up to higher powers of "
+        words = "up to higher powers of " if each.amplitude else "for small oscillations"
+        if each.order and not each.amplitude:
+            words = f"the same for all amplitudes up to their power {each.order}"
         yield says("the period is twice the time from one to the other, ", words,
                    Name(each.amplitude) if each.amplitude else "", ":")  # fmt: skip
         yield shows(Label("T", ("period",)), each.period)

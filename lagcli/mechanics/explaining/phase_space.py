@@ -39,7 +39,8 @@ def steady(_: Teller, section: Section) -> Iterator[Block]:
         POTENTIAL,
         " vanish, with the momenta of the cyclic coordinates as constants:",
     )
-    yield Equations(tuple(Row(ZERO, each) for each in found.conditions.values()))
+    wanted = dict.fromkeys(found.conditions.values())
+    yield Equations(tuple(Row(ZERO, each) for each in wanted if each != ZERO or len(wanted) == 1))
     if found.motions is None:
         yield says(f"They were not solved: {found.reason}.")
         return

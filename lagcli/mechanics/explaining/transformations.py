@@ -192,11 +192,10 @@ def _new_hamiltonian(test: CanonicalTest, each: ExaminedTransformation) -> Itera
 
 def _explicit(each: ExaminedTransformation) -> tuple[str | Formula, ...]:
     """What is added where the transformation depends on the time."""
-    plus = ", plus the derivative of "
     if each.generator is not None and each.generator.kind != "F":
-        return (plus, Label("F", (each.generator.kind[1],)), " by the time")
-    more = " by the time and the sum of P times that of Q, all at constant q and p"
-    return (plus, Label("F"), more)
+        return (", plus the derivative of ", Label("F", (each.generator.kind[1],)), " by the time")
+    more = "by P and −dP/dt by Q, at constant q and p and up to a function of the time alone"
+    return (f", plus what has the derivatives dQ/dt {more}",)
 
 
 def _names(tree: Expression) -> set[str]:

@@ -117,7 +117,7 @@ class Periods:
         if known in (0, -1) or never:
             return None
         masses = [at(motion.mass.diff(q, k), {q: place}) for k in range(ORDER + 1)]
-        if is_zero(masses[0]) is not False or sign(masses[0], point.positive) == -1:
+        if is_zero(masses[0]) is True or sign(masses[0], point.positive) == -1:
             return None
         # U = U0 + u x²/2 (1 + α_1 x + …),   M = M0 (1 + β_1 x + …)
         alpha = [
@@ -132,6 +132,7 @@ class Periods:
         if agrees:
             return series
         if agrees is None:
+            self.reason = "no values were found at which a series could be compared"
             return None
         self.reason, self.failed = "a series did not agree with its integral", True
         return None

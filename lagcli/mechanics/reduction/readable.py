@@ -14,16 +14,29 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import is_zero, shape, simplify, terms
 from lagcli.algebra.build import free_of
 from lagcli.algebra.factors import factors_of
+from lagcli.algebra.leaves import Translator
 from lagcli.algebra.signs import sign, sign_of_circle
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression, operation_count
 from lagcli.motions import Above
 
+#: A potential may have so many operations more than another form, and is left as it was given.
+_LONGER = 1
+
 
 def effective_potential(
-    expression: Expr, momenta: Sequence[Symbol], order: Sequence[str]
+    expression: Expr, momenta: Sequence[Symbol], order: Sequence[str], given_V: Expr | None = None
 ) -> Expression:
-    """The shorter of the sum over monomials in the momenta and the sum of squares."""
+    """The shorter of the sum over monomials in the momenta and the sum of squares.
+
+    What has no momenta is left as `given_V`, the potential of the file, has it.
+    """
+    static = expression.xreplace(dict.fromkeys(momenta, S.Zero))
+    if given_V is not None and is_zero(given_V - static) is True:
+        static = given_V
+    given = _as_given(static, order)
+    if not momenta:
+        return given
     plain = terms(expression, order, {p.name for p in momenta})
     squares = _squares(expression, momenta)
     if squares is None:
@@ -31,9 +44,17 @@ def effective_potential(
     writer = Writer(order)
     *quadratic, rest = squares
     parts = [shape(each, order) for each in quadratic]
-    parts.append(terms(rest, order, {p.name for p in momenta}))
+    linear = not free_of(rest, momenta)
+    parts.append(terms(rest, order, {p.name for p in momenta}) if linear else given)
     written = writer.sum(parts)
-    return written if operation_count(written) <= operation_count(plain) else plain
+    longer = operation_count(written) - operation_count(plain)
+    return written if longer <= (0 if linear else _LONGER) else plain
+
+
+def _as_given(potential: Expr, order: Sequence[str]) -> Expression:
+    """A potential as the file has it, unless another form is shorter by more than a little."""
+    found, given = terms(potential, order, ()), Translator(Writer(order)).tree(potential)
+    return given if operation_count(given) <= operation_count(found) + _LONGER else found
 
 
 def _squares(expression: Expr, momenta: Sequence[Symbol]) -> list[Expr] | None:
@@ -65,21 +86,25 @@ def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
     Factors of known sign are left out, and squares that are divided by, which are not 0.
     """
     kept, direction = S.One, 1
+    nonzero: dict[Expr, None] = {}
     for factor, power in factors_of(expression):
-        known = sign(factor**2 if power % 2 == 0 else factor, positive)
+        even = power % 2 == 0
+        known = 1 if even and factor**2 in positive else None
+        known = sign(factor**2 if even else factor, positive) if known is None else known
         if known is None and power < 0:
             known = _beside_zero(factor)
         if known is not None:
             direction *= known if power % 2 else 1
-        elif power % 2 == 0:
-            kept *= factor**2 if power > 0 else S.One
+        elif factor.is_Pow and factor.exp.is_Rational and not factor.exp.is_Integer:
+            rest = S.One if sign(factor.base, positive) == 1 else deciding(factor.base, positive)
+            kept *= S.One if rest in {x**2 for x in nonzero} else rest
         elif isinstance(factor, sympy.Abs):
-            kept *= factor.args[0] ** 2
-        elif factor.is_Pow and factor.exp == S.Half:
-            kept *= S.One if sign(factor.base, positive) == 1 else factor.base
+            nonzero[factor.args[0]] = None
+        elif even:
+            nonzero |= {factor: None} if power > 0 else {}
         else:
             kept *= factor
-    return direction * kept
+    return direction * sympy.Mul(kept, *(x**2 for x in nonzero))
 
 
 def weak_sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
@@ -92,6 +117,16 @@ def weak_sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
                 return None
             result *= known
     return result
+
+
+def without_moduli(expression: Expr, positive: Sequence[Expr]) -> Expr:
+    """The expression with x or -x for |x| where x has one sign beside 0."""
+    put_in = {
+        modulus: known * modulus.args[0]
+        for modulus in expression.atoms(sympy.Abs)
+        if (known := weak_sign(modulus.args[0], positive)) is not None
+    }
+    return simplify(expression.xreplace(put_in)) if put_in else expression
 
 
 def _beside_zero(factor: Expr) -> int | None:

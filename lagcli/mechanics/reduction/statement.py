@@ -63,7 +63,9 @@ class _Statement:
         lines = equations.equations or ()
         potential, gyroscopic = None, {}
         if routh.quadratic:
-            potential = effective_potential(routh.effective_potential, routh.momenta, self.order)
+            potential = effective_potential(
+                routh.effective_potential, routh.momenta, self.order, routh.full.system.V
+            )
             gyroscopic = {
                 q.name: self._shape(g)
                 for q, g in zip(reduced.system.q, routh.gyroscopic, strict=True)
@@ -171,7 +173,7 @@ class _Statement:
             if found.point is None
             else None,
             amplitude=name if corrections else "",
-            order=len(found.coefficients) if corrections else 0,
+            order=len(found.coefficients),
             period=period,
             where=conditions(found.where, self.order),
         )

@@ -64,6 +64,11 @@ class Steady:
     curvature: Expr | None = None
     family: Family | None = None
 
+    @property
+    def free_rates(self) -> set[Expr]:
+        """Rates that are given as themselves: any value will do."""
+        return {rate for rate in (self.rates or {}).values() if rate.is_Symbol}
+
 
 class SteadyMotions:
     """The steady motions of a reduced system.
@@ -123,7 +128,10 @@ class SteadyMotions:
     def _by_momenta(self) -> list[Steady]:
         """The equilibria of the reduced system at given momenta."""
         points = self.rest.points
-        self.complete = points is not None and self.rest.complete
+        # under velocity constraints others turn at rates that are no momenta's
+        kinds = self.dynamics.constraints.kinds.values()
+        known = points is not None and self.rest.complete
+        self.complete = known and all(kind == "holonomic" for kind in kinds)
         return [
             Steady(point.values, self._rates(point.values), point.positive, family=point.family)
             for point in points or ()
@@ -299,9 +307,11 @@ class SteadyMotions:
         There the mass matrix of the cyclic coordinates has null vectors v with v p = 0, and
         with these momenta U_eff is regular.
         """
-        if len(self.system.q) != 1:
-            return []
         mass, q = self.routh.full.dynamics.lagrange.mass_matrix, self.system.q[0]
+        if len(self.system.q) != 1:
+            whole = determinant([list(row) for row in mass])
+            self.complete &= whole is not None and not self._vanishes_somewhere(whole)
+            return []
         block = [[simplify(mass[i][j]) for j in self.routh.cyclic] for i in self.routh.cyclic]
         whole = determinant(block)
         if whole is None or free_of(whole, [q]):
@@ -313,6 +323,13 @@ class SteadyMotions:
                 if not root.free_symbols and not (q.is_nonzero and root == 0):
                     found += self._regularized(q, root, block)
         return list({tuple(each.values.items()): each for each in found}.values())
+
+    def _vanishes_somewhere(self, expression: Expr) -> bool:
+        """Whether a factor of it may be 0 at some values of the coordinates."""
+        return any(
+            power > 0 and sign(factor) not in (1, -1) and not free_of(factor, self.system.q)
+            for factor, power in factors_of(simplify(expression))
+        )
 
     def _regularized(self, q: Symbol, place: Expr, block: list[list[Expr]]) -> list[Steady]:
         momenta = self.routh.momenta

@@ -15,12 +15,13 @@ from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.feeding import cannot_feed
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
-from lagcli.mechanics.reduction.readable import conditions
+from lagcli.mechanics.reduction.readable import conditions, without_moduli
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.statement import Missing
 from lagcli.mechanics.reduction.steady import Steady, SteadyMotions
 from lagcli.mechanics.reduction.verdict import Verdict, curvature, verdict
 from lagcli.motions import Above, SteadyMotion, SteadySection
+from lagcli.record import replace
 
 
 def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:
@@ -70,6 +71,15 @@ class _Statement:
         )
 
     def _motion(self, motion: Steady) -> SteadyMotion:
+        motion = replace(
+            motion,
+            values={
+                x: without_moduli(value, motion.positive) for x, value in motion.values.items()
+            },
+            rates=None
+            if motion.rates is None
+            else {j: without_moduli(rate, motion.positive) for j, rate in motion.rates.items()},
+        )
         matrices: tuple[Matrix, ...] = ()
         judged = Verdict(None, None, False, (), "the equations of motion are singular there")
         try:
@@ -108,7 +118,9 @@ class _Statement:
             stable=True if minimum == () else False if judged.unstable else None,
             minimum=minimum,
             spectrum=self._conditions(judged.spectrum, motion),
-            frequencies_squared=tuple(map(self._shape, judged.squares)),
+            frequencies_squared=tuple(
+                self._shape(without_moduli(w, motion.positive)) for w in judged.squares
+            ),
             mass=self._matrix(matrices[0]) if matrices else (),
             velocity=self._matrix(matrices[1]) if matrices else (),
             stiffness=self._matrix(matrices[2]) if matrices else (),
@@ -121,7 +133,16 @@ class _Statement:
     ) -> tuple[Above, ...] | None:
         if expressions is None:
             return None
-        return conditions(expressions, self.order, () if given else motion.positive)
+        if given:
+            shortest = sorted(expressions, key=lambda e: int(e.count_ops()))
+            return conditions(shortest, self.order)
+        found = conditions(expressions, self.order, motion.positive)
+        turning = [v**2 for v in self.steady.full.qdot if v in motion.free_rates]
+        if found and turning:
+            short = conditions(expressions, self.order, (*motion.positive, *turning))
+            if short != found:
+                return (*conditions(turning, self.order), *short)
+        return found
 
     def _free(self, motion: Steady) -> tuple[str, ...]:
         """Coordinates, rates and momenta that the state is a function of."""

@@ -67,6 +67,8 @@ def verdict(linear: Linearization) -> Verdict:
     complete = linear.damped and positive_definite(linear.damping, positive)
     feeds = not complete and (linear.damped or not cannot_feed(linear.system))
     if linear.nonholonomic or not linear.has_potential or feeds:
+        if any(_sign(square, positive) == -1 for square in squares):
+            return Verdict(None, None, True, squares)
         return _because(undecided, "the linearised forces are not those of a potential alone")
     if any(sign(e, positive) != 1 for e in _leading_minors(linear.M)):
         return _because(undecided, NOT_DEFINITE)
@@ -74,6 +76,8 @@ def verdict(linear: Linearization) -> Verdict:
     if elementary is None:
         return _because(undecided, "the characteristic polynomial was not found")
     minimum, fails = _open(elementary, positive)
+    if minimum and all(x == 0 for i, row in enumerate(linear.K) for x in (*row[:i], *row[i + 1 :])):
+        minimum = _open([row[i] for i, row in enumerate(linear.K)], positive)[0]
     fails |= 0 in (_sign(e, positive) for e in elementary)  # det K is not 0: some W < 0
     if minimum == ():
         return Verdict((), None, False, squares)
