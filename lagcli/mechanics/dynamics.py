@@ -85,15 +85,15 @@ class Dynamics:
         constraint = self.system.problem.constraints[max(index, 0)]
         others = [c.name for c in self.system.problem.constraints if c is not constraint]
         with_what = " with " + ", ".join(f"'{name}'" for name in others) if others else ""
+        message = f"constraint '{constraint.name}' cannot be satisfied{with_what}"
+        hint = "no state was found at which all constraints hold: they contradict each other"
+        above = sympy.numer(sympy.together(self.constraints.equations[max(index, 0)].f))
+        if any(power > 1 for _, power in sympy.factor_list(above)[1]):
+            message = f"the derivatives of constraint '{constraint.name}' vanish where it holds"
+            hint = "write it without the power"
         return ProblemError(
             self.system.problem.source,
-            (
-                Diagnostic(
-                    f"constraint '{constraint.name}' cannot be satisfied{with_what}",
-                    constraint.equation.span,
-                    "no state was found at which all constraints hold: they contradict each other",
-                ),
-            ),
+            (Diagnostic(message, constraint.equation.span, hint),),
         )
 
     @property

@@ -152,3 +152,12 @@ def test_a_lagrangian_of_a_difference_is_singular():
     d = derive("coordinates: [x, y]\nL: (x' - y')^2/2")
     assert d.dynamics.motion is None
     assert d.dynamics.degenerate == (0, 1)
+
+
+def test_the_square_of_a_constraint_is_told_from_a_contradiction():
+    text = "coordinates: [x, y]\nT: (x'^2+y'^2)/2\nconstraints: {a: (x - y)^2/x = 0}"
+    with pytest.raises(ProblemError) as caught:
+        _ = derive(text).dynamics.independent_constraints
+    [diagnostic] = caught.value.diagnostics
+    assert diagnostic.message == "the derivatives of constraint 'a' vanish where it holds"
+    assert diagnostic.hint == "write it without the power"
