@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, Any, Protocol
 
-from lagcli.numerics.accuracy import LONGEST, Controller, Outcome
+from lagcli.numerics.accuracy import CHANCE, LONGEST, Controller, Outcome
 from lagcli.numerics.beside import are_felt, fast, moved_state, other_parameters
 from lagcli.numerics.run import Run
 from lagcli.numerics.steps import Tolerance
@@ -30,6 +30,8 @@ Precision = Callable[[], AbstractContextManager[None]]
 FINEST_DOUBLE = 1e-18
 #: Local tolerances meet rounding from so many of its units on.
 ROUNDED = 10.0
+#: dop853's, whose steps err by far less than such a tolerance, and the bound with that.
+_ROUNDED_853, _CHANCE = 1e-14, 8.0
 
 
 class OneRun(Protocol):
@@ -51,8 +53,8 @@ class Prepared:
         Makes a run.
     first, finest
         No run is made with a tolerance above, or below.
-    rounded
-        Runs with this tolerance or less meet rounding.
+    rounded, chance
+        Runs with this tolerance or less meet rounding: so many differences bound the error.
     longest : tuple of float
         The longest step as parts of the span: at first, and where something was missed.
     floor
@@ -67,6 +69,7 @@ class Prepared:
     first: float = math.inf
     finest: float = FINEST_DOUBLE
     rounded: float = 0.0
+    chance: float = CHANCE
     longest: Sequence[float] = LONGEST
     floor: float = 0.0
     precision: Precision = nullcontext
@@ -103,7 +106,9 @@ class Entry:
     prepare: Prepare
 
 
-def in_doubles(make: MakeMethod, simulation: Simulation, modes: Modes) -> Prepared:
+def in_doubles(
+    make: MakeMethod, simulation: Simulation, modes: Modes, rounded: float = 0.0
+) -> Prepared:
     """A method of the usual kind made ready: steps in Python, one state after the other.
 
     Parameters
@@ -112,6 +117,8 @@ def in_doubles(make: MakeMethod, simulation: Simulation, modes: Modes) -> Prepar
         Makes the method of a mode.
     simulation, modes
         What is asked, and the modes in doubles.
+    rounded
+        As for `Prepared`.
     """
     asked = simulation.asked
     states = simulation.start, moved_state(simulation, modes)
@@ -126,7 +133,7 @@ def in_doubles(make: MakeMethod, simulation: Simulation, modes: Modes) -> Prepar
             q, v = states[moved]
             return made.go(q, v, times, probe_every=every, progress=progress)
 
-        return Prepared(run=run, with_others=prepared)
+        return Prepared(run=run, rounded=rounded, chance=_CHANCE, with_others=prepared)
 
     return prepared(modes)
 
@@ -167,6 +174,7 @@ def outcome_of(simulation: Simulation, modes: Modes, made: Prepared, first: floa
                 accuracy=asked.accuracy,
                 finest=made.finest,
                 rounded=made.rounded,
+                chance=made.chance,
                 span=asked.until,
                 charges=len(simulation.charges),
                 longest=made.longest,
@@ -194,7 +202,7 @@ def one_run(simulation: Simulation, made: Prepared, tolerance: float) -> Run:
 def _dop853(simulation: Simulation, modes: Modes) -> Prepared | str:
     from lagcli.numerics.dop853 import dop853
 
-    return in_doubles(dop853, simulation, modes)
+    return in_doubles(dop853, simulation, modes, _ROUNDED_853)
 
 
 def _radau5(simulation: Simulation, modes: Modes) -> Prepared | str:

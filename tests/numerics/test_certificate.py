@@ -96,17 +96,31 @@ def test_an_accuracy_that_is_lost_on_the_way_is_not_said_to_hold_to_the_end():
     assert result.rows[-1][0] == result.certificate.holds_until
 
 
-@pytest.mark.parametrize("angle", ["0.3", "1.1", "1.9", "2.6", "3"])
-def test_a_bound_at_the_rounding_of_doubles_holds(angle):
+PENDULUM = "coordinates: [a]\nL: a'^2/2 + cos(a)\ninitial: {{a: {}}}\n"
+LONGER = """
+coordinates: [a]
+parameters: {{g: 9.81, l: 1.3}}
+L: l^2*a'^2/2 + g*l*cos(a)
+initial: {{a: {}, a': {}}}
+"""
+ROUNDED = [
+    *(("taylor64", 1e-12, 40, PENDULUM.format(a)) for a in ("0.3", "1.1", "1.9", "2.6", "3")),
+    ("dop853", 1e-13, 8, LONGER.format("2.5799", "0.5159")),
+    ("dop853", 1e-13, 8, LONGER.format("2.8813", "0.8957")),
+]
+
+
+@pytest.mark.parametrize(("method", "accuracy", "until", "text"), ROUNDED)
+def test_a_bound_at_the_rounding_of_doubles_holds(method, accuracy, until, text):
     """Two runs that differ by chance: against 34 digits, row by row."""
-    text = f"coordinates: [a]\nL: a'^2/2 + cos(a)\ninitial: {{a: {angle}}}\n"
-    found = simulated(text, 40, 1e-12, samples=21, method="taylor64")
-    true = simulated(text, 40, 1e-20, samples=21, method="taylor128")
+    found = simulated(text, until, accuracy, samples=21, method=method)
+    true = simulated(text, until, 1e-20, samples=21, method="taylor128")
     if true.method != "taylor128":
         pytest.skip("no numbers of 128 bits")
-    assert found.certificate.estimated_by.startswith("20 times")
+    assert found.certificate.estimated_by.partition(" times")[0] in {"8", "20"}
     held = found.certificate.global_error
     for j, name in enumerate(found.columns[1:], 1):
         scale = max(1.0, *(abs(row[j]) for row in found.rows))
-        errors = [abs(a[j] - b[j]) for a, b in zip(found.rows, true.rows, strict=False)]
+        pairs = zip(found.rows, true.rows, strict=False)
+        errors = [abs(a[j] - b[j]) for a, b in pairs if abs(a[0] - b[0]) < 1e-12]
         assert max(errors) <= (held[name] + 2.0**-53) * scale
