@@ -34,23 +34,39 @@ _TIMES = 16
 #: What the clock's rounding, and the factor of the bound, make up for.
 _CLOCK = 4 * _EPSILON
 _LOOKS = 12
+#: Integers below this are counts.
+_COUNTED = 100
 #: For the rate at which a force changes with the time alone.
 _LATER = 1e-7
 _COLUMN = 0.25
 
 
 class BesideDoubles(Doubles):
-    """Doubles that miss a rational by more than its nearest double, to the same side of it."""
+    """Doubles that miss a rational by more than its nearest double, to the same side of it.
+
+    Parameters
+    ----------
+    exact
+        Whether those miss it, too, that a double can be: an elimination rounds what it makes
+        of them, as if they were some others.
+    """
+
+    def __init__(self, *, exact: bool) -> None:
+        self._exact = exact
 
     def number(self, value: Fraction) -> float:
         """Of a rational that is no double, the double some 16 roundings beyond it."""
         nearest = float(value)
-        missed = value - Fraction(nearest)
-        if not missed or not math.isfinite(nearest):
+        if not value or not math.isfinite(nearest):
             return nearest
-        unit = math.ulp(nearest)
-        steps = max(1, round(_TIMES * abs(missed) / Fraction(unit)))
-        return nearest + math.copysign(steps * unit, missed)
+        missed, unit = value - Fraction(nearest), math.ulp(nearest)
+        if missed:
+            steps = max(1, round(_TIMES * abs(missed) / Fraction(unit)))
+            return nearest + math.copysign(steps * unit, missed)
+        if not self._exact or (value.denominator == 1 and abs(value) < _COUNTED):
+            return nearest
+        chance = value.numerator * 48271 % 2147483647
+        return nearest + (2 + chance % 7) * math.copysign(unit, chance % 2 - 0.5)
 
 
 def moved_state(simulation: Simulation, modes: Modes) -> tuple[Vector, Vector]:
@@ -64,6 +80,20 @@ def moved_state(simulation: Simulation, modes: Modes) -> tuple[Vector, Vector]:
     return moved[: motion.n], moved[motion.n :]
 
 
+def elsewhere(simulation: Simulation) -> tuple[Vector, Vector]:
+    """The initial state with all its components a few roundings away."""
+    q, v = simulation.start
+    return _turned(q, 1), _turned(v, -1)
+
+
+def _turned(values: Sequence[float], sign: int) -> list[float]:
+    """Numbers a few roundings away, none of them as far as the one beside it."""
+    return [
+        x + sign * (-1) ** place * (1 + place % 3) * math.ulp(x) if x else x
+        for place, x in enumerate(values)
+    ]
+
+
 def fast(times: Sequence[float]) -> list[float]:
     """The times, but for the last, by a clock that is a rounding of doubles fast."""
     return [*(t * (1 + _EPSILON) for t in times[:-1]), times[-1]]
@@ -71,7 +101,7 @@ def fast(times: Sequence[float]) -> list[float]:
 
 def other_parameters(simulation: Simulation, modes: Modes) -> Modes | None:
     """The same modes with parameters beside those of the file; None where all are exact."""
-    arithmetic = BesideDoubles()
+    arithmetic = BesideDoubles(exact=not simulation.equations.rows)
     try:
         constants: Mapping[Symbol, Any] = constants_of(
             simulation.equations, simulation.all_nodes, arithmetic
@@ -115,7 +145,10 @@ def are_felt(run: Run, others: Modes, accuracy: float) -> bool:
         for j, (a, b, c) in enumerate(zip(here, there, then, strict=True)):
             sizes[j] = max(sizes[j], abs(a) + abs(c - a) / _LATER)
             changes[j] = max(changes[j], abs(b - a))
-        rows = [m.tabulate(mark.t, mark.q, mark.v)[:columns] for m in (mode, beside)]
+        rows = [
+            mode.tabulate(mark.t, mark.q, mark.v)[:columns],
+            beside.tabulate(mark.t, _turned(mark.q, 1), _turned(mark.v, -1))[:columns],
+        ]
         for j, (x, y) in enumerate(zip(*rows, strict=True)):
             if x is not None and y is not None:
                 heights[j] = max(heights[j], abs(x))

@@ -12,7 +12,7 @@ from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, Any, Protocol
 
 from lagcli.numerics.accuracy import CHANCE, LONGEST, Controller, Outcome
-from lagcli.numerics.beside import are_felt, fast, moved_state, other_parameters
+from lagcli.numerics.beside import are_felt, elsewhere, fast, moved_state, other_parameters
 from lagcli.numerics.run import Run
 from lagcli.numerics.steps import Tolerance
 from lagcli.numerics.transitions import Transitions
@@ -121,11 +121,10 @@ def in_doubles(
         As for `Prepared`.
     """
     asked = simulation.asked
-    states = simulation.start, moved_state(simulation, modes)
+    usual = modes.by(make)
 
-    def prepared(others: Modes) -> Prepared:
-        usual = modes.by(make)
-        both = usual, usual if others is modes else others.by(make)
+    def prepared(other: Modes, beside: tuple[Vector, Vector]) -> Prepared:
+        both, states = (usual, other), (simulation.start, beside)
 
         def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
             made = Run(Transitions(both[moved], asked.accuracy, asked.until), bound, asked.accuracy)
@@ -133,9 +132,14 @@ def in_doubles(
             q, v = states[moved]
             return made.go(q, v, times, probe_every=every, progress=progress)
 
-        return Prepared(run=run, rounded=rounded, chance=_CHANCE, with_others=prepared)
+        return Prepared(
+            run=run,
+            rounded=rounded,
+            chance=_CHANCE,
+            with_others=lambda others: prepared(others.by(make), elsewhere(simulation)),
+        )
 
-    return prepared(modes)
+    return prepared(usual, moved_state(simulation, modes))
 
 
 def outcome_of(simulation: Simulation, modes: Modes, made: Prepared, first: float = 1.0) -> Outcome:

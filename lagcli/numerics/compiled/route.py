@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from lagcli.numerics.beside import fast, moved_state
+from lagcli.numerics.beside import elsewhere, fast, moved_state
 from lagcli.numerics.compiled.apart import Apart, MakeMachine, apart
 from lagcli.numerics.compiled.engine import NoCompiler, engine
 from lagcli.numerics.compiled.machine import Machine, NotCompiled
@@ -145,12 +145,10 @@ def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
     machine = double_machine(doubles.first.motion)
     if isinstance(machine, str):
         return machine
-    states = simulation.start, moved_state(simulation, doubles)
-
     usual = Runs(simulation, doubles, machine, double_machine, doubles.make_method)
 
-    def prepared(other: Runs) -> Prepared:
-        both = usual, other
+    def prepared(other: Runs, beside: tuple[Sequence[Any], Sequence[Any]]) -> Prepared:
+        both, states = (usual, other), (simulation.start, beside)
 
         def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
             times = fast(simulation.times) if moved else simulation.times
@@ -165,7 +163,8 @@ def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
             found = double_machine(others.first.motion)
             if isinstance(found, str):
                 raise NotPossible(found)
-            return prepared(Runs(simulation, others, found, double_machine, others.make_method))
+            runs = Runs(simulation, others, found, double_machine, others.make_method)
+            return prepared(runs, elsewhere(simulation))
 
         return Prepared(
             run=run,
@@ -174,7 +173,7 @@ def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
             with_others=with_others,
         )
 
-    return prepared(usual)
+    return prepared(usual, moved_state(simulation, doubles))
 
 
 def prepared_extended(simulation: Simulation, doubles: Modes) -> Prepared | str:
