@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from lagcli.numerics.accuracy import Outcome
 from lagcli.numerics.asked import Certificate, Result
 from lagcli.numerics.charges import changes, relative
+from lagcli.numerics.digits import with_digits
 from lagcli.numerics.events import Event
 from lagcli.numerics.methods import METHODS
 from lagcli.numerics.motion import Motion
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Result:
     """The table with its certificate."""
     asked, run = simulation.asked, outcome.run
+    outcome = replace(outcome, rows=with_digits(simulation, run, outcome.rows))
     names = tuple(column.name for column in asked.columns)
     kept = len(outcome.rows) if outcome.reached else outcome.good_rows
     rows: list[tuple[float | None, ...]] = []
