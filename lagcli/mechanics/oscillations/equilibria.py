@@ -188,19 +188,18 @@ def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
     present = {s: v for s, v in values.items() if s in expression.free_symbols}
     if not present:
         return expression
-    put_in = list(present.items())
     if not expression.has(*_PERIODIC):
         # one fraction of sums of roots would be long, and is needed where parts are infinite only
-        there = expression.subs(put_in, simultaneous=True)
+        there = expression.xreplace(present)
         if not there.has(S.NaN, S.ComplexInfinity, S.Infinity, S.NegativeInfinity):
             return rounded(simplify(there))
         roots = filter(_divides_by_root, expression.atoms(sympy.Pow))
-        if any(is_zero(p.base.subs(put_in, simultaneous=True)) is True for p in roots):
+        if any(is_zero(p.base.xreplace(present)) is True for p in roots):
             return S.NaN
     field = Field([expression])
     with suppress(ZeroDivisionError):
         expression = field.to_sympy(field(expression))
-    return rounded(simplify(expression.subs(put_in, simultaneous=True)))
+    return rounded(simplify(expression.xreplace(present)))
 
 
 def _divides_by_root(power: sympy.Pow) -> bool:
