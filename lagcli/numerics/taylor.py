@@ -142,9 +142,9 @@ class Taylor:
 
     def _length(self, series: list[list[Any]], tolerance: Tolerance) -> float:
         """The step after which the last terms are the tolerance times the scale."""
-        exponent, n = math.inf, self.n
+        exponent, n, allowed = math.inf, self.n, math.log2(tolerance.value)
         for j, c in enumerate(series):
-            place, rate = (math.log2(tolerance.value * tolerance.scales[k]) for k in (j, n + j))
+            place, rate = (allowed + math.log2(tolerance.scales[k]) for k in (j, n + j))
             for k in range(len(c) - _LOOKED_AT, len(c)):
                 size = _log2(c[k])
                 exponent = min(exponent, (place - size) / k, (rate - size - math.log2(k)) / (k - 1))

@@ -26,7 +26,7 @@ def to_text(study: Study) -> str:
     lines = [
         f"{study.name}: what accuracy costs until t = {study.until:g}, at {study.samples} times",
         f"reference: {known.kind},",
-        f"  error at most {known.bound:.1e}, made in {_seconds(known.seconds)}",
+        f"  error at most {_size(known.bound)}, made in {_seconds(known.seconds)}",
         "",
     ]
     front = study.front
@@ -56,11 +56,15 @@ def to_text(study: Study) -> str:
     return "".join(f"{line.rstrip()}\n" for line in _without_double_blanks(lines))
 
 
+def _size(error: float) -> str:
+    return f"{error:.1e}" if error else "0"
+
+
 def _cells(point: Point, study: Study) -> list[str]:
     error = "–"
     if point.error is not None:
         below = point.error <= study.resolved
-        error = f"< {study.resolved:.1e}" if below else f"{point.error:.1e}"
+        error = f"< {study.resolved:.1e}" if below and study.resolved else _size(point.error)
     return [
         point.method,
         f"{point.tolerance:.0e}",

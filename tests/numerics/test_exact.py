@@ -107,3 +107,10 @@ def test_a_definition_and_its_rate_as_columns():
     )
     assert result.rows[-1][1:] == pytest.approx((52, 29, 8, float(mpmath.atan2(2, 7))))
     assert last(result, "t") == 3
+
+
+def test_what_stays_at_0_at_any_accuracy():
+    """1e-34 of a scale of 1e-300 is less than the least double."""
+    result = simulated("{coordinates: [x], L: x'^2/2}", 1, 1e-32, method="taylor")
+    assert result.certificate.reached
+    assert last(result, "x") == 0

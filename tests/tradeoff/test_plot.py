@@ -6,6 +6,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
+from lagcli.record import replace
 from lagcli.tradeoff.front import Point
 from lagcli.tradeoff.plot import to_svg
 from lagcli.tradeoff.reference import Reference, difference
@@ -66,6 +67,17 @@ def test_rings_are_the_front():
     assert len(rings) == len(study.front) == 4
     starred = [line for line in to_text(study).splitlines() if line.startswith("* ")]
     assert len(starred) == 4 + 1  # and what the star means
+
+
+def test_no_error_at_all_is_0():
+    """Of a particle at rest."""
+    rest = Point(method="dop853", taken="dop853", tolerance=1e-4, error=0.0, total=0.1)
+    study = study_of(points=(rest,))
+    still = replace(study, reference=replace(study.reference, bound=0.0))
+    assert "error at most 0, made" in to_text(still)
+    [row] = [line for line in to_text(still).splitlines() if "dop853" in line]
+    assert row.split()[:4] == ["*", "dop853", "1e-04", "0"]
+    ET.fromstring(to_svg(still))
 
 
 def test_one_run_alone_is_drawn():
