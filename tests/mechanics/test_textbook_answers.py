@@ -184,3 +184,30 @@ def test_half_angles_of_rest_depend_on_the_parameters():
     places = sorted(float(x.subs({s: at[s.name] for s in x.free_symbols})) for x in values)
     expected = 2 * mpmath.acos(mpmath.mpf(2) / 3)
     assert places == pytest.approx([-float(expected), 0, float(expected)])
+
+
+# -- contact -----------------------------------------------------------------------------------
+
+LOOP = """
+title: Ball in a loop
+coordinates: {r: {assume: positive}, theta: , phi: }
+parameters: {m: {assume: positive}, g: {assume: positive}, R: {assume: positive}, b: {assume: positive},
+  u: {assume: positive}}
+T: m*(r'^2 + r^2*theta'^2)/2 + m*b^2*phi'^2/5
+V: -m*g*r*cos(theta)
+constraints:
+  track: {equation: R - b = r, multiplier: N, holds_while: N >= 0}
+  rolling: (R - b)*theta = b*phi
+"""
+
+
+def test_a_ball_goes_round_a_loop_of_any_radius_and_from_any_height():
+    """v^2 = 27/7 g (R - b) at the lowest point, let go at a height of 27/10 (R - b)."""
+    R, b, g = 1.0, 0.2, 9.8
+    for speed, least in (("u", 27 * g * (R - b) / 7), ("sqrt(10*g*u/7)", 27 * (R - b) / 10)):
+        text = f"{LOOP}initial: {{r: R - b, theta: 0, theta': {speed}/(R - b)}}\n"
+        found = section(f"{text}find: {{over: {{reaches: theta = pi, for: u}}}}\n", "find")
+        [only] = found.answers["over"].ranges
+        assert only.upper is None
+        lowest = number(only.lower, R=R, b=b, g=g)
+        assert abs((lowest**2 if speed == "u" else lowest) - least) < 1e-9

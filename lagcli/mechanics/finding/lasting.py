@@ -15,6 +15,7 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import Builder
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.signs import sign
 from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
 from lagcli.mechanics.finding.line import Line, NotAlgebraic
 from lagcli.mechanics.finding.passing import Passing
@@ -227,13 +228,25 @@ class LastingAnswer:
         events: Sequence[Expr],
         verdict: Callable[[Values], bool | None],
     ) -> list[Bounds]:
-        special = SpecialValues(self.p, events)
+        special = SpecialValues(self.p, events, self._positive)
         if special.angle:
             self.notes.append(f"of the angles {self.p} in (-pi, pi]")
         present = {symbol for function in functions for symbol in function.free_symbols}
         others = [q for q in self.system.parameters if q is not self.p and q in present]
         scaled = special.scales([*variables, self.p], others, functions)
         return ranges(special, others, verdict, self.along.work, scaled=scaled)
+
+    @property
+    def _positive(self) -> list[Expr]:
+        """Initial values of coordinates that are positive, which say so of the parameters."""
+        build, initial = self.system.build, self.system.problem.initial
+        places = {str(name): value for name, value in initial.items()}
+        begun = [build(places[q.name]) for q in self.system.q if q.is_positive and q.name in places]
+        return [
+            place
+            for place in begun
+            if self.p not in place.free_symbols and place.free_symbols and sign(place) is None
+        ]
 
     def _passing(self, u: Symbol) -> Passing:
         if u not in self._known:

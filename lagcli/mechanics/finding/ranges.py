@@ -25,11 +25,13 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra.effort import EFFORT, Work
+from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.finding.special_values import DIGITS, SpecialValues
 from lagcli.mechanics.parameter_values import random_value
 from lagcli.record import record
 
 _DRAWS = 6
+_TRIES = 200
 _OF_MOTION = 10_000  # units of work: w(u) and its roots at 90 digits
 _SAME = mpf(10) ** -30
 _GIVE = "; --set gives them numbers"
@@ -82,12 +84,12 @@ def ranges(
         With the reason.
     """
     source = random.Random("lagcli ranges")
-    cells = _Cells(special, _draw(others, source, 0), verdict, work)
+    cells = _Cells(special, _draw(special, others, source, 0), verdict, work)
     pattern = cells.true_ones()
     if others and not scaled and not special.are_ordered(cells.order):
         names = ", ".join(other.name for other in others)
         for k in range(1, _DRAWS):
-            more = _Cells(special, _draw(others, source, k), verdict, work)
+            more = _Cells(special, _draw(special, others, source, k), verdict, work)
             if more.true_ones() != pattern:
                 raise Undecided(f"which values of {special.p} these are depends on {names}{_GIVE}")
         why = f"which values of {special.p} these are was not proved for all {names}"
@@ -103,8 +105,28 @@ def ranges(
     ]
 
 
-def _draw(others: Sequence[Symbol], source: random.Random, number: int) -> Values:
-    return {other: random_value(source, other, wide=number % 2 == 1) for other in others}
+def _draw(
+    special: SpecialValues, others: Sequence[Symbol], source: random.Random, number: int
+) -> Values:
+    """Values of the others, with what is known to be positive.
+
+    Raises
+    ------
+    Undecided
+        Where none were found.
+    """
+    for _ in range(_TRIES):
+        draw = {other: random_value(source, other, wide=number % 2 == 1) for other in others}
+        if all(_is_positive(each, draw) for each in special.positive):
+            return draw
+    raise Undecided("no values of the parameters were found at which the motion can begin")
+
+
+def _is_positive(expression: Expr, draw: Values) -> bool:
+    if not expression.free_symbols <= draw.keys():
+        return True
+    [value] = Evaluator([expression], DIGITS)(draw)
+    return isinstance(value, mpf) and bool(value > 0)
 
 
 class _Cells:

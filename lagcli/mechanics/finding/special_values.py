@@ -33,6 +33,8 @@ class SpecialValues:
         The parameter that is asked for.
     events
         Expressions in p and other parameters.
+    positive
+        Expressions in the other parameters that are positive.
 
     Attributes
     ----------
@@ -49,8 +51,9 @@ class SpecialValues:
         Where one of them was not solved.
     """
 
-    def __init__(self, p: Symbol, events: Sequence[Expr]) -> None:
+    def __init__(self, p: Symbol, events: Sequence[Expr], positive: Sequence[Expr] = ()) -> None:
         self.p = p
+        self.positive = tuple(positive)
         self.walls: list[Expr] = []
         kinds: set[bool] = set()
         roots: dict[Expr, None] = {}
@@ -58,7 +61,8 @@ class SpecialValues:
             if p not in factor.free_symbols:
                 self.walls.append(factor)
                 continue
-            found = solve_for(factor, p)
+            # sqrt(p) = 0
+            found = solve_for(factor.base if factor.is_Pow and factor.exp > 0 else factor, p)
             hidden = any(p in f.free_symbols for f in factor.atoms(sympy.Function))
             if found is None or (hidden and not found.angle) or any(map(is_decimal, found.values)):
                 raise NoClosedForm(str(factor).replace("**", "^"))
@@ -106,17 +110,20 @@ class SpecialValues:
         order
             Groups of equal values, ascending.
         """
-        if any(sign(wall) is None for wall in self.walls):
+        if any(_sign(wall, self.positive) is None for wall in self.walls):
             return False
         present = {index for group in order for index in group}
         for index, root in enumerate(self.roots):
             if self._is_present(root) is not (index in present):
                 return False
         for group in order:
-            if any(sign(self.roots[group[0]] - self.roots[other]) != 0 for other in group[1:]):
+            if any(
+                _sign(self.roots[group[0]] - self.roots[other], self.positive) != 0
+                for other in group[1:]
+            ):
                 return False
         chain = [self.roots[group[0]] for group in order]
-        return all(_is_less(one, other) for one, other in pairwise(chain))
+        return all(_is_less(one, other, self.positive) for one, other in pairwise(chain))
 
     def _is_present(self, root: Expr) -> bool | None:
         """Whether a root is real and in the domain; None where that is not certain."""
@@ -125,12 +132,12 @@ class SpecialValues:
         for power in root.atoms(sympy.Pow):
             if power.exp.is_Integer:
                 continue
-            below = sign(power.base)
+            below = _sign(power.base, self.positive)
             if below is None:
                 return None
             if below < 0:
                 return False
-        side = sign(root)
+        side = _sign(root, self.positive)
         if self.p.is_nonnegative or self.p.is_nonpositive:
             wanted = 1 if self.p.is_nonnegative else -1
             return None if side is None else side == wanted
@@ -173,14 +180,24 @@ def _factors(events: Sequence[Expr]) -> Iterator[Expr]:
                     yield expression
 
 
-def _is_less(one: Expr, other: Expr) -> bool:
-    if sign(other - one) == 1:
+def _sign(expression: Expr, positive: Sequence[Expr]) -> int | None:
+    """The sign, with roots of what is positive as positive."""
+    found = sign(expression, positive)
+    if found is not None or not positive:
+        return found
+    roots = [x for x in expression.atoms(sympy.Pow) if not x.exp.is_Integer]
+    put_in = {x: sympy.Dummy(positive=True) for x in roots if sign(x.base, positive) == 1}
+    return sign(expression.xreplace(put_in), positive) if put_in else None
+
+
+def _is_less(one: Expr, other: Expr, positive: Sequence[Expr]) -> bool:
+    if _sign(other - one, positive) == 1:
         return True
-    signs = sign(one), sign(other)
+    signs = _sign(one, positive), _sign(other, positive)
     if signs == (1, 1):
-        return sign(simplify(other**2 - one**2)) == 1
+        return _sign(simplify(other**2 - one**2), positive) == 1
     if signs == (-1, -1):
-        return sign(simplify(one**2 - other**2)) == 1
+        return _sign(simplify(one**2 - other**2), positive) == 1
     return signs in {(-1, 1), (-1, 0), (0, 1)}
 
 
