@@ -6,7 +6,7 @@ import unicodedata
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from lagcli.diagnostics import Diagnostic, ProblemError, Source
+from lagcli.diagnostics import NOWHERE, Diagnostic, ProblemError, Source
 from lagcli.expression import Name
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.names import name_mistakes
@@ -15,6 +15,7 @@ from lagcli.reader.quantities import value_cycle
 from lagcli.reader.scope import VALUES, Scope
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.text import Mistake, Text
+from lagcli.rewriting import rebuilt
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -48,7 +49,7 @@ def set_parameters(problem: Problem, settings: Iterable[str]) -> Problem:
         name, value = _read(source, scope, tuple(scope.kinds), "parameter")
         if any(one.unit is not None for one in (*problem.coordinates, *problem.parameters)):
             _check_unit(problem, source, name, value)
-        values[name] = value
+        values[name] = _placeless(value)
         cycle = value_cycle(values)
         if cycle:
             chain = " → ".join(cycle)
@@ -87,7 +88,7 @@ def set_state(problem: Problem, settings: Iterable[str]) -> Problem:
         name, value = _read(source, scope, tuple(state), "coordinate or velocity")
         if any(one.unit is not None for one in (*problem.coordinates, *problem.parameters)):
             _check_unit(problem, source, name, value)
-        initial[state[name]] = value
+        initial[state[name]] = _placeless(value)
     return replace(problem, initial=initial)
 
 
@@ -115,6 +116,11 @@ def _read(source: Source, scope: Scope, names: Sequence[str], kind: str) -> tupl
     if mistakes:
         raise ProblemError(source, mistakes)
     return name, expression
+
+
+def _placeless(value: Expression) -> Expression:
+    """The value without its places: they are not those of the file."""
+    return replace(rebuilt(value, _placeless), span=NOWHERE)
 
 
 def _check_unit(problem: Problem, source: Source, name: str, value: Expression) -> None:

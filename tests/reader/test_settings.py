@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from lagcli.diagnostics import ProblemError
+from lagcli.diagnostics import NOWHERE, ProblemError
 from lagcli.expression import Name, Number, walk
 from lagcli.reader import read_problem, set_parameters, set_state
 
@@ -73,3 +73,11 @@ def test_a_state_has_the_units_of_its_coordinates():
     with pytest.raises(ProblemError) as caught:
         set_state(problem, ["x=v"])
     assert "m/s" in caught.value.diagnostics[0].message
+
+
+def test_a_value_from_the_command_line_has_no_place_in_the_file():
+    text = "coordinates: {x: {assume: positive}}\nparameters: {m: 1}\nT: m*x'^2/2\n"
+    problem = read_problem("f", text.encode()).checked()
+    changed = set_state(set_parameters(problem, ["m=2/(1 + 2)"]), ["x=-1"])
+    values = [changed.parameters[0].value, *changed.initial.values()]
+    assert {node.span for value in values for node in walk(value)} == {NOWHERE}
