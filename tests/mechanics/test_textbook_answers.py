@@ -211,3 +211,16 @@ def test_a_ball_goes_round_a_loop_of_any_radius_and_from_any_height():
         assert only.upper is None
         lowest = number(only.lower, R=R, b=b, g=g)
         assert abs((lowest**2 if speed == "u" else lowest) - least) < 1e-9
+
+
+def test_a_point_on_a_sphere_rests_at_its_poles():
+    """Where x = 0 the displacements (-y, x, 0), (-z, 0, x) vanish: no circle of states of rest."""
+    found = section(
+        "title: t\ncoordinates: [x, y, z]\nparameters: {m: {assume: positive}, l: {assume: positive}, "
+        "g: {assume: positive}}\nT: m*(x'^2 + y'^2 + z'^2)/2\nV: m*g*z\n"
+        "constraints: {rod: x^2 + y^2 + z^2 = l^2}\n",
+        "equilibria",
+    )
+    places = {to_grammar(each.at["z"]): each.stable for each in found.equilibria}
+    assert places == {"l": False, "-l": True}
+    assert all(to_grammar(each.at["x"]) == "0" for each in found.equilibria)

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
-from itertools import product
+from itertools import combinations, product
 
 import sympy
 from sympy import Expr, S, Symbol
@@ -71,13 +71,10 @@ class RestPoints:
             self.reason = "the equations depend explicitly on the time"
             return None
         equations = self.equations
-        solved = solve_system(equations, self.system.q, families=True)
-        self.complete = solved.complete
-        found = [
-            point
-            for point in map(self._point, solved.solutions)
-            if point is not None and self.balanced(point.values)
-        ]
+        found, lost = self._found(equations)
+        if lost and self._along_one:
+            found, lost = self._found(self._along_one)
+        self.complete &= not lost
         if not self.complete:
             known = {tuple(p.values.get(q, q) for q in self.system.q) for p in found}
             found += [p for p in self._evident() if tuple(p.values.values()) not in known]
@@ -85,6 +82,19 @@ class RestPoints:
                 self.reason = "the equations of rest have no closed solution"
                 return None
         return tuple(found)
+
+    def _found(self, equations: list[Expr]) -> tuple[list[RestPoint], bool]:
+        """The solutions that balance; whether a family was lost of which some members may."""
+        solved = solve_system(equations, self.system.q, families=True)
+        self.complete = solved.complete
+        found, lost = [], False
+        for solution in solved.solutions:
+            point = self._point(solution)
+            if point is not None and self.balanced(point.values):
+                found.append(point)
+            elif len(solution.values) < len(self.system.q):
+                lost = True
+        return found, lost or not (found or solved.complete)
 
     def _point(self, solution: SystemSolution) -> RestPoint | None:
         q, values, known = self.system.q, dict(solution.values), None
@@ -133,6 +143,20 @@ class RestPoints:
                 for vector in _polynomial(nullspace(constraints.jacobian))
             ]
         return [e for e in (*conditions, *forces) if is_zero(e) is not True]
+
+    @property
+    def _along_one(self) -> list[Expr]:
+        """f = 0 and a_i F_j = a_j F_i: the force along the gradient of a single constraint.
+
+        Where a component of the gradient vanishes the displacements of `equations` do, too.
+        """
+        constraints = self.dynamics.constraints.equations
+        if len(constraints) != 1 or not constraints[0].holonomic:
+            return []
+        a, F = constraints[0].row, self.forces_at_rest
+        pairs = combinations(range(len(F)), 2)
+        minors = [simplify(a[i] * F[j] - a[j] * F[i]) for i, j in pairs]
+        return [constraints[0].f, *(x for x in minors if is_zero(x) is not True)]
 
     def balanced(self, values: Mapping[Symbol, Expr]) -> bool:
         """Whether a state of rest is an equilibrium, by substitution."""
