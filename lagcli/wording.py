@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
-from lagcli.answers import Equilibrium
-from lagcli.document import Formula, Label
-from lagcli.expression import ZERO, Name
+from lagcli.answers import Equilibrium, QuantityUnit
+from lagcli.document import Formula, Label, Row
+from lagcli.expression import ZERO, Expression, Name
 from lagcli.motions import Above, SteadyMotion
 
 Part = str | Formula
@@ -27,6 +27,25 @@ def conditions(where: Sequence[Above]) -> list[Part]:
         )
         parts += [" and " if position else "", *sides]
     return parts
+
+
+def place_rows(
+    at: Mapping[str, Expression], on: tuple[Expression, Expression] | None
+) -> tuple[Row, ...]:
+    """A state, or a family of them: what ties its coordinates, and their values."""
+    ties = () if on is None else (Row(*on),)
+    return (*ties, *(Row(Name(name), value) for name, value in at.items()))
+
+
+def unit_rows(
+    labels: Mapping[str, Label], quantities: Mapping[str, QuantityUnit], source: str = ""
+) -> tuple[Row, ...]:
+    """The units that are known; those of one source where it is named."""
+    return tuple(
+        Row(labels[name], each.unit)
+        for name, each in quantities.items()
+        if each.unit is not None and source in {"", each.source}
+    )
 
 
 def stability(equilibrium: Equilibrium) -> list[Part]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from lagcli.answers import DimensionsSection, QuantityUnit
-from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
+from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph
+from lagcli.wording import unit_rows
 
 
 def dimension_blocks(section: DimensionsSection) -> Iterator[Block]:
@@ -50,11 +51,7 @@ def _part(
     source: str = "",
 ) -> Iterator[Block]:
     """One kind of quantities, those with a unit."""
-    rows = [
-        Row(labels[name], each.unit)
-        for name, each in quantities.items()
-        if each.unit is not None and source in {"", each.source}
-    ]
+    rows = unit_rows(labels, quantities, source)
     if rows:
         yield Heading(heading, 2)
-        yield Equations(tuple(rows))
+        yield Equations(rows)

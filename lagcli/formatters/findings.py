@@ -24,7 +24,7 @@ from lagcli.document import (
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power, operation_count
 from lagcli.questions import FindSection, Range, Ranges, Rewritten, Solutions
-from lagcli.wording import conditions, stability
+from lagcli.wording import conditions, place_rows, stability
 
 _SOURCES = {
     "candidate": "candidate",
@@ -152,8 +152,7 @@ def state_blocks(
     on: tuple[Expression, Expression] | None = None,
 ) -> Iterator[Block]:
     """A state, or a family: on one line where its values are short, else as equations."""
-    rows = [Row(*on)] if on is not None else []
-    rows += [Row(Name(name), value) for name, value in at.items()]
+    rows = place_rows(at, on)
     short = on is None or sum(map(operation_count, on)) <= _SHORT_RELATION
     if short and all(operation_count(value) <= _SHORT for value in at.values()):
         parts: list[str | Formula] = [before]
@@ -164,7 +163,7 @@ def state_blocks(
         return
     if before:
         yield Paragraph((before,))
-    yield Equations(tuple(rows))
+    yield Equations(rows)
 
 
 def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:

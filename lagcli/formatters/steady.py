@@ -17,7 +17,7 @@ from lagcli.document import (
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.motions import SteadyMotion, SteadySection
-from lagcli.wording import conditions, steady_stability
+from lagcli.wording import conditions, place_rows, steady_stability
 
 _SQUARED = Power(Name("omega"), Number(Fraction(2)))
 
@@ -42,8 +42,7 @@ def steady_blocks(section: SteadySection) -> Iterator[Block]:
 
 
 def _motion(motion: SteadyMotion) -> Iterator[Block]:
-    rows = [Row(*motion.on)] if motion.on is not None else []
-    rows += [Row(Name(name), value) for name, value in motion.at.items()]
+    rows = [*place_rows(motion.at, motion.on)]
     rates = motion.rates or {}
     rows += [Row(Name(name, 1), value) for name, value in rates.items() if value != Name(name, 1)]
     rows += [

@@ -22,7 +22,7 @@ from lagcli.mechanics.explaining.transformations import transformations
 from lagcli.mechanics.explaining.words import Part, names, says, shows
 from lagcli.mechanics.statements import Statements
 from lagcli.mechanics.stating import Stating
-from lagcli.wording import POTENTIAL, stability
+from lagcli.wording import POTENTIAL, place_rows, stability
 from lagcli.wording import conditions as inequalities
 
 Others = Mapping[str, Callable[[Stating], Section]]
@@ -81,8 +81,7 @@ def _rest(teller: Teller, section: Section) -> Iterator[Block]:
 def _state(
     at: Mapping[str, Expression], on: tuple[Expression, Expression] | None = None
 ) -> Equations:
-    ties = () if on is None else (Row(*on),)
-    return Equations((*ties, *(Row(Name(name), value) for name, value in at.items())))
+    return Equations(place_rows(at, on))
 
 
 def _oscillations(teller: Teller, section: Section) -> Iterator[Block]:

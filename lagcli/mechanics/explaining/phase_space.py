@@ -22,7 +22,7 @@ from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says, shows
 from lagcli.motions import HamiltonJacobiSection, SteadyMotion, SteadySection
 from lagcli.phase_space import BracketsSection
-from lagcli.wording import POTENTIAL, conditions, steady_stability
+from lagcli.wording import POTENTIAL, conditions, place_rows, steady_stability
 
 _SQUARED = Power(Name("omega"), Number(Fraction(2)))
 
@@ -58,9 +58,7 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
     if free:
         yield says("For any value of ", names(free), ",")
     if motion.at or motion.on is not None:
-        ties = () if motion.on is None else (Row(*motion.on),)
-        places = (Row(Name(name), value) for name, value in motion.at.items())
-        yield Equations((*ties, *places))
+        yield Equations(place_rows(motion.at, motion.on))
     if motion.rates:
         yield says("The cyclic coordinates then turn with")
         yield Equations(tuple(Row(Name(name, 1), rate) for name, rate in motion.rates.items()))

@@ -10,6 +10,7 @@ from lagcli.document import Block, Equations, Items, Label, Row
 from lagcli.expression import Name
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import names, says
+from lagcli.wording import unit_rows
 
 
 def model(_: Teller, section: Section) -> Iterator[Block]:
@@ -79,10 +80,6 @@ def dimensions(teller: Teller, section: Section) -> Iterator[Block]:
 def _units(
     labels: Mapping[str, Label], quantities: Mapping[str, QuantityUnit], source: str = ""
 ) -> Iterator[Block]:
-    rows = [
-        Row(labels[name], each.unit)
-        for name, each in quantities.items()
-        if each.unit is not None and source in {"", each.source}
-    ]
+    rows = unit_rows(labels, quantities, source)
     if rows:
-        yield Equations(tuple(rows))
+        yield Equations(rows)
