@@ -102,6 +102,16 @@ class Element:
         return len(self.numerator) + len(self.denominator)
 
 
+def common_denominator(field: FractionField, elements: Iterable[Element]) -> Poly:
+    """The least common multiple of the denominators."""
+    lift = field.ring.lift
+    common = field.ring.one
+    for each in elements:
+        below = lift(each.denominator)
+        common = lift(common) * (below / lift(common).gcd(below))
+    return common
+
+
 class FractionField:
     """Q(g0, g1, …) modulo its ring's rules; `lagcli.algebra.entry.Field` gives it generators."""
 

@@ -19,6 +19,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import Field, is_zero, nullspace, simplify
+from lagcli.algebra.field import common_denominator
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.dynamics import Dynamics
 
@@ -65,11 +66,7 @@ def primitive(vector: Sequence[Expr]) -> Vector:
     field = Field(vector)
     ring = field.ring
     elements = [field(x) for x in vector]
-    below = ring.one
-    for element in elements:
-        own = ring.lift(element.denominator)
-        below = ring.lift(below)
-        below = below * (own / below.gcd(own))
+    below = common_denominator(field, elements)
     tops = [
         ring.reduce(ring.lift(e.numerator) * (ring.lift(below) / ring.lift(e.denominator)))
         for e in elements

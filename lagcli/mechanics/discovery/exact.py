@@ -11,6 +11,7 @@ from sympy import Expr, Rational
 
 from lagcli.algebra import nullspace, simplify
 from lagcli.algebra.effort import EFFORT
+from lagcli.algebra.field import common_denominator
 from lagcli.algebra.ring import Monomial, Poly
 from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, small_fraction
 
@@ -113,11 +114,7 @@ class ExactSolver:
         """sum c_a entry_a = 0 as one sparse row of constants for each monomial in t, q, q'."""
         field, ring = self.field, self.field.ring
         elements = [field(e) for e in entries]
-        common = ring.one
-        for element in elements:
-            below = ring.lift(element.denominator)
-            common = ring.lift(common)
-            common = common * (below / common.gcd(below))
+        common = common_denominator(field, elements)
         groups: dict[tuple[tuple[int, int], ...], dict[int, list[tuple[Monomial, int]]]] = {}
         for index, element in enumerate(elements):
             factor = ring.lift(common) / ring.lift(element.denominator)

@@ -23,6 +23,7 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import Field, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import is_decimal, rounded
+from lagcli.algebra.field import common_denominator
 from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.family import Family, exists_where, family
@@ -236,11 +237,7 @@ def _polynomial(vectors: Sequence[Sequence[Expr]]) -> list[list[Expr]]:
     for vector in vectors:
         field = Field(vector)
         elements = [field(v) for v in vector]
-        common = field.ring.one
-        for each in elements:
-            below = field.ring.lift(each.denominator)
-            common = field.ring.lift(common) * (below / field.ring.lift(common).gcd(below))
-        factor = field.polynomial(common)
+        factor = field.polynomial(common_denominator(field, elements))
         whole.append([field.to_sympy(each * factor) for each in elements])
     return whole
 

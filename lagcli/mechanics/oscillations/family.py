@@ -14,6 +14,7 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.equations import solve_for
+from lagcli.algebra.field import common_denominator
 from lagcli.algebra.signs import sign
 from lagcli.record import record
 
@@ -45,11 +46,8 @@ class Family:
             return None
         field = Field(back)
         elements = [field(part) for part in back]
-        common = field.ring.one
-        for each in elements:
-            below = field.ring.lift(each.denominator)
-            common = field.ring.lift(common) * (below / field.ring.lift(common).gcd(below))
-        whole = [each * field.polynomial(common) for each in elements]
+        common = field.polynomial(common_denominator(field, elements))
+        whole = [each * common for each in elements]
         return tuple(simplify(field.to_sympy(each)) for each in whole)
 
     def written_back(self, expression: Expr) -> Expr | None:
