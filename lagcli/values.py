@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import TypeVar
 
+from lagcli.assumptions import broken
 from lagcli.decimals import Constant, number, value_of
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import (
@@ -178,15 +179,6 @@ def _resolved(values: Values) -> dict[str, Expression]:
     return resolved
 
 
-_BREAKS: dict[str, Callable[[Constant], bool]] = {
-    "positive": lambda value: value <= 0,
-    "nonnegative": lambda value: value < 0,
-    "nonzero": lambda value: value == 0,
-    "negative": lambda value: value >= 0,
-    "real": lambda _: False,
-}
-
-
 def _wrong_numbers(problem: Problem, values: Values) -> list[Diagnostic]:
     parameters = {p.name: p for p in problem.parameters}
     found = (_wrong_number(parameters[name], value) for name, value in values.items())
@@ -200,11 +192,8 @@ def _wrong_number(parameter: Parameter, formula: Expression) -> Diagnostic | Non
         return Diagnostic(f"the value of '{parameter.name}' is not a real number")
     if value is None:
         return None
-    if _BREAKS[parameter.assume](value):
-        return Diagnostic(f"'{parameter.name}' is {parameter.assume}, and its value is not")
-    if parameter.integer and value != int(value):
-        return Diagnostic(f"'{parameter.name}' is an integer, and its value is not")
-    return None
+    mistake = broken(parameter, value)
+    return None if mistake is None else Diagnostic(mistake)
 
 
 def _undefined(before: Problem, after: Problem) -> list[Diagnostic]:

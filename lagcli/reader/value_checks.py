@@ -7,22 +7,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from lagcli.assumptions import broken
 from lagcli.reader.constants import rational_value
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from fractions import Fraction
 
     from lagcli.problem import Problem
     from lagcli.reader.sections import Sections
-
-_BREAKS: dict[str, Callable[[Fraction], bool]] = {
-    "positive": lambda value: value <= 0,
-    "nonnegative": lambda value: value < 0,
-    "nonzero": lambda value: value == 0,
-    "negative": lambda value: value >= 0,
-    "real": lambda _: False,
-}
 
 
 def check_values(sections: Sections, problem: Problem) -> None:
@@ -32,12 +24,9 @@ def check_values(sections: Sections, problem: Problem) -> None:
         value = known.get(parameter.name)
         if value is None or parameter.value is None:
             continue
-        if _BREAKS[parameter.assume](value):
-            message = f"'{parameter.name}' is {parameter.assume}, and its value is not"
-            sections.error(message, parameter.value.span)
-        elif parameter.integer and value.denominator != 1:
-            message = f"'{parameter.name}' is an integer, and its value is not"
-            sections.error(message, parameter.value.span)
+        mistake = broken(parameter, value)
+        if mistake is not None:
+            sections.error(mistake, parameter.value.span)
     striking = {one.name: one.restitution for one in problem.constraints}
     striking |= {one.name: one.restitution for one in problem.contacts}
     for name, formula in striking.items():
