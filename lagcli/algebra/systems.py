@@ -320,9 +320,8 @@ def _lies_on(solution: SystemSolution, other: SystemSolution) -> bool:
     """Whether a solution is one of a family that is given by a relation."""
     if other is solution or other.relation is None:
         return False
-    put_in = list(solution.values.items())
     ties = [other.relation, *(s - v for s, v in other.values.items())]
-    there = [tie.subs(put_in, simultaneous=True) for tie in ties]
+    there = [tie.xreplace(solution.values) for tie in ties]
     own = solution.relation
     return all(is_zero(tie) is True or (own is not None and _same(tie, own)) for tie in there)
 

@@ -98,7 +98,7 @@ def _read(name: str, data: bytes | OSError, request: Request, tally: Tally) -> P
     found = read(name, data, request)
     tally.said.append(tell(found.source, found.diagnostics))
     tally.wrong = tally.wrong or found.problem is None
-    if found.problem is not None and found.problem.initial:
+    if found.problem is not None and found.problem.initial and found.problem.constraints:
         from lagcli.values import off_constraints
 
         tally.said.append(tell(found.source, off_constraints(found.problem)))

@@ -58,6 +58,9 @@ class Symbol(Node):
         self.name = name
         self.primes = primes
 
+    def __str__(self) -> str:
+        return self.name + "'" * self.primes
+
 
 class Sum(Node):
     """constant + sum of coefficient * term, the terms in the order of their index.

@@ -112,10 +112,10 @@ class Program:
                 if node.name == "pi":
                     self._start[place] = arithmetic.function("pi")()
                 else:
-                    self._symbols.append((node.name + "'" * node.primes, place))
+                    self._symbols.append((str(node), place))
             else:
                 self._steps.append((place, self._step(node)))
-        self.roots = [self._place[root] for root in roots]
+        self._roots = [self._place[root] for root in roots]
 
     def __call__(self, values: Mapping[str, Any]) -> list[Any]:
         """The values at a point, given by names: `x`, `x'`.
@@ -130,7 +130,7 @@ class Program:
             slots[place] = values[name]
         for place, step in self._steps:
             slots[place] = step(slots)
-        return [slots[place] for place in self.roots]
+        return [slots[place] for place in self._roots]
 
     def _step(self, node: Node) -> Callable[[list[Any]], Any]:
         match node:

@@ -151,13 +151,14 @@ class Sizes:
         charges: Sequence[Node],
         constants: Mapping[Symbol, Any],
     ) -> None:
+        self._charges = len(charges)
         self._program = Program([size(graph, charge) for charge in charges], Floats())
-        self._names = [_name(symbol) for symbol in state]
-        self._known = {_name(symbol): float(value) for symbol, value in constants.items()}
+        self._names = [str(symbol) for symbol in state]
+        self._known = {str(symbol): float(value) for symbol, value in constants.items()}
 
     def largest(self, run: Run, places: Sequence[int]) -> list[float]:
         """Of each charge the largest at some of the rows of a phase."""
-        found = [0.0] * len(self._program.roots)
+        found = [0.0] * self._charges
         for place in {*places[:: max(1, len(places) // _LOOKS)], places[-1]}:
             mark = run.marks[place]
             state = map(float, (mark.t, *mark.q, *mark.v))
@@ -167,10 +168,6 @@ class Sizes:
                 continue
             found = [max(pair) for pair in zip(found, now, strict=True)]
         return found
-
-
-def _name(symbol: Symbol) -> str:
-    return symbol.name + "'" * symbol.primes
 
 
 def changes(

@@ -265,7 +265,7 @@ class _Completion:
         return NOWHERE if value is None else value.span
 
     def _open(self, unknown: Symbol, which: int, why: str) -> Refusal:
-        name = unknown.name + "'" * unknown.primes
+        name = str(unknown)
         constraint = self.equations.declared[which]
         return Refusal(
             (
@@ -287,7 +287,7 @@ class _Completion:
         if nearest is None:
             hint = "no state near it does: do the constraints contradict each other?"
         else:
-            names = [s.name + "'" * s.primes for s in (*e.q, *e.qdot)]
+            names = [str(s) for s in (*e.q, *e.qdot)]
             state = dict(zip(names, (*nearest[0], *nearest[1]), strict=True))
             told = ", ".join(f"{name}: {value!r}" for name, value in state.items())
             hint = f"the nearest state that does, which simulate --project takes: {{{told}}}"
