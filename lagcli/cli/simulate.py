@@ -22,7 +22,8 @@ Accuracy = Annotated[
     ),
 ]
 Samples = Annotated[
-    int, typer.Option("--samples", metavar="N", min=2, help="Rows, both ends included.")
+    int,
+    typer.Option("--samples", metavar="N", min=2, max=1_000_000, help="Rows, both ends included."),
 ]
 Set = Annotated[
     list[str] | None,

@@ -12,7 +12,10 @@ from lagcli.cli.options import Output, State, StudyFormat
 from lagcli.cli.simulate import File, Project, Set, Until
 
 Samples = Annotated[
-    int, typer.Option("--samples", metavar="N", min=2, help="Times at which errors are taken.")
+    int,
+    typer.Option(
+        "--samples", metavar="N", min=2, max=1_000_000, help="Times at which errors are taken."
+    ),
 ]
 Plot = Annotated[
     Path | None,
