@@ -145,6 +145,7 @@ class FractionField:
                 numerator, denominator = numerator / common, denominator / common
             if self.has_roots:
                 numerator, denominator = self._without_roots(numerator, denominator)
+                numerator, denominator = self._divided(numerator, denominator)
             if denominator.leading_coefficient() < 0:
                 numerator, denominator = -numerator, -denominator
         return Element(self, numerator, denominator)
@@ -165,6 +166,36 @@ class FractionField:
                 denominator = ring.reduce(denominator * ring.lift(generator.radicand))
                 common = numerator.gcd(denominator)
                 numerator, denominator = numerator / common, denominator / common
+        return numerator, denominator
+
+    def _divided(self, numerator: Poly, denominator: Poly) -> tuple[Poly, Poly]:
+        """N/D as Q where N = Q D by the rules, which hide the factor: N is reduced.
+
+        D is monic in a generator that no rule of its other generators knows, so that the
+        quotient in the powers of that generator is unique.
+        """
+        ring = self.ring
+        used = ring.used(denominator)
+        if not any(g in ring.rules for g in used):
+            return numerator, denominator
+        content = denominator.content()
+        divisor = denominator / content
+        bound = {g for each in used if each in ring.rules for g in ring.used(ring.rules[each][1])}
+        for index in used:
+            if index in bound:
+                continue
+            degree = ring.degree(denominator, index)
+            leading = ring.coefficients(divisor, index)[degree]
+            if ring.degree(numerator, index) < degree or leading not in (1, -1):
+                continue
+            quotient, rest = ring.zero, numerator
+            while rest != 0 and (power := ring.degree(rest, index)) >= degree:
+                part = ring.coefficients(rest, index)[power] * leading
+                part = part * ring.generator(index) ** (power - degree)
+                quotient, rest = quotient + part, ring.reduce(rest - part * divisor)
+            return (
+                (quotient, ring.constant(int(content))) if rest == 0 else (numerator, denominator)
+            )
         return numerator, denominator
 
     def rational(self, value: Fraction | int) -> Element:

@@ -86,8 +86,10 @@ class _Splitter:
             group.setdefault(fast, []).append((monomial, coefficient))
         found: list[Expression] = []
         for degree, group in by_degree.items():
-            groups = list(group.values()) if any(degree) else self._by_function(group[()])
-            found.extend(self._bracketed(groups, element))
+            if any(degree):
+                found.extend(self._bracketed(list(group.values()), element))
+            else:
+                found.extend(self._without_leading(group[()], element))
         return found
 
     def _is_leading(self, index: int) -> bool:
@@ -124,6 +126,16 @@ class _Splitter:
         if _is_flat(together) and operation_count(together) <= _WORTH_A_BRACKET * apart:
             return [together]
         return single
+
+    def _without_leading(self, static: list[Term], whole: Element) -> list[Expression]:
+        """The terms by their functions; those of the shortest sum where that is much shorter."""
+        apart = self._bracketed(self._by_function(static), whole)
+        if len(apart) > 1 and not whole.is_polynomial():
+            together = self._shape(static, whole)
+            count = sum(map(operation_count, apart)) + len(apart) - 1
+            if isinstance(together, Sum) and operation_count(together) <= _WORTH_A_BRACKET * count:
+                return list(together.terms)
+        return apart
 
     def _shape(self, group: Iterable[Term], whole: Element) -> Expression:
         numerator = self.field.ring.build(group)

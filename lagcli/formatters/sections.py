@@ -292,7 +292,9 @@ def _energy(section: EnergySection) -> Iterator[Block]:
     }
     words = conserved[section.conserved] + total[section.is_total_energy]
     reason = section.reason.strip().rstrip(".")
-    if reason.startswith(("conserved", "not conserved")):  # it says all of that, and why
+    if reason.startswith(
+        ("conserved", "not conserved", "whether it is conserved")
+    ):  # it says all of that, and why
         yield Paragraph((f"{reason[0].upper()}{reason[1:]}.",))
     else:
         yield Paragraph((f"{words} {reason}.".replace(" .", ""),))

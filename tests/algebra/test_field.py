@@ -15,6 +15,10 @@ from lagcli.algebra.numeric import Evaluator, evaluate
 a, b, t, v = (Symbol(n, real=True) for n in "a b t v".split())
 p, q, n = (Symbol(s, positive=True) for s in "p q n".split())
 
+#: The square of the distance from (s, p sin a) with s² = q² - p² sin² a, with s² and cos² gone.
+S = sqrt(q**2 - p**2 * sin(a) ** 2)
+DISTANCE = b**2 - 2 * b * S + v**2 - 2 * v * p * sin(a) + q**2
+
 IDENTITIES: list[Expr] = [
     sin(a) ** 2 + cos(a) ** 2 - 1,
     sin(3 * a) - 3 * sin(a) + 4 * sin(a) ** 3,
@@ -101,3 +105,20 @@ def test_unspecified_functions_have_consistent_derivatives() -> None:
 def test_an_evaluator_is_reused_at_many_points() -> None:
     plan = Evaluator([a**2 + b, sqrt(a**2 + b)], 30)
     assert [plan({a: mpf(k), b: mpf(0)})[0] for k in range(4)] == [0, 1, 4, 9]
+
+
+@pytest.mark.parametrize("factor", [b - S, v - p * sin(a), b * S + cos(a) * v, S])
+def test_a_factor_that_the_rules_hide_in_the_numerator_is_cancelled(factor: Expr) -> None:
+    """s² = q² - p² sin² a in the product leaves no common divisor that polynomials have."""
+    quotient = factor * DISTANCE / (3 * DISTANCE)
+    field = Field([quotient])
+    above, below = field(sp.expand(factor * DISTANCE)), field(3 * DISTANCE)
+    assert (above / below).denominator == 3
+    assert is_zero(field.to_sympy(above / below) - factor / 3)
+
+
+def test_what_is_no_multiple_is_not_divided() -> None:
+    quotient = (b - S + v * S**2) / DISTANCE
+    field = Field([quotient])
+    assert not field(quotient).is_polynomial()
+    assert is_zero(field.to_sympy(field(quotient)) - quotient)

@@ -7,6 +7,7 @@ import pytest
 from lagcli import load
 from lagcli.check.trajectory import TrajectoryCheck
 from lagcli.decimals import value_of
+from lagcli.expression import operation_count
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.pipeline import solve
 
@@ -17,7 +18,9 @@ FILES = sorted(path.stem for path in FOLDER.glob("*.yaml"))
 
 
 def test_the_folder_is_there():
-    assert FILES == ["andrews-squeezer", "bricard", "flyball-governor", "n-four-bar"]
+    assert FILES == [
+        "andrews-squeezer", "bricard", "car-axis", "flyball-governor", "n-four-bar",
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -26,7 +29,8 @@ def test_the_matrix_form_is_written(name):
     section = solve(problem, ["matrix_form"]).sections["matrix_form"]
     assert len(section.mass_matrix) == len(section.forcing) == len(problem.coordinates)
     assert len(section.constraint_jacobian) == len(problem.constraints)
-    assert MatrixForm(problem).degrees_of_freedom == (4 if name == "flyball-governor" else 1)
+    freedom = {"flyball-governor": 4, "car-axis": 2}.get(name, 1)
+    assert MatrixForm(problem).degrees_of_freedom == freedom
 
 
 @pytest.mark.parametrize("name", [name for name in FILES if name != "bricard"])
@@ -56,6 +60,13 @@ def test_andrews_angles_are_those_of_the_test_set_to_ten_digits():
     assert result.certificate.reached
     for name in ("beta", "theta", "gamma", "phi", "delta", "omega", "epsilon"):
         assert last(result, name) == pytest.approx(known[name], rel=1e-10, abs=1e-10)
+
+
+def test_the_force_of_a_spring_between_moving_points_is_read_as_one_force():
+    """(r - L0)(xr - xb)/r with the end (xb, yb) of the spring on a circle."""
+    problem = load(FOLDER / "car-axis.yaml")
+    equations = solve(problem, ["equations"]).sections["equations"].equations
+    assert [operation_count(each.left) < 60 for each in equations] == [True] * 4
 
 
 def test_bricard_moves_along_its_known_relation_in_spite_of_redundant_constraints():

@@ -99,18 +99,26 @@ class Shaper:
                 yield self._joined(inverse, _as_product(self.atoms, plan))
 
     def _by_roots(self, element: Element) -> Iterator[Sum]:
-        """A/r_1^3 + B/r_2^3: the parts of the numerator with different roots apart."""
-        generators = self.field.generators
-        groups: dict[Monomial, list[tuple[Monomial, int]]] = {}
-        for monomial, coefficient in self.field.ring.terms(element.numerator):
-            roots = tuple(pair for pair in monomial if generators[pair[0]].kind == "root")
-            groups.setdefault(roots, []).append((monomial, coefficient))
-        if len(groups) < 2 or element.is_polynomial():
+        """A/r_1^3 + B/r_2^3: the parts of the numerator with different roots apart.
+
+        A root that the denominator holds as well may belong to a common factor.
+        """
+        if element.is_polynomial():
             return
-        yield self.together(
-            self.field.element(self.field.ring.build(terms), element.denominator)
-            for terms in groups.values()
-        )
+        kinds = self.field.generators
+        used = self.field.ring.used
+        roots = {g for g in used(element.numerator) if kinds[g].kind == "root"}
+        outside = roots.difference(used(element.denominator))
+        for apart in (roots, outside) if outside != roots else (roots,):
+            groups: dict[Monomial, list[tuple[Monomial, int]]] = {}
+            for monomial, coefficient in self.field.ring.terms(element.numerator):
+                key = tuple(pair for pair in monomial if pair[0] in apart)
+                groups.setdefault(key, []).append((monomial, coefficient))
+            if len(groups) > 1:
+                yield self.together(
+                    self.field.element(self.field.ring.build(terms), element.denominator)
+                    for terms in groups.values()
+                )
 
     def together(self, elements: Iterable[Element]) -> Sum:
         """The sum of the plans of each."""
