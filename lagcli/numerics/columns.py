@@ -12,7 +12,6 @@ from typing import Any
 
 from lagcli.expression import Expression, Name
 from lagcli.graph.nodes import Node, Symbol
-from lagcli.graph.stable import Stable
 from lagcli.graph.substitution import Substitution
 from lagcli.numerics.equations import Equations
 from lagcli.numerics.motion import Function, Motion
@@ -87,7 +86,7 @@ class Values:
         self._motion = motion
         #: for each multiplier of the problem, its place among those that are solved for
         self._places = [motion.equations.place.get(k) for k in range(len(reading.multipliers))]
-        nodes = list(map(Stable(motion.equations.graph), nodes))
+        nodes = list(map(motion.equations.stable, nodes))
         self._plain = [node for node in nodes if not node.mask & mask]
         self._deep = [node for node in nodes if node.mask & mask]
         self._order = _order([bool(node.mask & mask) for node in nodes])

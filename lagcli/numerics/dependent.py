@@ -40,11 +40,11 @@ class NoMass(ArithmeticError):
 
 @record
 class Held:
-    """A solution, with the rank of A and which multipliers it determines."""
+    """A solution, with rows that imply the others and which multipliers it determines."""
 
     accelerations: Vector
     multipliers: Vector
-    rank: int
+    independent: tuple[int, ...]
     determined: tuple[bool, ...]
 
 
@@ -99,7 +99,7 @@ def held_motion(mass: Matrix, forcing: Vector, rows: Matrix, bias: Vector) -> He
     return Held(
         [x * s for x, s in zip(a, scales, strict=True)],
         multipliers,
-        len(pivots),
+        tuple(sorted(used)),
         _determined(unit, block, used, columns),
     )
 

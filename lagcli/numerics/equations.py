@@ -6,13 +6,15 @@ a refusal.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from copy import copy
 from fractions import Fraction
 from functools import cached_property
 
 from lagcli.expression import Expression
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Call, Node, Symbol, ancestry
-from lagcli.graph.stable import stable_dynamics
+from lagcli.graph.stable import Stable, stable_dynamics
 from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
 from lagcli.numerics.elimination import Eliminated, Factored, TooLong
 from lagcli.numerics.refusal import Refusal
@@ -20,6 +22,11 @@ from lagcli.numerics.straight_line import Generated
 from lagcli.problem import Problem
 
 _HALF = Fraction(1, 2)
+#: What is worked out of the constraints.
+_OF_ROWS = (
+    "generated", "positions", "rates", "sizes", "eliminated", "eliminated_positions",
+    "evident_charges",
+)  # fmt: skip
 
 
 class Equations:
@@ -88,10 +95,30 @@ class Equations:
         """The equations while only these constraints act."""
         return Equations(self.problem, self.whole, held)
 
+    def without_implied(self, independent: Sequence[int]) -> Equations:
+        """The equations with these rows, which imply all others."""
+        fewer = copy(self)
+        for name in _OF_ROWS:
+            fewer.__dict__.pop(name, None)
+        fewer.place = {k: i for i, k in enumerate(independent)}
+        fewer.constraints = tuple(self.constraints[k] for k in independent)
+        fewer.declared = tuple(self.declared[k] for k in independent)
+        fewer.rows = tuple(self.rows[k] for k in independent)
+        fewer.bias = tuple(self.bias[k] for k in independent)
+        fewer.holonomic = tuple(
+            k for k, row in enumerate(fewer.constraints) if row.position is not None
+        )
+        return fewer
+
     @cached_property
     def generated(self) -> Generated:
         """The functions made of them, which numbers of all kinds share."""
         return {}
+
+    @cached_property
+    def stable(self) -> Stable:
+        """Writes columns so that they keep their digits."""
+        return Stable(self.graph)
 
     @cached_property
     def positions(self) -> list[Node]:

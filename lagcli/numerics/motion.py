@@ -63,6 +63,7 @@ class Motion:
         self.kinks = equations.kinks if arithmetic.ordered else []
         #: of each kink's argument, as the dynamics is to take it
         self.signs = [1.0] * len(self.kinks) if signs is None else signs
+        self._independent: tuple[int, ...] | None = None
         self._frozen = ({node: k for k, node in enumerate(self.kinks)}, self.signs)
 
     def function(
@@ -143,13 +144,21 @@ class Motion:
         forcing = list(values[n * n : n * n + n])
         rest = values[n * n + n :]
         rows = [rest[k * n : (k + 1) * n] for k in range(m)]
-        return self._held(mass, forcing, rows, list(rest[m * n :]))
+        found = self._held(mass, forcing, rows, list(rest[m * n :]))
+        self._independent = found.independent if len(found.independent) < m else None
+        return found
+
+    def independent(self, *state: float) -> tuple[int, ...] | None:
+        """Rows of A that imply the others at a state; None where none is implied."""
+        self._independent = None
+        self.accelerations(*state)
+        return self._independent
 
     def _held(self, mass: Any, forcing: Any, rows: Any, bias: Any) -> Held:
         if self.equations.eliminated is None:  # otherwise a pivot has vanished
             found = regular_motion(mass, forcing, rows, bias)
             if found is not None:
-                return Held(*found, len(rows), (True,) * len(rows))
+                return Held(*found, tuple(range(len(rows))), (True,) * len(rows))
         return held_motion(mass, forcing, rows, bias)
 
     @cached_property

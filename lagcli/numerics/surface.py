@@ -10,6 +10,7 @@ Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd ed., sections IV.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from lagcli.numerics.motion import Motion
@@ -82,6 +83,24 @@ class Surface:
             before = worst
             v = [x - d for x, d in zip(v, found[:n], strict=True)]
         return v
+
+    def join(self, part: Surface, place: Mapping[int, int]) -> None:
+        """Take over the residuals of some of the constraints.
+
+        Parameters
+        ----------
+        part
+            The surface that these make.
+        place
+            For each of them here, its place there.
+        """
+        ours, theirs = self.motion.equations.holonomic, part.motion.equations.holonomic
+        for k, i in place.items():
+            pairs = [(self.count + k, part.count + i)]
+            if i in theirs:
+                pairs.append((ours.index(k), theirs.index(i)))
+            for here, there in pairs:
+                self.residuals[here] = max(self.residuals[here], part.residuals[there])
 
     def note(self, t: float, q: Vector, v: Vector) -> None:
         """Measure the residuals that are left at a state."""

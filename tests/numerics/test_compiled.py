@@ -312,11 +312,23 @@ def test_the_unit_of_time_does_not_matter(power, accuracy):
         assert last(result, "x") == pytest.approx(math.cos(until * 10.0**power), abs=accuracy)
 
 
-def test_dependent_constraints_fall_back_to_python_and_say_so():
+def test_a_constraint_that_the_others_imply_is_left_to_them():
     result = simulated(TWICE, 5, 1e-8)
+    once = simulated(TWICE.replace(", again: 2*x^2 + 2*y^2 = 2", ""), 5, 1e-8)
     assert result.certificate.reached
-    assert result.method == "dop853"
-    assert "not taylor64: the constraints become dependent" in result.reason
+    assert result.method == "taylor64"
+    assert result.rows[-1] == pytest.approx(once.rows[-1], abs=2e-8)
+    assert result.certificate.constraints.keys() == {"first", "again"}
+    assert all(max(found) <= 1e-12 for found in result.certificate.constraints.values())
+
+
+def test_a_constraint_that_the_others_imply_at_first_only_is_not_left_out():
+    """A circle and its tangent: the point cannot move."""
+    again = "2*x^2 + 2*y^2 = 2"
+    result = simulated(TWICE.replace(again, "x = 1"), 5, 1e-8)
+    assert "not taylor64: a constraint that the others imply at first" in result.reason
+    assert not result.certificate.reached
+    assert [row[1:3] for row in result.rows] == [(1, 0)]
 
 
 @pytest.mark.parametrize("method", ["taylor64", "taylor80", "dop853"])

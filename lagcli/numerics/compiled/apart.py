@@ -147,19 +147,9 @@ class Apart:
         surface = run.phases[-1].surface
         if surface is not None:
             for part, each in zip(self.parts, made, strict=True):
-                self._note(surface, part, each.phases[-1].surface)
-
-    def _note(self, surface: Surface, part: Part, own: Surface | None) -> None:
-        """The residuals of a part among those of all."""
-        if own is None:
-            return
-        e, holonomic = part.equations, self.mode.equations.holonomic
-        for k, i in e.place.items():
-            pairs = [(len(holonomic) + k, len(e.holonomic) + i)]
-            if i in e.holonomic:
-                pairs.append((holonomic.index(k), e.holonomic.index(i)))
-            for ours, theirs in pairs:
-                surface.residuals[ours] = max(surface.residuals[ours], own.residuals[theirs])
+                own = each.phases[-1].surface
+                if own is not None:
+                    surface.join(own, part.equations.place)
 
 
 def apart(

@@ -32,8 +32,8 @@ _LOOK = 64
 _LIMIT = 1_000_000_000
 #: Of the order in the logarithm of the tolerance, by what was measured.
 _ORDER, _LOWEST = 0.7, 8
-#: Constraints are held to so many roundings.
-_HELD = 3.6
+#: Constraints are held to so many roundings, and one that the others imply must be to this.
+_HELD, _IMPLIED = 3.6, 1e-12
 
 
 class PivotVanishes(NotPossible):
@@ -53,11 +53,15 @@ class CompiledTaylor:
     machine
         The equations.
     surface
-        The constraints, or None; it is told the residuals of a whole run.
+        The constraints, or None; it is told the residuals of a whole run.  The machine may be
+        one without those that the others imply.
     """
 
     def __init__(self, machine: Machine, surface: Surface | None) -> None:
         self.machine, self.surface = machine, surface
+        self._held_surface = surface
+        if surface is not None and machine.motion.m < surface.motion.m:
+            self._held_surface = Surface(machine.motion, surface.rounding)
         self.name = machine.numbers.name
         self.n = machine.motion.n
         self.evaluations = 0
@@ -103,8 +107,8 @@ class CompiledTaylor:
             least = peaks[i - n] / bound.span if i >= n else 0.0
             self._peaks[i] = numbers.cell(peak)
             self._scales[i] = numbers.cell(max(peak, 1e-300, least))
-        if self.surface is not None:
-            for i, scale in enumerate(self.surface.scales):
+        if self._held_surface is not None:
+            for i, scale in enumerate(self._held_surface.scales):
                 self._held[i] = numbers.cell(float(scale))
         return self._array([*map(exact, q), *map(exact, v), 0.0])
 
@@ -245,8 +249,9 @@ class CompiledTaylor:
             Where only the null-space way goes on.
         """
         counts, facts, both = self._counts, self._facts, 2 * self.n
-        if self.surface is not None:
-            self.surface.measure(0.0, q, v)
+        surface = self._held_surface
+        if surface is not None:
+            surface.measure(0.0, q, v)
         state = self._prepare(q, v, times[-1], run.tolerance)
         asked, out = self._array(times), self._zeros(len(times) * (both + 1))
         memmove(out, state, sizeof(state))
@@ -283,11 +288,30 @@ class CompiledTaylor:
             last = [float(x) for x in state]
             reason = "" if status == k.STOPPED else f"it takes more than {limit:,} steps"
             run.stop = CannotGoOn(last[both], last[: self.n], last[self.n : both], reason)
-        if self.surface is not None:
-            count = len(self.surface.residuals)
+        if surface is not None:
+            count = len(surface.residuals)
             found = [float(x) for x in self._held[count : 2 * count]]
-            self.surface.residuals = [*map(max, self.surface.residuals, found)]
+            surface.residuals = [*map(max, surface.residuals, found)]
+            if surface is not self.surface:
+                self._look_at_implied(run, surface)
         return run
+
+    def _look_at_implied(self, run: Run, held: Surface) -> None:
+        """The residuals of all constraints, those at the rows among them.
+
+        Raises
+        ------
+        NotPossible
+            Where one that followed from the others does not any more.
+        """
+        whole = self.surface
+        assert whole is not None
+        for look in (whole.measure, whole.note):
+            for mark in run.marks:
+                look(mark.t, mark.q, mark.v)
+        if not max(whole.residuals) <= _IMPLIED:
+            raise NotPossible("a constraint that the others imply at first is not implied later")
+        whole.join(held, held.motion.equations.place)
 
     def _read(self, values: Any) -> list[Any]:
         numbers = self.machine.numbers

@@ -62,6 +62,14 @@ def double_machine(motion: Motion) -> Machine | str:
         return str(reason)
 
 
+def _machine(motion: Motion, independent: Sequence[int] | None) -> Machine | str:
+    """The machine for a motion without constraints that these imply."""
+    if independent is None:
+        return double_machine(motion)
+    equations = motion.equations.without_implied(independent)
+    return double_machine(Motion(equations, motion.constants, motion.arithmetic))
+
+
 class Runs:
     """Runs in machine code, that go through the controller.
 
@@ -142,10 +150,16 @@ class Runs:
 
 def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
     """Machine code in doubles made ready, or why there is none."""
-    machine = double_machine(doubles.first.motion)
+    first = doubles.first
+    independent = None
+    if first.equations.rows and not first.conditions and not first.motion.kinks:
+        q, v = simulation.start
+        independent = first.motion.independent(0.0, *q, *v)
+    machine = _machine(first.motion, independent)
     if isinstance(machine, str):
         return machine
-    usual = Runs(simulation, doubles, machine, double_machine, doubles.make_method)
+    make = double_machine if independent is None else None
+    usual = Runs(simulation, doubles, machine, make, doubles.make_method)
 
     def prepared(other: Runs, beside: tuple[Sequence[Any], Sequence[Any]]) -> Prepared:
         both, states = (usual, other), (simulation.start, beside)
@@ -160,10 +174,10 @@ def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
             return done
 
         def with_others(others: Modes) -> Prepared:
-            found = double_machine(others.first.motion)
+            found = _machine(others.first.motion, independent)
             if isinstance(found, str):
                 raise NotPossible(found)
-            runs = Runs(simulation, others, found, double_machine, others.make_method)
+            runs = Runs(simulation, others, found, make, others.make_method)
             return prepared(runs, elsewhere(simulation))
 
         return Prepared(
