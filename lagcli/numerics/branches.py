@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 
 #: Rows after those that are good which are looked at: there the accuracy may have been lost.
 _BEYOND = 2
+#: What has more digits, the cheaper one first.
+_SHARPER = ("taylor128", MORE_DIGITS)
 
 
 def on_one_branch(
@@ -57,11 +59,8 @@ def on_one_branch(
         place = meeting(outcome)
     if place is None:
         return outcome, digits
-    made = METHODS[MORE_DIGITS].prepare(simulation, modes)
-    if not isinstance(made, str):
-        with suppress(NotPossible):
-            if _agree(outcome, one_run(simulation, made, SHARP)):
-                return outcome, digits
+    if _is_confirmed(simulation, modes, outcome):
+        return outcome, digits
     found, with_digits = simulation.attempt((MORE_DIGITS,), modes, SHARP)
     if found is not None and found.good_rows > min(place + 1, outcome.good_rows):
         return found, with_digits
@@ -132,6 +131,16 @@ def _roots(mode: Mode, marks: Sequence[Mark]) -> list[float]:
     if not kept:
         return []
     return [math.sqrt(min(row[k] / whole[k] for k in kept)) for row in values]
+
+
+def _is_confirmed(simulation: Simulation, modes: Modes, outcome: Outcome) -> bool:
+    """Whether a run of more digits and finer steps agrees: the first that is possible tells."""
+    for name in _SHARPER:
+        made = METHODS[name].prepare(simulation, modes)
+        if not isinstance(made, str):
+            with suppress(NotPossible):
+                return _agree(outcome, one_run(simulation, made, SHARP))
+    return False
 
 
 def _agree(outcome: Outcome, run: Run) -> bool:
