@@ -114,17 +114,27 @@ def _allowed(coordinate: Coordinate, value: float) -> bool:
             return True
 
 
-def size(graph: Graph, node: Node) -> Node:
-    """The sum of the absolute values of a formula's terms, those of its factors among them."""
+def size(graph: Graph, node: Node, known: dict[Node, Node] | None = None) -> Node:
+    """The sum of the absolute values of a formula's terms, those of its factors among them.
+
+    `known` has those of the nodes met before.
+    """
+    known = {} if known is None else known
+    if node not in known:
+        known[node] = _size(graph, node, known)
+    return known[node]
+
+
+def _size(graph: Graph, node: Node, known: dict[Node, Node]) -> Node:
     match node:
         case Constant(value=value):
             return graph.constant(abs(value))
         case Sum(constant=constant, terms=terms):
-            sizes = [(size(graph, term), abs(c)) for term, c in terms]
+            sizes = [(size(graph, term, known), abs(c)) for term, c in terms]
             return graph.combination([*sizes, (graph.one, abs(constant))])
         case Product(factors=factors):
             return graph.monomial(
-                (size(graph, base) if e > 0 else graph.call("abs", (base,)), e)
+                (size(graph, base, known) if e > 0 else graph.call("abs", (base,)), e)
                 for base, e in factors
             )
         case _:
@@ -152,7 +162,8 @@ class Sizes:
         constants: Mapping[Symbol, Any],
     ) -> None:
         self._charges = len(charges)
-        self._program = Program([size(graph, charge) for charge in charges], Floats())
+        known: dict[Node, Node] = {}
+        self._program = Program([size(graph, each, known) for each in charges], Floats())
         self._names = [str(symbol) for symbol in state]
         self._known = {str(symbol): float(value) for symbol, value in constants.items()}
 

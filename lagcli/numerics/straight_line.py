@@ -25,6 +25,7 @@ Frozen = tuple[Mapping[Node, int], list[float]]
 PIVOT_TOLERANCE = 1e-10
 _NESTED_CHARACTERS = 400
 _WRITTEN_POWERS = 4
+_ONCE = ((1, 1), (-1, 1))
 
 
 def run_generated(lines: Sequence[str], name: str, given: Mapping[str, Any]) -> Any:
@@ -167,7 +168,7 @@ class _Text:
                 self._uses[part] += 1
             if isinstance(node, Product):  # a power is written as a product of names
                 for base, exponent in node.factors:
-                    self._uses[base] += exponent not in {1, -1}
+                    self._uses[base] += exponent.as_integer_ratio() not in _ONCE
         for root in roots:
             self._uses[root] += 2
         for node in nodes:
@@ -242,10 +243,11 @@ class _Text:
 
     def _power(self, base: Node, exponent: Fraction) -> str:
         text = self.at(base)
-        whole, half = divmod(exponent, 1)
-        if half in {0, Fraction(1, 2)} and whole <= _WRITTEN_POWERS:
-            factors = [text] * int(whole)
-            if half:
+        numerator, denominator = exponent.as_integer_ratio()
+        whole = numerator // denominator
+        if denominator <= 2 and whole <= _WRITTEN_POWERS:
+            factors = [text] * whole
+            if denominator == 2:
                 factors.append(f"{self._function('sqrt')}({text})")
             return "*".join(factors)
         return f"{self._function('power')}({text}, {self._number(exponent)})"
