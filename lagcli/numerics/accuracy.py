@@ -53,6 +53,9 @@ LONGEST = (200.0, 2000.0, 20000.0)  # parts of the span
 _SATURATED = 0.03
 _MARGIN = 0.3
 _NEXT = 10.0
+#: Runs at rounding that differ by more than this part of what those before them differed by, whose
+#: tolerances were a hundred times coarser, gain nothing more; so far above A it is out of reach.
+_NO_GAIN, _FAR = 0.5, 5.0
 #: Where the longest step binds both runs their steps must still differ, or so would nothing.
 _FINER_STEPS = 1.37
 
@@ -124,7 +127,7 @@ class Controller:
 
     def outcome(self) -> Outcome:
         """The first pair of runs that agrees, or the last that could be made."""
-        level = 0
+        level, apart = 0, math.inf
         tolerance = max(min(self.accuracy / _SHARE, self.first, 1e-4), self.finest * BETWEEN)
         coarse, rows = self._run(tolerance, level, None)
         while True:
@@ -137,14 +140,22 @@ class Controller:
                     return found
                 if level + 1 < len(self._longest):  # something narrow: look again with short steps
                     level += 1
-                    self._finer, self._level = 0, level
+                    self._finer, self._level, apart = 0, level, math.inf
                     coarse, rows = self._run(tolerance, level, fine)
                     continue
                 self._is_refused = True
                 return replace(found, reached=False, reason=missed, good_rows=1)
             if finer <= self.finest or _both_stop(coarse, fine, found.good_rows, self.accuracy):
                 return found
-            tolerance = self._tightened(tolerance, finer, max(found.errors))
+            bound = max(found.errors)
+            before, apart = apart, bound / self.factor(finer)
+            if (
+                finer <= self.rounded
+                and apart > _NO_GAIN * before
+                and _FAR * self.accuracy < bound <= _SATURATED
+            ):
+                return found
+            tolerance = self._tightened(tolerance, finer, bound)
             if tolerance == finer:
                 coarse, rows = fine, fine_rows
             else:
