@@ -79,7 +79,9 @@ force = [
     diff(lagrangian, x) - along(p) - diff(lost, u) + applied.get(key, 0)
     for key, x, u, p in zip(names, q, v, momenta, strict=True)
 ]
-sides = [text.split("=") for text in (data.get("constraints") or {}).values()]
+sides = [
+    text.split("=") for x, text in (data.get("constraints") or {}).items() if x != system.implied
+]
 surfaces = [read(f"({left}) - ({right})", space) for left, right in sides]
 rows = [[diff(g, x) for x in q] for g in surfaces]
 a = system.stabilized
