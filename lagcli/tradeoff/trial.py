@@ -99,12 +99,13 @@ def asked_of(given: Given) -> tuple[Problem, Asked]:
     """The problem, and its coordinates and velocities asked for."""
     from lagcli.numerics.asked import Asked
     from lagcli.numerics.columns import Column
-    from lagcli.pipeline import Request, read
+    from lagcli.pipeline import Request, read, with_lagrangian
     from lagcli.reader.columns import usual_columns
 
     request = Request(settings=given.settings, state=given.state)
     problem = read(given.name, given.text.encode(), request).problem
     assert problem is not None  # it has been read before
+    problem = with_lagrangian(problem)
     asked = Asked(
         until=given.until,
         accuracy=given.accuracy or min(0.1, max(_LEAST, 100 * (given.tolerance or 0.0))),
