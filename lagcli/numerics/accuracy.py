@@ -32,7 +32,8 @@ from typing import Any
 
 from lagcli.numerics.charges import changes
 from lagcli.numerics.run import Mark, Run
-from lagcli.numerics.steps import SINGULAR_MASS
+from lagcli.numerics.scales import Scales, relative
+from lagcli.numerics.steps import SINGULAR_MASS, component_scales
 from lagcli.record import record, replace
 
 #: The runs' tolerances lie this far apart.
@@ -69,7 +70,8 @@ class Outcome:
 
     run: Run
     rows: list[list[Any]]
-    errors: list[float]  # of each column, relative to max(1, its largest magnitude)
+    errors: list[float]  # of each column, relative to its scale
+    scales: list[float]  # of the columns
     held: list[float]  # the same over the rows that are within the accuracy
     times: list[float]  # the errors of the times of the events
     good_rows: int  # so many rows from the beginning are within the accuracy
@@ -99,6 +101,8 @@ class Controller:
         Of time.
     charges
         How many columns at the end of a row are conserved.
+    scales
+        What the errors of the columns are relative to.
     longest
         The longest step as parts of the span: at first, and where something was missed.
     """
@@ -111,6 +115,7 @@ class Controller:
         finest: float,
         span: float,
         charges: int,
+        scales: Scales,
         first: float = math.inf,
         rounded: float = 0.0,
         chance: float = CHANCE,
@@ -119,7 +124,7 @@ class Controller:
         self.runner = runner
         self.accuracy, self.first, self.finest, self.span = accuracy, first, finest, span
         self.charges, self.rounded, self.chance = charges, rounded, chance
-        self._longest = longest
+        self._scales, self._longest = scales, longest
         self.runs = self.evaluations = 0
         self._finer = 0
         self._is_refused = False
@@ -193,10 +198,7 @@ class Controller:
         tolerances: tuple[float, float],
     ) -> Outcome:
         """The difference of two runs, doubled at least, column by column and row by row."""
-        scales = [
-            max(1.0, *(abs(float(row[j])) for row in fine_rows if row[j] is not None), 1.0)
-            for j in range(len(fine_rows[0]) - self.charges)
-        ]
+        count = len(fine_rows[0]) - self.charges
         factor = self.factor(tolerances[1])
         differences: list[list[float]] = []
         partner = Partners(coarse, fine)
@@ -206,17 +208,21 @@ class Controller:
                 break
             late = 0.0
             if mark.sample < 0:
-                late = 2 * abs(coarse.marks[other].t - mark.t) / max(1.0, self.span)
+                late = 2 * abs(coarse.marks[other].t - mark.t) / self.span
             now = [
                 0.0 if a is None or b is None else factor * abs(float(a - b))
-                for a, b, _ in zip(rows[other], fine_row, scales, strict=False)  # no charges
+                for a, b in zip(rows[other][:count], fine_row[:count], strict=True)
             ]
             differences.append([*now, late])
-        errors = [
-            max(column, default=0.0) / scale
-            for *column, scale in zip(*differences, [*scales, 1.0], strict=True)
-        ][:-1]
-        good, held = self._held(differences, fine_rows, scales)
+        bounds = [max(column) for column in zip(*differences, strict=True)][:-1]
+        bounds = bounds or [math.inf] * count
+
+        def scaled(kept: int) -> list[float]:
+            return self._scales(fine, fine_rows[:kept], bounds, tolerances[1])
+
+        scales = scaled(len(fine_rows))
+        errors = [relative(bound, scale) for bound, scale in zip(bounds, scales, strict=True)]
+        good, held = self._held(differences, scaled)
         same_end = (coarse.event is None) == (fine.event is None) and partner.agree
         reached = good == len(fine_rows) and same_end and fine.stop is None
         reason = "" if reached else _why(coarse, fine, good, partner)
@@ -224,6 +230,7 @@ class Controller:
             fine,
             fine_rows,
             errors,
+            scales,
             held,
             partner.late,
             good,
@@ -236,32 +243,26 @@ class Controller:
         )
 
     def _held(
-        self, differences: list[list[float]], rows: list[list[Any]], scales: list[float]
+        self, differences: list[list[float]], scaled: Callable[[int], list[float]]
     ) -> tuple[int, list[float]]:
         """How many rows are within the accuracy, and the error of each column over these.
 
-        Where not all are, the peak of a column is that of the rows that are left.
+        Where not all are, the scale of a column is that of the rows that are left.
         """
-        accuracy, count = self.accuracy, len(scales)
-
-        def within(place: int, peaks: list[float]) -> bool:
-            now = zip(differences[place], [*peaks, 1.0], strict=True)
-            return all(x <= accuracy * peak for x, peak in now)
-
-        if len(differences) == len(rows) and all(within(k, scales) for k in range(len(rows))):
-            good, peaks = len(rows), scales
-        else:
-            good, peaks = 0, [1.0] * count
-            for place in range(len(differences)):
-                ahead = [
-                    max(peak, abs(float(x))) if x is not None else peak
-                    for peak, x in zip(peaks, rows[place], strict=False)
-                ]
-                if not within(place, ahead):
+        good = len(differences)
+        while True:
+            scales = [*scaled(good), 1.0]
+            within = 0
+            for row in differences[:good]:
+                if any(x > self.accuracy * s for x, s in zip(row, scales, strict=True)):
                     break
-                good, peaks = place + 1, ahead
-        kept = differences[:good]
-        return good, [max((row[j] for row in kept), default=0.0) / peaks[j] for j in range(count)]
+                within += 1
+            if within == good:
+                break
+            good = within
+        columns = zip(*differences[:good], strict=True)
+        held = [relative(max(each), s) for each, s in zip(columns, scales, strict=False)][:-1]
+        return good, held or [0.0] * (len(scales) - 1)
 
     def refined(self, found: Outcome, between: Callable[[float, float], None]) -> Outcome:
         """The same pair of runs, compared more closely where the accuracy is lost.
@@ -316,9 +317,9 @@ class Controller:
         mark = fine.marks[place]
         tabulate = fine.phases[mark.phase].mode.tabulate
         state, n, total = [*mark.q, *mark.v], len(mark.q), 0.0
-        for k, peak in enumerate(fine.peaks):
+        for k, peak in enumerate(component_scales(fine.peaks, self.span)):
             moved = list(state)
-            moved[k] += self.accuracy * max(1.0, peak)
+            moved[k] += self.accuracy * peak
             other = tabulate(mark.t, moved[:n], moved[n:])[column]
             if other is None:
                 return float("inf")
@@ -332,7 +333,7 @@ def _both_stop(coarse: Run, fine: Run, good: int, accuracy: float) -> bool:
         return True
     if coarse.stop is None or fine.stop is None:
         return False
-    together = abs(coarse.stop.t - fine.stop.t) <= accuracy * max(1.0, fine.stop.t)
+    together = abs(coarse.stop.t - fine.stop.t) <= accuracy * fine.stop.t
     together = together or coarse.stop.reason == fine.stop.reason == SINGULAR_MASS
     return together and good >= min(len(coarse.marks), len(fine.marks))
 

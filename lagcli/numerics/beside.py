@@ -20,10 +20,10 @@ from lagcli.numerics.arithmetic import Doubles
 from lagcli.numerics.constants import constants_of
 from lagcli.numerics.modes import Modes
 from lagcli.numerics.refusal import Refusal
-from lagcli.numerics.run import Run
 from lagcli.numerics.start import rounded_components
 
 if TYPE_CHECKING:
+    from lagcli.numerics.accuracy import Outcome
     from lagcli.numerics.simulate import Simulation
 
 Vector = list[Any]
@@ -113,23 +113,24 @@ def other_parameters(simulation: Simulation, modes: Modes) -> Modes | None:
     return others
 
 
-def are_felt(run: Run, others: Modes, accuracy: float) -> bool:
+def are_felt(outcome: Outcome, others: Modes, accuracy: float) -> bool:
     """Whether other parameters change what acts in a run by more than a clock does.
 
     Parameters
     ----------
-    run
-        In doubles.
+    outcome
+        Of runs in doubles.
     others
-        Its modes with the parameters beside.
+        Their modes with the parameters beside.
     accuracy
         That of the columns.
     """
+    run = outcome.run
     marks = run.marks[:: max(1, len(run.marks) // _LOOKS)]
     n, columns = len(run.peaks) // 2, len(others.simulation.nodes)
     least = [peak / others.simulation.asked.until for peak in run.peaks[n:]]
     sizes, changes = least, [0.0] * n
-    heights, moves = [1.0] * columns, [0.0] * columns
+    moves = [0.0] * columns
     for mark in marks:
         mode = run.phases[mark.phase].mode
         beside = others.mode(*mode.key)
@@ -151,9 +152,8 @@ def are_felt(run: Run, others: Modes, accuracy: float) -> bool:
         ]
         for j, (x, y) in enumerate(zip(*rows, strict=True)):
             if x is not None and y is not None:
-                heights[j] = max(heights[j], abs(x))
                 moves[j] = max(moves[j], abs(y - x))
     limit = _TIMES * _CLOCK
     return any(d > limit * size for d, size in zip(changes, sizes, strict=True)) or any(
-        d > _COLUMN * accuracy * height for d, height in zip(moves, heights, strict=True)
+        d > _COLUMN * accuracy * scale for d, scale in zip(moves, outcome.scales, strict=True)
     )

@@ -26,7 +26,7 @@ from lagcli.numerics.accuracy import Outcome
 from lagcli.numerics.methods import METHODS, MORE_DIGITS, SHARP, one_run
 from lagcli.numerics.modes import Mode
 from lagcli.numerics.run import Mark, Run
-from lagcli.numerics.steps import NotPossible
+from lagcli.numerics.steps import NotPossible, component_scales
 from lagcli.numerics.straight_line import PIVOT_TOLERANCE
 from lagcli.record import replace
 
@@ -149,9 +149,9 @@ def _agree(outcome: Outcome, run: Run) -> bool:
         return False
     pairs = list(zip(outcome.run.marks, run.marks, strict=False))[: outcome.good_rows]
     accuracy = outcome.controller.accuracy
-    peaks = outcome.run.peaks
+    scales = component_scales(outcome.run.peaks, outcome.controller.span)
     return all(
-        abs(float(x) - float(y)) <= accuracy * max(1.0, peak)
+        abs(float(x) - float(y)) <= accuracy * scale
         for one, other in pairs
-        for x, y, peak in zip((*one.q, *one.v), (*other.q, *other.v), peaks, strict=True)
+        for x, y, scale in zip((*one.q, *one.v), (*other.q, *other.v), scales, strict=True)
     )

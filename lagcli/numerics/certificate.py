@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Result:
     """The table with its certificate."""
     asked, run = simulation.asked, outcome.run
-    outcome = replace(outcome, rows=with_digits(simulation, run, outcome.rows))
+    outcome = replace(outcome, rows=with_digits(simulation, outcome))
     names = tuple(column.name for column in asked.columns)
     kept = len(outcome.rows) if outcome.reached else outcome.good_rows
     rows: list[tuple[float | None, ...]] = []

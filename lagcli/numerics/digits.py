@@ -17,10 +17,12 @@ from lagcli.numerics.constants import constants_of
 from lagcli.numerics.modes import Mode, Modes
 from lagcli.numerics.precise import precision
 from lagcli.numerics.refusal import Refusal
-from lagcli.numerics.run import Mark, Run
+from lagcli.numerics.run import Mark
+from lagcli.numerics.scales import relative
 from lagcli.numerics.straight_line import PIVOT_TOLERANCE
 
 if TYPE_CHECKING:
+    from lagcli.numerics.accuracy import Outcome
     from lagcli.numerics.simulate import Simulation
 
 Rows = list[list[Any]]
@@ -31,16 +33,17 @@ _LOOKS = 10
 _LOST = 0.05
 
 
-def with_digits(simulation: Simulation, run: Run, rows: Rows) -> Rows:
+def with_digits(simulation: Simulation, outcome: Outcome) -> Rows:
     """The rows of a run, their columns as exact as their states.
 
     Parameters
     ----------
     simulation
         What is asked.
-    run, rows
-        As it was made; rows of more digits than doubles stay as they are.
+    outcome
+        As it came; rows of more digits than doubles stay as they are.
     """
+    run, rows = outcome.run, outcome.rows
     state = simulation.equations.state
     places = [j for j, node in enumerate(simulation.nodes) if node not in state]
     modes = {mark.phase: run.phases[mark.phase].mode for mark in run.marks}
@@ -67,13 +70,12 @@ def with_digits(simulation: Simulation, run: Run, rows: Rows) -> Rows:
 
         pairs = [*zip(run.marks, rows, strict=False)]
         looks = {*range(0, len(rows), max(1, len(rows) // _LOOKS)), len(rows) - 1}
-        peaks = [_peak(rows, j) for j in places]
-        looks |= {place for place, _ in peaks}
+        looks |= {_peak(rows, j) for j in places}
         found = {place: columns(*pairs[place]) for place in looks}
         lost = max(
-            abs(found[place][j] - float(rows[place][j])) / max(1.0, height)
+            relative(abs(found[place][j] - float(rows[place][j])), outcome.scales[j])
             for place in looks
-            for j, (_, height) in zip(places, peaks, strict=True)
+            for j in places
             if rows[place][j] is not None
         )
         if lost <= _LOST * simulation.asked.accuracy:
@@ -81,10 +83,9 @@ def with_digits(simulation: Simulation, run: Run, rows: Rows) -> Rows:
         return [found.get(k) or columns(*pair) for k, pair in enumerate(pairs)]
 
 
-def _peak(rows: Sequence[Sequence[Any]], column: int) -> tuple[int, float]:
-    """Where a column is largest, and how large."""
-    height, place = max((abs(float(row[column] or 0.0)), -place) for place, row in enumerate(rows))
-    return -place, height
+def _peak(rows: Sequence[Sequence[Any]], column: int) -> int:
+    """Where a column is largest."""
+    return -max((abs(float(row[column] or 0.0)), -place) for place, row in enumerate(rows))[1]
 
 
 def _dependent(mode: Mode) -> Callable[[Mark], bool]:

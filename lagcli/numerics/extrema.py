@@ -20,10 +20,10 @@ def crossing(f: Function, good: float, bad: float, above: float, below: float) -
     The Illinois form of regula falsi with a bisection now and then: Dahlquist, Björck,
     *Numerical Methods in Scientific Computing* I, section 6.2.2.
     """
-    side = 0
+    side, least = 0, _WIDTH * abs(bad - good)
     for count in range(_ROUNDS):
         width = bad - good
-        if abs(width) <= _WIDTH * max(1.0, abs(bad)):
+        if abs(width) <= max(least, _WIDTH * abs(bad)):
             break
         x = (good + bad) / 2
         if count % 3 != 2:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from lagcli.numerics.accuracy import CHANCE, LONGEST, Controller, Outcome
 from lagcli.numerics.beside import are_felt, elsewhere, fast, moved_state, other_parameters
 from lagcli.numerics.run import Run
+from lagcli.numerics.scales import Scales
 from lagcli.numerics.steps import Tolerance
 from lagcli.numerics.transitions import Transitions
 from lagcli.record import record
@@ -153,6 +154,7 @@ def outcome_of(simulation: Simulation, modes: Modes, made: Prepared, first: floa
         The first tolerance is no coarser.
     """
     asked = simulation.asked
+    scales = Scales(simulation)
     total = 2  # runs that progress is told of
     count = 0
 
@@ -181,6 +183,7 @@ def outcome_of(simulation: Simulation, modes: Modes, made: Prepared, first: floa
                 chance=made.chance,
                 span=asked.until,
                 charges=len(simulation.charges),
+                scales=scales,
                 longest=made.longest,
                 first=min(first, made.first),
             ).outcome()
@@ -188,7 +191,7 @@ def outcome_of(simulation: Simulation, modes: Modes, made: Prepared, first: floa
     outcome = found()
     if outcome.reached and made.with_others is not None:
         others = other_parameters(simulation, modes)
-        if others is not None and are_felt(outcome.run, others, asked.accuracy):
+        if others is not None and are_felt(outcome, others, asked.accuracy):
             made = made.with_others(others)
             count = 0
             return found()

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from lagcli.numerics.events import Event, Occurrence, Watch
 from lagcli.numerics.modes import Mode
-from lagcli.numerics.steps import CannotGoOn, Method, Step, Tolerance
+from lagcli.numerics.steps import CannotGoOn, Method, Step, Tolerance, component_scales
 from lagcli.numerics.surface import Surface
 from lagcli.numerics.transitions import Transitions, Turn
 from lagcli.record import record
@@ -196,7 +196,7 @@ class Run:
             if found is not None:
                 following = self.transitions.after(mode, found, *self._state_in(step, end))
                 if following.mode is not None:  # a sample that nobody can tell from it: before it
-                    self._mark_until(step, end + min(self._allowed, _COINCIDES) * max(1.0, end))
+                    self._mark_until(step, end * (1 + min(self._allowed, _COINCIDES)))
                 self._end(end, *self._state_in(step, end))
                 return end, following
             self._look(step)
@@ -258,7 +258,7 @@ class Run:
 
     def _errors(self) -> list[float]:
         """What each component may err by."""
-        return [self._allowed * max(1.0, peak) for peak in self.peaks]
+        return [self._allowed * each for each in component_scales(self.peaks, self._times[-1])]
 
     def _rounding(self, t: float) -> list[float]:
         """Of each component: of its size, and of the time in which it changes."""

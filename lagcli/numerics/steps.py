@@ -8,6 +8,8 @@ from typing import Any, NamedTuple, Protocol
 #: q, q' and the slope of q' at a time within the step
 Inside = Callable[[float], tuple[list[Any], list[Any], list[Any]]]
 
+#: One that is smaller than this part of the largest of its kind may be rounding.
+SMALL = 1e-9
 #: A component that is nothing but rounding beside the others is left alone.
 _NOISE = 1e-10
 _FAILURES = 20
@@ -158,6 +160,26 @@ class Tolerance:
         """A step has succeeded: a component that is resolved fails now and then only."""
         self._earlier = None
         self._failures = max(0, self._failures - 1)
+
+
+def with_own_time(peaks: Sequence[Any], span: float) -> list[float]:
+    """The peaks; that of a velocity is at least its coordinate's over the span."""
+    sizes, n = [*map(float, peaks)], len(peaks) // 2
+    return [*sizes[:n], *(max(x / span, v) for x, v in zip(sizes[:n], sizes[n:], strict=True))]
+
+
+def component_tops(sizes: Sequence[float]) -> list[float]:
+    """The largest of its kind beside each component."""
+    n = len(sizes) // 2
+    return [max(sizes[:n], default=0.0)] * n + [max(sizes[n:], default=0.0)] * n
+
+
+def component_scales(peaks: Sequence[Any], span: float) -> list[float]:
+    """What each component is known beside: that of its kind where it is rounding."""
+    sizes = with_own_time(peaks, span)
+    return [
+        x if x > SMALL * top else top for x, top in zip(sizes, component_tops(sizes), strict=True)
+    ]
 
 
 class Method(Protocol):

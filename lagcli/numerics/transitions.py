@@ -232,11 +232,9 @@ class Transitions:
         pull = after.gap_accelerations(
             always | frozenset(k for k in closed if after.rates[k] <= limit[k])
         )
-        time = _REST * self.accuracy * max(1.0, self.until)
+        time = _REST * self.accuracy * self.until
         rounding = self.rounding(t)
-        slow = {
-            k: max(_REST * self.accuracy * max(1.0, self._fastest[k]), limit[k]) for k in struck
-        }
+        slow = {k: max(_REST * self.accuracy * self._fastest[k], limit[k]) for k in struck}
 
         def rest(k: int, times: float) -> bool:
             speed, e = max(0.0, after.rates[k]), ratio[k]
@@ -279,7 +277,7 @@ class Transitions:
             return frozenset()
         gaps, _ = self._gaps(t, q, v)
         rounding = self.rounding(t)
-        time = self.accuracy * max(1.0, t)
+        time = self.accuracy * t
         return frozenset(
             k
             for k in opened

@@ -18,8 +18,9 @@ from lagcli.numerics.coupling import coupling, groups
 from lagcli.numerics.methods import Prepared
 from lagcli.numerics.modes import Modes
 from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.scales import relative
 from lagcli.numerics.simulate import Simulation, simulate
-from lagcli.numerics.steps import Tolerance
+from lagcli.numerics.steps import Tolerance, component_scales
 from lagcli.record import record, replace
 from lagcli.tradeoff.trial import TooLong
 
@@ -49,7 +50,7 @@ class Reference:
     rows
         t, the coordinates, the velocities.
     bound
-        Of the error, relative to max(1, the peak of the column).
+        Of the error, relative to the scale of the column.
     kind
         How it is known.
     seconds
@@ -73,18 +74,23 @@ class Reference:
 
 
 def difference(rows: Rows, others: Sequence[Sequence[Decimal | None]]) -> float:
-    """The largest difference, each column relative to max(1, its peak)."""
+    """The largest difference, each column relative to its peak.
+
+    One that is nothing but rounding, beside those of its kind: the coordinates, and the velocities.
+    """
     if len(rows) != len(others):
         return float("inf")
-    worst = 0.0
     with localcontext(Context(prec=_DIGITS)):
+        peaks, apart = [], []
         for one, other in zip(zip(*rows, strict=True), zip(*others, strict=True), strict=True):
             pairs = [
                 (a, b) for a, b in zip(one, other, strict=True) if a is not None and b is not None
             ]
-            scale = max([Decimal(1), *(abs(a) for a, _ in pairs)])
-            worst = max([worst, *(float(abs(a - b) / scale) for a, b in pairs)])
-    return worst
+            peaks.append(max((abs(a) for a, _ in pairs), default=Decimal(0)))
+            apart.append(max((abs(a - b) for a, b in pairs), default=Decimal(0)))
+        until, *state = peaks
+        scales = [float(until), *component_scales(state, float(until) or 1.0)]
+    return max(relative(float(d), scale) for d, scale in zip(apart, scales, strict=True))
 
 
 def numbers(rows: Sequence[Sequence[str | None]]) -> Rows:

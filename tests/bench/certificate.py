@@ -106,6 +106,10 @@ def _values(problem: Problem) -> dict[str, Any]:
 def examined(given: Given) -> Found:
     """All accuracies of one problem against its reference."""
     found: Found = {"name": given.name, "until": given.until, "runs": {}}
+    settled = Request(settings=given.settings, state=given.state)
+    checked = read(given.name, given.text.encode(), settled)
+    if checked.problem is None:
+        return {**found, "why": "; ".join(each.message for each in checked.diagnostics)}
     first = answer(given)
     end = float(first["rows"][-1][0]) if first.get("reached") else given.until
     if end < given.until:
