@@ -101,8 +101,19 @@ def test_text_has_at_most_80_columns():
     assert max(map(len, to_text(study_of(points=(*POINTS, LOST))).splitlines())) <= 80
 
 
-def test_the_difference_is_relative_to_the_peak_or_to_one():
-    rows = ((Decimal(0), Decimal(200)), (Decimal("0.5"), Decimal(100)))
-    other = ((Decimal("0.001"), Decimal(200)), (Decimal("0.5"), Decimal(101)))
-    assert difference(rows, other) == pytest.approx(1 / 200)
+def test_the_difference_is_relative_to_the_peak():
+    rows = decimals((0, 200, 0), (2, 100, 300))
+    assert difference(rows, decimals((0, 200, 0), (2, 101, 300))) == pytest.approx(1 / 200)
+    assert difference(rows, decimals((0, 200, "-0.3"), (2, 100, 300))) == pytest.approx(1e-3)
     assert difference(rows, rows[:1]) == math.inf
+
+
+def test_a_velocity_counts_beside_its_coordinate_and_rounding_beside_its_kind():
+    """|x|/t = 100 is more than x' = 2; y is nothing but rounding beside x."""
+    rows = decimals((0, 200, 0, 2, 0), (2, 100, "1e-17", 1, 0))
+    assert difference(rows, decimals((0, 200, 0, 2, 0), (2, 100, "1e-17", 2, 0))) == 1e-2
+    assert difference(rows, decimals((0, 200, 0, 2, 0), (2, 100, "2e-15", 1, 0))) < 1e-16
+
+
+def decimals(*rows):
+    return tuple(tuple(map(Decimal, row)) for row in rows)
