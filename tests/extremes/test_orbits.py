@@ -1,5 +1,7 @@
 """Orbits that nearly collide, do collide, or go on for long."""
 
+import math
+
 import mpmath
 import pytest
 from mpmath import mp, mpf
@@ -42,19 +44,18 @@ def test_a_nearly_radial_ellipse_with_30_digits(simulate, nearness, method):
 
 @pytest.mark.parametrize(("nearness", "reached"), [("1e-6", True), ("1e-9", False)])
 def test_a_nearly_radial_ellipse_in_doubles(simulate, nearness, reached):
-    """Perihelion, at t = pi, is passed or refused; what is claimed is so."""
+    """What is claimed beyond the perihelion, at t = pi, is so, for y beside its own small peak."""
     run = simulate(
-        KEPLER % f"1 - {nearness}", 5, "--method", "taylor64", accuracy=1e-10, samples=51
+        KEPLER % f"1 - {nearness}", 5, "--method", "taylor64", accuracy=1e-8, samples=51
     )
     assert run.status == (0 if reached else 1)
     held = run.held["holds_until"]
-    assert held == 5 if reached else 2.5 < held < 3.1416
+    assert held == 5 if reached else 2.5 < held < 5
     row = [row for row in run.rows if row["t"] <= held][-1]
     with mp.workdps(50):
         x, y = kepler(1 - mpf(nearness), mpf(row["t"]))
-    assert [row["x"], row["y"]] == pytest.approx(
-        [float(x), float(y)], abs=1e-10 if reached else 1e-9
-    )
+    assert row["x"] == pytest.approx(float(x), abs=1e-8)
+    assert row["y"] == pytest.approx(float(y), abs=1e-8 * math.sqrt(2 * float(nearness)))
 
 
 @pytest.mark.parametrize("periods", [20, pytest.param(1000, marks=pytest.mark.long)])
