@@ -104,9 +104,9 @@ def test_what_is_shown_beyond_the_accuracy_is_no_claim():
     """A run that ends early is judged by the rows it shows."""
     numbers = certificate.numbers
     reference = certificate.Reference(
-        rows=numbers([["0", "1"], ["1", "2"]]), bound=0.0, kind="", seconds=0.0
+        rows=numbers([["0", "1", "2"], ["1", "2", "2"]]), bound=0.0, kind="", seconds=0.0
     )
-    told = {"reached": False, "rows": [["0", "1"], ["0.5", "7"]], "method": "dop853"}
+    told = {"reached": False, "rows": [["0", "1", "2"], ["0.5", "7", "2"]], "method": "dop853"}
     told |= {"total": 0.1, "residual": None}
     judged = certificate.judged(told, 1e-6, reference)
     assert judged["holds"]

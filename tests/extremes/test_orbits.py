@@ -45,9 +45,7 @@ def test_a_nearly_radial_ellipse_with_30_digits(simulate, nearness, method):
 @pytest.mark.parametrize(("nearness", "reached"), [("1e-6", True), ("1e-9", False)])
 def test_a_nearly_radial_ellipse_in_doubles(simulate, nearness, reached):
     """What is claimed beyond the perihelion, at t = pi, is so, for y beside its own small peak."""
-    run = simulate(
-        KEPLER % f"1 - {nearness}", 5, "--method", "taylor64", accuracy=1e-8, samples=51
-    )
+    run = simulate(KEPLER % f"1 - {nearness}", 5, "--method", "taylor64", accuracy=1e-8, samples=51)
     assert run.status == (0 if reached else 1)
     held = run.held["holds_until"]
     assert held == 5 if reached else 2.5 < held < 5
