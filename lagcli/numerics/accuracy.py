@@ -154,11 +154,8 @@ class Controller:
                 return found
             bound = max(found.errors)
             before, apart = apart, bound / self.factor(finer)
-            if (
-                finer <= self.rounded
-                and apart > _NO_GAIN * before
-                and _FAR * self.accuracy < bound <= _SATURATED
-            ):
+            gains = finer > self.rounded or apart <= _NO_GAIN * before
+            if not gains and _FAR * self.accuracy < bound <= _SATURATED:
                 return found
             tolerance = self._tightened(tolerance, finer, bound)
             if tolerance == finer:
@@ -181,7 +178,7 @@ class Controller:
 
     def _run(self, tolerance: float, level: int, before: Run | None) -> tuple[Run, list[list[Any]]]:
         every = 0 if before is None else max(1, int(2 * before.steps / _PROBES))
-        peaks = None if before is None or before.stop is not None else before.peaks
+        peaks = None if before is None or before.stop is not None else before.scales
         longest = self.span / (self._longest[level] * _FINER_STEPS**self._finer)
         run = self.runner(tolerance, longest, peaks, every)
         self._finer += 1

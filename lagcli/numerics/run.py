@@ -26,6 +26,8 @@ _COINCIDES = 1e-9
 _WINDOWS = 200
 #: So many changes of mode at one time are an end.
 _AT_ONCE = 20
+#: The first of so many parts of the rows; what has grown so much has another scale there.
+_BEGINNING, _GROWN = 20, 1e3
 
 
 @record
@@ -109,6 +111,17 @@ class Run:
     def peaks(self) -> list[float]:
         """The largest magnitude of each component."""
         return self.tolerance.peaks
+
+    @property
+    def scales(self) -> list[float]:
+        """The peaks; of a coordinate that grows with its velocity, those of the beginning."""
+        marks = self.marks[: max(2, len(self.marks) // _BEGINNING)]
+        columns = zip(*((*mark.q, *mark.v) for mark in marks), strict=True)
+        first = [max(abs(float(x)) for x in column) for column in columns]
+        grown = [peak > _GROWN * a > 0 for a, peak in zip(first, self.peaks, strict=True)]
+        n = len(grown) // 2
+        both = [a and b for a, b in zip(grown[:n], grown[n:], strict=True)] * 2
+        return [a if g else peak for a, peak, g in zip(first, self.peaks, both, strict=True)]
 
     @property
     def times(self) -> list[float]:

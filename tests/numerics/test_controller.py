@@ -1,4 +1,4 @@
-"""How runs are tightened, by runs whose errors are known."""
+"""How runs follow each other, by runs whose errors and peaks are known."""
 
 import math
 from types import SimpleNamespace
@@ -7,6 +7,8 @@ import pytest
 
 from lagcli.numerics.accuracy import Controller
 from lagcli.numerics.run import Mark
+
+from .running import last, simulated
 
 ACCURACY, ROUNDED = 1e-9, 2e-15
 
@@ -21,7 +23,7 @@ def tolerances(error):
         rows = [[0.0], [1.0 + error(tolerance)]]
         marks = [Mark(float(k), row, [0.0], 0, k) for k, row in enumerate(rows)]
         return SimpleNamespace(
-            rows=lambda: rows, marks=marks, phases=[0], peaks=[1.0, 1.0], events=[], event=None,
+            rows=lambda: rows, marks=marks, phases=[0], scales=[1.0, 1.0], peaks=[1.0, 1.0], events=[], event=None,
             stop=None, steps=100, step_limit=1000, evaluations=100, defect=0.0,
         )  # fmt: skip
 
@@ -43,3 +45,14 @@ def test_an_error_that_grows_less_with_the_tolerance_is_pursued():
     assert found.reached
     assert max(found.errors) <= ACCURACY
     assert tried[-1] < 1e-15
+
+
+def test_what_grows_is_as_fine_at_first_as_a_tolerance_says():
+    """x'' = x from rest: the last peak, e^100 times the first, is no scale for the beginning."""
+    text = "{coordinates: [x], L: x'^2/2 + x^2/2, initial: {x: 1}}"
+    result = simulated(text, 100, 1e-9, samples=5)
+    assert result.certificate.reached
+    assert result.certificate.estimated_by.startswith(
+        "twice the difference of two runs with local tolerances 1e-11 and 1e-13"
+    )
+    assert last(result, "x") == pytest.approx(math.cosh(100), rel=1e-9)
