@@ -28,8 +28,9 @@ def tolerances(error):
         )  # fmt: skip
 
     controller = Controller(
-        runner, accuracy=ACCURACY, finest=1e-18, rounded=ROUNDED, span=1.0, charges=0
-    )
+        runner, accuracy=ACCURACY, finest=1e-18, rounded=ROUNDED, span=1.0, charges=0,
+        scales=lambda *_: [1.0],
+    )  # fmt: skip
     return tried, controller.outcome()
 
 
