@@ -266,13 +266,18 @@ class EquilibriaSection:
 
 @record(kw_only=True)
 class Mode:
-    """A normal mode about an equilibrium, or all `on` a line; `frequency` None if not real."""
+    """The normal modes of one frequency about an equilibrium, or all `on` a line.
+
+    `frequency` is None where it is not real; the displacements of one frequency are the
+    combinations of `shape` and of `more_shapes`.
+    """
 
     at: Mapping[str, Expression]
     on: tuple[Expression, Expression] | None = None
     frequency: Expression | None
     frequency_squared: Expression | None
     shape: Mapping[str, Expression] | None
+    more_shapes: tuple[Mapping[str, Expression], ...] = ()
     multiplicity: int = 1
 
 

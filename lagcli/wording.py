@@ -95,11 +95,14 @@ def _reversed(where: Sequence[Above]) -> str:
 
 def steady_stability(motion: SteadyMotion) -> list[Part]:
     """Whether a steady motion is stable, and by which conditions, in sentences."""
+    if motion.stable and ZERO in motion.frequencies_squared:
+        parts: list[Part] = ["Stable up to displacements along the family: ", POTENTIAL]
+        return [*parts, " has a minimum across it (Lagrange and Dirichlet)."]
     if motion.stable:
         return ["Stable: ", POTENTIAL, " has a minimum (Lagrange and Dirichlet)."]
     if motion.stable is False:
         return ["Unstable: a root of the characteristic equation has a positive real part."]
-    parts: list[Part] = []
+    parts = []
     spectrum = motion.spectrum
     if motion.minimum:
         parts += ["Stable, with a minimum of ", POTENTIAL, ", where "]

@@ -193,6 +193,9 @@ def mode_blocks(section: ModesSection) -> Iterator[Block]:
             before = f"Angular frequencies and shapes about the {place} "
             yield from state_blocks(mode.at, before, mode.on)
         yield Equations(tuple(_mode(mode)))
+        for other in mode.more_shapes:
+            yield Paragraph(("Also of this frequency, as is every combination:",))
+            yield Equations(tuple(_shape(other)))
 
 
 def _mode(mode: Mode) -> Iterator[Row]:
@@ -202,5 +205,9 @@ def _mode(mode: Mode) -> Iterator[Row]:
     elif mode.frequency_squared is not None:
         squared = Power(Name("omega"), Number(Fraction(2)))
         yield Row(squared, mode.frequency_squared, note or "not real")
-    for name, part in (mode.shape or {}).items():
+    yield from _shape(mode.shape or {})
+
+
+def _shape(shape: Mapping[str, Expression]) -> Iterator[Row]:
+    for name, part in shape.items():
         yield Row(Label("a", (name,)), part)

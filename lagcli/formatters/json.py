@@ -274,8 +274,10 @@ def _mode(mode: Mode) -> Object:
     result = _place(mode) | {"frequency": _string(mode.frequency)}
     if mode.frequency is None:
         result["frequency_squared"] = _string(mode.frequency_squared)
-    shape = _unless_none(mode.shape, _by_name)
-    return result | {"shape": shape, "multiplicity": mode.multiplicity}
+    result["shape"] = _unless_none(mode.shape, _by_name)
+    if mode.more_shapes:
+        result["more_shapes"] = [_by_name(shape) for shape in mode.more_shapes]
+    return result | {"multiplicity": mode.multiplicity}
 
 
 def _reduction(section: ReductionSection) -> Object:

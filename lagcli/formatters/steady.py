@@ -79,13 +79,13 @@ def _any_value(motion: SteadyMotion) -> list[str | Formula]:
 
 def _linearized(motion: SteadyMotion) -> Iterator[Block]:
     names = tuple(str(n) for n in range(1, len(motion.mass) + 1))
-    yield Paragraph(
-        ("To first order, M · accelerations + C · velocities + K · displacements = 0:",)
-    )
+    turning = any(entry != ZERO for row in motion.velocity for entry in row)
+    velocities = " + C · velocities" if turning else ""
+    yield Paragraph((f"To first order, M · accelerations{velocities} + K · displacements = 0:",))
     pairs: tuple[tuple[str, tuple[tuple[Expression, ...], ...]], ...] = (
         ("M", motion.mass),
         ("C", motion.velocity),
         ("K", motion.stiffness),
     )
-    for letter, entries in pairs:
+    for letter, entries in pairs if turning else (pairs[0], pairs[2]):
         yield Matrix(Label(letter, matrix=True), entries, names, names)

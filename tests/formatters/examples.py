@@ -317,6 +317,7 @@ HOOP = Answers(
                     frequency=Call("sqrt", (Quotient(g, ell),)),
                     frequency_squared=Quotient(g, ell),
                     shape={"theta": ONE},
+                    more_shapes=({"theta": M},),
                 ),
                 Mode(
                     at={"theta": Name("pi")},

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Expr, acos
+from sympy import Expr, Matrix, acos
 
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
@@ -207,6 +207,23 @@ V: k*(x^2 + y^2)/2
 """
     [mode] = modes(dynamics(text)).modes or ()
     assert mode.multiplicity == 2
+
+
+def test_all_shapes_of_a_multiple_frequency():
+    """Three masses on a ring; Goldstein, 3rd ed., section 6.4 (method): K a = W M a."""
+    text = """
+coordinates: [x, y, z]
+parameters: {m: POSITIVE, k: POSITIVE}
+T: m*(x'^2 + y'^2 + z'^2)/2
+V: k*((x - y)^2 + (y - z)^2 + (z - x)^2)/2
+"""
+    uniform, double = modes(dynamics(text)).modes or ()
+    assert not uniform.more_shapes
+    assert normal(double.frequency) == formula("sqrt(3*k/m)")
+    both = [list(map(normal, shape.values())) for shape in (double.shape, *double.more_shapes)]
+    assert len(both) == double.multiplicity == 2
+    assert all(sum(shape) == 0 for shape in both)  # at rest in the mean
+    assert Matrix(both).rank() == 2
 
 
 def test_numbers_where_the_polynomial_has_no_radicals():

@@ -112,9 +112,13 @@ def _oscillations(teller: Teller, section: Section) -> Iterator[Block]:
             if value is not None:
                 left: Expression = Name("omega") if mode.frequency is not None else square
                 yield shows(left, value)
-            shape = mode.shape or {}
-            if len(shape) > 1:
-                yield says("Then the displacements are in the ratio")
+            shapes = [] if mode.shape is None else [mode.shape, *mode.more_shapes]
+            for number, shape in enumerate(shapes if len(mode.shape or ()) > 1 else ()):
+                yield says(
+                    "and, as the frequency is a multiple root, independently of these"
+                    if number
+                    else "Then the displacements are in the ratio"
+                )
                 yield Equations(tuple(Row(Label("a", (q,)), part) for q, part in shape.items()))
 
 

@@ -26,14 +26,14 @@ _ROUNDED = mpf(10) ** -10  # for squared frequencies given as decimals
 
 @record
 class NormalMode:
-    """`square` is omega^2; `frequency` None where it is not real, `shape` where complex.
+    """`square` is omega^2; `frequency` None where it is not real, no `shapes` where complex.
 
-    All are None for a frequency that was not found, or not undamped.
+    Both are None, without shapes, for a frequency that was not found, or not undamped.
     """
 
     square: Expr | None
     frequency: Expr | None
-    shape: tuple[Expr, ...] | None
+    shapes: tuple[tuple[Expr, ...], ...]
     multiplicity: int
 
 
@@ -41,7 +41,7 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
     """The modes by rising frequency."""
     factors = characteristic.squares
     if factors is None:
-        return [NormalMode(None, None, None, len(linear.M))]
+        return [NormalMode(None, None, (), len(linear.M))]
     choices = _choices(linear)
     values = choices[0]
     modes: list[NormalMode] = []
@@ -57,11 +57,12 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
             else:
                 frequency = _frequency(linear, root, choices)
                 square = shorter(simplify(root), root)
-            displacement = _shape(linear, square, values)
-            modes.append(NormalMode(square, frequency, displacement, multiplicity))
+            modes.append(
+                NormalMode(square, frequency, _shapes(linear, square, values), multiplicity)
+            )
     modes.sort(key=lambda mode: _number(mode.square, values))
     if unknown:
-        modes.append(NormalMode(None, None, None, unknown))
+        modes.append(NormalMode(None, None, (), unknown))
     return modes
 
 
@@ -111,25 +112,32 @@ def shorter(first: Expr, second: Expr) -> Expr:
     return second if sympy.count_ops(second) < sympy.count_ops(first) else first
 
 
-def _shape(
+def _shapes(
     linear: Linearization, square: Expr, values: Mapping[Symbol, mpf]
-) -> tuple[Expr, ...] | None:
-    """The displacement, first nonzero component 1: a null vector of K - W M.
+) -> tuple[tuple[Expr, ...], ...]:
+    """Displacements with first nonzero component 1: a basis of the null space of K - W M.
 
-    None for a complex one (gyroscopic terms), or where none was found.
+    Empty for complex ones (gyroscopic terms), or where one was not found.
     """
     n = len(linear.M)
     if linear.gyroscopic or linear.damped or square.has(sympy.acos):
-        return None
+        return ()
     matrix = [
         [simplify(linear.K[i][j] - square * linear.M[i][j]) for j in range(n)] for i in range(n)
     ]
     vectors = nullspace(matrix)
-    if not vectors or not _annihilates(matrix, vectors[0], values):
-        return None
+    shapes = [
+        _displacement(linear, vector) if _annihilates(matrix, vector, values) else None
+        for vector in vectors
+    ]
+    return () if None in shapes else tuple(shape for shape in shapes if shape is not None)
+
+
+def _displacement(linear: Linearization, vector: Sequence[Expr]) -> tuple[Expr, ...] | None:
+    """The displacement of all coordinates for one in the basis."""
     displacement = [
         simplify(
-            sympy.Add(*(x * column[i] for x, column in zip(vectors[0], linear.basis, strict=True)))
+            sympy.Add(*(x * column[i] for x, column in zip(vector, linear.basis, strict=True)))
         )
         for i in range(len(linear.system.q))
     ]

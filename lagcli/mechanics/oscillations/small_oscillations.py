@@ -151,7 +151,8 @@ class SmallOscillations:
                 on=relation_sides(place.point, self.system.q, self.system.order),
                 frequency=self._tree_or_none(mode.frequency),
                 frequency_squared=self._tree_or_none(mode.square),
-                shape=self._shape(mode.shape),
+                shape=self._shape(mode.shapes[0]) if mode.shapes else None,
+                more_shapes=tuple(map(self._shape, mode.shapes[1:])),
                 multiplicity=mode.multiplicity,
             )
             for mode in place.modes
@@ -160,9 +161,7 @@ class SmallOscillations:
     def _at(self, point: RestPoint) -> dict[str, Expression]:
         return {q.name: self._tree(value) for q, value in shown(point).items()}
 
-    def _shape(self, displacements: Sequence[Expr] | None) -> dict[str, Expression] | None:
-        if displacements is None:
-            return None
+    def _shape(self, displacements: Sequence[Expr]) -> dict[str, Expression]:
         return {
             name: self._tree(value)
             for name, value in zip(self.system.names, displacements, strict=True)

@@ -21,13 +21,14 @@ import sympy
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra import Field, simplify
+from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import coefficients, rounded
 from lagcli.algebra.ring import factorization
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.characteristic import Characteristic, determinant_in
 from lagcli.mechanics.oscillations.feeding import cannot_feed
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
-from lagcli.mechanics.oscillations.stability import NOT_DEFINITE, positive_definite
+from lagcli.mechanics.oscillations.stability import NOT_DEFINITE, positive_definite, stability
 from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.spectrum import real_and_distinct
 from lagcli.record import record
@@ -82,6 +83,8 @@ def verdict(linear: Linearization) -> Verdict:
     if minimum == ():
         return Verdict((), None, False, squares)
     if _sign(elementary[-1], positive) == 0:
+        if _across(linear):
+            return Verdict((), None, False, squares)
         return _because(undecided, "neutral to first order in some direction")
     if complete or not linear.gyroscopic:  # Kelvin, Tait and Chetaev
         found = Verdict(minimum, None, fails, squares)
@@ -95,6 +98,14 @@ def verdict(linear: Linearization) -> Verdict:
         )
     open_, unstable = _open(spectrum, positive)
     return Verdict(minimum, open_, unstable, squares)
+
+
+def _across(linear: Linearization) -> bool:
+    """Whether U_eff has a strict minimum across a family of places at the same momenta."""
+    values, q = linear.point.values, linear.system.q
+    if not all(free_of(value, q) for x, value in values.items() if x not in q):
+        return False
+    return stability(linear, Characteristic(linear)).stable is True
 
 
 def curvature(potential: Expr, mass: Expr, positive: Sequence[Expr] = ()) -> Verdict:
