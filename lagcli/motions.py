@@ -105,6 +105,10 @@ class HamiltonJacobiSection:
     `derivatives` the W_i' with their positive roots, `functions` the W_i that are elementary
     and `cases` those that are so case by case; `constants` are E, the
     momenta of the cyclic coordinates, and those of separation.
+
+    With forces F(t) dS/dt + H = 0 has S = sum p_i q_i + f(t): `derivatives` are the p_i(t),
+    `time_rate` is f', `of_time` f where it is elementary, `integrals` those over the time
+    that have no closed form and stand in the others by name.
     """
 
     hamiltonian: Expression | None
@@ -116,4 +120,7 @@ class HamiltonJacobiSection:
     derivatives: Mapping[str, Expression] | None = None
     functions: Mapping[str, Expression] = field(default_factory=dict)
     cases: Mapping[str, tuple[ActionPart, ...]] = field(default_factory=dict)
+    time_rate: Expression | None = None
+    of_time: Expression | None = None
+    integrals: Mapping[str, Expression] = field(default_factory=dict)
     reason: str = ""

@@ -41,12 +41,12 @@ from lagcli.expression import Expression
 from lagcli.forces import ForcesSection
 from lagcli.formatters.findings import bounds_of
 from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.json_action import above, of_action
 from lagcli.formatters.json_forces import of_forces
 from lagcli.formatters.json_phase_space import of_phase_space
 from lagcli.formatters.json_values import SCHEMA, Object, Value
 from lagcli.formatters.options import Options
 from lagcli.motions import (
-    Above,
     HamiltonJacobiSection,
     OneFreedom,
     PeriodSeries,
@@ -163,7 +163,7 @@ def _value(section: Section) -> Value:
         case ReductionSection():
             return _unless_none(section.routhian, lambda _: _reduction(section))
         case HamiltonJacobiSection():
-            return _hamilton_jacobi(section)
+            return of_action(section)
         case SteadySection():
             return _unless_none(section.motions, lambda each: [_steady(m) for m in each])
         case ModelSection():
@@ -222,7 +222,7 @@ def _constraint_forces(section: ConstraintForcesSection) -> Object:
 
 
 def _charge(charge: Charge) -> Object:
-    where: Object = {"where": [_above(each) for each in charge.where]} if charge.where else {}
+    where: Object = {"where": [above(each) for each in charge.where]} if charge.where else {}
     return where | {
         "name": charge.name,
         "source": charge.source,
@@ -251,13 +251,13 @@ def _range(unknown: str, range_: Range) -> list[str]:
 def _equilibrium(equilibrium: Equilibrium) -> Object:
     result = _place(equilibrium) | {"stable": equilibrium.stable}
     if equilibrium.where:
-        result["condition"] = " and ".join(map(_above, equilibrium.where))
+        result["condition"] = " and ".join(map(above, equilibrium.where))
     if equilibrium.asymptotic:
         result["asymptotic"] = True
     for name in ("minimum", "hurwitz", "spectrum"):
         conditions = getattr(equilibrium, name)
         if conditions is not None:
-            result[name] = [_above(each) for each in conditions]
+            result[name] = [above(each) for each in conditions]
     if equilibrium.free:
         result["free"] = equilibrium.free
     return result
@@ -311,27 +311,7 @@ def _period(period: PeriodSeries) -> Object:
         "amplitude": period.amplitude or None,
         "order": period.order,
         "period": to_grammar(period.period),
-        "where": [_above(each) for each in period.where],
-    }
-
-
-def _hamilton_jacobi(section: HamiltonJacobiSection) -> Object:
-    return {
-        "hamiltonian": _string(section.hamiltonian),
-        "separable": section.separable,
-        "obstacle": section.obstacle or None,
-        "constants": section.constants,
-        "equations": _by_name(section.equations),
-        "derivatives": _unless_none(section.derivatives, _by_name),
-        "functions": _by_name(section.functions),
-        "cases": {
-            name: [
-                {"function": to_grammar(each.function), "where": [_above(a) for a in each.where]}
-                for each in forms
-            ]
-            for name, forms in section.cases.items()
-        },
-        "reason": section.reason,
+        "where": [above(each) for each in period.where],
     }
 
 
@@ -340,21 +320,17 @@ def _steady(motion: SteadyMotion) -> Object:
         "free": motion.free,
         "rates": _unless_none(motion.rates, _by_name),
         "momenta": _by_name(motion.momenta),
-        "where": [_above(each) for each in motion.where],
+        "where": [above(each) for each in motion.where],
         "mirrored": motion.mirrored,
         "stable": motion.stable,
-        "minimum": _unless_none(motion.minimum, lambda each: [_above(a) for a in each]),
-        "spectrum": _unless_none(motion.spectrum, lambda each: [_above(a) for a in each]),
+        "minimum": _unless_none(motion.minimum, lambda each: [above(a) for a in each]),
+        "spectrum": _unless_none(motion.spectrum, lambda each: [above(a) for a in each]),
         "frequencies_squared": _strings(motion.frequencies_squared),
         "mass": [_strings(row) for row in motion.mass],
         "velocity": [_strings(row) for row in motion.velocity],
         "stiffness": [_strings(row) for row in motion.stiffness],
         "reason": motion.reason,
     }
-
-
-def _above(condition: Above) -> str:
-    return f"{to_grammar(condition.left)} > {to_grammar(condition.right)}"
 
 
 def _dimensions(section: DimensionsSection) -> Object:

@@ -13,7 +13,7 @@ from lagcli.document import (
     Paragraph,
     Row,
 )
-from lagcli.expression import ZERO, Name, Negative, Product
+from lagcli.expression import ZERO, Expression, Name, Negative, Product
 from lagcli.motions import ActionPart, HamiltonJacobiSection
 from lagcli.wording import conditions
 
@@ -29,6 +29,9 @@ def hamilton_jacobi_blocks(section: HamiltonJacobiSection) -> Iterator[Block]:
     if section.hamiltonian is None:
         yield Paragraph((f"Not found: {section.reason}.",))
         return
+    if section.time_rate is not None:
+        yield from _driven(section, section.time_rate)
+        return
     yield Paragraph(("With each momentum the derivative of S by its coordinate:",))
     yield Equations((Row(Name(section.energy), section.hamiltonian),))
     parts: list[str | Formula] = [_NAMED[section.separable]]
@@ -43,6 +46,38 @@ def hamilton_jacobi_blocks(section: HamiltonJacobiSection) -> Iterator[Block]:
             yield Paragraph((f"Not found: {section.reason}.",))
         return
     yield from _solution(section)
+
+
+def _driven(section: HamiltonJacobiSection, rate: Expression) -> Iterator[Block]:
+    """S = sum p_i(t) q_i + f(t), where the forces depend on the time alone."""
+    assert section.hamiltonian is not None
+    assert section.derivatives is not None
+    yield Paragraph(
+        ("With each momentum the derivative of S by its coordinate, H is minus that by the time:",)
+    )
+    yield Equations((Row(Label("H"), section.hamiltonian),))
+    yield Paragraph(("The forces depend on the time alone, so S is linear in the coordinates:",))
+    action: list[str | Formula] = []
+    rows = []
+    for name, momentum in section.derivatives.items():
+        action += [" + " if action else "S = ", Product((Name(f"p_{name}"), Name(name)))]
+        rows.append(Row(Name(f"p_{name}"), momentum))
+    f = Label("f")
+    yield Paragraph((*action, " + ", f, "; put back into the equation: checked exactly."))
+    rows = [row for row in rows if row.left != row.right]
+    rows += [Row(Name(name), Integral(force, "t")) for name, force in section.integrals.items()]
+    rows.append(Row(f, Integral(rate, "t")))
+    if section.of_time is not None:
+        rows.append(Row(f, section.of_time))
+    yield Equations(tuple(rows))
+    yield _constants(section)
+
+
+def _constants(section: HamiltonJacobiSection) -> Paragraph:
+    listed: list[str | Formula] = []
+    for position, constant in enumerate(section.constants):
+        listed += [", " if position else "Constants: ", Name(constant)]
+    return Paragraph((*listed, "."))
 
 
 def _solution(section: HamiltonJacobiSection) -> Iterator[Block]:
@@ -70,7 +105,4 @@ def _solution(section: HamiltonJacobiSection) -> Iterator[Block]:
         yield Paragraph(("Where ", *conditions(each.where), ","))
         yield Equations((Row(Label("W", (name,)), each.function),))
     if section.constants:
-        listed: list[str | Formula] = []
-        for position, constant in enumerate(section.constants):
-            listed += [", " if position else "Constants: ", Name(constant)]
-        yield Paragraph((*listed, "."))
+        yield _constants(section)

@@ -6,10 +6,12 @@ import mpmath
 import pytest
 from sympy import Float, Symbol, diff, symbols
 
+from lagcli.algebra import is_zero
 from lagcli.algebra.build import Builder, symbol
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.reduction.separation import Separation
 from lagcli.mechanics.reduction.separation_statement import hamilton_jacobi
+from lagcli.reader import parse_text
 
 from .derived import derive
 
@@ -88,11 +90,36 @@ def test_a_coupling_by_the_momenta_separates_beside_a_cyclic_coordinate():
     assert separation.separated is not None
 
 
-def test_an_explicit_time_is_not_tried():
-    found, missing = section("{coordinates: [x], parameters: [w], L: x'^2/2 - x*cos(w*t)}")
+def test_a_frequency_that_changes_with_the_time_is_not_tried():
+    found, missing = section("{coordinates: [x], parameters: [w], L: x'^2/2 - x^2*cos(w*t)}")
     assert found.separable is None
-    assert missing
-    assert missing[0][1] == "H depends explicitly on the time"
+    assert missing[0][1] == "H depends on the time, and not by forces F(t) alone"
+
+
+@pytest.mark.parametrize("force", ["m*A*t", "F*cos(w*t)", "F*t*exp(-w*t)"])
+def test_a_force_of_the_time_gives_the_motion_by_the_derivative_of_S(force):
+    """dS/dalpha = const is a motion with m x'' = F(t); Goldstein, 3rd ed., ch. 10, exercises."""
+    found, missing = section(f"""
+coordinates: [x]
+parameters: {{m: POSITIVE, A: POSITIVE, F: POSITIVE, w: POSITIVE}}
+L: m*x'^2/2 + ({force})*x
+""")
+    assert not missing
+    names = {n: symbol(n) for n in ("m", "A", "F", "w", "t", "alpha_1")}
+    build = Builder(names, {}, lambda e: Symbol(e.name + "'"))
+    alpha, t = names["alpha_1"], names["t"]
+    assert build(found.derivatives["x"]).diff(alpha) == 1
+    motion = -build(found.of_time).diff(alpha)
+    pushed = build(parse_text(force))
+    assert is_zero(names["m"] * motion.diff(t, 2) - pushed) is True
+    assert is_zero(build(found.time_rate) - build(found.of_time).diff(t)) is True
+
+
+def test_a_force_without_a_closed_integral_stays_one():
+    found, _ = section("{coordinates: [x], functions: {F: [t]}, L: x'^2/2 + x*F(t)}")
+    assert to_grammar(found.derivatives["x"]) == "alpha_1 + I_x"
+    assert {n: to_grammar(e) for n, e in found.integrals.items()} == {"I_x": "F(t)"}
+    assert found.of_time is None
 
 
 def test_a_force_without_a_potential_has_no_action():

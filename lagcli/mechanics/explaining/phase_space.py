@@ -158,6 +158,9 @@ def hamilton_jacobi(_: Teller, section: Section) -> Iterator[Block]:
         yield says(f"The equation was not found: {found.reason}.")
         return
     S, E = Label("S"), Name(found.energy)
+    if found.time_rate is not None:
+        yield from _by_forces_of_time(found, found.time_rate)
+        return
     yield says("In the Hamiltonian each momentum is the derivative of ", S, " by its coordinate. H "
                "does not contain the time, so ", S, " = ", Negative(Product((E, Name("t")))),
                " + W, and W obeys")  # fmt: skip
@@ -184,6 +187,34 @@ def hamilton_jacobi(_: Teller, section: Section) -> Iterator[Block]:
         yield from _part(found, name)
     yield says("The derivatives of ", S, " by the constants are constant as well: by ", E,
                " this is the motion in time, by the others the path.")  # fmt: skip
+
+
+def _by_forces_of_time(found: HamiltonJacobiSection, rate: Expression) -> Iterator[Block]:
+    assert found.hamiltonian is not None
+    assert found.derivatives is not None
+    S, f, H = Label("S"), Label("f"), Label("H")
+    yield says(
+        *("In the Hamiltonian each momentum is the derivative of ", S, " by its coordinate, "),
+        *("and the derivative of ", S, " by the time is ", Negative(Name("H")), ", with"),
+    )
+    yield shows(H, found.hamiltonian)
+    yield says(
+        "H is linear in the coordinates, with factors that depend on the time alone: so is ",
+        *(S, ", with the momenta as factors, and a function ", f, " of the time. "),
+        "The terms with a coordinate give the rate of its momentum, which is the force on it. "
+        "Integrated,",
+    )
+    rows = [Row(Name(f"p_{name}"), p) for name, p in found.derivatives.items()]
+    rows += [Row(Name(name), Integral(force, "t")) for name, force in found.integrals.items()]
+    yield Equations(tuple(rows))
+    yield says(
+        "with the constants ", names(found.constants), ". The terms without coordinates give"
+    )
+    rows = [Row(f, Integral(rate, "t"))]
+    rows += [] if found.of_time is None else [Row(f, found.of_time)]
+    yield Equations(tuple(rows))
+    yield says("The derivatives of ", S, " by the constants are constant as well: this is the "
+               "motion.")  # fmt: skip
 
 
 def _part(found: HamiltonJacobiSection, name: str) -> Iterator[Block]:

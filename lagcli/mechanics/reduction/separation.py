@@ -30,6 +30,7 @@ from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.factors import factors_of
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.reduction.driven import Driven, driven
 from lagcli.mechanics.reduction.known_signs import Known
 from lagcli.mechanics.reduction.minimal import minimal
 from lagcli.record import record
@@ -38,6 +39,7 @@ from lagcli.record import record
 MOST = 6
 #: What the constants of separation are called: the first with which no name of the file clashes.
 LETTERS = ("alpha", "beta", "gamma", "constant")
+_ON_TIME = "H depends on the time, and not by forces F(t) alone"
 _REFERENCES = (S.Zero, S.One, S(2), S(3))
 
 
@@ -65,6 +67,7 @@ class Separation:
         self.reason = ""
         used = {*self.system.order, *self.system.problem.functions}
         used |= {*derivation.problem.definitions, *derivation.system.order}
+        self._used = used
         self.E = symbol(_unused(("E", "h", "E_0", "h_0"), used))
         self._letter = next(
             x for x in LETTERS if not any(f"{x}_{n}" in used for n in range(1, MOST))
@@ -84,8 +87,17 @@ class Separation:
         elif self.derivation.hamiltonian.function is None:
             self.reason = self.derivation.hamiltonian.reason
         elif is_zero(self.derivation.hamiltonian.function.diff(system.t)) is not True:
-            self.reason = "H depends explicitly on the time"
+            self.reason = _ON_TIME
         return None if self.reason else self.derivation.hamiltonian.function
+
+    @cached_property
+    def driven(self) -> Driven | None:
+        """The complete integral where H depends on the time by forces F(t) alone."""
+        if self.hamiltonian is not None or self.reason != _ON_TIME:
+            return None
+        H = self.derivation.hamiltonian.function
+        assert H is not None
+        return driven(H, self.system, lambda n: symbol(f"{self._letter}_{n}"), self._used)
 
     @cached_property
     def obstacle(self) -> tuple[int, int] | None:

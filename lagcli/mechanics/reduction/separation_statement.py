@@ -9,6 +9,7 @@ from lagcli.algebra import shape, terms
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Call, Expression, Name, operation_count
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.reduction.driven import Driven
 from lagcli.mechanics.reduction.quadrature import ClosedForm, closed_forms
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.root_integrals import ROOT
@@ -21,6 +22,8 @@ from lagcli.rewriting import rebuilt
 def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Missing]:
     """The separation in the coordinates of the file, and what was not found."""
     separation = Separation(derivation)
+    if separation.driven is not None:
+        return _by_forces_of_time(separation, separation.driven), []
     system, H = separation.system, separation.hamiltonian
     separated = separation.separated
     missing: Missing = []
@@ -66,6 +69,28 @@ def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Miss
             reason=separation.reason,
         ),
         missing,
+    )
+
+
+def _by_forces_of_time(separation: Separation, found: Driven) -> HamiltonJacobiSection:
+    system, H = separation.system, separation.derivation.hamiltonian.function
+    assert H is not None
+    constants = tuple(constant.name for constant in found.constants)
+    order = (*(n for n in system.order if n not in constants), *constants)
+    order = (*order, *(i.name for i in found.integrals))
+
+    def sum_(expression: Expr) -> Expression:
+        return shape(expression, order)
+
+    return HamiltonJacobiSection(
+        hamiltonian=sum_(H),
+        energy=separation.E.name,
+        separable=True,
+        constants=constants,
+        derivatives=dict(zip(system.names, map(sum_, found.momenta), strict=True)),
+        time_rate=sum_(found.rate),
+        of_time=None if found.of_time is None else sum_(found.of_time),
+        integrals={i.name: sum_(force) for i, force in found.integrals.items()},
     )
 
 
