@@ -76,15 +76,21 @@ class SteadyMotion:
     stiffness: tuple[tuple[Expression, ...], ...] = ()
     reason: str = ""
     on: tuple[Expression, Expression] | None = None
+    rolling: bool = False
 
 
 @record(kw_only=True)
 class SteadySection:
-    """The conditions dU_eff/dq = 0 by coordinate, and the motions; None with a `reason`."""
+    """The conditions dU_eff/dq = 0 by coordinate, and the motions; None with a `reason`.
+
+    Under velocity constraints the conditions are those of constant velocities, where the
+    `eliminated` ones follow from the constraints; each motion is then `rolling`.
+    """
 
     conditions: Mapping[str, Expression]
     motions: tuple[SteadyMotion, ...] | None
     complete: bool = True
+    eliminated: tuple[str, ...] = ()
     reason: str = ""
 
 

@@ -6,13 +6,15 @@ from collections.abc import Mapping, Sequence
 
 from lagcli.answers import Equilibrium, QuantityUnit
 from lagcli.document import Formula, Label, Row
-from lagcli.expression import ZERO, Expression, Name
+from lagcli.expression import ZERO, Expression, Name, operation_count
 from lagcli.motions import Above, SteadyMotion
 
 Part = str | Formula
 
 #: The effective potential.
 POTENTIAL = Label("U", ("eff",))
+#: A condition of more operations is not written beside the frequency that it says of.
+_LONG = 24
 _THEOREM = "(Kelvin, Tait and Chetaev)"
 _REVERSED = "; unstable where one of these is reversed. "
 
@@ -89,14 +91,26 @@ def _up_to(equilibrium: Equilibrium) -> list[Part]:
     return parts
 
 
+def _is_long(condition: Above) -> bool:
+    return operation_count(condition.left) + operation_count(condition.right) > _LONG
+
+
 def _reversed(where: Sequence[Above]) -> str:
     return "; unstable where this is reversed. " if len(where) == 1 else _REVERSED
 
 
 def steady_stability(motion: SteadyMotion) -> list[Part]:
     """Whether a steady motion is stable, and by which conditions, in sentences."""
+    if motion.rolling and motion.spectrum is not None:
+        parts: list[Part] = ["Stable to first order"]
+        if not motion.frequencies_squared:
+            parts += [", all roots beside those along the family having negative real parts"]
+        where = motion.spectrum
+        if len(motion.frequencies_squared) == 1 and any(map(_is_long, where)):
+            return [*parts, " where this is positive, unstable where it is negative:"]
+        return [*parts, *([" where ", *conditions(where), _reversed(where)] if where else ["."])]
     if motion.stable and ZERO in motion.frequencies_squared:
-        parts: list[Part] = ["Stable up to displacements along the family: ", POTENTIAL]
+        parts = ["Stable up to displacements along the family: ", POTENTIAL]
         return [*parts, " has a minimum across it (Lagrange and Dirichlet)."]
     if motion.stable:
         return ["Stable: ", POTENTIAL, " has a minimum (Lagrange and Dirichlet)."]

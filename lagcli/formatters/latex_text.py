@@ -63,6 +63,8 @@ def latex_text(text: str) -> str:
 
 
 def _word(word: str) -> str:
+    if word.startswith("'") and "'" in word[2:]:
+        return "`" + _word(word[1:])
     if len(word) <= _LONG_WORD:
         return "".join(map(_character, word))
     parts = [word[i : i + _LONG_WORD // 2] for i in range(0, len(word), _LONG_WORD // 2)]

@@ -11,6 +11,10 @@ _UNSHOWN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 #: The joiners that some scripts are spelled with.
 _JOINERS = "\u200c\u200d"
 
+#: Between the words of one formula.
+FIRM_SPACE = "\N{NO-BREAK SPACE}"
+_OPERATORS = tuple(f"{FIRM_SPACE}{sign}{FIRM_SPACE}" for sign in "+−-=<>≤≥")
+
 
 def harmless(text: str) -> str:
     r"""Put the text on one line, control and direction characters written as `\u{1b}`."""
@@ -25,7 +29,7 @@ def _acts(character: str) -> bool:
 
 
 def filled(words: list[str], width: int) -> list[str]:
-    """Lines of words, none wider than `width`; a word that is wider is cut."""
+    """Lines of words, none wider than `width`; a word that is wider is cut, a formula at a space."""
     lines: list[str] = []
     line = ""
     for word in words:
@@ -40,10 +44,20 @@ def filled(words: list[str], width: int) -> list[str]:
     return [*lines, line] if line else lines
 
 
+def _at_space(line: str) -> tuple[str, str]:
+    """The line up to its last operator, or else its last firm space, if that is not far back."""
+    for breaks in (_OPERATORS, (FIRM_SPACE,)):
+        place = max(line.rfind(each) for each in breaks)
+        if place > len(line) // 2:
+            return line[:place], line[place:].lstrip(FIRM_SPACE)
+    return line, ""
+
+
 def _cut(word: str, width: int) -> list[str]:
     pieces = [""]
     for character in word:
         if pieces[-1] and display_width(pieces[-1] + character) > width:
-            pieces.append("")
+            line, rest = _at_space(pieces[-1])
+            pieces[-1:] = [line, rest]
         pieces[-1] += character
     return pieces

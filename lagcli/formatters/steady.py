@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from lagcli.document import (
@@ -24,6 +24,14 @@ _SQUARED = Power(Name("omega"), Number(Fraction(2)))
 
 def steady_blocks(section: SteadySection) -> Iterator[Block]:
     """Say the conditions, then each steady motion."""
+    if section.eliminated:
+        yield Paragraph(
+            (
+                "The constraints give ",
+                *_listed(section.eliminated),
+                " by the other velocities.",
+            )
+        )
     if section.conditions:
         yield Paragraph(("A steady motion has",))
         found = dict.fromkeys(section.conditions.values())
@@ -67,6 +75,13 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
         yield Equations(tuple(Row(_SQUARED, square) for square in squares))
     if len(motion.mass) > 1:
         yield from _linearized(motion)
+
+
+def _listed(names: Sequence[str]) -> list[str | Formula]:
+    parts: list[str | Formula] = []
+    for position, name in enumerate(names):
+        parts += [", " if position else "", Name(name, 1)]
+    return parts
 
 
 def _any_value(motion: SteadyMotion) -> list[str | Formula]:

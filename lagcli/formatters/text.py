@@ -31,7 +31,7 @@ from lagcli.formatters.layout import (
     width_of,
 )
 from lagcli.formatters.options import Options
-from lagcli.formatters.plain import filled, harmless
+from lagcli.formatters.plain import FIRM_SPACE, filled, harmless
 from lagcli.formatters.sections import to_document
 from lagcli.formatters.unicode import AsciiPrinter, UnicodePrinter
 from lagcli.formatters.units import unicode_unit
@@ -44,8 +44,6 @@ _NARROW = 0.35
 _STEP = 2
 #: An inner line keeps at least this much of the width.
 _LEAST = 0.5
-#: A space that no line is broken at.
-_FIRM_SPACE = "\N{NO-BREAK SPACE}"
 
 
 def render(answers: Sequence[Answers], options: Options) -> str:
@@ -106,7 +104,7 @@ class _TextPage:
             case Matrix():
                 lines = self.matrix(block, self.width - indent)
         for line in lines:
-            yield (margin + line).replace(_FIRM_SPACE, " ")
+            yield (margin + line).replace(FIRM_SPACE, " ")
 
     def items(self, items: Sequence[Sequence[str | Formula]], width: int) -> Iterator[str]:
         mark = "• " if self.unicode else "- "
@@ -133,7 +131,7 @@ class _TextPage:
         return before + words + after
 
     def inline(self, formula: Formula) -> str:
-        return joined(self.formula(formula)).replace(" ", _FIRM_SPACE)
+        return joined(self.formula(formula)).replace(" ", FIRM_SPACE)
 
     def formula(self, formula: Formula) -> Layout:
         if isinstance(formula, Label):

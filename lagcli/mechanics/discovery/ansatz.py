@@ -5,7 +5,9 @@ cosecant and cotangent, as rotations about other axes have them), a radius also 
 inverse.  A coordinate is taken for an angle where it occurs in L only inside circular
 functions, or not at all while its own inertia, or that with another coordinate, depends on
 a third one.  What has the unit of a length is none; an angle of which only the constraints
-know takes part in both ways.
+know takes part in both ways, and so does what is cyclic with an inertia that falls without
+end (the half plane, x'^2/y^2), as no circle has it.  Where the inertia depends on lengths
+that are no radii, the space is curved, or the chart is: there the second degree is taken.
 """
 
 from __future__ import annotations
@@ -29,6 +31,7 @@ from lagcli.mechanics.discovery.spectrum import Exponent, differences, exponents
 
 _CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 _MOST_FUNCTIONS = 60
+_MOST_CURVED = 3
 _FEW = 8  # functions of the coordinates that all powers of t multiply
 
 
@@ -41,6 +44,7 @@ class Kinds:
     radii: list[Symbol] = field(default_factory=list)
     cyclic: list[Symbol] = field(default_factory=list)  # among the angles
     latitudes: list[Symbol] = field(default_factory=list)  # angles in the inertia of others
+    curved: bool = False
 
 
 def kinds(
@@ -68,12 +72,29 @@ def kinds(
             found.cyclic.append(x)
         elif cyclic and x in turning:
             found.angles.append(x)
+        if (
+            angle
+            and cyclic
+            and unit is None
+            and _falls(inertia[x][equations.q.index(x)], equations.q)
+        ):
+            found.lengths.append(x)
     found.radii = [
         x for x in found.lengths
         if any(x in inertia[y].free_symbols for y in found.angles)
     ]  # fmt: skip
+    in_inertia = {s for row in equations.mass for m in row for s in m.free_symbols}
+    found.curved = set(found.angles) <= set(found.lengths) and not in_inertia.isdisjoint(
+        found.lengths
+    )
     found.latitudes = [x for x in found.angles if _in_determinant(x, equations)]
     return found
+
+
+def _falls(inertia: Expr, q: Sequence[Symbol]) -> bool:
+    """Whether it is a negative power or an exponential in what it depends on."""
+    below = sympy.fraction(sympy.together(inertia))[1]
+    return not free_of(below, q) or any(not free_of(e, q) for e in inertia.atoms(sympy.exp))
 
 
 def _in_determinant(x: Symbol, equations: Equations) -> bool:
@@ -149,7 +170,10 @@ def affine(found: Kinds) -> list[Expr]:
         by_angle = [[one, sympy.sin(x), sympy.cos(x)] for x in found.angles]
     if _size(by_angle) > _MOST_FUNCTIONS:
         by_angle = []
-    lengths = [one, *found.lengths, *(1 / x for x in found.radii)]
+    x = found.lengths
+    lengths = [one, *x, *(1 / r for r in found.radii)]
+    if found.curved and len(x) <= _MOST_CURVED:
+        lengths += [a * b for i, a in enumerate(x) for b in x[: i + 1]]
     if _size([lengths, *by_angle]) > _MOST_FUNCTIONS:
         lengths = [one, *(x for x in found.lengths if x in found.radii)]
     if _size([lengths, *by_angle]) > _MOST_FUNCTIONS:

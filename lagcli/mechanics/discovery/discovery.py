@@ -279,6 +279,7 @@ class Discovery:
             "on the constraints, first integrals of first degree in the velocities "
             "along admissible displacements"
             + (" with the exponents of the linear part" if times.exponents else "")
+            + ", coefficients of first degree in the coordinates"
         )
         freedom = self.dynamics.degrees_of_freedom
         if freedom > 1 and rank_on_surface(self.dynamics, self._values()) == 2 * freedom:
@@ -290,7 +291,7 @@ class Discovery:
                 replace(c, name=name)
                 for c, name in zip(found, names[len(self.point_charges) :], strict=True)
             )
-            self.words.append("and of second degree without explicit time")
+            self.words.append("and of second degree without explicit time, coefficients too")
         if search.unsolved:
             self.stopped.append(
                 f"{more(search.unsolved, 'integral')} there, whose coefficients were not solved"
@@ -358,7 +359,8 @@ class Discovery:
         if any(set(s.free_symbols) & set(self.coordinate_kinds.lengths) for s in spaces) or (
             not self.coordinate_kinds.angles
         ):
-            shapes.append("affine in the coordinates")
+            second = any(x**2 in spaces for x in self.coordinate_kinds.lengths)
+            shapes.append(f"{'of second degree' if second else 'affine'} in the coordinates")
         if self.coordinate_kinds.angles and len(spaces) > 1 + len(self.coordinate_kinds.lengths):
             shapes.append("with sines and cosines of the angles")
         powers = "polynomial in t to second degree"

@@ -17,6 +17,8 @@ from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, small_fract
 
 _TOGETHER = 3  # parameters in one recognized monomial
 _MOST_OPERATIONS = 30000
+_MOST_ATOMS = 8
+_MOST_LINEAR = 12
 _POWERS = (-2, -1, 1, 2)
 
 
@@ -27,6 +29,7 @@ class ExactSolver:
         self.points = points
         self.field = points.field
         self._monomials: list[tuple[int, Expr]] | None = None
+        self._linear: list[tuple[int, Expr]] | None = None
         self._signed: dict[int, Expr] = {}
 
     # -- by recognition -------------------------------------------------------------------
@@ -48,7 +51,8 @@ class ExactSolver:
             fraction = small_fraction(value * inverse % PRIME, 128)
             if fraction is not None:
                 return Rational(fraction.numerator, fraction.denominator) * expression
-        return self._two_monomials(value)
+        found = self._two_monomials(value)
+        return self._of_differences(value) if found is None else found
 
     def _two_monomials(self, value: int) -> Expr | None:
         """A sum or difference of two monomials, as (m1 - m2)/m3."""
@@ -63,26 +67,46 @@ class ExactSolver:
                 return expression + other
         return None
 
+    def _of_differences(self, value: int) -> Expr | None:
+        """A rational number times powers of constants, their sums and differences."""
+        if self._linear is None:
+            self._linear = list(self._made(self._atoms(linear=True)))
+        for inverse, expression in self._linear:
+            fraction = small_fraction(value * inverse % PRIME, 128)
+            if fraction is not None:
+                return Rational(fraction.numerator, fraction.denominator) * expression
+        return None
+
     def _constant_monomials(self) -> list[tuple[int, Expr]]:
         if self._monomials is None:
-            self._monomials = list(self._made())
+            self._monomials = list(self._made(self._atoms()[:_MOST_ATOMS]))
         return self._monomials
 
-    def _made(self) -> Iterator[tuple[int, Expr]]:
-        """(1/value, expression), the shortest first."""
+    def _atoms(self, *, linear: bool = False) -> list[tuple[int, Expr]]:
+        """Values and expressions of constants; their sums and differences first if `linear`."""
         constants = [
-            g for g, constant in enumerate(self.points.constant)
+            (self.points.constants[g], self.field.generators[g].expression)
+            for g, constant in enumerate(self.points.constant)
             if constant and self.field.generators[g].kind in ("symbol", "root", "sin", "cos")
-        ]  # fmt: skip
-        for count in range(1, min(_TOGETHER, len(constants)) + 1):
-            for chosen in combinations(constants[:8], count):
+        ]
+        if not linear:
+            return constants
+        pairs = list(combinations(constants, 2))
+        differences = [((a - b) % PRIME, x - y) for (a, x), (b, y) in pairs]
+        sums = [((a + b) % PRIME, x + y) for (a, x), (b, y) in pairs]
+        return [*differences, *sums, *constants][:_MOST_LINEAR]
+
+    def _made(self, atoms: Sequence[tuple[int, Expr]]) -> Iterator[tuple[int, Expr]]:
+        """(1/value, expression), the shortest first."""
+        for count in range(1, min(_TOGETHER, len(atoms)) + 1):
+            for chosen in combinations(atoms, count):
                 for powers in product(_POWERS, repeat=count):
                     if sum(map(abs, powers)) > 4:
                         continue
                     value, expression = 1, sympy.S.One
-                    for g, power in zip(chosen, powers, strict=True):
-                        value = value * pow(self.points.constants[g], -power, PRIME) % PRIME
-                        expression *= self.field.generators[g].expression ** power
+                    for (number, atom), power in zip(chosen, powers, strict=True):
+                        value = value * pow(number, -power, PRIME) % PRIME
+                        expression *= atom**power
                     EFFORT.done += 300
                     yield value, expression
 

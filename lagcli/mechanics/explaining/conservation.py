@@ -45,7 +45,15 @@ def _total(teller: Teller) -> list[Part]:
     function = teller.derivation.energy
     h, T, V = letters.h, letters.T, letters.V
     if system.T is None or system.V is None:
-        return ["Only ", letters.L, " is given, so nothing is said of T + V."]
+        return [
+            "Only ",
+            letters.L,
+            " is given, so nothing is said of ",
+            Label("T"),
+            " + ",
+            Label("V"),
+            ".",
+        ]
     plain = free_of(system.V, system.qdot)
     doubled = sympy.Add(*(v * system.T.diff(v) for v in system.qdot)) - 2 * system.T
     quadratic = is_zero(doubled) is True
@@ -170,6 +178,8 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
         )
     elif is_zero(gauge) is True and same:
         yield says("Under it the action does not change: it is a symmetry of ", letters.L, ".")
+    elif is_zero(gauge) is True and not same and not charge.conserved:
+        yield says("Under it the action changes, and by no boundary term alone.")
     elif gauge is not None:
         on_motion = "" if same else " on the motion" if charge.conserved else " and something more"
         yield says(

@@ -222,11 +222,17 @@ def _one_freedom(reduced: ReductionSection) -> Iterator[Block]:
         elif each.root_of is not None:
             yield says("About the minimum of ", POTENTIAL, ", where this vanishes,")
             yield shows(ZERO, each.root_of)
-        words = "up to higher powers of " if each.amplitude else "for small oscillations"
-        if each.order and not each.amplitude:
-            words = f"the same for all amplitudes up to their power {each.order}"
-        yield says("the period is twice the time from one to the other, ", words,
-                   Name(each.amplitude) if each.amplitude else "", ":")  # fmt: skip
+        words: list[Part] = []
+        if each.amplitude:
+            a = Name(each.amplitude)
+            words = [", with half their distance ", a, " and up to higher powers of ", a]
+        elif each.order:
+            words = [f", the same for all amplitudes up to their power {each.order}"]
+        if each.root_of is not None:
+            yield says("the period of small oscillations is")
+        else:
+            words = words or [", for small oscillations"]
+            yield says("the period is twice the time from one to the other", *words, ":")
         yield shows(Label("T", ("period",)), each.period)
 
 

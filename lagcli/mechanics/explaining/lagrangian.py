@@ -65,8 +65,8 @@ def _hamiltonian(teller: Teller, H: Expr) -> Iterator[Block]:
         )
     )
     yield says(
-        "Solved for the momenta and put into the sum of p q', of all coordinates, less the "
-        "Hamiltonian, this gives the Lagrangian"
+        "Solved for the momenta and put into the sum of momentum times velocity, over all "
+        "coordinates, less the Hamiltonian, this gives the Lagrangian"
     )
     yield shows(letters.L, readable.by_terms(system.L, as_given=True))
 

@@ -32,6 +32,16 @@ _SQUARED = Power(Name("omega"), Number(Fraction(2)))
 def steady(_: Teller, section: Section) -> Iterator[Block]:
     """Where the other coordinates rest while the cyclic ones turn, and what a push does there."""
     found = cast(SteadySection, section)
+    if found.eliminated:
+        yield says(
+            "The constraints give ",
+            names(found.eliminated, 1),
+            " by the other velocities. With these put in, the rates of the other velocities "
+            "depend on few of the coordinates. In a steady motion these rest and the velocities "
+            "are constant, so that their rates vanish:",
+        )
+        yield from _steady_states(found)
+        return
     yield says(
         "In a steady motion the coordinates that are not cyclic rest, and the cyclic ones have "
         "constant velocities. In the Routhian's equations all velocities and accelerations are "
@@ -39,6 +49,10 @@ def steady(_: Teller, section: Section) -> Iterator[Block]:
         POTENTIAL,
         " vanish, with the momenta of the cyclic coordinates as constants:",
     )
+    yield from _steady_states(found)
+
+
+def _steady_states(found: SteadySection) -> Iterator[Block]:
     wanted = dict.fromkeys(found.conditions.values())
     yield Equations(tuple(Row(ZERO, each) for each in wanted if each != ZERO or len(wanted) == 1))
     if found.motions is None:
@@ -54,17 +68,22 @@ def steady(_: Teller, section: Section) -> Iterator[Block]:
 
 
 def _motion(motion: SteadyMotion) -> Iterator[Block]:
-    free = [name for name in motion.free if not name.endswith("'")]
-    if free:
-        yield says("For any value of ", names(free), ",")
+    if motion.free:
+        listed: list[Part] = []
+        for position, name in enumerate(motion.free):
+            velocity = name.endswith("'")
+            between = "" if not position else " and " if position == len(motion.free) - 1 else ", "
+            listed += [between, Name(name.rstrip("'"), 1 if velocity else 0)]
+        yield says("For any value of ", listed, ",")
     if motion.at or motion.on is not None:
         yield Equations(place_rows(motion.at, motion.on))
-    if motion.rates:
-        yield says("The cyclic coordinates then turn with")
-        yield Equations(tuple(Row(Name(name, 1), rate) for name, rate in motion.rates.items()))
+    rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
+    if rates:
+        yield says("The others are" if motion.rolling else "The cyclic coordinates then turn with")
+        yield Equations(tuple(Row(Name(name, 1), rate) for name, rate in rates.items()))
     momenta = {n: p for n, p in motion.momenta.items() if p != Name(f"p_{n}")}
     if momenta:
-        yield says("and the momenta are")
+        yield says("and the momenta are" if rates else "The momenta are")
         yield Equations(tuple(Row(Name(f"p_{name}"), p) for name, p in momenta.items()))
     if motion.where:
         yield says("It is possible where ", conditions(motion.where), ".")
@@ -75,9 +94,12 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
 
 def _displaced(motion: SteadyMotion) -> Iterator[Block]:
     """M x'' + C x' + K x = 0 and the squares of the frequencies."""
+    M, C, K = (Label(letter, matrix=True) for letter in "MCK")
+    turning = any(entry != ZERO for row in motion.velocity for entry in row)
+    velocities: list[Part] = [C, " · velocities + "] if turning else []
     yield says(
-        "Displaced a little, with the momenta unchanged, the coordinates obey to first order "
-        "M · accelerations + C · velocities + K · displacements = 0 with"
+        "Displaced a little, with the momenta unchanged, the coordinates obey to first order ",
+        *(M, " · accelerations + ", *velocities, K, " · displacements = 0 with"),
     )
     tags = tuple(str(n) for n in range(1, len(motion.mass) + 1))
     for letter, entries in (("M", motion.mass), ("C", motion.velocity), ("K", motion.stiffness)):
@@ -115,7 +137,7 @@ def canonical_equations(teller: Teller, section: Section) -> Iterator[Block]:
         yield says(f"There is no Hamiltonian: {found.reason or derivation.hamiltonian.reason}.")
         return
     yield says(
-        "Solved for the velocities and put into the sum of p q' less ",
+        "Solved for the velocities and put into the sum of momentum times velocity less ",
         teller.letters.L,
         ", they give",
     )
@@ -131,9 +153,11 @@ def brackets(_: Teller, section: Section) -> Iterator[Block]:
     found = cast(BracketsSection, section)
     yield says(
         "The Poisson bracket of two functions is the sum, over the coordinates, of the derivative "
-        "of the first by q times that of the second by p, less the same with q and p exchanged. "
-        "So {q, p} = 1."
+        "of the first by the coordinate times that of the second by its momentum, less the same "
+        "with coordinate and momentum exchanged. That of a coordinate and its momentum is 1."
     )
+    if not found.brackets and not found.reason:
+        yield says("The file names no functions to take it of.")
     if found.observables:
         yield Equations(tuple(Row(Name(name), value) for name, value in found.observables.items()))
     if found.reason:
@@ -161,26 +185,32 @@ def hamilton_jacobi(_: Teller, section: Section) -> Iterator[Block]:
     if found.time_rate is not None:
         yield from _by_forces_of_time(found, found.time_rate)
         return
-    yield says("In the Hamiltonian each momentum is the derivative of ", S, " by its coordinate. H "
-               "does not contain the time, so ", S, " = ", Negative(Product((E, Name("t")))),
-               " + W, and W obeys")  # fmt: skip
+    H, W = Label("H"), Label("W")
+    yield says(
+        *("In the Hamiltonian each momentum is the derivative of ", S, " by its coordinate. "),
+        *(H, " does not contain the time, so ", S, " = ", Negative(Product((E, Name("t"))))),
+        *(" + ", W, ", and ", W, " obeys"),
+    )
     yield shows(E, found.hamiltonian)
     if found.obstacle:
-        yield says("W is a sum of functions of one coordinate each only where Levi-Civita's "
+        yield says(W, " is a sum of functions of one coordinate each only where Levi-Civita's "
                    "condition holds for every pair of coordinates. It fails for ",
                    names(found.obstacle), ": the equation does not separate in these.")  # fmt: skip
         return
     if found.derivatives is None:
         yield says(f"Its separation was not found: {found.reason}.")
         return
-    yield says("Levi-Civita's condition holds for every pair of coordinates, so W is a sum of "
-               "functions of one coordinate each. What depends on one coordinate only is constant; "
-               "the constants are ", names(found.constants), ".")  # fmt: skip
+    yield says(
+        *("Levi-Civita's condition holds for every pair of coordinates, so ", W, " is a sum of "),
+        "functions of one coordinate each. What depends on one coordinate only is constant; "
+        "the constants are ",
+        *(names(found.constants), "."),
+    )
     if found.equations:
         yield Equations(tuple(Row(ZERO, each) for each in found.equations.values()))
     cyclic = [name for name in found.derivatives if name not in found.equations]
     if cyclic:
-        yield says("Of a cyclic coordinate W has the constant momentum times the coordinate.")
+        yield says("Of a cyclic coordinate ", W, " has the constant momentum times the coordinate.")
     if found.equations:
         yield says("Each of these is quadratic in its momentum. With the root of either sign")
     for name in found.equations:
@@ -199,7 +229,7 @@ def _by_forces_of_time(found: HamiltonJacobiSection, rate: Expression) -> Iterat
     )
     yield shows(H, found.hamiltonian)
     yield says(
-        "H is linear in the coordinates, with factors that depend on the time alone: so is ",
+        *(H, " is linear in the coordinates, with factors that depend on the time alone: so is "),
         *(S, ", with the momenta as factors, and a function ", f, " of the time. "),
         "The terms with a coordinate give the rate of its momentum, which is the force on it. "
         "Integrated,",

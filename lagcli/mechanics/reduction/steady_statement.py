@@ -16,6 +16,8 @@ from lagcli.mechanics.oscillations.family_statement import relation_sides, shown
 from lagcli.mechanics.oscillations.feeding import cannot_feed
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.reduction.readable import conditions, without_moduli
+from lagcli.mechanics.reduction.rolling import RollingMotions
+from lagcli.mechanics.reduction.rolling_statement import rolling_section
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.statement import Missing
 from lagcli.mechanics.reduction.steady import Steady, SteadyMotions
@@ -26,6 +28,10 @@ from lagcli.record import replace
 
 def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:
     """The steady motions with their stability, and what was not found."""
+    if RollingMotions.applies(derivation):
+        rolling = RollingMotions(derivation)
+        if rolling.motions is not None:
+            return rolling_section(rolling), []
     routh = Routh(derivation)
     if routh.reduced is None:
         return (

@@ -1,0 +1,324 @@
+"""Steady motions under velocity constraints: a disk that rolls in a circle, a top that rolls.
+
+With as many velocities as there are degrees of freedom for quasi-velocities u, the equations of
+motion are u' = F(r, u), where r are the coordinates that F depends on.  A steady motion has
+r' = 0 and u constant: F(r, u) = 0.  With fewer equations than unknowns it is a family; the
+linearised equations then have as many roots s = 0, and the others decide.
+
+References
+----------
+Neimark, Fufaev, *Dynamics of Nonholonomic Systems*, chapter VI.
+Routh, *Advanced Part of a Treatise on the Dynamics of a System of Rigid Bodies*, 6th ed.,
+chapter V.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from itertools import combinations
+
+import sympy
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import free_of
+from lagcli.algebra.factors import factors_of
+from lagcli.algebra.linear import rank, solve_linear
+from lagcli.algebra.signs import sign
+from lagcli.algebra.systems import solve_system
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.oscillations.characteristic import determinant, determinant_in
+from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.hurwitz import hurwitz_conditions
+from lagcli.mechanics.reduction.minimal import minimal
+from lagcli.mechanics.reduction.readable import weak_sign
+from lagcli.mechanics.reduction.verdict import Verdict
+from lagcli.record import record
+
+_MOST_CHOICES = 40
+_MOST_DEPTH = 6
+
+
+@record
+class RollingMotion:
+    """A steady motion or a family: values of coordinates r and of velocities u."""
+
+    values: Mapping[Symbol, Expr]
+    positive: tuple[Expr, ...]
+
+
+class RollingMotions:
+    """The steady motions of a system with velocity constraints.
+
+    Attributes
+    ----------
+    reason
+        Why none were looked for, in a sentence; empty otherwise.
+    complete
+        Whether there can be no other with these r and u.
+    """
+
+    def __init__(self, derivation: Derivation) -> None:
+        self.derivation = minimal(derivation)
+        self.dynamics = self.derivation.dynamics
+        self.system = self.dynamics.system
+        self.reason = ""
+        self.complete = True
+
+    @staticmethod
+    def applies(derivation: Derivation) -> bool:
+        """Whether a constraint on velocities is left that is none on positions."""
+        return "nonholonomic" in derivation.dynamics.constraints.kinds.values()
+
+    # -- the equations u' = F(r, u) ---------------------------------------------------------------
+
+    @cached_property
+    def _chart(self) -> tuple[tuple[int, ...], dict[Expr, Expr]] | None:
+        """The coordinates with u for velocity, and the other velocities by these.
+
+        Those whose matrix in the constraints is constant are eliminated, if there are such.
+        """
+        system, constraints = self.system, self.dynamics.constraints
+        rows = [constraints.equations[k] for k in self.dynamics.independent_constraints]
+        n, count = len(system.q), 0
+        for gone in combinations(range(n), len(rows)):
+            block = [[e.row[j] for j in gone] for e in rows]
+            if not all(free_of(x, (*system.q, system.t)) for row in block for x in row):
+                continue
+            count += 1
+            whole = determinant(block)
+            if count > _MOST_CHOICES:
+                return None
+            if whole is None or is_zero(whole) is not False:
+                continue
+            kept = tuple(j for j in range(n) if j not in gone)
+            right = [-sympy.Add(e.drift, *(e.row[j] * system.qdot[j] for j in kept)) for e in rows]
+            solution = solve_linear(block, right)
+            if solution is not None and all(x is not None for x in solution.values):
+                found = zip(gone, solution.values, strict=True)
+                return kept, {system.qdot[j]: x for j, x in found if x is not None}
+        return None
+
+    @cached_property
+    def _equations(self) -> tuple[Expr, ...] | None:
+        """F(r, u); None with a reason."""
+        motion, chart = self.dynamics.motion, self._chart
+        if motion is None:
+            self.reason = "the accelerations were not found"
+            return None
+        if any(e.holonomic for e in self.dynamics.constraints.equations):
+            self.reason = "a constraint on the positions is not solved"
+            return None
+        if chart is None:
+            self.reason = "the constraints give no velocities with constant coefficients"
+            return None
+        kept, others = chart
+        found = tuple(simplify(motion.accelerations[j].xreplace(others)) for j in kept)
+        if not all(free_of(f, [self.system.t]) for f in found):
+            self.reason = "the system depends explicitly on the time"
+            return None
+        return found
+
+    @cached_property
+    def coordinates(self) -> tuple[int, ...]:
+        """r: the coordinates that F depends on."""
+        return tuple(
+            j
+            for j, q in enumerate(self.system.q)
+            if not all(free_of(f, [q]) for f in self._equations or ())
+        )
+
+    @cached_property
+    def velocities(self) -> tuple[int, ...]:
+        """u, by its coordinates."""
+        assert self._chart is not None
+        return self._chart[0]
+
+    @cached_property
+    def turning(self) -> tuple[int, ...]:
+        """The u that need not vanish."""
+        return tuple(j for j in self.velocities if j not in self.coordinates)
+
+    @cached_property
+    def conditions(self) -> dict[int, Expr]:
+        """What vanishes in a steady motion, by the coordinate of the equation."""
+        still = {self.system.qdot[j]: S.Zero for j in self.coordinates}
+        pairs = zip(self.velocities, self._equations or (), strict=True)
+        return {j: simplify(f.xreplace(still)) for j, f in pairs}
+
+    # -- the motions ------------------------------------------------------------------------------
+
+    @cached_property
+    def motions(self) -> tuple[RollingMotion, ...] | None:
+        """All that were found, each by substitution; None with a reason."""
+        if self._equations is None:
+            return None
+        if not set(self.coordinates) <= set(self.velocities):
+            self.reason = "the equations depend on coordinates whose velocities are eliminated"
+            return None
+        found: list[RollingMotion] = []
+        for each in self._solved(list(self.conditions.values()), {}, (), 0):
+            if self._holds(each.values) and not any(_within(each, other) for other in found):
+                found = [other for other in found if not _within(other, each)] + [each]
+        if not found and not self.complete:
+            self.reason = "the conditions could not be solved"
+            return None
+        return tuple(found)
+
+    def _solved(
+        self,
+        conditions: Sequence[Expr],
+        values: Mapping[Symbol, Expr],
+        positive: tuple[Expr, ...],
+        depth: int,
+    ) -> Iterator[RollingMotion]:
+        """The branches, a velocity that is linear in a condition solved for first."""
+        open_ = [c for c in dict.fromkeys(self._put(values, conditions)) if c != 0]
+        if not open_:
+            yield RollingMotion(values, positive)
+            return
+        if depth > _MOST_DEPTH:
+            self.complete = False
+            return
+        first = min(open_, key=lambda c: int(sympy.count_ops(c)))
+        rest = [c for c in open_ if c is not first]
+        turning = [self.system.qdot[j] for j in self.turning]
+        for factor, power in factors_of(first):
+            if power < 0 or sign(factor) in (1, -1):
+                continue
+            linear = [(u, simplify(factor.diff(u))) for u in turning if not free_of(factor, [u])]
+            linear = [(u, slope) for u, slope in linear if free_of(slope, [u])]
+            if linear:
+                u, slope = min(linear, key=lambda pair: int(sympy.count_ops(pair[1])))
+                constant = simplify(factor.xreplace({u: S.Zero}))
+                yield from self._solved(
+                    rest, self._with(values, {u: simplify(-constant / slope)}), positive, depth + 1
+                )
+                if sign(slope) not in (1, -1) and not slope.is_number:
+                    more = [slope, constant, *rest]
+                    yield from self._solved(more, values, positive, depth + 1)
+                continue
+            yield from self._by_coordinates(factor, rest, values, positive, depth)
+
+    def _by_coordinates(
+        self,
+        factor: Expr,
+        rest: Sequence[Expr],
+        values: Mapping[Symbol, Expr],
+        positive: tuple[Expr, ...],
+        depth: int,
+    ) -> Iterator[RollingMotion]:
+        system = self.system
+        unknowns = [system.qdot[j] for j in self.turning] + [system.q[j] for j in self.coordinates]
+        present = [x for x in unknowns if not free_of(factor, [x])]
+        for x in present:
+            solved = solve_system([factor], [x])
+            if not solved.complete:
+                continue
+            for each in solved.solutions:
+                conditions = (*positive, *each.positive)
+                yield from self._solved(
+                    rest, self._with(values, each.values), conditions, depth + 1
+                )
+            return
+        self.complete &= not present
+
+    def _put(self, values: Mapping[Symbol, Expr], conditions: Sequence[Expr]) -> list[Expr]:
+        try:
+            return [at(c, values) for c in conditions]
+        except ZeroDivisionError:
+            return [S.One]  # the equations are singular there
+
+    def _with(
+        self, values: Mapping[Symbol, Expr], new: Mapping[Symbol, Expr]
+    ) -> dict[Symbol, Expr]:
+        return {**{x: at(value, new) for x, value in values.items()}, **new}
+
+    def _holds(self, values: Mapping[Symbol, Expr]) -> bool:
+        try:
+            return all(is_zero(at(c, values)) is True for c in self.conditions.values())
+        except ZeroDivisionError:
+            return False
+
+    # -- stability --------------------------------------------------------------------------------
+
+    def verdict(self, motion: RollingMotion) -> Verdict:
+        """By the roots s of the linearised equations, those that are not 0 along the family."""
+        try:
+            powers = self._characteristic(motion)
+        except ZeroDivisionError:
+            powers = None
+        if powers is None:
+            return Verdict(None, None, False, (), "the linearised equations were not found")
+        zero = next(k for k, c in enumerate(powers) if c != 0)
+        rest = powers[zero:]
+        if len(rest) == 1:
+            return Verdict(None, None, False, (), "neutral: no force to first order")
+        return _by_roots(rest, motion.positive, neutral=zero > self._dimension(motion))
+
+    def _dimension(self, motion: RollingMotion) -> int:
+        """Of the steady motions near it: a manifold where the conditions have full rank."""
+        system = self.system
+        unknowns = [system.q[j] for j in self.coordinates]
+        unknowns += [system.qdot[j] for j in self.turning]
+        conditions = [c for c in self.conditions.values() if c != 0]
+        slopes = [[at(c.diff(x), motion.values) for x in unknowns] for c in conditions]
+        if slopes and rank(slopes) == len(conditions):
+            return len(unknowns) - len(conditions)
+        return sum(1 for x in unknowns if x not in motion.values)
+
+    def _characteristic(self, motion: RollingMotion) -> list[Expr] | None:
+        """The coefficients of det(s - J) by powers of s, simplified."""
+        system, s = self.system, Symbol("#s", real=True)
+        still = {system.qdot[j]: S.Zero for j in self.coordinates}
+        state = [system.q[j] for j in self.coordinates] + [system.qdot[j] for j in self.velocities]
+        flow = [system.qdot[j] for j in self.coordinates] + list(self._equations or ())
+        matrix = [
+            [
+                (s if a == b else S.Zero) - at(f.diff(x).xreplace(still), motion.values)
+                for b, x in enumerate(state)
+            ]
+            for a, f in enumerate(flow)
+        ]
+        powers = determinant_in(s, matrix)
+        return None if powers is None else [simplify(c) for c in powers]
+
+
+def _within(one: RollingMotion, other: RollingMotion) -> bool:
+    """Whether a motion is one of a family with more that is free."""
+    if len(one.values) <= len(other.values):
+        return False
+    try:
+        return all(
+            is_zero(one.values.get(x, x) - at(value, one.values)) is True
+            for x, value in other.values.items()
+        )
+    except ZeroDivisionError:
+        return False
+
+
+def _by_roots(powers: Sequence[Expr], positive: Sequence[Expr], *, neutral: bool) -> Verdict:
+    """The verdict by the polynomial without its roots s = 0."""
+    a = [simplify(c / powers[-1]) for c in powers]
+    even = all(c == 0 for c in a[1::2])
+    squares: tuple[Expr, ...] = ()
+    conditions: list[Expr] | None
+    if even and len(a) == 3:
+        squares = (a[0],)
+        conditions = [a[0]]
+    elif even and len(a) == 5:
+        conditions = [a[2], a[0], simplify(a[2] ** 2 - 4 * a[0])]
+    elif even:
+        conditions = None
+    else:
+        conditions = hurwitz_conditions(a)
+    if conditions is None:
+        return Verdict(None, None, False, squares, "the roots have no simple criterion")
+    signs = [sign(e, positive) for e in conditions]
+    if -1 in signs:
+        return Verdict(None, None, True, squares)
+    if neutral or 0 in signs or any(weak_sign(e, positive) == -1 for e in conditions):
+        return Verdict(None, None, False, squares, "to first order at the limit of stability")
+    open_ = tuple(e for e, known in zip(conditions, signs, strict=True) if known is None)
+    return Verdict(None, open_, False, squares)

@@ -1,0 +1,54 @@
+"""Steady motions under velocity constraints in the shape in which they are read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sympy import Expr
+
+from lagcli.algebra.equations import written
+from lagcli.expression import Expression
+from lagcli.mechanics.reduction.readable import conditions
+from lagcli.mechanics.reduction.rolling import RollingMotion, RollingMotions
+from lagcli.motions import Above, SteadyMotion, SteadySection
+
+
+def rolling_section(found: RollingMotions) -> SteadySection:
+    """The conditions, and each motion with its stability."""
+    names, order = found.system.names, found.system.order
+    return SteadySection(
+        conditions={names[j]: written(c, order) for j, c in found.conditions.items()},
+        motions=tuple(_motion(found, motion) for motion in found.motions or ()),
+        complete=found.complete,
+        eliminated=tuple(n for j, n in enumerate(names) if j not in found.velocities),
+    )
+
+
+def _motion(found: RollingMotions, motion: RollingMotion) -> SteadyMotion:
+    system, values = found.system, motion.values
+    order = system.order
+    judged = found.verdict(motion)
+    coordinates = {system.names[j]: system.q[j] for j in found.coordinates}
+    turning = {system.names[j]: system.qdot[j] for j in found.turning}
+
+    def shaped(value: Expr) -> Expression:
+        return written(value, order)
+
+    def where(expressions: Sequence[Expr] | None) -> tuple[Above, ...] | None:
+        return None if expressions is None else conditions(expressions, order, motion.positive)
+
+    free = [s for s in (*coordinates.values(), *turning.values()) if s not in values]
+    return SteadyMotion(
+        at={name: shaped(values[q]) for name, q in coordinates.items() if q in values},
+        free=tuple(s.name for s in free),
+        rates={name: shaped(values.get(u, u)) for name, u in turning.items()},
+        momenta={},
+        where=conditions(motion.positive, order),
+        mirrored=False,
+        stable=False if judged.unstable else None,
+        minimum=None,
+        spectrum=where(judged.spectrum),
+        frequencies_squared=tuple(map(shaped, judged.squares)),
+        reason=judged.reason,
+        rolling=True,
+    )

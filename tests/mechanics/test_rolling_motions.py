@@ -1,0 +1,97 @@
+"""Steady motions under velocity constraints against the classical equations of a rolling hoop."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin, sqrt
+
+import pytest
+from sympy import Symbol
+
+from lagcli.algebra.build import Builder, symbol
+from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.reduction.steady_statement import steady_motions
+
+from .derived import derive
+
+HOOP = """
+coordinates: [x, y, theta, phi, psi]
+definitions:
+  X: x - cos(theta)*sin(phi)
+  Y: y + cos(theta)*cos(phi)
+  Z: sin(theta)
+T: (X'^2 + Y'^2 + Z'^2)/2 + (theta'^2 + phi'^2*sin(theta)^2)/4 + (psi' + phi'*cos(theta))^2/2
+V: 10*Z
+constraints:
+  along: x' + psi'*cos(phi) = 0
+  across: y' + psi'*sin(phi) = 0
+"""
+
+
+@pytest.fixture(scope="module")
+def hoop():
+    section, missing = steady_motions(derive(HOOP))
+    assert not missing
+    return section
+
+
+def rates(theta: float, spins: tuple[float, float]) -> tuple[float, float, float]:
+    """theta'', phi'', psi'' at theta' = 0 by the moments about the centre (m = R = 1).
+
+    With W = psi' + phi' cos: (A + 1) theta'' = A phi'^2 sin cos - (C + 1) W phi' sin - g cos.
+    """
+    phi, psi = spins
+    whole = psi + phi * cos(theta)
+    bend = 0.5 * phi**2 * sin(theta) * cos(theta) - 2 * whole * phi * sin(theta)
+    return (bend - 10 * cos(theta)) / 1.5, 0.0, 0.0
+
+
+def square(theta: float, spins: tuple[float, float]) -> float:
+    """omega^2 by differences: theta'' along the changes of phi', psi' that theta' brings.
+
+    A phi'' sin = theta' (C W - 2 A phi' cos), (C + 1) W' = theta' phi' sin.
+    """
+    phi, psi = spins
+    whole = psi + phi * cos(theta)
+    dphi = (whole - phi * cos(theta)) / (0.5 * sin(theta))
+    dpsi = phi * sin(theta) / 2 - dphi * cos(theta) + phi * sin(theta)
+    h = 1e-5
+    ends = [rates(theta + s * h, (phi + s * h * dphi, psi + s * h * dpsi))[0] for s in (1.0, -1.0)]
+    return -(ends[0] - ends[1]) / (2 * h)
+
+
+def value(tree, **at: float) -> float:
+    names = {name: symbol(name) for name in at}
+    build = Builder(names, {}, lambda e: Symbol(e.name + "'"))
+    put_in = {**{names[n]: v for n, v in at.items()}, **{Symbol(n + "'"): v for n, v in at.items()}}
+    return float(build(tree).subs({s: put_in[s] for s in build(tree).free_symbols}))
+
+
+def test_a_hoop_rolls_in_a_circle_and_its_oscillation(hoop):
+    circle = next(m for m in hoop.motions if not m.at)
+    assert circle.free == ("theta", "phi'")
+    for theta, phi in ((1.1, 2.0), (0.7, -3.0), (2.3, 0.9)):
+        psi = value(circle.rates["psi"], theta=theta, phi=phi)
+        assert abs(rates(theta, (phi, psi))[0]) < 1e-12
+        found = value(circle.frequencies_squared[0], theta=theta, phi=phi)
+        assert found == pytest.approx(square(theta, (phi, psi)), rel=1e-8)
+
+
+def test_upright_it_rolls_on_where_it_is_fast_enough(hoop):
+    straight = next(m for m in hoop.motions if {n: to_grammar(v) for n, v in m.at.items()}
+                    == {"theta": "pi/2"})  # fmt: skip
+    assert to_grammar(straight.rates["phi"]) == "0"
+    [limit] = straight.spectrum
+    assert (to_grammar(limit.left), to_grammar(limit.right)) == ("2*psi'^2", "5")
+    speed = sqrt(2.5)
+    assert square(pi / 2, (0.0, speed)) == pytest.approx(0, abs=1e-8)
+
+
+def test_a_knife_edge_in_coordinates_that_turn_is_not_decided():
+    section, _ = steady_motions(
+        derive("""
+coordinates: [x, y, phi]
+T: (x'^2 + y'^2 + phi'^2)/2
+constraints: {blade: x'*sin(phi) = y'*cos(phi)}
+""")
+    )
+    assert not section.complete
