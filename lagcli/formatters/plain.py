@@ -29,7 +29,7 @@ def _acts(character: str) -> bool:
 
 
 def filled(words: list[str], width: int) -> list[str]:
-    """Lines of words, none wider than `width`; a word that is wider is cut, a formula at a space."""
+    """Lines of words, none wider than `width`; a wider one is cut, a formula at a space."""
     lines: list[str] = []
     line = ""
     for word in words:

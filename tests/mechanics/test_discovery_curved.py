@@ -1,0 +1,50 @@
+"""Symmetries in curved spaces and charts, and an integral on a sphere.
+
+Isometries: Lee, *Introduction to Riemannian Manifolds*, 2nd ed., chapter 3 (half plane, sphere);
+the plane by 1/r has the eight of the free particle.  Neumann's problem: Moser, *Various aspects
+of integrable Hamiltonian systems*, in CIME Lectures 1978 (Uhlenbeck's integrals).
+"""
+
+import pytest
+
+from lagcli.algebra import is_zero
+from lagcli.mechanics.discovery.summary import summary
+
+from .derived import derive
+
+
+@pytest.mark.parametrize(
+    ("text", "algebra", "dimension"),
+    [
+        ("{coordinates: {x: {}, y: {assume: positive}}, L: (x'^2 + y'^2)/(2*y^2)}",
+         "sl(2,R) + R", 4),
+        ("{coordinates: [x, y], L: 2*(x'^2 + y'^2)/(1 + x^2 + y^2)^2}", "so(3) + R", 4),
+        ("{coordinates: {u: {assume: positive}, phi: {}}, L: u'^2/(2*u^4) + phi'^2/(2*u^2)}",
+         "Schrödinger sch(2): sl(2,R) + so(2) with Heisenberg h(2)", 8),
+    ],
+)  # fmt: skip
+def test_isometries_of_the_second_degree(text, algebra, dimension):
+    found = summary(derive(text).discovery)
+    assert (found.name, found.dimension, found.integrable) == (algebra, dimension, True)
+
+
+def test_the_integral_of_uhlenbeck():
+    """(a - b)(c - b) times y^2 + L_xy^2/(b - a) + L_yz^2/(b - c)."""
+    derivation = derive("""
+coordinates: [x, y, z]
+parameters: [a, b, c]
+T: (x'^2 + y'^2 + z'^2)/2
+V: (a*x^2 + b*y^2 + c*z^2)/2
+constraints: {sphere: x^2 + y^2 + z^2 = 1}
+""")
+    found = derivation.discovery
+    assert summary(found).integrable is True
+    [charge] = found.hidden_charges
+    x, y, z = derivation.system.q
+    u, v, w = derivation.system.qdot
+    a, b, c = derivation.system.parameters
+    known = (
+        (a - b) * (c - b) * y**2 + (b - c) * (x * v - y * u) ** 2 + (b - a) * (y * w - z * v) ** 2
+    )
+    relations = derivation.dynamics.constraints.relations
+    assert is_zero(charge.charge - known, relations) is True
