@@ -15,7 +15,8 @@ from functools import cached_property
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import Shapes, is_zero, left_nullspace, nullspace, solve_linear
+from lagcli.algebra import Shapes, is_zero, left_nullspace, nullspace, simplify, solve_linear
+from lagcli.algebra.build import free_of
 from lagcli.answers import Verification
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.constraints import Constraints
@@ -116,6 +117,18 @@ class Dynamics:
             for i in range(len(self.system.q))
             if any(is_zero(vector[i]) is not True for vector in kernel)
         )
+
+    @cached_property
+    def contradiction(self) -> Expr | None:
+        """A number, not 0, that the equations of motion demand to be 0: there is no motion."""
+        if self.constraints.equations:
+            return None
+        for vector in nullspace(self.lagrange.mass_matrix):
+            parts = zip(vector, self.lagrange.forcing, strict=True)
+            left = simplify(sympy.Add(*(-v * f for v, f in parts)))
+            if left != 0 and free_of(left, (*self.system.q, *self.system.qdot, self.system.t)):
+                return left
+        return None
 
     @cached_property
     def shapes(self) -> Shapes:

@@ -26,6 +26,7 @@ from sympy import Expr, Pow, Symbol
 
 from lagcli.algebra import rank, simplify, solve_linear
 from lagcli.algebra.build import free_of
+from lagcli.algebra.equations import solve_for
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.states import DIGITS, Contradiction, State
@@ -117,7 +118,7 @@ class Inversion:
             if inverse.auxiliary is not None:
                 expression = inverse.auxiliary.put_into(expression)
                 roots[inverse.auxiliary.symbol] = inverse.auxiliary.root
-        return simplify(simplify(expression.xreplace(flow)).xreplace(roots))
+        return simplify(simplify(_undone(expression.xreplace(flow))).xreplace(roots))
 
     def inverse_of(self, block: Block) -> Inverse | None:
         """The variables of a block by their images and the other variables."""
@@ -292,8 +293,16 @@ def _positive_roots(closure: Expr, s: Symbol) -> list[Expr]:
     return list(sympy.roots(polynomial)) if polynomial.degree() <= 4 else []
 
 
+def _undone(expression: Expr) -> Expr:
+    """With asinh(sinh(x)) = x."""
+    return expression.replace(
+        lambda node: isinstance(node, sympy.asinh) and isinstance(node.args[0], sympy.sinh),
+        lambda node: node.args[0].args[0],
+    )
+
+
 def _real_inverses(momentum: Expr, v: Symbol, p: Symbol) -> list[Expr]:
-    """The v with momentum(v) = p that SymPy's polynomial roots or inverse functions give."""
+    """The v with momentum(v) = p by polynomial roots or inverse functions."""
     numerator = sympy.numer(sympy.together(momentum - p))
     if numerator.is_polynomial(v):
         polynomial = sympy.Poly(numerator, v)
@@ -304,6 +313,10 @@ def _real_inverses(momentum: Expr, v: Symbol, p: Symbol) -> list[Expr]:
             ratio = -polynomial.coeff_monomial(1) / polynomial.coeff_monomial(v**n)
             return [sympy.sign(ratio) * sympy.Abs(ratio) ** sympy.Rational(1, n)]
         return list(sympy.roots(polynomial)) if polynomial.degree() <= 4 else []
+    if momentum.has(sympy.sinh, sympy.cosh):  # SymPy would write logarithms
+        known = solve_for(momentum - p, v)
+        if known is not None:
+            return list(known.values)
     try:
         return [root for root in sympy.solve(momentum - p, v) if isinstance(root, Expr)]
     except (NotImplementedError, ValueError):

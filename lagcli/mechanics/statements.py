@@ -190,8 +190,8 @@ class Statements(Stating):
         self.complete = False
         self.warnings.append(
             "the Lagrangian is singular: the Hessian of L by the velocities has no inverse "
-            f"along {', '.join(degenerate)}, so the equations do not determine the "
-            "accelerations"
+            f"along {', '.join(degenerate)}, so the equations do not determine the accelerations"
+            + ("; they have no solution" if self.dynamics.contradiction is not None else "")
         )
 
     def _note_check(self, what: str, verified: str | None) -> None:

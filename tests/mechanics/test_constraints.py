@@ -154,6 +154,21 @@ def test_a_lagrangian_of_a_difference_is_singular():
     assert d.dynamics.degenerate == (0, 1)
 
 
+@pytest.mark.parametrize(
+    ("text", "demanded"),
+    [
+        ("{coordinates: [x], L: x}", "-1"),
+        ("{coordinates: [x, y], parameters: [k], L: x'^2/2 + k*y}", "-k"),
+        ("{coordinates: [x, y], L: x*y' - y*x' - x^2 - y^2}", None),
+        ("{coordinates: [x], L: x*x'}", None),
+    ],
+)
+def test_equations_without_a_solution_are_told_from_those_with_too_many(text, demanded):
+    d = derive(text)
+    found = d.dynamics.contradiction
+    assert (found is None) if demanded is None else same(d, found, demanded)
+
+
 def test_the_square_of_a_constraint_is_told_from_a_contradiction():
     text = "coordinates: [x, y]\nT: (x'^2+y'^2)/2\nconstraints: {a: (x - y)^2/x = 0}"
     with pytest.raises(ProblemError) as caught:

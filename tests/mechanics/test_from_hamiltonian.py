@@ -34,6 +34,8 @@ CASES = {
         FREE + "H: (p_x^2 + p_y^2)/(2*m) + w*(y*p_x - x*p_y)",
         "m*((x' - w*y)^2 + (y' + w*x)^2)/2",
     ),
+    # p = asinh(x'), and cosh(asinh(v)) = sqrt(1 + v^2)
+    "hyperbolic": (FREE + "H: cosh(p_x) + p_y^2/2", "x'*asinh(x') - sqrt(1 + x'^2) + y'^2/2"),
     "coupled": (
         FREE + "H: (p_x^2 + p_y^2 - p_x*p_y)/m + t*x*p_x",
         "m*((x' - t*x)^2 + (x' - t*x)*y' + y'^2)/3",

@@ -52,6 +52,11 @@ def _unsolved(teller: Teller) -> Iterator[Block]:
             names(degenerate),
             ": the Lagrangian is singular, and the equations do not determine the accelerations.",
         )
+        demanded = teller.dynamics.contradiction
+        if demanded is not None:
+            yield says("They even demand")
+            yield Equations((Row(teller.readable.as_written(demanded), ZERO),))
+            yield says("which is never true: this Lagrangian has no motion.")
         return
     yield says(
         "The equations are linear in the accelerations and multipliers, but there are too many "
