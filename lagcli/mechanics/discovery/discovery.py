@@ -291,7 +291,9 @@ class Discovery:
                 replace(c, name=name)
                 for c, name in zip(found, names[len(self.point_charges) :], strict=True)
             )
-            self.words.append("and of second degree without explicit time, coefficients too")
+            self.words.append(
+                "and of second degree without explicit time, with coefficients of second degree"
+            )
         if search.unsolved:
             self.stopped.append(
                 f"{more(search.unsolved, 'integral')} there, whose coefficients were not solved"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import combinations, product
 
 import sympy
@@ -22,62 +23,82 @@ _MOST_LINEAR = 12
 _POWERS = (-2, -1, 1, 2)
 
 
+@dataclass(frozen=True, slots=True)
+class _Monomial:
+    """Powers of constants, by the inverse of their value."""
+
+    inverse: int
+    atoms: tuple[Expr, ...]
+    powers: tuple[int, ...]
+
+    @property
+    def expression(self) -> Expr:
+        return sympy.Mul(*(x**n for x, n in zip(self.atoms, self.powers, strict=True)))
+
+
 class ExactSolver:
     """Coefficients over the field of the constants (parameters and their roots)."""
 
     def __init__(self, points: ModularPoints) -> None:
         self.points = points
         self.field = points.field
-        self._monomials: list[tuple[int, Expr]] | None = None
-        self._linear: list[tuple[int, Expr]] | None = None
-        self._signed: dict[int, Expr] = {}
+        self._monomials: list[_Monomial] | None = None
+        self._linear: list[_Monomial] | None = None
+        self._signed: dict[int, tuple[_Monomial, int]] = {}
 
     # -- by recognition -------------------------------------------------------------------
 
-    def recognized(self, values: Sequence[int]) -> list[Expr] | None:
+    def recognized(self, values: Sequence[int], *, differences: bool = False) -> list[Expr] | None:
         """Rational numbers times a monomial in the constants; None where one is neither.
 
         The constants have random values near 2^61, so that a small fraction or a short
-        product of them is no accident; it is proved later all the same.
+        product of them is no accident; it is proved later all the same.  With `differences`
+        those of two constants, and their sums, take part in the monomials.
         """
-        found = [self._recognize(value) for value in values]
-        return None if any(x is None for x in found) else found
+        found: list[Expr] = []
+        for value in values:
+            known = self._recognize(value)
+            if known is None and differences:
+                known = self._of_differences(value)
+            if known is None:
+                return None
+            found.append(known)
+        return found
 
     def _recognize(self, value: int) -> Expr | None:
         plain = small_fraction(value)
         if plain is not None:
             return Rational(plain.numerator, plain.denominator)
-        for inverse, expression in self._constant_monomials():
-            fraction = small_fraction(value * inverse % PRIME, 128)
+        return self._multiple_of(self._constant_monomials(), value) or self._two_monomials(value)
+
+    def _multiple_of(self, monomials: Sequence[_Monomial], value: int) -> Expr | None:
+        for monomial in monomials:
+            fraction = small_fraction(value * monomial.inverse % PRIME, 128)
             if fraction is not None:
-                return Rational(fraction.numerator, fraction.denominator) * expression
-        found = self._two_monomials(value)
-        return self._of_differences(value) if found is None else found
+                return Rational(fraction.numerator, fraction.denominator) * monomial.expression
+        return None
 
     def _two_monomials(self, value: int) -> Expr | None:
         """A sum or difference of two monomials, as (m1 - m2)/m3."""
         if not self._signed:
-            for inverse, expression in [(1, sympy.S.One), *self._constant_monomials()]:
-                plain = pow(inverse, -1, PRIME)
-                self._signed[plain] = expression
-                self._signed[PRIME - plain] = -expression
-        for plain, expression in self._signed.items():
-            other = self._signed.get((value - plain) % PRIME)
-            if other is not None:
-                return expression + other
+            for monomial in (_Monomial(1, (), ()), *self._constant_monomials()):
+                plain = pow(monomial.inverse, -1, PRIME)
+                self._signed[plain] = monomial, 1
+                self._signed[PRIME - plain] = monomial, -1
+        for plain, (one, factor) in self._signed.items():
+            found = self._signed.get((value - plain) % PRIME)
+            if found is not None:
+                other, sign = found
+                return factor * one.expression + sign * other.expression
         return None
 
     def _of_differences(self, value: int) -> Expr | None:
         """A rational number times powers of constants, their sums and differences."""
         if self._linear is None:
             self._linear = list(self._made(self._atoms(linear=True)))
-        for inverse, expression in self._linear:
-            fraction = small_fraction(value * inverse % PRIME, 128)
-            if fraction is not None:
-                return Rational(fraction.numerator, fraction.denominator) * expression
-        return None
+        return self._multiple_of(self._linear, value)
 
-    def _constant_monomials(self) -> list[tuple[int, Expr]]:
+    def _constant_monomials(self) -> list[_Monomial]:
         if self._monomials is None:
             self._monomials = list(self._made(self._atoms()[:_MOST_ATOMS]))
         return self._monomials
@@ -96,19 +117,19 @@ class ExactSolver:
         sums = [((a + b) % PRIME, x + y) for (a, x), (b, y) in pairs]
         return [*differences, *sums, *constants][:_MOST_LINEAR]
 
-    def _made(self, atoms: Sequence[tuple[int, Expr]]) -> Iterator[tuple[int, Expr]]:
-        """(1/value, expression), the shortest first."""
+    def _made(self, atoms: Sequence[tuple[int, Expr]]) -> Iterator[_Monomial]:
+        """The shortest first."""
+        inverses = [{power: pow(number, -power, PRIME) for power in _POWERS} for number, _ in atoms]
         for count in range(1, min(_TOGETHER, len(atoms)) + 1):
-            for chosen in combinations(atoms, count):
+            for chosen in combinations(range(len(atoms)), count):
                 for powers in product(_POWERS, repeat=count):
                     if sum(map(abs, powers)) > 4:
                         continue
-                    value, expression = 1, sympy.S.One
-                    for (number, atom), power in zip(chosen, powers, strict=True):
-                        value = value * pow(number, -power, PRIME) % PRIME
-                        expression *= atom**power
-                    EFFORT.done += 300
-                    yield value, expression
+                    value = 1
+                    for k, power in zip(chosen, powers, strict=True):
+                        value = value * inverses[k][power] % PRIME
+                    EFFORT.done += 20
+                    yield _Monomial(value, tuple(atoms[k][1] for k in chosen), powers)
 
     # -- by elimination -------------------------------------------------------------------
 

@@ -236,16 +236,19 @@ class SurfaceIntegrals:
         exact = ExactSolver(self.surface.points)
         indices = sorted(vector)
         numbers = [vector[i] for i in indices]
+        terms = [self.terms[chosen[i]] for i in indices]
+        moved = self._equations[0] and any(-1 in x.fields for x in terms)
+        linear = not self.surface.curved and not moved
         for unit in reversed(numbers):
             inverse = pow(unit, -1, PRIME)
-            values = exact.recognized([x * inverse % PRIME for x in numbers])
+            values = exact.recognized(
+                [x * inverse % PRIME for x in numbers], differences=not linear
+            )
             if values is not None:
                 return [
                     (self.terms[chosen[i]], value) for i, value in zip(indices, values, strict=True)
                 ]
-        terms = [self.terms[chosen[i]] for i in indices]
-        moved = self._equations[0] and any(-1 in x.fields for x in terms)
-        if not self.surface.curved and not moved:
+        if linear:
             solved = exact.solved([[self._rate(term)] for term in terms])
             if solved is not None:
                 return list(zip(terms, solved, strict=True))
