@@ -37,6 +37,8 @@ from lagcli.mechanics.discovery.tree import Memo
 from lagcli.mechanics.noether import Noether
 
 _BAD_POINTS = 60
+_MOST_OF_DIFFERENCES = 30  # coefficients that may be products of differences
+_UNITS = 3  # of the coefficients that are put to 1 for that
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,15 +241,17 @@ class SurfaceIntegrals:
         terms = [self.terms[chosen[i]] for i in indices]
         moved = self._equations[0] and any(-1 in x.fields for x in terms)
         linear = not self.surface.curved and not moved
-        for unit in reversed(numbers):
+        units = list(reversed(numbers))
+        tries = [(unit, False) for unit in units]
+        if not linear and len(numbers) <= _MOST_OF_DIFFERENCES:
+            tries += [(unit, True) for unit in units[:_UNITS]]
+        for unit, differences in tries:
             inverse = pow(unit, -1, PRIME)
             values = exact.recognized(
-                [x * inverse % PRIME for x in numbers], differences=not linear
+                [x * inverse % PRIME for x in numbers], differences=differences
             )
             if values is not None:
-                return [
-                    (self.terms[chosen[i]], value) for i, value in zip(indices, values, strict=True)
-                ]
+                return list(zip(terms, values, strict=True))
         if linear:
             solved = exact.solved([[self._rate(term)] for term in terms])
             if solved is not None:
