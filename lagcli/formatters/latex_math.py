@@ -160,25 +160,34 @@ class LatexPrinter(Printer[Box]):
         return Box(tuple(pieces), Level.PRODUCT, max(box.height for box in boxes), closed)
 
     def quotient(self, node: Quotient) -> Box:
-        return self._fraction(self.show(node.numerator), self.show(node.denominator))
+        below = node.denominator
+        if isinstance(below, Call) and below.function == "sqrt":
+            content = self.show(below.arguments[0])
+            if content.width > WIDEST:
+                inverse = self.bracketed(content, after="^{-1/2}")
+                return self._over(self.show(node.numerator), inverse)
+        return self._fraction(self.show(node.numerator), self.show(below))
 
     def _fraction(self, above: Box, below: Box) -> Box:
         if below.width > WIDEST:
-            numerator = above if above.level >= Level.PRODUCT else self.bracketed(above)
-            pieces = numerator.closed or numerator.pieces
-            inverse = self.bracketed(below, after="^{-1}")
-            gap = _breakable(r" \, ", THIN_SPACE, PRODUCT, r"\cdot ", BINARY)
-            height = max(numerator.height, inverse.height)
-            return Box((*pieces, gap, *inverse.pieces), Level.PRODUCT, height)
+            return self._over(above, self.bracketed(below, after="^{-1}"))
         if above.width > WIDEST:
             inverse = Box((_frac("1", below.text, below.width),))
-            whole = self.bracketed(above)
+            whole = above if above.level >= Level.PRODUCT else self.bracketed(above)
             return Box(
                 (*inverse.pieces, Piece(r" \, ", THIN_SPACE), *whole.pieces), Level.PRODUCT, _TALL
             )
         return Box(
             (_frac(above.text, below.text, max(above.width, below.width)),), Level.POWER, _TALL
         )
+
+    def _over(self, above: Box, inverse: Box) -> Box:
+        """A product in place of a fraction that is too wide."""
+        numerator = above if above.level >= Level.PRODUCT else self.bracketed(above)
+        pieces = numerator.closed or numerator.pieces
+        gap = _breakable(r" \, ", THIN_SPACE, PRODUCT, r"\cdot ", BINARY)
+        height = max(numerator.height, inverse.height)
+        return Box((*pieces, gap, *inverse.pieces), Level.PRODUCT, height)
 
     def power(self, node: Power) -> Box:
         exponent = self._raised(node.exponent)
