@@ -108,7 +108,10 @@ class Field(FractionField):
         if exponent.is_Integer and abs(int(exponent)) <= _MAX_EXPONENT:
             return self(base) ** int(exponent)
         if exponent.is_Rational and abs(int(exponent.p)) <= _MAX_EXPONENT:
-            return rational_power(self, self(base), Fraction(int(exponent.p), int(exponent.q)))
+            inside = self(base)
+            result = rational_power(self, inside, Fraction(int(exponent.p), int(exponent.q)))
+            self._note_radicand(base, inside)
+            return result
         if exponent.is_number:
             return self.opaque(Pow(self.to_sympy(self(base)), exponent))
         constant, rest = exponent.as_coeff_Add()
@@ -116,6 +119,15 @@ class Field(FractionField):
             constant, rest = sympy.S.Zero, exponent
         result = self._power_family(base).power(rest)
         return result if constant == 0 else result * self._power(base, constant)
+
+    def _note_radicand(self, given: Expr, radicand: Element) -> None:
+        """Remember (x - a)² + (y - b)² as it was given, of several ways to write it the first."""
+        if not given.is_Add or radicand.denominator != 1:
+            return
+        inside = self.ring.lift(radicand.numerator)
+        for number, generator in enumerate(self.generators):
+            if generator.kind == "root" and self.ring.lift(generator.radicand) == inside:
+                self.radicands.setdefault(number, given)
 
     def _power_family(self, base: Expr) -> Multiples:
         base = self.to_sympy(self(base))

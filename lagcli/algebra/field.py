@@ -123,6 +123,8 @@ class FractionField:
         self.has_roots = False
         #: Root -> d, where sqrt(f/d²) was put in and became sqrt(f)/d.
         self.root_scales: dict[int, Poly] = {}
+        #: Root -> its radicand as it was put in.
+        self.radicands: dict[int, Expr] = {}
 
     def add_generator(self, generator: Generator) -> int:
         """Add a generator; its number is returned."""
@@ -169,34 +171,38 @@ class FractionField:
         return numerator, denominator
 
     def _divided(self, numerator: Poly, denominator: Poly) -> tuple[Poly, Poly]:
-        """N/D as Q where N = Q D by the rules, which hide the factor: N is reduced.
+        """N/D as Q/c where N c = Q D by the rules."""
+        ring = self.ring
+        if any(g in ring.rules for g in ring.used(denominator)):
+            content = denominator.content()
+            quotient = self.quotient(numerator, denominator / content)
+            if quotient is not None:
+                return quotient, ring.constant(int(content))
+        return numerator, denominator
+
+    def quotient(self, numerator: Poly, denominator: Poly) -> Poly | None:
+        """Q with N = Q D by the rules, which hide the factor: N is reduced; None without one.
 
         D is monic in a generator that no rule of its other generators knows, so that the
         quotient in the powers of that generator is unique.
         """
         ring = self.ring
         used = ring.used(denominator)
-        if not any(g in ring.rules for g in used):
-            return numerator, denominator
-        content = denominator.content()
-        divisor = denominator / content
         bound = {g for each in used if each in ring.rules for g in ring.used(ring.rules[each][1])}
         for index in used:
-            if index in bound:
-                continue
             degree = ring.degree(denominator, index)
-            leading = ring.coefficients(divisor, index)[degree]
-            if ring.degree(numerator, index) < degree or leading not in (1, -1):
+            if index in bound or ring.degree(numerator, index) < degree:
+                continue
+            leading = ring.coefficients(denominator, index)[degree]
+            if leading not in (1, -1):
                 continue
             quotient, rest = ring.zero, numerator
             while rest != 0 and (power := ring.degree(rest, index)) >= degree:
                 part = ring.coefficients(rest, index)[power] * leading
                 part = part * ring.generator(index) ** (power - degree)
-                quotient, rest = quotient + part, ring.reduce(rest - part * divisor)
-            return (
-                (quotient, ring.constant(int(content))) if rest == 0 else (numerator, denominator)
-            )
-        return numerator, denominator
+                quotient, rest = quotient + part, ring.reduce(rest - part * denominator)
+            return quotient if rest == 0 else None
+        return None
 
     def rational(self, value: Fraction | int) -> Element:
         """The element of a rational number."""

@@ -25,6 +25,8 @@ dx, dy, dtheta, dphi, du, dv = (
     Symbol(n + "'", real=True) for n in "x y theta phi theta1 theta2".split()
 )
 
+NEAR = (x - R * cos(t)) ** 2 + (y - R * sin(t)) ** 2
+
 TEXTBOOK: list[tuple[Expr, str]] = [
     (M * g * R * t * sin(alpha), "M*R*g*t*sin(alpha)"),
     (m * l1**2 * dtheta**2 / 2, "m*l1^2*theta'^2/2"),
@@ -54,6 +56,15 @@ TEXTBOOK: list[tuple[Expr, str]] = [
     ((x + y) ** 3, "(x + y)^3"),
     # a bracket that stands in several terms: double Atwood machine, Thornton and Marion, ch. 7
     (g / ((m1 + M) * (m2 + m) + 4 * m2 * m), "g/(4*m*m2 + (M + m1)*(m + m2))"),
+    # the distance from a point that moves along a circle, as it was given
+    (
+        (x - R * cos(t)) * sqrt(NEAR) / sp.expand(NEAR**2),
+        "(x - R*cos(t))/((x - R*cos(t))^2 + (y - R*sin(t))^2)^(3/2)",
+    ),
+    (
+        k * (sqrt(NEAR) - l1) * sp.expand(NEAR.diff(y)) / (2 * sqrt(NEAR)),
+        "l1*k*(R*sin(t) - y)/sqrt((x - R*cos(t))^2 + (y - R*sin(t))^2) + k*(y - R*sin(t))",
+    ),
     # what is in front stays in front: axle of a physical pendulum, Landau and Lifshitz, sect. 32
     (
         -m * l1 * sin(theta) * (dtheta**2 + m * g * l1 * cos(theta) / (M + m * l1**2)),

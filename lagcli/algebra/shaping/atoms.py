@@ -134,11 +134,24 @@ class Atoms:
             square = self.field.ring.lift(scale) ** 2
             inside = self.field.element(radicand, square)
             outside = self.term(next(self.field.ring.terms(square))[0])
-        atom = self.add(self.shape(inside))
+        given = self.field.radicands.get(number) if scale is None else None
+        atom = self._radicand(given, self.shape(inside))
         whole = multiply(((atom, 1),), outside)
         if len(terms) > 1:
             self.roots.append((radicand, whole))
         return whole
+
+    def _radicand(self, given: Expr | None, shaped: Expression) -> int:
+        """The atom of what was put in, or of its shape where that is shorter."""
+        if given is None:
+            return self.add(shaped)
+        try:
+            tree = self._translator.tree(given)
+        except TypeError:  # nothing that the grammar can say
+            return self.add(shaped)
+        if operation_count(shaped) < operation_count(tree):
+            return self.add(shaped)
+        return self.add(tree, given)
 
     def angle_rank(self, cosine: int) -> tuple[Flat, int]:
         """Where the base argument of a cosine comes in a sum of angles."""

@@ -224,8 +224,8 @@ class Shaper:
         for radicand, term in self.atoms.roots:
             # c² - v² = (c - v)(c + v) is not to be told apart where its root occurs
             divisor = self.field.ring.lift(radicand)
-            while poly % divisor == 0:
-                poly = poly / divisor
+            while (rest := self._over(poly, divisor)) is not None:
+                poly = rest
                 for atom, each in term:
                     parts[atom] = parts.get(atom, 0) + each
         content, factors = self._factored(poly)
@@ -251,6 +251,11 @@ class Shaper:
             if whole.cost <= factored.cost:
                 return whole
         return factored
+
+    def _over(self, poly: Poly, divisor: Poly) -> Poly | None:
+        """The quotient, where there is no rest."""
+        quotient, rest = divmod(poly, divisor)
+        return quotient if rest == 0 else self.field.quotient(poly, divisor)
 
     def _parameter_cosines(self, factors: Sequence[tuple[Poly, int]]) -> dict[int, int]:
         """The cosines of parameters among the factors, with their powers."""
