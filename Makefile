@@ -52,7 +52,7 @@ test: $(READY) ## the tests (pytest); make test ARGS="-k noether"
 
 .PHONY: library
 library: $(READY) ## every problem of the library against its known answers
-	$(BIN)/lagcli check problems/
+	$(BIN)/lagcli check problems/ --timeout 300
 
 .PHONY: bench
 bench: $(READY) ## whole-process times as ratios, kept in .bench/
