@@ -98,8 +98,8 @@ def simulate(
     """Compute the motion to a stated accuracy, with a certificate.
 
     The accuracy is global: it bounds the error of every printed number, relative to the
-    largest magnitude of its column, or absolute where that is below 1.  Where it cannot
-    be reached the rows end at the time until which it holds.
+    largest magnitude of its column.  Where it cannot be reached the rows end at the time
+    until which it holds.
 
     The exit status is 0 when the accuracy was reached, 1 when it was not, and 2 when the
     command line or the file is wrong.

@@ -71,9 +71,9 @@ def tradeoff(
     """Measure what accuracy costs: every method against a known reference.
 
     Each run is made in a fresh process; times are the processor's.  The error is the
-    largest of any coordinate or velocity, relative to its largest magnitude, or absolute
-    where that is below 1.  For 1e-3, 1e-6, 1e-9 and 1e-12 it names the cheapest method
-    with its certificate, and the one that lagcli simulate takes by itself.
+    largest of any coordinate or velocity, relative to its largest magnitude.  For 1e-3,
+    1e-6, 1e-9 and 1e-12 it names the cheapest method with its certificate, and the one
+    that lagcli simulate takes by itself.
 
     The exit status is 0; 1 when there is no reference to measure against, or a certificate
     promises more than is true; 2 when the command line or the file is wrong.
