@@ -30,7 +30,7 @@ class TrajectoryCheck:
     """Every number of the known motion compared with the run.
 
     A number agrees within the tolerance, relative to the largest magnitude of its column and
-    absolute below 1, as the accuracy of a run is meant; a time, relative to the end.
+    absolute below 1: what is written as 0 has no scale.  A time agrees relative to the end.
 
     Yields a finding for each column and each event that does not agree, None for the others.
     """
