@@ -23,7 +23,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from lagcli.numerics.accuracy import Outcome
-from lagcli.numerics.methods import METHODS, MORE_DIGITS, SHARP, one_run
+from lagcli.numerics.methods import METHODS, SHARP, SHARPER, one_run
 from lagcli.numerics.modes import Mode
 from lagcli.numerics.run import Mark, Run
 from lagcli.numerics.steps import NotPossible, component_scales
@@ -37,8 +37,6 @@ if TYPE_CHECKING:
 
 #: Rows after those that are good which are looked at: there the accuracy may have been lost.
 _BEYOND = 2
-#: What has more digits, the cheaper one first.
-_SHARPER = ("taylor128", MORE_DIGITS)
 
 
 def on_one_branch(
@@ -61,7 +59,7 @@ def on_one_branch(
         return outcome, digits
     if _is_confirmed(simulation, modes, outcome):
         return outcome, digits
-    found, with_digits = simulation.attempt((MORE_DIGITS,), modes, SHARP)
+    found, with_digits = simulation.attempt(SHARPER, modes, SHARP)
     if found is not None and found.good_rows > min(place + 1, outcome.good_rows):
         return found, with_digits
     if place + 1 >= outcome.good_rows:
@@ -88,14 +86,14 @@ def through_meeting(
     with digits():
         place = meeting(outcome)
     if place is not None:
-        found, with_digits = simulation.attempt((MORE_DIGITS,), modes, SHARP)
+        found, with_digits = simulation.attempt(SHARPER, modes, SHARP)
         if found is not None and found.good_rows > outcome.good_rows:
             return found, with_digits
     return outcome, digits
 
 
 def _is_sharp(outcome: Outcome) -> bool:
-    return outcome.run.method_name == MORE_DIGITS and outcome.tolerances[0] <= SHARP
+    return outcome.run.method_name in SHARPER and outcome.tolerances[0] <= SHARP
 
 
 def meeting(outcome: Outcome) -> int | None:
@@ -135,7 +133,7 @@ def _roots(mode: Mode, marks: Sequence[Mark]) -> list[float]:
 
 def _is_confirmed(simulation: Simulation, modes: Modes, outcome: Outcome) -> bool:
     """Whether a run of more digits and finer steps agrees: the first that is possible tells."""
-    for name in _SHARPER:
+    for name in SHARPER:
         made = METHODS[name].prepare(simulation, modes)
         if not isinstance(made, str):
             with suppress(NotPossible):

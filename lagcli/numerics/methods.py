@@ -330,6 +330,8 @@ METHODS: dict[str, Entry] = {
 STIFF = ("radau5",)
 #: Its digits are as many as are needed.
 MORE_DIGITS = "taylor"
+#: What has more digits than doubles for a motion that turns on them, the cheaper first.
+SHARPER = ("taylor128", MORE_DIGITS)
 #: A tolerance at which its steps do not pass over a bend that a rounding of doubles makes.
 SHARP = 1e-17
 #: What `auto` tries: of each group the first that is possible, the next group where more

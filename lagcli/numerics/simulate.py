@@ -19,7 +19,16 @@ from lagcli.numerics.constants import constants_of
 from lagcli.numerics.contact import one_sided, with_contacts
 from lagcli.numerics.dop853 import dop853
 from lagcli.numerics.equations import Equations
-from lagcli.numerics.methods import AUTO, METHODS, MORE_DIGITS, SHARP, STIFF, Precision, outcome_of
+from lagcli.numerics.methods import (
+    AUTO,
+    METHODS,
+    MORE_DIGITS,
+    SHARP,
+    SHARPER,
+    STIFF,
+    Precision,
+    outcome_of,
+)
 from lagcli.numerics.modes import Modes
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import Refusal, told
@@ -248,7 +257,7 @@ class Simulation:
                         self.remark += f"; not {name}: {made}"
                         return None, nullcontext
                     if names and reason.needs_digits and MORE_DIGITS not in names:
-                        names.insert(0, MORE_DIGITS)
+                        names[:0] = SHARPER
                         first = SHARP
                 else:
                     self.remark += remark
