@@ -209,7 +209,7 @@ class Brackets:
 
         try:
             inverse = mpmath.matrix([row(s) for s in samples[:width]]) ** -1
-        except ZeroDivisionError:
+        except (ZeroDivisionError, TypeError):  # no pivot: mpmath has one exception or the other
             return None
         constants = [[[mpf(0)] * count for _ in chosen] for _ in chosen]
         second = [[[mpf(0)] * count for _ in chosen] for _ in chosen]

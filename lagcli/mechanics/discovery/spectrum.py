@@ -85,8 +85,9 @@ def differences(found: Sequence[Exponent], most: int = 8) -> list[Exponent]:
         else:
             add(2 * each.growth, sympy.S.Zero)
     for each in found:
-        # the exponents differ from 0, the exponent of free motion, by themselves
-        add(each.growth, each.frequency)
+        # the exponents differ from 0, the exponent of free motion, by themselves; as they stand,
+        # for two forms of one function would be two functions
+        _keep(result, Exponent(each.growth, each.frequency))
     for i, one in enumerate(found):
         for other in found[:i]:
             if len(result) >= most:
@@ -176,7 +177,7 @@ def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
     if s.has(sympy.Pow) and any(p.exp.is_Rational and p.exp.q > 1 for p in s.atoms(sympy.Pow)):
         inside = simplify(sympy.sqrt(simplify(b**2 / 4 - c)))
         squares = [simplify(b / 2 + inside), simplify(b / 2 - inside)]
-        return [Exponent(sympy.S.Zero, sympy.sqrt(x)) for x in squares]
+        return [Exponent(sympy.S.Zero, simplify(sympy.sqrt(x))) for x in squares]
     one, other = _root(simplify(b + 2 * s)), _root(simplify(b - 2 * s))
     return [
         Exponent(sympy.S.Zero, simplify((one + other) / 2)),
