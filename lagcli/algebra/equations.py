@@ -133,6 +133,9 @@ def _roots(field: Field, a: Sequence[Element]) -> list[Expr] | None:
     if degree == 2:
         # x = (-b ± sqrt(b² - 4 a c)) / (2 a)
         root = sympy.sqrt(simplify(field.to_sympy(a[1] ** 2 - field.rational(4) * a[2] * a[0])))
+        # of |b| and -|b| together the modulus is of no use
+        moduli = (x.args[0] if isinstance(x, sympy.Abs) else x for x in sympy.Mul.make_args(root))
+        root = sympy.Mul(*moduli)
         middle, below = field.to_sympy(-a[1]), field.to_sympy(field.rational(2) * a[2])
         return [simplify((middle - root) / below), simplify((middle + root) / below)]
     return _scaled_roots(field, a)

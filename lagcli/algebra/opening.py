@@ -10,7 +10,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 
 import sympy
@@ -86,7 +86,8 @@ def by_distances(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[
     }
     plain = [e.xreplace(images) for e in equations]
     inverted = [_inverted(e, roots) for e in plain]
-    for forms, exponent in ((inverted, -1), (plain, 1)):
+    whole = [_whole(e, dict(zip(bases, roots, strict=True))) for e in equations]
+    for forms, exponent in ((inverted, -1), (plain, 1), (whole, 1)):
         for chosen in combinations(range(len(forms)), len(roots)):
             found = _linear([forms[k] for k in chosen], roots)
             if found is None:
@@ -114,6 +115,22 @@ def _inverted(equation: Expr, roots: Sequence[Symbol]) -> Expr:
     """The equation in w = 1/r, times every r that occurs."""
     own = [r for r in roots if r in equation.free_symbols]
     return simplify(equation.xreplace({r: 1 / r for r in own}) * sympy.Mul(*own))
+
+
+def _whole(equation: Expr, roots: Mapping[Expr, Symbol]) -> Expr:
+    """The numerator with r for the roots, and r^2 written out."""
+    images = {
+        power: roots[power.base] ** (2 * power.exp)
+        for power in equation.atoms(sympy.Pow)
+        if power.base in roots and power.exp.is_Rational and power.exp.q == 2
+    }
+    found = sympy.numer(sympy.together(equation.xreplace(images)))
+    if not found.is_polynomial(*roots.values()):
+        return found
+    for base, root in roots.items():
+        poly = sympy.Poly(found, root)
+        found = sympy.Add(*(c * base ** (n // 2) * root ** (n % 2) for (n,), c in poly.terms()))
+    return found
 
 
 def _linear(equations: Sequence[Expr], roots: Sequence[Symbol]) -> tuple[list[Expr], Expr] | None:

@@ -209,6 +209,25 @@ V: k*(x^2 + y^2)/2
     assert mode.multiplicity == 2
 
 
+def test_a_bead_on_a_wire_with_a_spring_from_the_side():
+    """Strogatz, Nonlinear Dynamics and Chaos, 2nd ed., exercise 3.5.4: rest at |x|^2 = b^2 - h^2."""
+    text = """
+coordinates: [x]
+parameters: {m: POSITIVE, k: POSITIVE, h: POSITIVE, b: POSITIVE}
+T: m*x'^2/2
+V: k*(sqrt(h^2 + x^2) - b)^2/2
+"""
+    found = equilibria(dynamics(text)).equilibria
+    assert found is not None
+    assert [e.reason for e in found if "other" in e.reason] == []
+    aside = [e for e in found if to_grammar(e.at["x"]) != "0"]
+    assert [normal(e.at["x"]) for e in aside] == formulas(
+        "-sqrt((b + h)*(b - h))", "sqrt((b + h)*(b - h))"
+    )
+    assert [e.stable for e in aside] == [True, True]
+    assert told(aside[0].where) == ["b > h"]
+
+
 def test_all_shapes_of_a_multiple_frequency():
     """Three masses on a ring; Goldstein, 3rd ed., section 6.4 (method): K a = W M a."""
     text = """
