@@ -48,3 +48,15 @@ constraints: {sphere: x^2 + y^2 + z^2 = 1}
     )
     relations = derivation.dynamics.constraints.relations
     assert is_zero(charge.charge - known, relations) is True
+
+
+def test_the_functions_of_time_of_coupled_oscillators_are_taken_once():
+    """Wilberforce's pendulum: the energy and two solutions for each frequency."""
+    found = derive("""
+coordinates: [z, theta]
+parameters: {k: {assume: positive}, d: {assume: positive}, e: {}}
+T: (z'^2 + theta'^2)/2
+V: (k*z^2 + d*theta^2 + e*z*theta)/2
+""").discovery
+    assert len(found.point_charges) == 5
+    assert found.stopped == []

@@ -34,6 +34,8 @@ from lagcli.mechanics.reduction.readable import deciding, weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.record import record
 
+_AT_SINGULAR = "dU_eff/dq vanishes only where the coordinates are singular"
+_UNSOLVED = "the conditions dU_eff/dq = 0 could not be solved"
 _ROOT_COST = 6  # operations that a root is worth
 
 
@@ -89,6 +91,7 @@ class SteadyMotions:
         self.rest = RestPoints(self.dynamics)
         self.reason = ""
         self.complete = True
+        self._singular = False  # all that were found are where the coordinates are singular
 
     @cached_property
     def motions(self) -> tuple[Steady, ...] | None:
@@ -103,8 +106,8 @@ class SteadyMotions:
             found = self._by_momenta()
         if given is not None and not any(g.values == given.values for g in found):
             found.insert(0, given)
-        if not found and not self.complete:
-            self.reason = "the conditions dU_eff/dq = 0 could not be solved"
+        if not found and (self._singular or not self.complete):
+            self.reason = _AT_SINGULAR if self._singular else _UNSOLVED
             return None
         self.reason = ""
         return tuple(found)
@@ -128,14 +131,16 @@ class SteadyMotions:
     def _by_momenta(self) -> list[Steady]:
         """The equilibria of the reduced system at given momenta."""
         points = self.rest.points
+        regular = [point for point in points or () if self._regular(point.values)]
+        self._singular = bool(points) and not regular
         # under velocity constraints others turn at rates that are no momenta's
         kinds = self.dynamics.constraints.kinds.values()
         known = points is not None and self.rest.complete
         self.complete = known and all(kind == "holonomic" for kind in kinds)
         return [
             Steady(point.values, self._rates(point.values), point.positive, family=point.family)
-            for point in points or ()
-            if self._regular(point.values) and -1 not in map(weak_sign, point.positive)
+            for point in regular
+            if -1 not in map(weak_sign, point.positive)
         ]
 
     def _given(self) -> Steady | None:
