@@ -114,3 +114,12 @@ def test_every_further_step_is_set_in_every_format(name):
         assert display_width(line) <= 80, line
     for format_name in ("markdown", "html", "json", "latex"):
         assert explaining.render(told, format_name, Options())
+
+
+def test_a_hoop_that_rolls_straight_on_has_the_frequency_that_its_stability_is_read_from():
+    told = also("steady/rolling-hoop", "steady_motions")
+    title = "Steady motions"
+    shown = [to_grammar(row.right) for row in rows(told, title) if row.left != Name("psi", 1)]
+    assert "2*(4*psi'^2 - g/R)/3" in shown
+    assert "The constraints give x' and y' by the other velocities." in words(told, title)
+    assert "cyclic" not in words(told, title)

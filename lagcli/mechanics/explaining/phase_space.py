@@ -19,7 +19,7 @@ from lagcli.document import (
 )
 from lagcli.expression import ZERO, Expression, Name, Negative, Number, Power, Product
 from lagcli.mechanics.explaining.teller import Teller
-from lagcli.mechanics.explaining.words import Part, names, says, shows
+from lagcli.mechanics.explaining.words import Part, listed, names, says, shows
 from lagcli.motions import HamiltonJacobiSection, SteadyMotion, SteadySection
 from lagcli.phase_space import BracketsSection
 from lagcli.wording import POTENTIAL, conditions, place_rows, steady_stability
@@ -68,18 +68,16 @@ def _steady_states(found: SteadySection) -> Iterator[Block]:
 
 
 def _motion(motion: SteadyMotion) -> Iterator[Block]:
+    if motion.rolling:
+        yield from _rolling(motion)
+        return
     if motion.free:
-        listed: list[Part] = []
-        for position, name in enumerate(motion.free):
-            velocity = name.endswith("'")
-            between = "" if not position else " and " if position == len(motion.free) - 1 else ", "
-            listed += [between, Name(name.rstrip("'"), 1 if velocity else 0)]
-        yield says("For any value of ", listed, ",")
+        yield says("For any value of ", _free(motion), ",")
     if motion.at or motion.on is not None:
         yield Equations(place_rows(motion.at, motion.on))
     rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
     if rates:
-        yield says("The others are" if motion.rolling else "The cyclic coordinates then turn with")
+        yield says("The cyclic coordinates then turn with")
         yield Equations(tuple(Row(Name(name, 1), rate) for name, rate in rates.items()))
     momenta = {n: p for n, p in motion.momenta.items() if p != Name(f"p_{n}")}
     if momenta:
@@ -90,6 +88,26 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
     if motion.mass:
         yield from _displaced(motion)
     yield says(steady_stability(motion))
+
+
+def _free(motion: SteadyMotion) -> list[Part]:
+    return listed([Name(name.rstrip("'"), 1 if name.endswith("'") else 0) for name in motion.free])
+
+
+def _rolling(motion: SteadyMotion) -> Iterator[Block]:
+    if motion.free:
+        yield says("This holds for any value of ", _free(motion), " with")
+    places = [Row(Name(name), value) for name, value in motion.at.items()]
+    rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
+    yield Equations((*places, *(Row(Name(name, 1), rate) for name, rate in rates.items())))
+    if motion.frequencies_squared:
+        yield says(
+            "Linearised about it, the equations have as many roots 0 as there are neighbouring "
+            "steady motions; the others have the squared frequency below."
+        )
+    yield says(steady_stability(motion))
+    if motion.frequencies_squared:
+        yield Equations(tuple(Row(_SQUARED, s) for s in motion.frequencies_squared))
 
 
 def _displaced(motion: SteadyMotion) -> Iterator[Block]:
