@@ -31,7 +31,8 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from lagcli.numerics.charges import changes
-from lagcli.numerics.run import Mark, Run
+from lagcli.numerics.partners import Partners
+from lagcli.numerics.run import Run
 from lagcli.numerics.scales import Scales, relative
 from lagcli.numerics.steps import SINGULAR_MASS, component_scales
 from lagcli.record import record, replace
@@ -51,7 +52,7 @@ USUAL, CHANCE = 2.0, 20.0
 _CHARGES = 10.0
 LONGEST = (200.0, 2000.0, 20000.0)  # parts of the span
 #: An error larger than this says little of the tolerance that is needed.
-_SATURATED = 0.03
+SATURATED = 0.03
 _MARGIN = 0.3
 _NEXT = 10.0
 #: Runs at rounding that differ by more than this part of what those before them differed by, whose
@@ -74,6 +75,7 @@ class Outcome:
     scales: list[float]  # of the columns
     held: list[float]  # the same over the rows that are within the accuracy
     times: list[float]  # the errors of the times of the events
+    lost_at: float  # the time from which no digit is known
     good_rows: int  # so many rows from the beginning are within the accuracy
     reached: bool
     reason: str
@@ -155,7 +157,7 @@ class Controller:
             bound = max(found.errors)
             before, apart = apart, bound / self.factor(finer)
             gains = finer > self.rounded or apart <= _NO_GAIN * before
-            if not gains and _FAR * self.accuracy < bound <= _SATURATED:
+            if not gains and _FAR * self.accuracy < bound <= SATURATED:
                 return found
             tolerance = self._tightened(tolerance, finer, bound)
             if tolerance == finer:
@@ -171,7 +173,7 @@ class Controller:
 
     def _tightened(self, tolerance: float, finer: float, bound: float) -> float:
         """The coarser tolerance of the next pair: the global error is in proportion to it."""
-        if not 0 < bound <= _SATURATED:
+        if not 0 < bound <= SATURATED:
             return finer
         needed = _MARGIN * tolerance * self.accuracy / bound
         return finer if needed > finer / _NEXT else max(needed, self.finest * BETWEEN)
@@ -220,6 +222,12 @@ class Controller:
         scales = scaled(len(fine_rows))
         errors = [relative(bound, scale) for bound, scale in zip(bounds, scales, strict=True)]
         good, held = self._held(differences, scaled)
+        lost = (
+            mark.t
+            for mark, row in zip(fine.marks, differences, strict=False)
+            if any(x > SATURATED * s for x, s in zip(row, [*scales, 1.0], strict=True))
+        )
+        lost_at = next(lost, math.inf)
         same_end = (coarse.event is None) == (fine.event is None) and partner.agree
         reached = good == len(fine_rows) and same_end and fine.stop is None
         reason = "" if reached else _why(coarse, fine, good, partner)
@@ -230,6 +238,7 @@ class Controller:
             scales,
             held,
             partner.late,
+            lost_at,
             good,
             reached,
             reason,
@@ -343,49 +352,3 @@ def _why(coarse: Run, fine: Run, good: int, partner: Partners) -> str:
     if not partner.agree:
         return "which event comes next is within the error"
     return "" if good < len(fine.marks) else "the two runs end at different rows"
-
-
-class Partners:
-    """The rows of one run that those of another are compared with.
-
-    Attributes
-    ----------
-    agree
-        Whether both go through the same events.
-    late
-        Twice the difference of the times of each event.
-    """
-
-    def __init__(self, coarse: Run, fine: Run) -> None:
-        self._marks = coarse.marks
-        self._samples = {m.sample: place for place, m in enumerate(coarse.marks) if m.sample >= 0}
-        self._sides = {
-            (m.phase, m.begins): place for place, m in enumerate(coarse.marks) if m.sample < 0
-        }
-        same = 0
-        for (_, one), (_, other) in zip(coarse.events, fine.events, strict=False):
-            if (one.name, one.what) != (other.name, other.what):
-                break
-            same += 1
-        self.agree = same == len(coarse.events) == len(fine.events)
-        self.late = [
-            2 * abs(one.t - other.t)
-            for (_, one), (_, other) in zip(coarse.events[:same], fine.events, strict=False)
-        ] + [float("inf")] * (len(fine.events) - same)
-        # phases up to the first event that differs
-        self._phases = fine.events[same][0] if same < len(fine.events) else len(fine.phases)
-        if same < len(coarse.events):
-            self._phases = min(self._phases, coarse.events[same][0])
-
-    def __call__(self, mark: Mark) -> int | None:
-        """The place of the same row in the coarser run; None where there is none."""
-        if mark.phase > self._phases:
-            return None
-        if mark.sample < 0:
-            return self._sides.get((mark.phase, mark.begins))
-        place = self._samples.get(mark.sample)
-        if place is not None and self._marks[place].phase == mark.phase:
-            return place
-        # one run is already beyond the event: the nearest state on the same side
-        ahead = place is None or self._marks[place].phase > mark.phase
-        return self._sides.get((mark.phase, not ahead))

@@ -78,7 +78,7 @@ def prepared(simulation: Simulation, doubles: Modes, digits: int | None = None) 
     ) -> Run:
         del every, moved  # nothing lies between its stages, and its rounding is its own
         made = Run(Transitions(modes, asked.accuracy, asked.until), bound, asked.accuracy)
-        made.step_limit = limit
+        made.step_limit = min(limit, simulation.most_steps or limit)
         return made.go(*state, simulation.times, progress=progress)
 
     return Prepared(

@@ -31,6 +31,7 @@ from lagcli.numerics.methods import (
 )
 from lagcli.numerics.modes import Modes
 from lagcli.numerics.motion import Motion
+from lagcli.numerics.reach import TIMES, first_tolerance, is_better, within_reach
 from lagcli.numerics.refusal import Refusal, told
 from lagcli.numerics.scene import Cut, cut_simulation
 from lagcli.numerics.start import initial_state
@@ -44,8 +45,6 @@ from lagcli.problem import Problem, charge_of
 _COMPARED = 100
 #: Where the accuracy is lost between two rows, so many are compared there.
 _CLOSER = 64
-#: Doubles that miss the accuracy, and are this good, miss it by their rounding.
-_ROUNDING_REACH = 1e-5
 #: Doubles claim nothing better: the parameters are rounded too, alike in all runs.
 _LEAST_DOUBLE = 1e-13
 
@@ -106,6 +105,8 @@ class Simulation:
         self.finished = 0
         #: whether a run was so long that doubles were left for numbers of more bits
         self.is_long = False
+        #: of one run with more digits than doubles, where it is an attempt
+        self.most_steps: int | None = None
         #: what is said beside the reason for the method
         self.remark = ""
         self.notes: list[str] = []
@@ -192,9 +193,10 @@ class Simulation:
                 found, digits = on_one_branch(self, modes, found, digits)
                 return result_of(self, modes.first.motion, found)
         for group in self._groups():
-            if outcome is None or self._beyond(outcome):
-                found, with_digits = self.attempt(group, modes)
-                if found and (outcome is None or found.good_rows >= outcome.good_rows):
+            names, first = (group, 1.0) if outcome is None else self._beyond(outcome, group)
+            if names:
+                found, with_digits = self.attempt(names, modes, first)
+                if found and (outcome is None or is_better(found, outcome)):
                     outcome, digits = found, with_digits
         if outcome is None:
             outcome, digits = self.attempt(("dop853",), modes)
@@ -267,13 +269,14 @@ class Simulation:
             self.remark += remark
         return None, nullcontext
 
-    def _beyond(self, outcome: Outcome) -> bool:
-        """Whether more digits may reach what was not reached."""
+    def _beyond(self, outcome: Outcome, group: Sequence[str]) -> tuple[Sequence[str], float]:
+        """The methods that may reach with more digits what was not reached, and from where on."""
         if outcome.reached:
-            return False
-        stopped = outcome.run.stop is not None
-        close = max(outcome.errors) <= _ROUNDING_REACH
-        return self.asked.digits is not None or (close and not stopped)
+            return (), 1.0
+        if self.asked.digits is not None:
+            return group, 1.0
+        self.most_steps = TIMES * outcome.run.steps
+        return within_reach(outcome, group), first_tolerance(outcome)
 
     @property
     def goes_on(self) -> bool:

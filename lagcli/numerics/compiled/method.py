@@ -240,8 +240,11 @@ class CompiledTaylor:
         *,
         probes: int,
         progress: Callable[[float], None] | None,
+        most: int | None = None,
     ) -> Run:
         """A run without conditions and kinks; at least `probes` places are looked at.
+
+        It takes so many steps at `most`.
 
         Raises
         ------
@@ -259,7 +262,8 @@ class CompiledTaylor:
         given = [self._rows, self._small, self._other, self._signs, state, self._lost]
         given += [self._ahead, self._peaks, self._scales, self._held, facts, counts, asked, out]
         status, call = k.MORE, min(_FIRST, _CALL)
-        limit = run.step_limit = _LIMIT // (max(10, self.machine.ops) * self.machine.numbers.cost)
+        limit = _LIMIT // (max(10, self.machine.ops) * self.machine.numbers.cost)
+        limit = run.step_limit = limit if most is None else min(limit, most)
         while status == k.MORE and counts[k.STEPS] < limit:
             counts[k.LIMIT] = min(call, limit - counts[k.STEPS])
             status = self.machine.kernel("drive")(*map(pointer, given))

@@ -145,7 +145,8 @@ class Runs:
             self._apart = None
         method = mode.method(surface)
         assert isinstance(method, CompiledTaylor)
-        return method.go(run, q, v, times, probes=probes, progress=progress)
+        most = self.simulation.most_steps
+        return method.go(run, q, v, times, probes=probes, progress=progress, most=most)
 
 
 def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
