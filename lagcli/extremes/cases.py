@@ -248,7 +248,7 @@ def _separatrix(scene: Scene) -> Iterator[Case]:
         for side in (-1, 1):
             v = _velocity(scene, top, side)
             if v is not None:
-                told = f"energy of {where} {'-+'[side > 0]} 1e-12"
+                told = f"E = E({where}) {'-+'[side > 0]} 1e-12"
                 yield from _stated(scene, "separatrix", told, scene.q, v, {})
 
 

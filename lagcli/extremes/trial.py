@@ -217,12 +217,13 @@ def _error(case: Case, asked: Asked, result: Result, limit: float) -> tuple[floa
     found: Rows = tuple(tuple(Decimal(x) for x in row if x is not None) for row in rows)
     try:
         near = precise_rows(case.problem, same, _DIGITS, limit)
-        if near is not None and (error := difference(near, found)) <= asked.accuracy:
+        scales = result.certificate.scales
+        if near is not None and (error := difference(near, found, scales)) <= asked.accuracy:
             return error, 0.0
         known = reference(case.problem, same, limit)
     except (Refusal, TooLong):
         return None, math.inf
-    return known.error(found), known.bound
+    return difference(known.rows, found, scales), known.bound
 
 
 def _is_before_events(t: float, result: Result) -> bool:

@@ -74,6 +74,7 @@ class Outcome:
     errors: list[float]  # of each column, relative to its scale
     scales: list[float]  # of the columns
     held: list[float]  # the same over the rows that are within the accuracy
+    held_scales: list[float]  # and their scales
     times: list[float]  # the errors of the times of the events
     lost_at: float  # the time from which no digit is known
     good_rows: int  # so many rows from the beginning are within the accuracy
@@ -221,7 +222,7 @@ class Controller:
 
         scales = scaled(len(fine_rows))
         errors = [relative(bound, scale) for bound, scale in zip(bounds, scales, strict=True)]
-        good, held = self._held(differences, scaled)
+        good, held, held_scales = self._held(differences, scaled)
         lost = (
             mark.t
             for mark, row in zip(fine.marks, differences, strict=False)
@@ -237,6 +238,7 @@ class Controller:
             errors,
             scales,
             held,
+            held_scales,
             partner.late,
             lost_at,
             good,
@@ -250,8 +252,8 @@ class Controller:
 
     def _held(
         self, differences: list[list[float]], scaled: Callable[[int], list[float]]
-    ) -> tuple[int, list[float]]:
-        """How many rows are within the accuracy, and the error of each column over these.
+    ) -> tuple[int, list[float], list[float]]:
+        """How many rows are within the accuracy, and the error and scale of each column over these.
 
         Where not all are, the scale of a column is that of the rows that are left.
         """
@@ -268,7 +270,7 @@ class Controller:
             good = within
         columns = zip(*differences[:good], strict=True)
         held = [relative(max(each), s) for each, s in zip(columns, scales, strict=False)][:-1]
-        return good, held or [0.0] * (len(scales) - 1)
+        return good, held or [0.0] * (len(scales) - 1), scales[:-1]
 
     def refined(self, found: Outcome, between: Callable[[float, float], None]) -> Outcome:
         """The same pair of runs, compared more closely where the accuracy is lost.

@@ -54,15 +54,32 @@ class Asked:
 
 @record(kw_only=True)
 class Certificate:
-    """How well the numbers are known, and how that is known."""
+    """How well the numbers are known, and how that is known.
+
+    Attributes
+    ----------
+    accuracy, reached, holds_until
+        What was asked for, whether it holds to the end, and until when.
+    global_error : mapping of str to float
+        Of each column but the time, relative to its scale.
+    scales : tuple of float
+        Of all columns.
+    estimated_by
+        How the errors are known.
+    charges : mapping of str to float
+        The largest change of each.
+    constraints : mapping of str to (float or None, float)
+        The largest residual, and that of the rate.
+    """
 
     accuracy: float
     reached: bool
     holds_until: float
     global_error: Mapping[str, float]
+    scales: tuple[float, ...]
     estimated_by: str
-    charges: Mapping[str, float]  # the largest change of each
-    constraints: Mapping[str, tuple[float | None, float]]  # residual, of the rates
+    charges: Mapping[str, float]
+    constraints: Mapping[str, tuple[float | None, float]]
 
 
 @record(kw_only=True)

@@ -58,6 +58,7 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
                 for j, name in enumerate(names)
                 if asked.columns[j].expression is not None
             },
+            scales=tuple(outcome.held_scales),
             estimated_by=_estimated_by(outcome),
             charges=_drifts(simulation, outcome, kept),
             constraints=_residuals(outcome, simulation),

@@ -43,6 +43,7 @@ from lagcli.problem import Problem, charge_of
 
 #: The intervals at which two runs are compared are at least so many.
 _COMPARED = 100
+_GOLDEN = 0.6180339887498949
 #: Where the accuracy is lost between two rows, so many are compared there.
 _CLOSER = 64
 #: Doubles claim nothing better: the parameters are rounded too, alike in all runs.
@@ -121,12 +122,14 @@ class Simulation:
     def _times(self) -> list[float]:
         """The rows, and between them what two runs are compared at as well."""
         every, until = self.every, self.asked.until
+        # out of step with whatever the rows asked for are in step with
+        parts = [(k + (_GOLDEN * k % 1.0 - 0.5 if k else 0.0)) / every for k in range(every)]
         given = self.asked.times
         if given:
-            between = [a + (b - a) * k / every for a, b in pairwise(given) for k in range(every)]
+            between = [a + (b - a) * part for a, b in pairwise(given) for part in parts]
             return [*between, until]
-        count = (self.asked.samples - 1) * every
-        return [until * k / count for k in range(count)] + [until]
+        count = self.asked.samples - 1
+        return [until * (k + part) / count for k in range(count) for part in parts] + [until]
 
     def _gaps(self) -> dict[int, Node]:
         """Of the contacts that can be open."""

@@ -39,6 +39,7 @@ _FOLLOWS = 1e-6
 _EXACT_DIGITS = 40
 
 Rows = tuple[tuple[Decimal | None, ...], ...]
+Scales = Sequence[float] | None
 
 
 @record(kw_only=True)
@@ -55,6 +56,8 @@ class Reference:
         How it is known.
     seconds
         What it took.
+    scales
+        What the errors of the columns are relative to.
     cut
         Whether a run integrates less than the file has, or parts that move without each other.
     warnings
@@ -65,18 +68,22 @@ class Reference:
     bound: float
     kind: str
     seconds: float
+    scales: Scales = None
     cut: bool = False
     warnings: tuple[str, ...] = ()
 
     def error(self, rows: Sequence[Sequence[Decimal | None]]) -> float:
         """The largest error of other rows at the same times."""
-        return difference(self.rows, rows)
+        return difference(self.rows, rows, self.scales)
 
 
-def difference(rows: Rows, others: Sequence[Sequence[Decimal | None]]) -> float:
-    """The largest difference, each column relative to its peak.
+def difference(
+    rows: Rows, others: Sequence[Sequence[Decimal | None]], scales: Scales = None
+) -> float:
+    """The largest difference, each column relative to its scale.
 
-    One that is nothing but rounding, beside those of its kind: the coordinates, and the velocities.
+    Without scales, to its peak in the rows; one that is nothing but rounding, beside those of its
+    kind: the coordinates, and the velocities.
     """
     if len(rows) != len(others):
         return float("inf")
@@ -88,6 +95,7 @@ def difference(rows: Rows, others: Sequence[Sequence[Decimal | None]]) -> float:
             ]
             peaks.append(max((abs(a) for a, _ in pairs), default=Decimal(0)))
             apart.append(max((abs(a - b) for a, b in pairs), default=Decimal(0)))
+    if scales is None:
         until, *state = peaks
         scales = [float(until), *component_scales(state, float(until) or 1.0)]
     return max(relative(float(d), scale) for d, scale in zip(apart, scales, strict=True))
@@ -146,16 +154,17 @@ def _precise(
             if isinstance(made, str):
                 warnings.append(f"no reference with more digits than doubles: {made}")
                 return None
-            rows = _run(simulation, made, tolerance, limit)
-            if rows is None:
+            found = _run(simulation, made, tolerance, limit)
+            if found is None:
                 return best
+            rows, scales = found
             runs.append(rows)
-        bound = 2 * difference(runs[1], runs[0])
+        bound = 2 * difference(runs[1], runs[0], scales)
         kind = (
             f"power series with {digits} digits; bound: twice the difference to a run with "
             f"{digits - _BETWEEN}"
         )
-        best = Reference(rows=runs[1], bound=bound, kind=kind, seconds=0.0)
+        best = Reference(rows=runs[1], bound=bound, kind=kind, seconds=0.0, scales=scales)
         if bound <= _GOOD:
             return best
     return best if best is not None and best.bound < _FOLLOWS else None
@@ -177,11 +186,14 @@ def precise_rows(problem: Problem, asked: Asked, digits: int, limit: float) -> R
     made = prepared(simulation, modes, digits)
     if isinstance(made, str):
         return None
-    return _run(simulation, made, 10.0 ** (_BETWEEN - digits), limit)
+    found = _run(simulation, made, 10.0 ** (_BETWEEN - digits), limit)
+    return None if found is None else found[0]
 
 
-def _run(simulation: Simulation, made: Prepared, tolerance: float, limit: float) -> Rows | None:
-    """The rows of one run; None where it stops or takes too long."""
+def _run(
+    simulation: Simulation, made: Prepared, tolerance: float, limit: float
+) -> tuple[Rows, list[float]] | None:
+    """The rows of one run, and the scales; None where it stops or takes too long."""
     end = process_time() + limit
 
     def ticked(_: float) -> None:
@@ -204,7 +216,7 @@ def _run(simulation: Simulation, made: Prepared, tolerance: float, limit: float)
             for mark, row in zip(run.marks, run.rows(), strict=True)
             if mark.sample >= 0 and mark.sample % simulation.every == 0
         ]
-    return tuple(map(tuple, rows))
+    return tuple(map(tuple, rows)), [asked.until, *component_scales(run.peaks, asked.until)]
 
 
 def _decimal(value: Any) -> Decimal | None:
@@ -253,11 +265,11 @@ def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> Referen
     made = METHODS["dop853"].prepare(simulation, modes)
     assert not isinstance(made, str)
     near = _run(simulation, made, 1e-12, float("inf"))
-    if near is None or not difference(rows, near) <= _FOLLOWS:
+    if near is None or not difference(rows, *near) <= _FOLLOWS:
         warnings.append("the motion does not follow the formulas of `expect: trajectory`")
         return None
     kind = f"the exact solution of the file, in {_EXACT_DIGITS} digits"
-    return Reference(rows=rows, bound=bound, kind=kind, seconds=0.0)
+    return Reference(rows=rows, bound=bound, kind=kind, seconds=0.0, scales=near[1])
 
 
 # -- doubles -------------------------------------------------------------------------------------
@@ -289,4 +301,5 @@ def _doubles(problem: Problem, asked: Asked, limit: float) -> Reference:
         tuple(_decimal(x) for x in row) for row in result.rows
     )
     kind = f"{result.method} with its certificate"
-    return Reference(rows=rows(), bound=bound, kind=kind, seconds=0.0)
+    scales = result.certificate.scales
+    return Reference(rows=rows(), bound=bound, kind=kind, seconds=0.0, scales=scales)

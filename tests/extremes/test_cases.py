@@ -109,7 +109,7 @@ def test_the_separatrix_of_a_pendulum():
     assert len(direction) == 1
     found = cases(PENDULUM, "separatrix")
     for side in (1, -1):
-        case = found[f"energy of th = pi {'-+'[side > 0]} 1e-12"]
+        case = found[f"E = E(th = pi) {'-+'[side > 0]} 1e-12"]
         exact = 2 * 9.81 / 0.5 * (1 + math.cos(1))
         assert case.v[0] ** 2 / exact - 1 == pytest.approx(side * 1e-12, abs=4e-16)
 

@@ -241,10 +241,11 @@ class CompiledTaylor:
         probes: int,
         progress: Callable[[float], None] | None,
         most: int | None = None,
+        foreseen: Callable[[float], None] | None = None,
     ) -> Run:
         """A run without conditions and kinks; at least `probes` places are looked at.
 
-        It takes so many steps at `most`.
+        It takes so many steps at `most`; `foreseen` is told how many there will be.
 
         Raises
         ------
@@ -271,6 +272,8 @@ class CompiledTaylor:
             part = float(state[both]) / times[-1]
             if part > 0:
                 self.machine.improve(counts[k.STEPS] / part, self.order)
+                if foreseen is not None and counts[k.STEPS] > _CALL:
+                    foreseen(counts[k.STEPS] / part)
             if progress is not None:
                 progress(part)
         if status == k.PIVOT:

@@ -44,14 +44,16 @@ _DIGITS_QUADRUPLE = 33
 #: Steps beyond which the rounding of doubles may cost charges 1e-12; and where so many are
 #: made anyhow, a tolerance that is not felt in charges costs little more.
 LONG = 2_000_000
+#: So many times as many, foreseen on the way, are certainly too many.
+_CERTAINLY = 1.5
 _FIRST_OF_LONG = 1e-17
 
 
 class RoundingAddsUp(NotPossible):
     """So many steps are to be made in numbers of more bits."""
 
-    def __init__(self, steps: int) -> None:
-        super().__init__(f"over {steps:,} steps the rounding of doubles adds up")
+    def __init__(self) -> None:
+        super().__init__(f"over more than {LONG:,} steps the rounding of doubles adds up")
 
 
 def double_machine(motion: Motion) -> Machine | str:
@@ -95,6 +97,8 @@ class Runs:
     ) -> None:
         self.simulation, self._otherwise = simulation, otherwise
         self._machine, self._make = machine, make
+        #: told how many steps a long run will take
+        self.foreseen: Callable[[float], None] | None = None
         #: the subsystems, once it is known whether steps of their own pay
         self._apart: Apart | None = None
         self._is_weighed = make is None or simulation.asked.whole
@@ -146,7 +150,9 @@ class Runs:
         method = mode.method(surface)
         assert isinstance(method, CompiledTaylor)
         most = self.simulation.most_steps
-        return method.go(run, q, v, times, probes=probes, progress=progress, most=most)
+        return method.go(
+            run, q, v, times, probes=probes, progress=progress, most=most, foreseen=self.foreseen
+        )
 
 
 def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
@@ -167,12 +173,16 @@ def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
 
         def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
             times = fast(simulation.times) if moved else simulation.times
+            both[moved].foreseen = lambda steps: too_many(steps / _CERTAINLY)
             done = both[moved].run(states[moved], times, bound, every, progress)
-            if done.steps > LONG and simulation.asked.method == "auto" and not simulation.is_long:
+            too_many(done.steps)
+            return done
+
+        def too_many(steps: float) -> None:
+            if steps > LONG and simulation.asked.method == "auto" and not simulation.is_long:
                 simulation.is_long = not isinstance(prepared_extended(simulation, doubles), str)
                 if simulation.is_long:
-                    raise RoundingAddsUp(done.steps)
-            return done
+                    raise RoundingAddsUp
 
         def with_others(others: Modes) -> Prepared:
             found = _machine(others.first.motion, independent)
