@@ -53,7 +53,7 @@ def test_the_period_next_to_the_separatrix():
     assert not doubles.certificate.reached
     for digits, accuracy in ((None, 1e-6), (50, 1e-9)):
         result = simulated(text, 62, accuracy, stop="th'", digits=digits)
-        assert 2 * result.events[0].t == pytest.approx(118.84185063, abs=1e-8)
+        assert 2 * result.events[0].t == pytest.approx(118.84185063, rel=accuracy)
 
 
 def test_released_at_90_degrees_the_energy_stays():
