@@ -259,3 +259,20 @@ L: (x'^2 + y'^2 + z'^2)/2 + b*(x*y' - y*x')/2 + c*(y*z' - z*y')/2 + (x^2 + 2*y^2
         assert said == all(abs(root.real) < 1e-7 for root in roots)
         verdicts.add(said)
     assert verdicts == {True, False}
+
+
+def test_a_particle_in_a_cone_of_any_angle():
+    """Goldstein, 3rd ed., chapter 1 and 3 (methods): omega^2 = 3 g sin(alpha) cos(alpha)/r.
+
+    1/sin(alpha)^2 in the kinetic energy is positive, whatever the angle.
+    """
+    [circle] = motions("""
+coordinates: {r: POSITIVE, phi: {}}
+parameters: {m: POSITIVE, g: POSITIVE, alpha: POSITIVE}
+T: m*(r'^2/sin(alpha)^2 + r^2*phi'^2)/2
+V: m*g*r*cot(alpha)
+""")
+    assert circle.stable is True
+    assert circle.reason == ""
+    [square] = circle.frequencies_squared
+    assert to_grammar(square) == "3*g*sin(alpha)*cos(alpha)/r"

@@ -34,7 +34,7 @@ from lagcli.mechanics.oscillations.evenness import even
 from lagcli.mechanics.oscillations.feeding import cannot_feed
 from lagcli.mechanics.oscillations.hurwitz import hurwitz_conditions
 from lagcli.mechanics.oscillations.linearization import Linearization
-from lagcli.mechanics.reduction.readable import weak_sign
+from lagcli.mechanics.reduction.readable import is_positive, weak_sign
 from lagcli.mechanics.reduction.spectrum import real_and_distinct
 from lagcli.record import record
 
@@ -239,6 +239,6 @@ def positive_definite(matrix: list[list[Expr]], positive: tuple[Expr, ...]) -> b
     for k in range(1, len(matrix) + 1):
         block = [row[:k] for row in matrix[:k]]
         minor = determinant(block)
-        if minor is None or sign(minor, positive) != 1:
+        if minor is None or not is_positive(minor, positive):
             return False
     return True

@@ -107,6 +107,23 @@ def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
     return direction * sympy.Mul(kept, *(x**2 for x in nonzero))
 
 
+def is_positive(expression: Expr, positive: Sequence[Expr] = ()) -> bool:
+    """Whether it is positive wherever it is finite: what it is divided by is not 0."""
+    if sign(expression, positive) == 1:
+        return True
+    result = 1
+    for factor, power in factors_of(expression):
+        if power % 2 == 0 and power < 0:
+            continue
+        known = sign(factor**power, positive)
+        if known is None and power < 0:
+            known = _beside_zero(factor)
+        if known is None:
+            return False
+        result *= known
+    return result == 1
+
+
 def weak_sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
     """1 or -1 where the expression has no other sign, though it may be 0; else None."""
     result = 1

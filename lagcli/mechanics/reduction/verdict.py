@@ -29,7 +29,7 @@ from lagcli.mechanics.oscillations.characteristic import Characteristic, determi
 from lagcli.mechanics.oscillations.feeding import cannot_feed
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.stability import NOT_DEFINITE, positive_definite, stability
-from lagcli.mechanics.reduction.readable import weak_sign
+from lagcli.mechanics.reduction.readable import is_positive, weak_sign
 from lagcli.mechanics.reduction.spectrum import real_and_distinct
 from lagcli.record import record
 
@@ -71,7 +71,7 @@ def verdict(linear: Linearization) -> Verdict:
         if any(_sign(square, positive) == -1 for square in squares):
             return Verdict(None, None, True, squares)
         return _because(undecided, "the linearised forces are not those of a potential alone")
-    if any(sign(e, positive) != 1 for e in _leading_minors(linear.M)):
+    if not all(is_positive(e, positive) for e in _leading_minors(linear.M)):
         return _because(undecided, NOT_DEFINITE)
     elementary = _relative_to(linear.M, linear.K)
     if elementary is None:
@@ -111,7 +111,7 @@ def _across(linear: Linearization) -> bool:
 def curvature(potential: Expr, mass: Expr, positive: Sequence[Expr] = ()) -> Verdict:
     """The verdict on one coordinate with M and U'' given."""
     square = simplify(potential / mass)
-    if sign(mass, positive) != 1:
+    if not is_positive(mass, positive):
         return Verdict(None, None, False, (square,), NOT_DEFINITE)
     minimum, fails = _open([square], positive)
     found = Verdict(minimum, None, fails, (square,))
