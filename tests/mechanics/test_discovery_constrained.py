@@ -18,6 +18,8 @@ from lagcli.mechanics.discovery.surface import independent_on_surface
 from lagcli.pipeline import load
 from lagcli.reader import parse_text
 
+from .derived import derive
+
 LIBRARY = Path(__file__).parents[2] / "problems"
 
 # file -> names that are there, names of momentum equations, algebra, integrable
@@ -109,3 +111,16 @@ def test_nothing_is_listed_twice():
     area = built(derivation, "x1*(y2 - y3) + x2*(y3 - y1) + x3*(y1 - y2)")
     kept = independent_on_surface(charges, derivation.dynamics, Allowance(), [area])
     assert kept == list(range(7))
+
+
+def test_momenta_that_contain_the_time_may_have_a_combination_without_it():
+    """Along the level lines of a uniform field the momentum is constant (Liouville: integrable)."""
+    found = summary(
+        derive("""
+coordinates: [x, y, a]
+T: (x'^2 + y'^2 + a'^2)/2
+V: x + 2*y
+constraints: {wheel: x = a}
+""").discovery
+    )
+    assert (found.in_involution, found.integrable) == (2, True)

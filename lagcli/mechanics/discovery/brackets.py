@@ -55,6 +55,16 @@ class Sample:
         one = mpmath.fdot(self.by_q[a], self.by_p[b])
         return one - mpmath.fdot(self.by_p[a], self.by_q[b])
 
+    def joined(self, chosen: Sequence[int], combinations: Sequence[Vector]) -> Sample:
+        """The sample with combinations of the chosen charges as further ones."""
+
+        def gradients(rows: list[Vector]) -> list[Vector]:
+            parts = list(zip(*(rows[a] for a in chosen), strict=True))
+            return [*rows, *([mpmath.fdot(c, part) for part in parts] for c in combinations)]
+
+        values = [mpmath.fdot(c, [self.values[a] for a in chosen]) for c in combinations]
+        return Sample([*self.values, *values], gradients(self.by_q), gradients(self.by_p))
+
 
 @dataclass(frozen=True, slots=True)
 class Structure:
@@ -187,6 +197,18 @@ class Brackets:
         grow([], list(chosen))
         return best
 
+    def still(self, chosen: Sequence[int], energy: int) -> list[int]:
+        """The numbers of new charges: combinations of the chosen that commute with the energy.
+
+        They do not contain the time, though the chosen may.
+        """
+        with mpmath.workdps(_DIGITS):
+            samples = self.samples(len(chosen) + _CHECKS)
+            found = nullspace([[s.bracket(a, energy) for a in chosen] for s in samples])
+            self._samples = [s.joined(chosen, found) for s in samples]
+            count = len(samples[0].values)
+            return list(range(count, count + len(found)))
+
     # -- structure constants ------------------------------------------------------------------
 
     def structure(self, chosen: Sequence[int], energy: int | None = None) -> Structure | None:
@@ -250,6 +272,27 @@ def _less(rows: list[Vector], f: int, along: mpmath.matrix, surface: range) -> V
         x - mpmath.fsum(along[k] * rows[a][j] for k, a in enumerate(surface))
         for j, x in enumerate(rows[f])
     ]
+
+
+def nullspace(rows: Sequence[Vector]) -> list[Vector]:
+    """A basis of the c with rows c = 0, by elimination with pivots."""
+    left, width = [list(row) for row in rows], len(rows[0])
+    scale = max((abs(x) for row in left for x in row), default=mpf(1))
+    pivots: list[tuple[int, Vector]] = []
+    while left:
+        size, r, c = max((abs(x), r, c) for r, row in enumerate(left) for c, x in enumerate(row))
+        if size < _SMALL * max(scale, mpf(1)):
+            break
+        pivot = left.pop(r)
+        pivot = [x / pivot[c] for x in pivot]
+        left = [[x - row[c] * y for x, y in zip(row, pivot, strict=True)] for row in left]
+        pivots = [
+            (k, [x - row[c] * y for x, y in zip(row, pivot, strict=True)]) for k, row in pivots
+        ]
+        pivots.append((c, pivot))
+    solved = dict(pivots)
+    free = [k for k in range(width) if k not in solved]
+    return [[-solved[k][j] if k in solved else mpf(k == j) for k in range(width)] for j in free]
 
 
 def rank(rows: Sequence[Vector]) -> int:

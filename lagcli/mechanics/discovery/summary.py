@@ -90,6 +90,9 @@ def _free(discovery: Discovery) -> Summary:
         k for k, c in enumerate([*charges, *triples])
         if not autonomous or t not in c.free_symbols
     ]  # fmt: skip
+    timed = [k for k in range(count) if k not in fixed]
+    if autonomous and energy is not None and timed:
+        fixed += brackets.still(timed, energy)
     fixed.sort(key=lambda k: (k != energy, k < count))
     involution = brackets.in_involution(fixed)
     return Summary(
