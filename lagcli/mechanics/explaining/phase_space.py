@@ -255,8 +255,10 @@ def _by_forces_of_time(found: HamiltonJacobiSection, rate: Expression) -> Iterat
     rows = [Row(Name(f"p_{name}"), p) for name, p in found.derivatives.items()]
     rows += [Row(Name(name), Integral(force, "t")) for name, force in found.integrals.items()]
     yield Equations(tuple(rows))
+    plural = "s" if len(found.constants) > 1 else ""
     yield says(
-        "with the constants ", names(found.constants), ". The terms without coordinates give"
+        f"with the constant{plural} ",
+        *(names(found.constants), ". The terms without coordinates give"),
     )
     rows = [Row(f, Integral(rate, "t"))]
     rows += [] if found.of_time is None else [Row(f, found.of_time)]
