@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from lagcli.numerics.accuracy import SATURATED, Outcome
+from lagcli.numerics.accuracy import SATURATED, USUAL, Outcome
 
 _DOUBLES = 53
 #: The bits that a method carries when nobody asks for more.
@@ -19,6 +19,8 @@ _BITS = {"taylor80": 64, "taylor128": 113, "taylor": 133}
 #: In machine code: a growth that is extrapolated is not known better, and a run is short.
 _LARGEST, _AT_ONCE = "taylor128", 1000
 _SLACK = 1.3
+#: The growth of rounding is known from two runs, by a factor of a few.
+_UNSURE = 2.0
 #: Steps in Python take a thousand times as long.
 _IN_PYTHON = 2000
 _MARGIN = 0.1
@@ -35,7 +37,9 @@ def lost_bits(outcome: Outcome) -> float:
         if not outcome.lost_at:
             return math.inf
         return (math.log2(SATURATED) + _DOUBLES) * span / outcome.lost_at
-    return math.log2(max(*outcome.errors, 2.0**-_DOUBLES)) + _DOUBLES
+    # at rounding the bound is so much larger for chance, which more digits do not meet
+    chance = outcome.controller.factor(outcome.tolerances[1]) / USUAL
+    return math.log2(max(max(outcome.errors) / chance, 2.0**-_DOUBLES)) + _DOUBLES
 
 
 def within_reach(outcome: Outcome, group: Sequence[str]) -> list[str]:
@@ -48,7 +52,7 @@ def within_reach(outcome: Outcome, group: Sequence[str]) -> list[str]:
     is_guessed = outcome.lost_at < outcome.controller.span
     found = []
     for name in group:
-        bits = float(_BITS[name])
+        bits = _BITS[name] + (0.0 if is_guessed else _UNSURE)
         if name == _LARGEST and is_guessed:
             bits = math.inf if steps <= _AT_ONCE else _SLACK * bits
         if needed <= bits and not (name == "taylor" and is_guessed and steps > _IN_PYTHON):
