@@ -23,7 +23,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from lagcli.numerics.accuracy import Outcome
-from lagcli.numerics.methods import METHODS, SHARP, SHARPER, one_run
+from lagcli.numerics.methods import METHODS, MORE_DIGITS, SHARP, SHARPER, one_run
 from lagcli.numerics.modes import Mode
 from lagcli.numerics.run import Mark, Run
 from lagcli.numerics.steps import NotPossible, component_scales
@@ -81,7 +81,7 @@ def through_meeting(
     simulation, modes, outcome, digits
         As for `on_one_branch`.
     """
-    if _is_sharp(outcome) or simulation.asked.method != "auto":
+    if _is_sharp(outcome, (MORE_DIGITS,)) or simulation.asked.method != "auto":
         return outcome, digits
     with digits():
         place = meeting(outcome)
@@ -92,8 +92,8 @@ def through_meeting(
     return outcome, digits
 
 
-def _is_sharp(outcome: Outcome) -> bool:
-    return outcome.run.method_name in SHARPER and outcome.tolerances[0] <= SHARP
+def _is_sharp(outcome: Outcome, names: Sequence[str] = SHARPER) -> bool:
+    return outcome.run.method_name in names and outcome.tolerances[0] <= SHARP
 
 
 def meeting(outcome: Outcome) -> int | None:
