@@ -1,13 +1,13 @@
 """What the doubles make of a file is in the claim: parameters, initial values, frequencies."""
 
 from fractions import Fraction
-from math import ulp
+from math import sin, ulp
 
 import pytest
 
 from lagcli.numerics.beside import BesideDoubles, fast
 
-from .running import simulated
+from .running import last, simulated
 
 METHODS = ["auto", "taylor64", "dop853", "yoshida8"]
 OSCILLATOR = """
@@ -112,3 +112,12 @@ def test_what_an_elimination_rounds_alike_in_both_runs_is_in_the_claim(method):
 def test_the_clock_is_fast_but_at_the_end():
     times = [0.0, 0.1, 7.0]
     assert fast(times) == [0.0, 0.1 * (1 + 2.0**-52), 7.0]
+
+
+def test_a_slope_of_pi_less_a_little_feels_the_rounding_of_pi():
+    """x = sin(pi - 1e-9) t^2/2: in doubles sin errs by 1.2e-7 of itself."""
+    text = "{coordinates: [x], parameters: {a: pi - 1e-9}, L: x'^2/2 + sin(a)*x, initial: {x: 0}}"
+    result = simulated(text, 1, 1e-9)
+    if result.certificate.reached:
+        assert last(result, "x") == pytest.approx(sin(1e-9) / 2, rel=1e-9)
+    assert not simulated(text, 1, 1e-9, method="dop853").certificate.reached
