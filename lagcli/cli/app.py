@@ -19,6 +19,7 @@ COMMANDS = {
     "extremes": "Take a problem to its extremes and report where it breaks.",
     "check": "Check problems against their known answers and against the mathematics.",
     "formats": "List the formats that `solve --format` knows.",
+    "help": "Read the manual, or its page on a topic.",
     "cache": "Show where the answers of earlier runs are kept, or remove them.",
     "version": "Print the version.",
 }

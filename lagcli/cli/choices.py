@@ -8,6 +8,8 @@ BINARY = ("npz", "parquet")
 #: The forms of a study of `tradeoff`, and what it weighs.
 STUDIES = ("text", "json", "csv")
 COSTS = ("total", "integration", "evaluations")
+#: The formats of a page of the manual.
+MANUAL_FORMATS = ("text", "markdown", "html")
 
 #: What `simulate --show` knows besides the names of the file.
 _SHOWN = (
@@ -77,3 +79,16 @@ def complete_methods(incomplete: str) -> list[str]:
 
     before, comma, word = incomplete.rpartition(",")
     return [before + comma + name for name in METHODS[1:] if name.startswith(word)]
+
+
+def complete_topic(incomplete: str) -> list[str]:
+    """The topics of the manual that begin so."""
+    from lagcli.manual import pages
+
+    known = dict.fromkeys(name for page in pages() for name in (page.name, *page.topics))
+    return [name for name in known if name.startswith(incomplete)]
+
+
+def complete_manual_format(incomplete: str) -> list[str]:
+    """The formats of a page of the manual that begin so."""
+    return [name for name in MANUAL_FORMATS if name.startswith(incomplete)]

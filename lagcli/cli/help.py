@@ -1,0 +1,88 @@
+"""`lagcli help`."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from lagcli.cli.choices import complete_manual_format, complete_topic
+from lagcli.cli.options import Output
+
+if TYPE_CHECKING:
+    from lagcli.manual import Page
+
+Topic = Annotated[
+    str | None,
+    typer.Argument(metavar="[TOPIC]", help="A topic.", autocompletion=complete_topic),
+]
+Format = Annotated[
+    str | None,
+    typer.Option(
+        "--format",
+        "-f",
+        metavar="NAME",
+        help="text, markdown or html.  [default: text on a terminal, else markdown]",
+        autocompletion=complete_manual_format,
+    ),
+]
+Open = Annotated[bool, typer.Option("--open", help="Show the page in a web browser.")]
+
+
+def help(  # noqa: A001 - the command's name
+    topic: Topic = None,
+    format_name: Format = None,
+    output: Output = None,
+    open_page: Open = False,
+) -> int:
+    """Read the manual, or its page on a topic.
+
+    A topic is a command, a section, a key of the problem format, or the name of a page.
+
+    \b
+    Examples:
+      lagcli help
+      lagcli help problem-format
+      lagcli help steady_motions --open
+      lagcli help simulate -f html -o simulate.html
+    """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.choices import MANUAL_FORMATS
+    from lagcli.cli.delivering import has_place, place
+    from lagcli.cli.reading import contents, open_in_browser, rendered
+    from lagcli.cli.status import Status
+    from lagcli.cli.telling import tell_line
+    from lagcli.manual import find_page
+
+    page = None if topic is None else find_page(topic)
+    if topic is not None and page is None:
+        tell_line(_unknown(topic))
+        return Status.USAGE
+    if format_name is not None and format_name not in MANUAL_FORMATS:
+        known = ", ".join(MANUAL_FORMATS)
+        tell_line(f"--format: error: unknown format {format_name!r}: the formats are {known}")
+        return Status.USAGE
+    if open_page:
+        return open_in_browser(page)
+    if not has_place(output):
+        return Status.USAGE
+    terminal = output is None and sys.stdout.isatty()
+    chosen = format_name or ("text" if terminal else "markdown")
+    text = contents() if page is None else page.text
+    done = place(rendered(text, chosen, title=_title(page)).encode(), output)
+    return Status.WELL if done else Status.USAGE
+
+
+def _title(page: Page | None) -> str:
+    return "lagcli: the manual" if page is None else f"lagcli: {page.title}"
+
+
+def _unknown(topic: str) -> str:
+    from difflib import get_close_matches
+
+    from lagcli.manual import pages
+
+    known = [name for page in pages() for name in (page.name, *page.topics)]
+    close = get_close_matches(topic.lower(), known, n=1, cutoff=0.5)
+    hint = f"did you mean {close[0]!r}?" if close else "lagcli help lists the topics"
+    return f"error: the manual has no topic {topic!r}: {hint}"

@@ -1,0 +1,103 @@
+"""Pages of the manual on a terminal, as Markdown, or as HTML."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lagcli.cli.status import Status
+
+if TYPE_CHECKING:
+    from lagcli.manual import Page
+
+_HEAD = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{title}</title>
+<style>
+:root {{ color-scheme: light dark; }}
+body {{ max-width: 46rem; margin: 2rem auto; padding: 0 1rem; line-height: 1.5;
+  font-family: system-ui, sans-serif; overflow-wrap: break-word; }}
+pre {{ overflow-x: auto; padding: 0.7rem; border: 1px solid #8886; border-radius: 4px; }}
+code, pre {{ font-family: ui-monospace, monospace; font-size: 0.92em; }}
+table {{ border-collapse: collapse; display: block; overflow-x: auto; }}
+th, td {{ border-bottom: 1px solid #8886; padding: 0.3rem 0.6rem; text-align: left;
+  vertical-align: top; }}
+</style>
+</head>
+<body>
+"""
+
+
+def contents() -> str:
+    """The list of pages, in Markdown."""
+    from lagcli.manual import pages
+
+    lines = ["# The manual of lagcli", ""]
+    lines += [f"- `{page.name}`: {page.summary}" for page in pages()]
+    lines += ["", "`lagcli help TOPIC` shows a page. Sections and commands are topics as well.", ""]
+    return "\n".join(lines)
+
+
+def rendered(text: str, format_name: str, title: str) -> str:
+    """A page of Markdown in one of the formats `text`, `markdown` and `html`."""
+    match format_name:
+        case "html":
+            return _HEAD.format(title=title) + _html(text) + "</body>\n</html>\n"
+        case "text":
+            return _for_terminal(text)
+    return text
+
+
+def open_in_browser(page: Page | None) -> int:
+    """Write the whole manual beside its contents and show one page of it in a browser."""
+    import tempfile
+    import webbrowser
+    from pathlib import Path
+
+    from lagcli.cli.telling import tell_line
+    from lagcli.manual import pages
+
+    folder = Path(tempfile.mkdtemp(prefix="lagcli-manual-"))
+    for each in pages():
+        path = folder / f"{each.name}.html"
+        path.write_text(rendered(each.text, "html", each.title), "utf-8")
+    index = "".join(f"- [{each.title}]({each.name}.md): {each.summary}\n" for each in pages())
+    text = f"# The manual of lagcli\n\n{index}"
+    (folder / "index.html").write_text(rendered(text, "html", "lagcli"), "utf-8")
+    shown = folder / ("index.html" if page is None else f"{page.name}.html")
+    if not webbrowser.open(shown.as_uri()):
+        tell_line(f"no web browser was found; the page is {shown}")
+        return Status.NOT_FOUND
+    return Status.WELL
+
+
+def _html(text: str) -> str:
+    """Markdown as HTML; links between pages lead to pages of HTML."""
+    import re
+
+    from markdown_it import MarkdownIt
+
+    linked = re.sub(r"\]\((?!https?:)([\w-]+)\.md(#[\w-]*)?\)", r"](\1.html\2)", text)
+    made: str = MarkdownIt("commonmark", {"html": False}).enable("table").render(linked)
+    return made
+
+
+def _for_terminal(text: str) -> str:
+    """Markdown as text with the terminal's colours and width."""
+    from io import StringIO
+
+    from rich.console import Console
+    from rich.markdown import Markdown
+
+    terminal = Console()
+    page = StringIO()
+    console = Console(
+        file=page,
+        force_terminal=terminal.is_terminal,
+        width=min(terminal.width, 100),
+        no_color=terminal.no_color,
+    )
+    console.print(Markdown(text, code_theme="ansi_dark", hyperlinks=False))
+    return page.getvalue()

@@ -1,0 +1,124 @@
+"""What the README and the manual show is what happens."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from lagcli.cli.app import COMMANDS
+from lagcli.manual import ORDER, find_page, pages
+from lagcli.pipeline import read
+from tests.cli.transcript import answer
+
+ROOT = Path(__file__).parents[1]
+README = ROOT / "README.md"
+EXTENDING = ROOT / "lagcli" / "manual" / "extending.md"
+PAGES = [README, *sorted((ROOT / "lagcli" / "manual").glob("*.md"))]
+BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+LINK = re.compile(r"\]\((?!https?:)([^)#]+)(?:#[^)]*)?\)")
+
+
+def blocks(language, page=README):
+    return [body for name, body in BLOCK.findall(page.read_text("utf-8")) if name == language]
+
+
+@pytest.fixture
+def at_home(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    monkeypatch.setenv("COLUMNS", "80")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_commands_answer_as_shown(page, at_home, capsysbinary):
+    text = page.read_text("utf-8")
+    found = text
+    for block in blocks("console", page):
+        commands = re.findall(r"^\$ (.*)$", block, re.MULTILINE)
+        shown = "\n\n".join(f"$ {c}\n{answer(c, capsysbinary)}".strip() for c in commands)
+        found = found.replace(f"```console\n{block}```", f"```console\n{shown}\n```")
+    if os.environ.get("LAGCLI_UPDATE"):
+        page.write_text(found, "utf-8")
+    assert found == text
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_links_lead_to_pages(page):
+    missing = [
+        to for to in LINK.findall(page.read_text("utf-8")) if not (page.parent / to).exists()
+    ]
+    assert missing == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_problems_of_a_page_are_problems(page):
+    for body in blocks("yaml", page):
+        if body.startswith("title:"):
+            assert read(page.name, body.encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_the_lines_of_python_run(page, at_home, capsys):
+    for body in blocks("python", page):
+        if "import lagcli" in body:
+            exec(body, {})
+            assert capsys.readouterr().out
+
+
+def test_every_page_of_the_manual_is_found_by_its_name_and_topics():
+    for page in pages():
+        assert find_page(page.name) == page
+        assert all(find_page(topic) is not None for topic in page.topics)
+    assert {page.name for page in pages()} == set(ORDER)
+    assert f"({Path('lagcli/manual')}/" in README.read_text("utf-8")
+
+
+def test_every_command_section_and_key_has_a_page():
+    from lagcli.answers import SECTIONS
+    from lagcli.reader.problem_file import KEYS
+
+    text = "".join(page.text for page in pages())
+    assert [name for name in (*SECTIONS, *KEYS) if f"`{name}`" not in text] == []
+    assert [name for name in COMMANDS if f"lagcli {name}" not in text] == []
+
+
+def test_the_readme_is_short():
+    assert len(README.read_bytes()) <= 8192
+
+
+@pytest.fixture
+def plug_in(tmp_path):
+    """A package like the manual's, as an installer leaves it."""
+    code = next(body for body in blocks("python", EXTENDING) if body.startswith('"""charges.py'))
+    declared = next(body for body in blocks("toml", EXTENDING) if "lagcli.formatters" in body)
+    (tmp_path / "charges.py").write_text(code, "utf-8")
+    info = tmp_path / "lagcli_charges-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: lagcli-charges\nVersion: 1.0\n")
+    points = declared.replace('project.entry-points."lagcli.formatters"', "lagcli.formatters")
+    (info / "entry_points.txt").write_text(points.replace('"', ""))
+    environment = {**os.environ, "PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
+
+    def run(*arguments):
+        return subprocess.run(
+            [sys.executable, "-m", "lagcli", *arguments],
+            cwd=ROOT, env=environment, capture_output=True, text=True, check=False,
+        )  # fmt: skip
+
+    return run
+
+
+def test_the_formatter_of_another_package_is_listed_and_used(plug_in):
+    listed = plug_in("formats").stdout.splitlines()
+    assert "charges   The names of the conserved charges. (from lagcli-charges)" in listed
+    solved = plug_in("solve", "problems/hoop.yaml", "--show", "charges", "-f", "charges")
+    assert solved.stderr == ""
+    assert solved.stdout == (
+        "Hoop rolling down an incline: slide\nHoop rolling down an incline: energy\n"
+    )
