@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-SUFFIXES = (".yaml", ".yml")
+from lagcli.library import files_in, find_problem
+
+STANDARD = "-"  # standard input
 
 
 class NothingToCheck(Exception):
@@ -27,18 +29,19 @@ def problem_files(paths: Sequence[str]) -> list[str]:
     files: dict[str, None] = {}
     mistakes: list[str] = []
     for name in paths:
-        path = Path(name)
-        if path.is_dir():
-            found = sorted(
-                file for file in path.rglob("*") if file.suffix in SUFFIXES and file.is_file()
-            )
-            if not found:
-                mistakes.append(f"{name}: error: no problem (*.yaml) in this folder")
-            files.update(dict.fromkeys(map(str, found)))
-        elif path.exists():
-            files[name] = None
-        else:
-            mistakes.append(f"{name}: error: no such file or directory")
+        try:
+            files.update(dict.fromkeys(_files_of(name)))
+        except OSError as error:
+            mistakes.append(f"{name}: error: {error.strerror}")
     if mistakes:
         raise NothingToCheck(mistakes)
     return list(files)
+
+
+def _files_of(name: str) -> list[str]:
+    path = Path(name)
+    if path.is_dir():
+        return files_in(path)
+    if name == STANDARD or path.exists():
+        return [name]
+    return [str(find_problem(name))]

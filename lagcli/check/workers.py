@@ -29,7 +29,7 @@ def check_all(files: Sequence[str], jobs: int, limit: float) -> Generator[Report
     Parameters
     ----------
     files
-        Paths of problem files.
+        Paths of problem files; `-` is standard input.
     jobs
         How many processes work at the same time.
     limit
@@ -69,11 +69,11 @@ class _Worker:
         self.place: int | None = None
         self.deadline = float("inf")
 
-    def begin(self, place: int, name: str, limit: float) -> None:
-        """Send a file; the clock of that file starts."""
+    def begin(self, place: int, name: str, data: bytes | None, limit: float) -> None:
+        """Send a file, or what standard input held; the clock of that file starts."""
         self.place = place
         self.deadline = time.monotonic() + limit
-        self.connection.send(name)
+        self.connection.send((name, data))
 
     def kill(self) -> None:
         """End the process at once."""
@@ -88,6 +88,7 @@ class _Pool:
     def __init__(self, files: Sequence[str], limit: float) -> None:
         self.files = files
         self.limit = limit
+        self.standard = sys.stdin.buffer.read() if "-" in files else None
         self.waiting = iter(range(len(files)))
         self.workers: list[_Worker] = []
         self.reports: dict[int, Report] = {}
@@ -107,7 +108,8 @@ class _Pool:
         if place is None:
             worker.place, worker.deadline = None, float("inf")
         else:
-            worker.begin(place, self.files[place], self.limit)
+            name = self.files[place]
+            worker.begin(place, name, self.standard if name == "-" else None, self.limit)
 
     def advance(self) -> None:
         """Wait for a report or a deadline, and note what came."""
@@ -156,12 +158,12 @@ def _serve(connection: Connection) -> None:
     """Check what is sent until the other end of the pipe is closed."""
     with suppress(EOFError, OSError):
         while True:
-            connection.send(_report(connection.recv()))
+            connection.send(_report(*connection.recv()))
 
 
-def _report(name: str) -> Report:
+def _report(name: str, data: bytes | None) -> Report:
     try:
-        return check_problem(name, Path(name).read_bytes())
+        return check_problem(name, Path(name).read_bytes() if data is None else data)
     except OSError as error:
         sentence = error.strerror or str(error)
         return Report(Source(name, ""), diagnostics=(Diagnostic(sentence),))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any
+from typing import Annotated, Any
 
 import click
 import typer
@@ -18,6 +18,9 @@ COMMANDS = {
     "tradeoff": "Measure what accuracy costs: every method against a known reference.",
     "extremes": "Take a problem to its extremes and report where it breaks.",
     "check": "Check problems against their known answers and against the mathematics.",
+    "new": "Write a first problem, to change into your own.",
+    "list": "List the problems of the library that comes with lagcli.",
+    "show": "Print the file of a problem of the library, to read or to change.",
     "formats": "List the formats that `solve --format` knows.",
     "help": "Read the manual, or its page on a topic.",
     "cache": "Show where the answers of earlier runs are kept, or remove them.",
@@ -27,16 +30,11 @@ COMMANDS = {
 
 #: For someone in an empty directory, to whom nobody has given a file.
 _FIRST_PROBLEM = """\b
-A first problem, the file oscillator.yaml:
-  coordinates: [x]
-  parameters: [m, k]
-  T: m*x'^2/2
-  V: k*x^2/2
-
-\b
-Then:
-  lagcli solve oscillator.yaml
-  lagcli explain oscillator.yaml
+First steps:
+  lagcli new swing          a problem of your own, swing.yaml
+  lagcli solve swing.yaml
+  lagcli list pendulum      the library, whose problems are found by name
+  lagcli explain kepler
 """
 
 
@@ -86,5 +84,21 @@ def application() -> click.Command:
     return typer.main.get_command(app)
 
 
-def lagcli() -> None:
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from lagcli import __version__
+
+        typer.echo(f"lagcli {__version__}")
+        raise typer.Exit
+
+
+Version = Annotated[
+    bool,
+    typer.Option(
+        "--version", help="Print the version and exit.", callback=_print_version, is_eager=True
+    ),
+]
+
+
+def lagcli(version: Version = False) -> None:
     """Lagrangian mechanics: from a problem in YAML to equations, multipliers and charges."""

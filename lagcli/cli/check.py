@@ -6,10 +6,15 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.choices import complete_report
+from lagcli.cli.choices import complete_problem, complete_report
 
 Paths = Annotated[
-    list[str], typer.Argument(metavar="PATH...", help="Problems, or folders with problems.")
+    list[str],
+    typer.Argument(
+        metavar="PATH...",
+        help="Problems, folders with problems, names of the library; - is stdin.",
+        autocompletion=complete_problem,
+    ),
 ]
 Format = Annotated[
     str,
@@ -41,8 +46,8 @@ def check(
 
     \b
     Examples:
-      lagcli check problems/
-      lagcli check problems/hoop.yaml problems/rigid --format junit > report.xml
+      lagcli check hoop kepler
+      lagcli check problems/ --format junit > report.xml
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.checking import check_paths
 

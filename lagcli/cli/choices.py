@@ -9,7 +9,7 @@ BINARY = ("npz", "parquet")
 STUDIES = ("text", "json", "csv")
 COSTS = ("total", "integration", "evaluations")
 #: The formats of a page of the manual.
-MANUAL_FORMATS = ("text", "markdown", "html")
+MANUAL_FORMATS = ("text", "markdown", "html", "man")
 
 #: What `simulate --show` knows besides the names of the file.
 _SHOWN = (
@@ -92,3 +92,18 @@ def complete_topic(incomplete: str) -> list[str]:
 def complete_manual_format(incomplete: str) -> list[str]:
     """The formats of a page of the manual that begin so."""
     return [name for name in MANUAL_FORMATS if name.startswith(incomplete)]
+
+
+def complete_problem(incomplete: str) -> list[str]:
+    """The problems of the library whose name, with or without its folder, begins so."""
+    from lagcli.library import entries
+
+    names = [name for entry in entries() for name in (entry.name.rpartition("/")[2], entry.name)]
+    return sorted({name for name in names if name.startswith(incomplete)})
+
+
+def complete_template(incomplete: str) -> list[str]:
+    """The templates of `lagcli new` that begin so."""
+    from lagcli.templates import TEMPLATES
+
+    return [name for name in TEMPLATES if name.startswith(incomplete)]

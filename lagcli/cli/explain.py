@@ -11,12 +11,12 @@ from lagcli.cli.options import Output
 from lagcli.cli.solve import Files, NoCache, Set, Standalone, Width
 
 Format = Annotated[
-    str,
+    str | None,
     typer.Option(
         "--format",
         "-f",
         metavar="NAME",
-        help="One of: text, latex, markdown, html, json.",
+        help="text, latex, markdown, html or json.  [default: by the ending of -o, else text]",
         autocompletion=complete_page_format,
     ),
 ]
@@ -34,7 +34,7 @@ Also = Annotated[
 
 def explain(
     files: Files,
-    format_name: Format = "text",
+    format_name: Format = None,
     output: Output = None,
     also: Also = None,
     settings: Set = None,
@@ -50,13 +50,15 @@ def explain(
 
     \b
     Examples:
-      lagcli explain problems/hoop.yaml
-      lagcli explain problems/hoop.yaml --also find,modes
-      lagcli explain problems/hoop.yaml -f latex --standalone -o hoop.tex
+      lagcli explain hoop
+      lagcli explain hoop --also find,modes
+      lagcli explain hoop -f latex --standalone -o hoop.tex
     """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.endings import PAGES, format_of
     from lagcli.cli.printing import Printing
     from lagcli.cli.repeating import Options, solve_or_repeat
 
-    printing = Printing(format_name, output, standalone, width)
+    form = format_of(format_name, output, PAGES, "text")
+    printing = Printing(form, output, standalone, width)
     options = Options(tuple(also or ()), tuple(settings or ()), numeric=False, command="explain")
     return solve_or_repeat(files, options, printing, cached=not no_cache)

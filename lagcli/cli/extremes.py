@@ -40,7 +40,7 @@ def extremes(
     cases: Cases = None,
     accuracy: Accuracy = None,
     limit: Limit = 10.0,
-    format_name: StudyFormat = "text",
+    format_name: StudyFormat = None,
     output: Output = None,
 ) -> int:
     """Take a problem to its extremes and report where it breaks.
@@ -56,9 +56,10 @@ def extremes(
 
     \b
     Examples:
-      lagcli extremes problems/pendulums/plane-pendulum.yaml
-      lagcli extremes problems/central/kepler.yaml --cases 'ratios,k = 0' -f csv
+      lagcli extremes plane-pendulum
+      lagcli extremes kepler --cases 'ratios,k = 0' -f csv
     """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.endings import STUDIES, format_of
     from lagcli.cli.stretching import Wish, stretch_file
 
     wish = Wish(
@@ -69,7 +70,7 @@ def extremes(
         cases=cases,
         accuracy=accuracy,
         limit=limit,
-        format_name=format_name,
+        format_name=format_of(format_name, output, STUDIES, "text"),
         output=output,
     )
     return stretch_file(wish)

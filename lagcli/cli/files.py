@@ -14,7 +14,7 @@ STANDARD = "-"
 
 
 def read_input(name: str) -> bytes:
-    """The bytes of a file, or of standard input for `-`.
+    """The bytes of a file, of standard input for `-`, or of a problem of the library.
 
     Raises
     ------
@@ -23,7 +23,12 @@ def read_input(name: str) -> bytes:
     """
     if name == STANDARD:
         return sys.stdin.buffer.read()
-    return Path(name).read_bytes()
+    try:
+        return Path(name).read_bytes()
+    except FileNotFoundError:
+        from lagcli.library import find_problem
+
+        return find_problem(name).read_bytes()
 
 
 def reason(error: OSError) -> str:

@@ -23,7 +23,8 @@ Format = Annotated[
         "--format",
         "-f",
         metavar="NAME",
-        help="text, markdown or html.  [default: text on a terminal, else markdown]",
+        help="text, markdown, html, or man for a man page of every command.  [default: text on a "
+        "terminal, else markdown]",
         autocompletion=complete_manual_format,
     ),
 ]
@@ -46,10 +47,11 @@ def help(  # noqa: A001 - the command's name
       lagcli help problem-format
       lagcli help steady_motions --open
       lagcli help simulate -f html -o simulate.html
+      lagcli help -f man -o lagcli.1
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.choices import MANUAL_FORMATS
     from lagcli.cli.delivering import has_place, place
-    from lagcli.cli.reading import contents, open_in_browser, rendered
+    from lagcli.cli.reading import open_in_browser
     from lagcli.cli.status import Status
     from lagcli.cli.telling import tell_line
     from lagcli.manual import find_page
@@ -68,9 +70,18 @@ def help(  # noqa: A001 - the command's name
         return Status.USAGE
     terminal = output is None and sys.stdout.isatty()
     chosen = format_name or ("text" if terminal else "markdown")
-    text = contents() if page is None else page.text
-    done = place(rendered(text, chosen, title=_title(page)).encode(), output)
+    done = place(_shown(page, chosen).encode(), output)
     return Status.WELL if done else Status.USAGE
+
+
+def _shown(page: Page | None, format_name: str) -> str:
+    from lagcli.cli.reading import contents, rendered
+
+    if format_name == "man":
+        from lagcli.cli.man_page import man_page
+
+        return man_page()
+    return rendered(contents() if page is None else page.text, format_name, _title(page))
 
 
 def _title(page: Page | None) -> str:

@@ -29,12 +29,12 @@ State = Annotated[
     ),
 ]
 StudyFormat = Annotated[
-    str,
+    str | None,
     typer.Option(
         "--format",
         "-f",
         metavar="NAME",
-        help="text, json or csv.",
+        help="text, json or csv.  [default: by the ending of -o, else text]",
         autocompletion=complete_study,
     ),
 ]

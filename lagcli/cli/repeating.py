@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from lagcli.cache import Cache, Entry, folder, key
@@ -30,7 +31,7 @@ def solve_or_repeat(
     files: Sequence[str], options: Options, printing: Printing, *, cached: bool
 ) -> Status:
     """Answer the files, from the cache where it has the answer."""
-    inputs = [_input(name) for name in files]
+    inputs = [_input(name) for path in files for name in _files_of(path)]
     cache = _cache() if cached else None
     place = _key(inputs, options, printing) if cache else None
     if cache is None or place is None:
@@ -43,6 +44,18 @@ def solve_or_repeat(
         said = tuple(text for text in outcome.said if text)
         cache.keep(place, Entry(outcome.status, outcome.text, said))
     return status
+
+
+def _files_of(path: str) -> list[str]:
+    """The file itself, or the problem files under a folder."""
+    if not os.path.isdir(path):  # noqa: PTH112 - pathlib is not needed for this
+        return [path]
+    from lagcli.library import files_in
+
+    try:
+        return files_in(Path(path))
+    except FileNotFoundError:
+        return [path]  # answered as a file that cannot be read
 
 
 def _input(name: str) -> Input:

@@ -6,10 +6,25 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.choices import complete_column, complete_method, complete_table
+from lagcli.cli.choices import complete_column, complete_method, complete_problem, complete_table
 from lagcli.cli.options import Output, State
 
-File = Annotated[str, typer.Argument(metavar="FILE", help="A problem; - is stdin.")]
+File = Annotated[
+    str,
+    typer.Argument(
+        metavar="FILE",
+        help="A problem, or its name in the library; - is stdin.",
+        autocompletion=complete_problem,
+    ),
+]
+Files = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="FILE...",
+        help="Problems, or their names in the library; - is stdin.",
+        autocompletion=complete_problem,
+    ),
+]
 Until = Annotated[
     str | None, typer.Option("--until", metavar="T", help="The end, also 2*pi.  [default: file's]")
 ]
@@ -41,12 +56,15 @@ Show = Annotated[
     ),
 ]
 Format = Annotated[
-    str,
+    str | None,
     typer.Option(
-        "--format", "-f", metavar="NAME", help="table, json, csv, npz or parquet.",
+        "--format",
+        "-f",
+        metavar="NAME",
+        help="table, json, csv, npz or parquet.  [default: by the ending of -o, else table]",
         autocompletion=complete_table,
     ),
-]  # fmt: skip
+]
 Project = Annotated[
     bool, typer.Option("--project", help="Start from the nearest state on the constraints.")
 ]
@@ -80,14 +98,14 @@ WholeModel = Annotated[
 
 
 def simulate(
-    file: File,
+    files: Files,
     until: Until = None,
     accuracy: Accuracy = None,
     samples: Samples = 101,
     settings: Set = None,
     state: State = None,
     show: Show = None,
-    format_name: Format = "table",
+    format_name: Format = None,
     output: Output = None,
     project: Project = False,
     precision: Precision = None,
@@ -104,23 +122,27 @@ def simulate(
     The exit status is 0 when the accuracy was reached, 1 when it was not, and 2 when the
     command line or the file is wrong.
 
+    Several files make a JSON array or one table under another; CSV, NPZ and Parquet
+    then need a folder after -o, which gets one file each.
+
     \b
     Examples:
-      lagcli simulate problems/pendulums/plane-pendulum.yaml
-      lagcli simulate problems/central/kepler.yaml --until 100 --accuracy 1e-6 --show x,y,energy
-      lagcli simulate problems/contact/mass-sliding-off-sphere.yaml --until 5 -f json -o run.json
+      lagcli simulate plane-pendulum
+      lagcli simulate kepler --until 100 --accuracy 1e-6 --show x,y,energy
+      lagcli simulate mass-sliding-off-sphere --until 5 -f json -o run.json
     """  # noqa: D301 - click reads the control character \b
-    from lagcli.cli.simulating import Wish, simulate_file
+    from lagcli.cli.endings import TABLES, format_of
+    from lagcli.cli.simulating import Wish, simulate_files
 
     wish = Wish(
-        file=file,
+        file=files[0],
         until=until,
         accuracy=accuracy,
         samples=samples,
         settings=tuple(settings or ()),
         state=tuple(state or ()),
         show=tuple(show or ()),
-        format_name=format_name,
+        format_name=format_of(format_name, output, TABLES, "table"),
         output=output,
         project=project,
         precision=precision,
@@ -128,4 +150,4 @@ def simulate(
         stop_when=stop_when,
         whole=whole_model,
     )
-    return simulate_file(wish)
+    return simulate_files(files, wish)

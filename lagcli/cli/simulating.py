@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from lagcli.cli.choices import BINARY, TABLES
 from lagcli.cli.delivering import has_place, place
+from lagcli.cli.endings import TABLES as ENDINGS
 from lagcli.cli.running import Numbers, is_known, shared, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
@@ -45,16 +47,66 @@ class Wish:
     whole: bool
 
 
-def simulate_file(wish: Wish) -> Status:
-    """Run, write, and say how it ended."""
+def simulate_files(files: Sequence[str], wish: Wish) -> Status:
+    """Run each file, write the tables, and say how it ended; the worst is the exit status."""
     known = is_known("--format", wish.format_name, TABLES)
-    if not (known and _can_be_written(wish)) & has_place(wish.output):
+    if not (known and _can_be_written(wish)):
         return Status.USAGE
+    if len(files) == 1:
+        return _simulate_one(wish)
+    if wish.output is not None and wish.output.is_dir():
+        return _simulate_into(wish.output, files, wish)
+    return _simulate_together(files, wish)
+
+
+def _simulate_one(wish: Wish) -> Status:
+    if not has_place(wish.output):
+        return Status.USAGE
+    data, status = _table(wish)
+    if data is not None and not place(data, wish.output):
+        return Status.USAGE
+    return status
+
+
+def _simulate_into(folder: Path, files: Sequence[str], wish: Wish) -> Status:
+    """One file each, in a folder, with the names of the problems."""
+    ending = next(ending for ending, name in ENDINGS.items() if name == wish.format_name)
+    targets = [folder / f"{Path(file).stem}{ending}" for file in files]
+    if len(set(targets)) < len(targets):
+        tell_line(f"lagcli: error: -o {folder}: two of the files have the same name")
+        return Status.USAGE
+    runs = zip(files, targets, strict=True)
+    return max(_simulate_one(replace(wish, file=file, output=target)) for file, target in runs)
+
+
+def _simulate_together(files: Sequence[str], wish: Wish) -> Status:
+    """One text: tables under their titles, or a JSON array."""
+    if wish.format_name not in ("table", "json"):
+        tell_line(
+            f"lagcli: error: several files in the format {wish.format_name} need a folder: "
+            "-o FOLDER, which exists"
+        )
+        return Status.USAGE
+    if not has_place(wish.output):
+        return Status.USAGE
+    made = [(file, *_table(replace(wish, file=file))) for file in files]
+    tables = [(file, data.decode()) for file, data, _ in made if data is not None]
+    if wish.format_name == "json":
+        text = "[\n" + ",\n".join(table.rstrip("\n") for _, table in tables) + "\n]\n"
+    else:
+        text = "\n".join(f"{file}\n{table}" for file, table in tables)
+    if not place(text.encode(), wish.output):
+        return Status.USAGE
+    return max(status for _, _, status in made)
+
+
+def _table(wish: Wish) -> tuple[bytes | None, Status]:
+    """The table of one run, or None, and how the run ended."""
     found = understood(wish.file, wish.settings, wish.state, lambda p: _asked(p, wish))
-    return Status.USAGE if found is None else _run(*found, wish)
+    return (None, Status.USAGE) if found is None else _run(*found, wish)
 
 
-def _run(problem: Problem, asked: Asked, wish: Wish) -> Status:
+def _run(problem: Problem, asked: Asked, wish: Wish) -> tuple[bytes | None, Status]:
     from lagcli.numerics.refusal import Refusal
     from lagcli.numerics.simulate import simulate
     from lagcli.numerics.writing import WRITERS
@@ -64,13 +116,10 @@ def _run(problem: Problem, asked: Asked, wish: Wish) -> Status:
             result = simulate(problem, asked, progress)
     except Refusal as refusal:
         tell(problem.source, refusal.diagnostics)
-        return Status.USAGE if refusal.mistake else Status.NOT_FOUND
-    if not place(WRITERS[wish.format_name](result), wish.output):
-        return Status.USAGE
+        return None, Status.USAGE if refusal.mistake else Status.NOT_FOUND
     if result.refusal:
         tell_line(f"{problem.source.name}: {result.refusal}")
-        return Status.NOT_FOUND
-    return Status.WELL
+    return WRITERS[wish.format_name](result), (Status.NOT_FOUND if result.refusal else Status.WELL)
 
 
 def _can_be_written(wish: Wish) -> bool:

@@ -6,17 +6,24 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.choices import complete_format, complete_section
+from lagcli.cli.choices import complete_format, complete_problem, complete_section
 from lagcli.cli.options import Output
 
-Files = Annotated[list[str], typer.Argument(metavar="FILE...", help="Problems; - is stdin.")]
+Files = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="FILE...",
+        help="Problems, folders with problems, names of the library; - is stdin.",
+        autocompletion=complete_problem,
+    ),
+]
 Format = Annotated[
-    str,
+    str | None,
     typer.Option(
         "--format",
         "-f",
         metavar="NAME",
-        help="See: lagcli formats.",
+        help="See: lagcli formats.  [default: by the ending of -o, else text]",
         autocompletion=complete_format,
     ),
 ]
@@ -57,7 +64,7 @@ NoCache = Annotated[
 
 def solve(
     files: Files,
-    format_name: Format = "text",
+    format_name: Format = None,
     output: Output = None,
     show: Show = None,
     settings: Set = None,
@@ -73,13 +80,15 @@ def solve(
 
     \b
     Examples:
-      lagcli solve problems/hoop.yaml
-      lagcli solve problems/hoop.yaml --show accelerations,multipliers -f latex
-      lagcli solve problems/hoop.yaml --set R=1/2 --set "alpha=pi/6" -f json -o hoop.json
+      lagcli solve hoop
+      lagcli solve hoop --show accelerations,multipliers -f latex
+      lagcli solve hoop --set R=1/2 --set "alpha=pi/6" -f json -o hoop.json
     """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.endings import PAGES, format_of
     from lagcli.cli.printing import Printing
     from lagcli.cli.repeating import Options, solve_or_repeat
 
-    printing = Printing(format_name, output, standalone, width)
+    form = format_of(format_name, output, PAGES, "text")
+    printing = Printing(form, output, standalone, width)
     options = Options(tuple(show or ()), tuple(settings or ()), numeric)
     return solve_or_repeat(files, options, printing, cached=not no_cache)

@@ -64,7 +64,7 @@ def tradeoff(
     repeat: Repeat = 1,
     limit: Limit = 10.0,
     project: Project = False,
-    format_name: StudyFormat = "text",
+    format_name: StudyFormat = None,
     output: Output = None,
     plot: Plot = None,
 ) -> int:
@@ -80,9 +80,10 @@ def tradeoff(
 
     \b
     Examples:
-      lagcli tradeoff problems/pendulums/plane-pendulum.yaml
-      lagcli tradeoff problems/central/kepler.yaml --until 60 --plot kepler.svg -f csv -o kepler.csv
+      lagcli tradeoff plane-pendulum
+      lagcli tradeoff kepler --until 60 --plot kepler.svg -f csv -o kepler.csv
     """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.endings import STUDIES, format_of
     from lagcli.cli.weighing import Wish, weigh_file
 
     wish = Wish(
@@ -96,7 +97,7 @@ def tradeoff(
         repeat=repeat,
         limit=limit,
         project=project,
-        format_name=format_name,
+        format_name=format_of(format_name, output, STUDIES, "text"),
         output=output,
         plot=plot,
     )

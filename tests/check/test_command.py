@@ -57,5 +57,6 @@ def test_nothing_to_check_is_2(folder, capsysbinary):
     assert (status, out) == (2, "")
     assert err == (
         "empty: error: no problem (*.yaml) in this folder\n"
-        "nowhere: error: no such file or directory\n"
+        "nowhere: error: no such file or directory, and no problem of the library: "
+        "lagcli list names them\n"
     )

@@ -1,0 +1,35 @@
+"""A new problem file from a template."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from lagcli.cli.files import reason
+from lagcli.cli.running import is_known
+from lagcli.cli.status import Status
+from lagcli.cli.telling import tell_line
+from lagcli.templates import TEMPLATES, template
+
+
+def write_problem(name: str, template_name: str) -> Status:
+    """Write `NAME.yaml` where no such file is; the next commands are proposed."""
+    if not is_known("--template", template_name, tuple(TEMPLATES)):
+        return Status.USAGE
+    path = Path(name if name.endswith((".yaml", ".yml")) else f"{name}.yaml")
+    title = path.stem.replace("-", " ").replace("_", " ").strip().capitalize() or "Problem"
+    text = template(template_name).replace("{title}", _quoted(title))
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(text)
+    except OSError as error:
+        tell_line(f"{path}: error: {reason(error)}")
+        return Status.USAGE
+    sys.stdout.write(f"{path} written: {TEMPLATES[template_name]}.  Now:\n  lagcli solve {path}\n")
+    return Status.WELL
+
+
+def _quoted(title: str) -> str:
+    """The title as a scalar of YAML."""
+    plain = title.replace(" ", "").isalnum()
+    return title if plain else "'" + title.replace("'", "''") + "'"

@@ -1,0 +1,48 @@
+"""The format of an output file, by its ending unless `--format` names it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import click
+
+#: Ending -> format, of pages and of tables.
+PAGES = {
+    ".txt": "text", ".json": "json", ".tex": "latex", ".md": "markdown", ".html": "html",
+    ".htm": "html",
+}  # fmt: skip
+TABLES = {
+    ".txt": "table", ".json": "json", ".csv": "csv", ".npz": "npz", ".parquet": "parquet",
+}  # fmt: skip
+STUDIES = {".txt": "text", ".json": "json", ".csv": "csv"}
+
+
+def format_of(
+    given: str | None, output: Path | None, endings: Mapping[str, str], usual: str
+) -> str:
+    """The format that `--format` or else the ending of `-o` asks for.
+
+    Parameters
+    ----------
+    given
+        The value of `--format`, if any.
+    output
+        The file of `-o`, if any.
+    endings
+        The endings that name a format.
+    usual
+        The format where neither says anything.
+
+    Raises
+    ------
+    click.UsageError
+        Where the two disagree.
+    """
+    by_ending = endings.get(output.suffix.lower()) if output else None
+    if given is None:
+        return by_ending or usual
+    if by_ending is not None and given != by_ending and given in endings.values():
+        message = f"-o {output} asks for {by_ending}, but --format for {given}: change one of them"
+        raise click.UsageError(message)
+    return given

@@ -1,0 +1,43 @@
+"""`lagcli list`."""
+
+from __future__ import annotations
+
+import sys
+from typing import Annotated
+
+import typer
+
+Words = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="[WORD...]", help="Only problems with these words."),
+]
+
+
+def list(words: Words = None) -> int:  # noqa: A001 - the command's name
+    """List the problems of the library that comes with lagcli.
+
+    A word may stand in the name of a problem, its folder or its title.
+
+    \b
+    Examples:
+      lagcli list
+      lagcli list pendulum rod
+    """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.status import Status
+    from lagcli.cli.telling import tell_line
+    from lagcli.library import entries
+
+    wanted = [word.casefold() for word in words or ()]
+    named = [(entry.name, entry.title) for entry in entries()]
+    found = [
+        (name, title)
+        for name, title in named
+        if all(word in f"{name} {title}".casefold() for word in wanted)
+    ]
+    if not found:
+        tell_line(f"no problem of the library has: {' '.join(words or ())}")
+        return Status.NOT_FOUND
+    width = max(len(name) for name, _ in found)
+    for name, title in found:
+        sys.stdout.write(f"{name:{width}}  {title}\n")
+    return Status.WELL

@@ -1,0 +1,36 @@
+"""`lagcli new`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from lagcli.cli.choices import complete_template
+
+Name = Annotated[str, typer.Argument(metavar="NAME", help="Name of the file, without .yaml.")]
+Template = Annotated[
+    str,
+    typer.Option(
+        "--template",
+        "-t",
+        metavar="NAME",
+        help="pendulum, constrained, rolling, symmetry, driven or contact.",
+        autocompletion=complete_template,
+    ),
+]
+
+
+def new(name: Name, template_name: Template = "pendulum") -> int:
+    """Write a first problem, to change into your own.
+
+    A file that exists is never overwritten.
+
+    \b
+    Examples:
+      lagcli new swing
+      lagcli new cart --template constrained
+    """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.beginning import write_problem
+
+    return write_problem(name, template_name)
