@@ -5,28 +5,42 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.derivation import Derivation
-    from lagcli.pipeline import load, solve
-    from lagcli.problem import Problem
+    from lagcli.interface import (
+        Account,
+        Formula,
+        Motion,
+        Problem,
+        ProblemError,
+        Report,
+        Solution,
+        check,
+        explain,
+        load,
+        loads,
+        problem,
+        simulate,
+        solve,
+    )
+    from lagcli.interface.magic import load_ipython_extension
 
 __version__ = "0.1.0"
-__all__ = ["Derivation", "Problem", "__version__", "load", "solve"]
-
-#: Where each public name lives: loaded when first used, so `import lagcli` costs nothing.
-_HOMES = {
-    "Derivation": "lagcli.mechanics.derivation",
-    "Problem": "lagcli.problem",
-    "load": "lagcli.pipeline",
-    "solve": "lagcli.pipeline",
-}
+__all__ = [
+    "Account", "Formula", "Motion", "Problem", "ProblemError", "Report", "Solution", "__version__",
+    "check", "explain", "load", "load_ipython_extension", "loads", "problem", "simulate", "solve",
+]  # fmt: skip
 
 
 def __getattr__(name: str) -> object:
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from importlib import import_module
+    """A public name, loaded when it is first used: `import lagcli` costs nothing."""
+    if name == "load_ipython_extension":
+        from lagcli.interface.magic import load_ipython_extension
 
-    return getattr(import_module(_HOMES[name]), name)
+        return load_ipython_extension
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from lagcli import interface
+
+    return getattr(interface, name)
 
 
 def __dir__() -> list[str]:

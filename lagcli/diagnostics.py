@@ -66,9 +66,12 @@ class ProblemError(Exception):
     """The file (or a `--set`) cannot be used; carries every diagnostic, sorted."""
 
     def __init__(self, source: Source, diagnostics: tuple[Diagnostic, ...]) -> None:
-        super().__init__(f"{source.name}: {len(diagnostics)} mistake(s)")
+        super().__init__(source, diagnostics)
         self.source = source
         self.diagnostics = diagnostics
+
+    def __str__(self) -> str:
+        return render(self.source, self.diagnostics).rstrip("\n")
 
 
 # Showing them.

@@ -69,6 +69,13 @@ def with_values_of(
     return changed, tuple(_undefined(problem, changed))
 
 
+def numbers_of_parameters(problem: Problem) -> dict[str, float]:
+    """The parameters whose value is a number once the others are put in."""
+    formulas = _resolved({p.name: p.value for p in problem.parameters if p.value is not None})
+    found = {name: value_of(formula) for name, formula in formulas.items()}
+    return {name: float(value) for name, value in found.items() if value is not None}
+
+
 def off_constraints(problem: Problem) -> list[Diagnostic]:
     """Warnings of the constraints that `initial`, with all that is in them, does not satisfy."""
     formulas: dict[str, Expression] = {p.name: p.value for p in problem.parameters if p.value}

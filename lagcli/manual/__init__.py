@@ -20,7 +20,7 @@ _HEAD = re.compile(r"# (?P<title>.+)\n\n(?P<topics>(?:`[^`]+` ?)+): (?P<summary>
 ORDER = (
     "tour", "problem-format", "solve", "explain", "simulate", "tradeoff", "extremes", "check",
     "symmetries", "find", "forces", "equilibria", "reduction", "phase-space", "units",
-    "conventions", "extending", "architecture", "glossary",
+    "python", "conventions", "extending", "architecture", "glossary",
 )  # fmt: skip
 
 

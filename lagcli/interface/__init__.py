@@ -1,0 +1,271 @@
+"""lagcli from Python: problems in, answers, motions and explanations out.
+
+    import lagcli
+
+    pendulum = lagcli.load("plane-pendulum")
+    lagcli.solve(pendulum).accelerations["theta"]       # shows as mathematics in a notebook
+    lagcli.simulate(pendulum, until=10).to_pandas()
+
+Every function takes what `load`, `loads` or `problem` gives.  What goes wrong in a file is a
+`ProblemError`, whose message shows each mistake at its place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any
+
+import lagcli
+from lagcli.check import Report
+from lagcli.diagnostics import ProblemError
+from lagcli.interface.account import Account
+from lagcli.interface.formula import Formula
+from lagcli.interface.motion import Motion, integrate
+from lagcli.interface.solution import Solution
+from lagcli.problem import Problem
+
+__all__ = [
+    "Account", "Formula", "Motion", "Problem", "ProblemError", "Report", "Solution", "check",
+    "explain", "load", "loads", "problem", "simulate", "solve",
+]  # fmt: skip
+
+Values = Mapping[str, object]
+
+
+def load(path: str | PathLike[str]) -> Problem:
+    """Read a problem file, or a problem of the library by its name.
+
+    Raises
+    ------
+    OSError
+        When there is no such file and no such name.
+    ProblemError
+        When the file is not a problem.
+
+    Examples
+    --------
+    >>> load("kepler").title
+    'Kepler problem with the Laplace-Runge-Lenz vector'
+    """
+    from lagcli.library import find_problem
+
+    file = Path(path)
+    return _read(fspath(path), (file if file.exists() else find_problem(fspath(path))).read_bytes())
+
+
+def loads(text: str) -> Problem:
+    """Read a problem from its text in YAML.
+
+    Raises
+    ------
+    ProblemError
+        When the text is not a problem.
+
+    Examples
+    --------
+    >>> loads("{coordinates: [x], T: x'^2/2}").kinetic is not None
+    True
+    """
+    return _read("<text>", text.encode())
+
+
+def problem(parts: Mapping[str, Any]) -> Problem:
+    """Make a problem of a dictionary with the keys of the file format.
+
+    Raises
+    ------
+    ProblemError
+        When the dictionary is not a problem.
+
+    Examples
+    --------
+    >>> oscillator = problem({"coordinates": ["x"], "T": "x'^2/2", "V": "x^2/2"})
+    """
+    import yaml
+
+    text = yaml.safe_dump(_plain(parts), sort_keys=False, allow_unicode=True, width=10**6)
+    return _read("<dictionary>", text.encode())
+
+
+def solve(
+    problem: Problem,
+    sections: Sequence[str] | None = None,
+    *,
+    values: Values | None = None,
+    numeric: bool = False,
+) -> Solution:
+    """Derive what the sections say of a problem; each answer is verified.
+
+    Parameters
+    ----------
+    problem : Problem
+        As `load` gives it.
+    sections : sequence of str, optional
+        Out of those that `lagcli help solve` lists; the usual ones without it.
+    values : mapping of str to number or str, optional
+        Put in for parameters before anything is derived.
+    numeric : bool
+        Put in the values of the file as well, and give decimal numbers.
+
+    Raises
+    ------
+    ProblemError
+        When a value does not fit, or the constraints contradict each other.
+    """
+    from lagcli.answers import SECTIONS
+    from lagcli.pipeline import Request, derive, state
+
+    names = None if sections is None else tuple(sections)
+    unknown = [name for name in names or () if name not in SECTIONS]
+    if unknown:
+        raise ValueError(f"unknown sections {unknown}: the sections are {', '.join(SECTIONS)}")
+    changed = _with_values(problem, values, numeric=numeric)
+    request = Request(sections=names, numeric=numeric)
+    return Solution(state(derive(changed), request), changed)
+
+
+def simulate(
+    problem: Problem,
+    until: float | str | None = None,
+    *,
+    accuracy: float | None = None,
+    samples: int = 101,
+    times: Sequence[float] = (),
+    show: Sequence[str] | str = (),
+    values: Values | None = None,
+    at: Values | None = None,
+    method: str = "auto",
+    stop_when: str | None = None,
+    project: bool = False,
+    precision: int | None = None,
+    whole_model: bool = False,
+) -> Motion:
+    """Compute the motion to a stated accuracy, with a certificate.
+
+    Parameters
+    ----------
+    problem : Problem
+        With a value for every parameter and an `initial` state, or with `values` and `at`.
+    until : float or str, optional
+        The end, in the file's unit of time; the file's own without it.
+    accuracy : float, optional
+        The bound on the global error of every number, relative to its column's largest
+        magnitude; the file's own, or 1e-9.
+    samples : int
+        Rows, both ends included.
+    times : sequence of float
+        Rows at these times instead, from 0 to `until`.
+    show : sequence of str or str
+        Columns, as `lagcli simulate --show` takes them.
+    values, at : mapping of str to number or str, optional
+        Parameters, and coordinates and velocities at t = 0.
+    method, stop_when, project, precision, whole_model
+        As the options of `lagcli simulate`.
+
+    Returns
+    -------
+    Motion
+        Its rows end where the accuracy holds no longer; `refusal` then says why.
+
+    Raises
+    ------
+    ProblemError
+        When a column, a value or the state does not fit the problem.
+    lagcli.numerics.refusal.Refusal
+        When no run can be made.
+    """
+    from lagcli.pipeline import with_lagrangian
+
+    changed = with_lagrangian(_at(_with_values(problem, values), at))
+    return integrate(
+        changed,
+        until=until,
+        accuracy=accuracy,
+        samples=samples,
+        times=times,
+        show=[show] if isinstance(show, str) and show else list(show),
+        method=method,
+        stop_when=stop_when,
+        project=project,
+        precision=precision,
+        whole_model=whole_model,
+    )
+
+
+def explain(problem: Problem, also: Sequence[str] = ()) -> Account:
+    """Give the derivation step by step, with its reasons; `also` adds sections.
+
+    Raises
+    ------
+    ProblemError
+        When the constraints contradict each other.
+    """
+    from lagcli.pipeline import derive
+    from lagcli.pipeline import explain as account
+
+    return Account(account(derive(problem), tuple(also)))
+
+
+def check(path: str | PathLike[str]) -> Report:
+    """Compare the answers to a file with its `expect` block, and with the mathematics."""
+    from lagcli.check.one import check_problem
+    from lagcli.library import find_problem
+
+    file = Path(path)
+    found = file if file.exists() else find_problem(fspath(path))
+    return check_problem(fspath(path), found.read_bytes())
+
+
+def _read(name: str, data: bytes) -> Problem:
+    from lagcli.reader import read_problem
+
+    return read_problem(name, data).checked()
+
+
+def _plain(value: object) -> object:
+    """Numbers and names as the text that the format has for them."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(each) for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(each) for each in value]
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return _text(value)
+
+
+def _text(value: object) -> str:
+    """A value as an expression of the format; floats with every digit."""
+    if isinstance(value, (Formula, str)):
+        return value.grammar if isinstance(value, Formula) else value
+    return repr(float(value)) if isinstance(value, float) else str(value)
+
+
+def _with_values(problem: Problem, values: Values | None, *, numeric: bool = False) -> Problem:
+    from lagcli.reader.settings import set_parameters
+    from lagcli.values import parameters_with_values, with_values_of
+
+    settings = [f"{name}={_text(value)}" for name, value in (values or {}).items()]
+    changed = set_parameters(problem, settings)
+    names = dict.fromkeys(values or {})
+    if numeric:
+        names.update(dict.fromkeys(parameters_with_values(changed)))
+    if not names:
+        return changed
+    found, wrong = with_values_of(changed, names)
+    if wrong:
+        raise ProblemError(problem.source, tuple(wrong))
+    return found
+
+
+def _at(problem: Problem, state: Values | None) -> Problem:
+    from lagcli.reader.settings import set_state
+
+    return set_state(problem, [f"{name}={_text(value)}" for name, value in (state or {}).items()])
+
+
+# The modules lagcli.check and lagcli.problem have the names of two functions: once they are
+# imported, the functions take their places among the attributes of the package.
+lagcli.check = check
+lagcli.problem = problem

@@ -1,0 +1,47 @@
+"""A derivation step by step, for Python and notebooks."""
+
+from __future__ import annotations
+
+from lagcli.explanation import Explanation
+
+
+class Account:
+    """What `explain` gives: numbered steps with their reasons."""
+
+    def __init__(self, explanation: Explanation) -> None:
+        self.title = explanation.title
+        self.steps = tuple(step.title for step in explanation.steps)
+        self.warnings = explanation.warnings
+        self.complete = explanation.complete
+        self._explanation = explanation
+
+    def to_text(self, width: int = 80) -> str:
+        """As `lagcli explain` prints it."""
+        return self._rendered("text", width)
+
+    def to_latex(self) -> str:
+        r"""A fragment for \input."""
+        return self._rendered("latex")
+
+    def to_html(self) -> str:
+        """HTML with MathML."""
+        return self._rendered("html")
+
+    def to_json(self) -> str:
+        """The steps as a list for a machine."""
+        return self._rendered("json")
+
+    def __str__(self) -> str:
+        return self.to_text().rstrip("\n")
+
+    def __repr__(self) -> str:
+        return f"<Account of {self.title!r}: {len(self.steps)} steps>"
+
+    def _repr_html_(self) -> str:
+        return self.to_html()
+
+    def _rendered(self, format_name: str, width: int = 80) -> str:
+        from lagcli.formatters import Options
+        from lagcli.formatters.explaining import render
+
+        return render([self._explanation], format_name, Options(width=width))

@@ -1,0 +1,202 @@
+"""A computed motion: columns of numbers with their certificate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from lagcli.diagnostics import Diagnostic, ProblemError
+
+if TYPE_CHECKING:
+    from lagcli.expression import Expression
+    from lagcli.numerics.asked import Certificate, Result
+    from lagcli.numerics.events import Event
+    from lagcli.problem import Problem
+
+_USUAL_ACCURACY = 1e-9
+
+
+class Motion:
+    """What `simulate` gives: a table, and how well it is known.
+
+    Attributes
+    ----------
+    columns : tuple of str
+        The first is `t`.
+    rows : tuple of tuples of float
+        None where a column is not defined.
+    certificate : Certificate
+        Accuracy, until when it holds, the error of each column, drift of the charges.
+    events : tuple of Event
+        Impacts, releases and the like.
+    method : str
+    warnings : tuple of str
+    refusal : str
+        Why the rows end early; empty when they do not.
+    """
+
+    def __init__(self, result: Result, title: str) -> None:
+        self._result = result
+        self.title = title
+        self.columns = result.columns
+        self.rows = result.rows
+
+    @property
+    def certificate(self) -> Certificate:
+        """How well the numbers are known."""
+        return self._result.certificate
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """What happened on the way."""
+        return self._result.events
+
+    @property
+    def method(self) -> str:
+        """The method of integration."""
+        return self._result.method
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What should be known beside the numbers."""
+        return self._result.warnings
+
+    @property
+    def refusal(self) -> str:
+        """Why the rows end early; empty when they do not."""
+        return self._result.refusal
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.columns)
+
+    def __getitem__(self, column: str) -> list[float | None]:
+        if column not in self.columns:
+            raise KeyError(f"no column {column!r}: there are {', '.join(self.columns)}")
+        place = self.columns.index(column)
+        return [row[place] for row in self.rows]
+
+    def to_dict(self) -> dict[str, list[float | None]]:
+        """Columns by name."""
+        return {name: self[name] for name in self.columns}
+
+    def to_numpy(self) -> Any:
+        """An array of shape (rows, columns); nan where a column is not defined."""
+        import numpy as np
+
+        return np.array(self.rows, dtype=float)
+
+    def to_pandas(self) -> Any:
+        """A pandas table with t as its index."""
+        import pandas as pd
+
+        return pd.DataFrame(self.to_numpy(), columns=list(self.columns)).set_index("t")
+
+    def to_arrow(self) -> Any:
+        """An Arrow table."""
+        import pyarrow as pa
+
+        return pa.table(self.to_dict())
+
+    def to_csv(self) -> str:
+        """CSV with every digit of a double."""
+        from lagcli.numerics.writing import to_csv
+
+        return to_csv(self._result)
+
+    def to_json(self) -> str:
+        """The contract of `lagcli simulate --format json`."""
+        from lagcli.numerics.writing import to_json
+
+        return to_json(self._result)
+
+    def __str__(self) -> str:
+        from lagcli.numerics.writing import to_table
+
+        return to_table(self._result).rstrip("\n")
+
+    def __repr__(self) -> str:
+        last = self.rows[-1][0] if self.rows else 0
+        return f"<Motion of {self.title!r}: {len(self.rows)} rows to t = {last}>"
+
+    def _repr_html_(self) -> str:
+        from lagcli.interface.tables import motion_as_html
+
+        return motion_as_html(self._result, self.title)
+
+
+def integrate(
+    problem: Problem,
+    *,
+    until: float | str | None,
+    accuracy: float | None,
+    samples: int,
+    times: Sequence[float],
+    show: Sequence[str],
+    method: str,
+    stop_when: str | None,
+    project: bool,
+    precision: int | None,
+    whole_model: bool,
+) -> Motion:
+    """Run a problem; see `lagcli.simulate`.
+
+    Raises
+    ------
+    ProblemError
+        When an option does not fit the problem.
+    """
+    from lagcli.formatters.grammar import to_grammar
+    from lagcli.numerics.asked import Asked
+    from lagcli.numerics.columns import Column
+    from lagcli.numerics.simulate import simulate
+    from lagcli.problem import METHODS
+    from lagcli.reader.columns import read_along, read_columns, usual_columns
+
+    run = problem.simulation
+    chosen = run.method if method == "auto" and run.method else method
+    if chosen not in METHODS:
+        raise ValueError(f"unknown method {chosen!r}: the methods are {', '.join(METHODS)}")
+    shown = read_columns(problem, list(show)) if show else usual_columns(problem)
+    asked = Asked(
+        until=_number(problem, until, run.until, "until"),
+        accuracy=_number(problem, accuracy, run.accuracy, "accuracy", _USUAL_ACCURACY),
+        samples=samples,
+        times=tuple(map(float, times)),
+        columns=tuple(Column(name, expression) for name, expression in shown),
+        project=project,
+        stop_when=None if stop_when is None else read_along(problem, stop_when, "stop_when"),
+        stop_name=stop_when or "",
+        method=chosen,
+        digits=precision,
+        whole=whole_model,
+        written=to_grammar,
+    )
+    return Motion(simulate(problem, asked), problem.title)
+
+
+def _number(
+    problem: Problem,
+    given: float | str | None,
+    of_file: Expression | None,
+    what: str,
+    usual: float | None = None,
+) -> float:
+    """A number of the call, or else of the file."""
+    from lagcli.decimals import value_of
+    from lagcli.reader.columns import read_number
+
+    if given is None and of_file is None:
+        if usual is None:
+            raise ProblemError(problem.source, (Diagnostic(f"{what} is missing: give {what}=…"),))
+        return usual
+    if given is None and of_file is not None:
+        formula = of_file
+    else:
+        formula = read_number(repr(given) if isinstance(given, float) else str(given), what)
+    value = value_of(formula)
+    if value is None or not 0 < float(value) < float("inf"):
+        raise ProblemError(problem.source, (Diagnostic(f"{what} must be a positive number"),))
+    return float(value)

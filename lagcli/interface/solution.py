@@ -1,0 +1,192 @@
+"""The answers to one problem: by section, as text, as mathematics, as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import is_dataclass, replace
+from typing import Any
+
+from lagcli.answers import SECTIONS, Answers
+from lagcli.expression import Expression
+from lagcli.interface.formula import Formula
+from lagcli.problem import Problem
+
+
+class Solution:
+    """What `solve` answers.
+
+    A section is an attribute (`solution.accelerations`) or an item
+    (`solution["accelerations"]`); one that was not asked for is not there.
+
+    Attributes
+    ----------
+    title : str
+    degrees_of_freedom : int
+    warnings : tuple of str
+        Which answers are missing, and why.
+    complete : bool
+        Whether everything that was asked for was found.
+    """
+
+    def __init__(self, answers: Answers, problem: Problem) -> None:
+        self._answers = answers
+        self._problem = problem
+        self.title = answers.title
+        self.degrees_of_freedom = answers.degrees_of_freedom
+        self.warnings = answers.warnings
+        self.complete = answers.complete
+
+    @property
+    def sections(self) -> dict[str, Part]:
+        """Every section that was asked for, in order."""
+        return {name: self[name] for name in self}
+
+    def __iter__(self) -> Iterator[str]:
+        return (name for name in SECTIONS if name in self._answers.sections)
+
+    def __len__(self) -> int:
+        return len(self._answers.sections)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._answers.sections
+
+    def __getitem__(self, name: str) -> Part:
+        if name not in self._answers.sections:
+            known = ", ".join(self)
+            raise KeyError(f"no section {name!r} was asked for: there are {known}")
+        one = replace(self._answers, sections={name: self._answers.sections[name]}, warnings=())
+        return Part(self._answers.sections[name], self._problem, name, one)
+
+    def __getattr__(self, name: str) -> Part:
+        if name.startswith("_") or name not in self._answers.sections:
+            raise AttributeError(f"no section {name!r} was asked for: there are {', '.join(self)}")
+        return self[name]
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self]
+
+    def __str__(self) -> str:
+        return self.to_text().rstrip("\n")
+
+    def __repr__(self) -> str:
+        return f"<Solution of {self.title!r}: {', '.join(self)}>"
+
+    def to_text(self, width: int = 80) -> str:
+        """The answers as `lagcli solve` prints them."""
+        return _rendered(self._answers, "text", width)
+
+    def to_latex(self) -> str:
+        r"""A fragment for \input."""
+        return _rendered(self._answers, "latex")
+
+    def to_html(self) -> str:
+        """HTML with MathML."""
+        return _rendered(self._answers, "html")
+
+    def to_json(self) -> str:
+        """The contract of `lagcli solve --format json`."""
+        return _rendered(self._answers, "json")
+
+    def _repr_html_(self) -> str:
+        return self.to_html()
+
+
+class Part:
+    """A section or a part of it: names lead to its values, formulas are `Formula`.
+
+    A section whose content has the section's own name is that content: the item "x" of
+    `solution.accelerations` is x''.  A list of named things, such as charges, is indexed by
+    name or by place.
+    """
+
+    def __init__(
+        self, value: Any, problem: Problem, name: str = "", page: Answers | None = None
+    ) -> None:
+        self._value = value
+        self._problem = problem
+        self._page = page
+        self._content = getattr(value, _CONTENT.get(name, name), None) if name else None
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or not hasattr(self._value, name):
+            fields = ", ".join(self.__dir__())
+            raise AttributeError(f"no {name!r} here: there are {fields}")
+        return wrapped(getattr(self._value, name), self._problem)
+
+    def __dir__(self) -> list[str]:
+        return [name for name in dir(self._value) if not name.startswith("_")]
+
+    def __getitem__(self, key: Any) -> Any:
+        content = self._content
+        if isinstance(content, Sequence) and isinstance(key, str):
+            named = {_name_of(each): each for each in content}
+            if key not in named:
+                raise KeyError(f"no {key!r}: there are {', '.join(named)}")
+            return wrapped(named[key], self._problem)
+        if not isinstance(content, (Mapping, Sequence)):
+            raise TypeError("this section has no items")
+        return wrapped(content[key], self._problem)
+
+    def __iter__(self) -> Iterator[Any]:
+        if isinstance(self._content, Mapping):
+            return iter(self._content)
+        return iter([wrapped(each, self._problem) for each in self._content or ()])
+
+    def __len__(self) -> int:
+        return len(self._content or ())
+
+    def keys(self) -> list[str]:
+        """The names of its items."""
+        if isinstance(self._content, Mapping):
+            return list(self._content)
+        return [_name_of(each) for each in self._content or ()]
+
+    def items(self) -> list[tuple[str, Any]]:
+        """Names and values."""
+        return [(key, self[key]) for key in self.keys()]
+
+    def __str__(self) -> str:
+        if self._page is not None:
+            return _rendered(self._page, "text").split("\n\n", 1)[-1].rstrip("\n")
+        return repr(self)
+
+    def __repr__(self) -> str:
+        shown = ", ".join(f"{name}={getattr(self, name)!r}" for name in self.__dir__())
+        return f"{type(self._value).__name__}({shown})"
+
+    def _repr_html_(self) -> str | None:
+        return None if self._page is None else _rendered(self._page, "html")
+
+
+#: Sections whose content has another name than the section.
+_CONTENT = {
+    "constraint_forces": "forces", "canonical_equations": "equations", "discovered": "charges",
+    "find": "answers", "steady_motions": "motions",
+}  # fmt: skip
+
+
+def wrapped(value: Any, problem: Problem) -> Any:
+    """A value of the answers for a user: formulas as `Formula`, records as `Part`."""
+    match value:
+        case Expression():
+            return Formula(value, problem)
+        case Mapping():
+            return {key: wrapped(each, problem) for key, each in value.items()}
+        case tuple() | list():
+            return tuple(wrapped(each, problem) for each in value)
+        case _ if is_dataclass(value):
+            return Part(value, problem)
+        case _:
+            return value
+
+
+def _name_of(value: Any) -> str:
+    """The name of one of several charges or equations."""
+    return str(getattr(value, "name", getattr(value, "coordinate", "")))
+
+
+def _rendered(answers: Answers, format_name: str, width: int = 80) -> str:
+    from lagcli.formatters import Options
+    from lagcli.pipeline import render
+
+    return render([answers], format_name, Options(width=width))

@@ -1,0 +1,202 @@
+"""lagcli from Python: what a program or a notebook gets."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+
+import pytest
+import sympy
+from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
+
+import lagcli
+from lagcli.library import entries
+
+PENDULUM = """
+title: Pendulum
+coordinates: [theta]
+parameters: {m: {assume: positive, value: 2}, l: {assume: positive, value: 1/2}, g: 9.81}
+T: m*l^2*theta'^2/2
+V: -m*g*l*cos(theta)
+initial: {theta: 1}
+simulation: {until: 2}
+"""
+
+
+@pytest.fixture
+def pendulum():
+    return lagcli.loads(PENDULUM)
+
+
+def test_load_takes_a_path_or_a_name(tmp_path):
+    file = tmp_path / "p.yaml"
+    file.write_text(PENDULUM)
+    assert lagcli.load(file).title == "Pendulum"
+    assert (
+        lagcli.load("kepler").title
+        == lagcli.load(entries()[0].path.parents[1] / "central/kepler.yaml").title
+    )
+    with pytest.raises(OSError, match="did you mean 'kepler'"):
+        lagcli.load("keppler")
+
+
+def test_a_dictionary_is_a_problem_like_its_text(pendulum):
+    parts = {
+        "coordinates": ["theta"],
+        "parameters": {"m": {"assume": "positive", "value": 2}, "l": {"assume": "positive", "value": 0.5}, "g": 9.81},
+        "T": "m*l^2*theta'^2/2", "V": "-m*g*l*cos(theta)", "initial": {"theta": 1},
+        "simulation": {"until": 2},
+    }  # fmt: skip
+    there, here = (
+        lagcli.solve(each, ["accelerations"]) for each in (pendulum, lagcli.problem(parts))
+    )
+    assert there.accelerations["theta"] == here.accelerations["theta"]
+
+
+def test_a_mistake_is_an_exception_that_shows_the_place():
+    with pytest.raises(lagcli.ProblemError) as caught:
+        lagcli.loads("coordinates: [x]\nT: y'^2/2\nV: k*x")
+    assert "<text>:2:4: error: unknown name 'y' in T" in str(caught.value)
+    assert len(caught.value.diagnostics) == 2
+
+
+def test_formulas_agree_with_sympys_own_derivation(pendulum):
+    found = lagcli.solve(pendulum, ["accelerations"]).accelerations["theta"].to_sympy()
+    theta = dynamicsymbols("theta", real=True)
+    time = dynamicsymbols._t
+    m, l = sympy.symbols("m l", positive=True)  # noqa: E741
+    g = sympy.Symbol("g", real=True)
+    lagrangian = m * l**2 * theta.diff(time) ** 2 / 2 + m * g * l * sympy.cos(theta)
+    method = LagrangesMethod(lagrangian, [theta])
+    method.form_lagranges_equations()
+    ours = found.subs(sympy.Symbol("t", real=True), time)
+    assert sympy.simplify(ours - method.rhs()[1]) == 0
+
+
+def test_a_formula_is_text_latex_and_a_function_of_arrays(pendulum):
+    import numpy as np
+
+    formula = lagcli.solve(pendulum, ["accelerations"]).accelerations["theta"]
+    assert (str(formula), formula.grammar) == ("−g sin(θ)/l", "-g*sin(theta)/l")
+    assert formula._repr_latex_().startswith(r"$\displaystyle")
+    assert formula.arguments == ("theta", "l", "g")
+    angles = np.linspace(-1, 1, 5)
+    np.testing.assert_allclose(formula.to_numpy(["theta"])(angles), -9.81 / 0.5 * np.sin(angles))
+    np.testing.assert_allclose(
+        formula.to_numpy(values={"g": 1.0})(angles, 2.0), -np.sin(angles) / 2
+    )
+
+
+def test_a_function_needs_a_number_for_every_name():
+    free = lagcli.loads("{coordinates: [x], parameters: [k], T: x'^2/2, V: k*x^2/2}")
+    formula = lagcli.solve(free, ["accelerations"]).accelerations["x"]
+    with pytest.raises(ValueError, match="no argument and no value: k"):
+        formula.to_numpy(["x"])
+    unknown = lagcli.loads("{coordinates: [x], functions: {U: [x]}, T: x'^2/2, V: U(x)}")
+    with pytest.raises(ValueError, match="unspecified"):
+        lagcli.solve(unknown, ["accelerations"]).accelerations["x"].to_numpy()
+
+
+def test_sections_are_attributes_and_items(pendulum):
+    solution = lagcli.solve(pendulum, ["charges", "energy", "momenta"])
+    assert list(solution) == ["momenta", "energy", "charges"]
+    assert solution.charges["energy"].conserved is True
+    assert solution["momenta"]["theta"].grammar == "m*l^2*theta'"
+    assert solution.sections["energy"].is_total_energy is True
+    with pytest.raises(AttributeError, match="there are momenta, energy, charges"):
+        _ = solution.accelerations
+    with pytest.raises(ValueError, match="unknown sections"):
+        lagcli.solve(pendulum, ["acceleration"])
+
+
+def test_pages_are_those_of_the_command_line(pendulum):
+    solution = lagcli.solve(pendulum)
+    assert json.loads(solution.to_json())["accelerations"] == {"theta": "-g*sin(theta)/l"}
+    assert "<math" in solution._repr_html_()
+    assert "θ̈ = −g sin(θ)/l" in str(solution)
+    assert str(solution.momenta).startswith("Momenta\n")
+
+
+def test_values_are_put_in_before_the_derivation(pendulum):
+    solution = lagcli.solve(pendulum, ["accelerations"], values={"l": 2, "g": "10"})
+    assert solution.accelerations["theta"].grammar == "-5*sin(theta)"
+    with pytest.raises(lagcli.ProblemError, match="did you mean"):
+        lagcli.solve(pendulum, values={"ll": 2})
+
+
+def test_a_motion_has_columns_events_and_a_certificate(pendulum):
+    motion = lagcli.simulate(pendulum, samples=5, show=["theta", "energy"], values={"g": 9.81})
+    assert motion.columns == ("t", "theta", "energy")
+    assert motion["t"] == [0.0, 0.5, 1.0, 1.5, 2.0]
+    assert motion.certificate.reached
+    energy = -2 * 9.81 * 0.5 * math.cos(1)
+    assert motion["energy"] == pytest.approx([energy] * 5, rel=1e-12)
+    with pytest.raises(KeyError, match="there are t, theta, energy"):
+        _ = motion["x"]
+
+
+def test_a_motion_becomes_tables(pendulum):
+    motion = lagcli.simulate(pendulum, samples=3)
+    assert motion.to_arrow().column_names == ["t", "theta", "theta'"]
+    assert motion.to_pandas().index.name == "t"
+    assert motion.to_numpy().shape == (3, 3)
+    assert motion.to_csv().startswith("t,theta,theta'\n")
+    assert "<table>" in motion._repr_html_()
+
+
+def test_a_run_that_cannot_reach_its_accuracy_says_why():
+    motion = lagcli.simulate(lagcli.load("kepler"), 50, samples=11, at={"y'": 0})  # it falls in
+    assert motion.refusal
+    assert not motion.certificate.reached
+
+
+@pytest.mark.parametrize(
+    ("until", "message"), [(None, "give until="), (-1, "positive"), ("x", "unknown name")]
+)
+def test_a_wrong_end_is_a_mistake(until, message):
+    free = lagcli.loads("{coordinates: [x], T: x'^2/2, initial: {x': 1}}")
+    with pytest.raises(lagcli.ProblemError, match=message):
+        lagcli.simulate(free, until)
+
+
+def test_an_explanation_and_a_check():
+    account = lagcli.explain(lagcli.load("hoop"))
+    assert account.complete
+    assert "1. " in str(account)
+    assert account.to_latex().strip()
+    assert lagcli.check("hoop").passed
+
+
+def test_functions_are_not_hidden_by_modules_of_their_names():
+    code = "import lagcli.check, lagcli.problem, lagcli; lagcli.load; assert callable(lagcli.check) and callable(lagcli.problem)"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+class Shell:
+    """What the magic needs of IPython."""
+
+    def __init__(self):
+        self.names, self.magics = {}, {}
+
+    def register_magic_function(self, function, kind, name):
+        self.magics[kind, name] = function
+
+    def push(self, names):
+        self.names |= names
+
+
+def test_the_cell_magic_answers_and_keeps_the_problem(capsys):
+    shell = Shell()
+    lagcli.load_ipython_extension(shell)
+    magic = shell.magics["cell", "lagcli"]
+    assert list(magic("solve accelerations,energy --name p", PENDULUM)) == [
+        "accelerations",
+        "energy",
+    ]
+    assert shell.names["p"].title == "Pendulum"
+    assert magic("simulate theta", PENDULUM).columns == ("t", "theta")
+    assert magic("explain", PENDULUM).complete
+    assert magic("", "T: x'") is None
+    assert "error: unknown name" in capsys.readouterr().out
