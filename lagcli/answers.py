@@ -12,7 +12,7 @@ from typing import Literal
 
 from lagcli.expression import Expression
 from lagcli.forces import ForcesSection
-from lagcli.motions import Above, HamiltonJacobiSection, OneFreedom, SteadySection
+from lagcli.motions import Above, HamiltonJacobiSection, OneFreedom, SteadySection, Verdict
 from lagcli.phase_space import BracketsSection, TransformationsSection
 from lagcli.questions import FindSection
 from lagcli.record import field, record
@@ -235,33 +235,26 @@ class AlgebraSection:
 class Equilibrium:
     """A state of rest, which exists where each of `where` holds.
 
-    `stable` None: it depends on conditions, or was not decided.  `minimum` says where V has a
-    minimum, `hurwitz` where all roots have negative real parts, `spectrum` where all frequencies
-    are real and distinct, which is stability to first order; None: never, or not decided.
-    `gyroscopic`: the spectrum is that of terms that damping would outdo.
-    `asymptotic`: where it is stable by the first two, what is disturbed returns.
-    With `free` coordinates, or an equation `on`, a family, `stable` up to displacements along it.
+    With `free` coordinates, or an equation `on`, a family, stable up to displacements along it.
     """
 
     at: Mapping[str, Expression]
     on: tuple[Expression, Expression] | None = None
-    stable: bool | None
-    asymptotic: bool = False
+    verdict: Verdict
     where: tuple[Above, ...] = ()
-    minimum: tuple[Above, ...] | None = None
-    hurwitz: tuple[Above, ...] | None = None
-    spectrum: tuple[Above, ...] | None = None
-    gyroscopic: bool = False
     free: tuple[str, ...] = ()
-    reason: str = ""
 
 
 @record(kw_only=True)
 class EquilibriaSection:
-    """All equilibria found; None where none could be, with a `reason`."""
+    """The equilibria found; None where none could be, with a `reason`.
+
+    `complete`: there can be no other.
+    """
 
     equilibria: tuple[Equilibrium, ...] | None
     reason: str = ""
+    complete: bool = True
 
 
 @record(kw_only=True)

@@ -17,6 +17,34 @@ class Above:
 
 
 @record(kw_only=True)
+class Verdict:
+    """Whether an equilibrium or a steady motion is stable: one form for both.
+
+    `stable` None: it depends on conditions, or was not decided; `reason` says why, "{V}" in it
+    stands for the `potential`.  `minimum` says where that has a minimum, `hurwitz` where all roots
+    have negative real parts, `spectrum` where all frequencies are real and distinct, which is
+    stability to first order, or more where the equations are linear (`exact`).  Empty: always,
+    None: never, or not decided.  `unstable` is it where one of these inequalities holds.
+    `asymptotic`: where it is stable by the first two, what is disturbed returns, to the family
+    where it is stable `across` one.  `gyroscopic`: the spectrum is that of terms that damping
+    would outdo.  `theorem` is the name of the one that decides.
+    """
+
+    stable: bool | None
+    reason: str = ""
+    theorem: str = ""
+    potential: str = "V"
+    asymptotic: bool = False
+    across: bool = False
+    minimum: tuple[Above, ...] | None = None
+    hurwitz: tuple[Above, ...] | None = None
+    spectrum: tuple[Above, ...] | None = None
+    unstable: tuple[Above, ...] = ()
+    exact: bool = False
+    gyroscopic: bool = False
+
+
+@record(kw_only=True)
 class PeriodSeries:
     """T about one minimum of U_eff.
 
@@ -55,10 +83,7 @@ class SteadyMotion:
 
     `free` may have any value.  It is there where each of `where` holds, and with all rates
     and momenta reversed where it is `mirrored`.  `rates` None: the axes of two rotations
-    coincide, so only the momenta are known.  `minimum` and `spectrum` say where U_eff has a
-    minimum, and where the spectrum lies on the imaginary axis: empty for always, None for
-    never or not decided.  `stable` None: it depends on these, or was not decided.
-    The equation `on` ties coordinates of a family.
+    coincide, so only the momenta are known.  The equation `on` ties coordinates of a family.
     """
 
     at: Mapping[str, Expression]
@@ -67,14 +92,11 @@ class SteadyMotion:
     momenta: Mapping[str, Expression]
     where: tuple[Above, ...]
     mirrored: bool
-    stable: bool | None
-    minimum: tuple[Above, ...] | None
-    spectrum: tuple[Above, ...] | None
+    verdict: Verdict
     frequencies_squared: tuple[Expression, ...]
     mass: tuple[tuple[Expression, ...], ...] = ()
     velocity: tuple[tuple[Expression, ...], ...] = ()
     stiffness: tuple[tuple[Expression, ...], ...] = ()
-    reason: str = ""
     on: tuple[Expression, Expression] | None = None
     rolling: bool = False
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from lagcli.answers import Equilibrium, QuantityUnit
+from lagcli.answers import QuantityUnit
 from lagcli.document import Formula, Label, Row
 from lagcli.expression import ZERO, Expression, Name, operation_count
-from lagcli.motions import Above, SteadyMotion
+from lagcli.motions import Above, SteadyMotion, Verdict
 
 Part = str | Formula
 
@@ -16,18 +16,21 @@ POTENTIAL = Label("U", ("eff",))
 #: A condition of more operations is not written beside the frequency that it says of.
 _LONG = 24
 _THEOREM = "(Kelvin, Tait and Chetaev)"
-_REVERSED = "; unstable where one of these is reversed. "
 
 
 def conditions(where: Sequence[Above]) -> list[Part]:
-    """Inequalities within a sentence."""
+    """Inequalities within a sentence, all of which hold."""
+    return _joined(where, " and ")
+
+
+def _joined(where: Sequence[Above], word: str) -> list[Part]:
     parts: list[Part] = []
     for position, each in enumerate(where):
         below = each.left == ZERO
         sides: list[Part] = (
             [each.right, " < ", each.left] if below else [each.left, " > ", each.right]
         )
-        parts += [" and " if position else "", *sides]
+        parts += [word if position else "", *sides]
     return parts
 
 
@@ -50,43 +53,87 @@ def unit_rows(
     )
 
 
-def stability(equilibrium: Equilibrium) -> list[Part]:
-    """Whether a state of rest is stable, and by which conditions, in sentences."""
-    reason = equilibrium.reason
-    stable = "Asymptotically stable" if equilibrium.asymptotic else "Stable"
-    if equilibrium.stable is not None:
-        words: list[Part] = [stable if equilibrium.stable else "Unstable"]
-        if equilibrium.stable:
-            words += _up_to(equilibrium)
-        return [*words, f": {reason}." if reason else "."]
-    parts: list[Part] = []
-    spectrum = equilibrium.spectrum
-    if equilibrium.minimum:
-        parts += [f"{stable} where ", *conditions(equilibrium.minimum), ", a minimum of V"]
-        parts += [". " if spectrum is not None else _reversed(equilibrium.minimum)]
-    if equilibrium.hurwitz:
-        parts += [f"{stable} where ", *conditions(equilibrium.hurwitz), " (Hurwitz)"]
-        parts += [_reversed(equilibrium.hurwitz)]
-    if spectrum is not None:
-        parts += ["Stable to first order, all frequencies being real and distinct"]
-        parts += [", where ", *conditions(spectrum), _reversed(spectrum)] if spectrum else [". "]
-        if equilibrium.gyroscopic:
-            parts += [f"Where V has no minimum, damping of all motions destroys this {_THEOREM}. "]
+def stability(
+    verdict: Verdict,
+    free: Sequence[str] = (),
+    on: tuple[Expression, Expression] | None = None,
+) -> list[Part]:
+    """Whether an equilibrium or a steady motion is stable, and by which conditions, in sentences.
+
+    It is one of a family where coordinates are `free` or tied by the equation `on`.
+    """
+    stable = "Asymptotically stable" if verdict.asymptotic else "Stable"
+    reason = _with_potential(verdict.reason, verdict.potential)
+    if verdict.stable is not None:
+        words: list[Part] = [stable if verdict.stable else "Unstable"]
+        if verdict.stable:
+            words += _up_to(free, on) if free or on is not None else _along(verdict)
+        return [*words, *([": ", *reason] if reason else []), "."]
+    parts = [*_by_minimum(verdict, stable), *_by_roots(verdict, stable)]
+    if not parts and verdict.unstable:
+        parts = ["Unstable where ", *_joined(verdict.unstable, " or "), ". "]
     if not parts:
-        return ["Stability undecided" + (f": {reason}." if reason else ".")]
+        return ["Stability undecided", *([": ", *reason] if reason else []), "."]
     if reason:
-        parts += [f"{reason[0].upper()}{reason[1:]}."]
-    elif isinstance(parts[-1], str):
-        parts[-1] = parts[-1].rstrip()
+        first = reason[0]
+        lead = f"{first[0].upper()}{first[1:]}" if isinstance(first, str) else first
+        parts += [lead, *reason[1:], "."]
+    return _trimmed(parts)
+
+
+def _potential(name: str) -> Part:
+    """`V`, `V_eff` or `U_eff` as it is set, in words where other forces act."""
+    letter, _, index = name.partition("_")
+    return Label(letter, (index,) if index else ()) if name else "the potential of all forces"
+
+
+def _with_potential(reason: str, name: str) -> list[Part]:
+    before, found, after = reason.partition("{V}")
+    parts: list[Part] = [before, _potential(name), after] if found else [reason]
+    return [part for part in parts if part != ""]
+
+
+def _by_minimum(verdict: Verdict, stable: str) -> list[Part]:
+    if not verdict.minimum:
+        return []
+    alone = verdict.hurwitz is None and verdict.spectrum is None
+    potential = _potential(verdict.potential)
+    name = f" ({verdict.theorem})" if alone and verdict.theorem else ""
+    parts: list[Part] = [f"{stable} where ", *conditions(verdict.minimum)]
+    parts += [", a minimum of ", potential, name]
+    return [*parts, *(_opposite(verdict.unstable) if alone else [". "])]
+
+
+def _by_roots(verdict: Verdict, stable: str) -> list[Part]:
+    if verdict.hurwitz:
+        lead: list[Part] = [stable, " up to displacements along the family" * verdict.across]
+        parts = [*lead, " where ", *conditions(verdict.hurwitz), f" ({verdict.theorem})"]
+        return [*parts, *_opposite(verdict.unstable)]
+    spectrum = verdict.spectrum
+    if spectrum is None:
+        return []
+    parts = ["Stable" if verdict.exact else "Stable to first order"]
+    parts += [", all frequencies being real and distinct"]
+    parts += (
+        [", where ", *conditions(spectrum), *_opposite(verdict.unstable)] if spectrum else [". "]
+    )
+    if verdict.gyroscopic:
+        potential = _potential(verdict.potential)
+        parts += ["Where ", potential, " has no minimum, damping of all motions destroys this "]
+        parts += [f"{_THEOREM}. "]
     return parts
 
 
-def _up_to(equilibrium: Equilibrium) -> list[Part]:
+def _along(verdict: Verdict) -> list[Part]:
+    return [" up to displacements along the family"] if verdict.across else []
+
+
+def _up_to(free: Sequence[str], on: tuple[Expression, Expression] | None) -> list[Part]:
     """The displacements along a family, which nothing restores."""
-    if equilibrium.on is not None:
+    if on is not None:
         return [" up to displacements along the family"]
     parts: list[Part] = []
-    for position, name in enumerate(equilibrium.free):
+    for position, name in enumerate(free):
         parts += [", " if position else " up to displacements of ", Name(name)]
     return parts
 
@@ -95,39 +142,27 @@ def _is_long(condition: Above) -> bool:
     return operation_count(condition.left) + operation_count(condition.right) > _LONG
 
 
-def _reversed(where: Sequence[Above]) -> str:
-    return "; unstable where this is reversed. " if len(where) == 1 else _REVERSED
+def _opposite(where: Sequence[Above]) -> list[Part]:
+    """Where it is unstable: one of the opposite inequalities, written out."""
+    if not where:
+        return [". "]
+    return ["; unstable where ", *_joined(where, " or "), ". "]
 
 
 def steady_stability(motion: SteadyMotion) -> list[Part]:
     """Whether a steady motion is stable, and by which conditions, in sentences."""
-    if motion.rolling and motion.spectrum is not None:
+    verdict = motion.verdict
+    if motion.rolling and verdict.spectrum is not None:
         parts: list[Part] = ["Stable to first order"]
-        if not motion.frequencies_squared:
-            parts += [", all roots beside those along the family having negative real parts"]
-        where = motion.spectrum
+        where = verdict.spectrum
         if len(motion.frequencies_squared) == 1 and any(map(_is_long, where)):
             return [*parts, " where this is positive, unstable where it is negative:"]
-        return [*parts, *([" where ", *conditions(where), _reversed(where)] if where else ["."])]
-    if motion.stable and ZERO in motion.frequencies_squared:
-        parts = ["Stable up to displacements along the family: ", POTENTIAL]
-        return [*parts, " has a minimum across it (Lagrange and Dirichlet)."]
-    if motion.stable:
-        return ["Stable: ", POTENTIAL, " has a minimum (Lagrange and Dirichlet)."]
-    if motion.stable is False:
-        return ["Unstable: a root of the characteristic equation has a positive real part."]
-    parts = []
-    spectrum = motion.spectrum
-    if motion.minimum:
-        parts += ["Stable, with a minimum of ", POTENTIAL, ", where "]
-        parts += [*conditions(motion.minimum), ". "]
-    if spectrum is not None:
-        parts += ["Stable to first order by gyroscopic terms, without a minimum of ", POTENTIAL]
-        parts += [", where ", *conditions(spectrum), _reversed(spectrum)] if spectrum else [". "]
-        parts += [f"Damping of all these coordinates destroys that {_THEOREM}."]
-    elif len(motion.minimum or ()) == 1 and not motion.reason:
-        parts += ["Unstable where this is reversed."]
-    if motion.reason or not parts:
-        lead = "Otherwise undecided" if parts else "Stability undecided"
-        parts += [f"{lead}: {motion.reason}." if motion.reason else f"{lead}."]
+        rest = [" where ", *conditions(where), *_opposite(verdict.unstable)] if where else ["."]
+        return _trimmed([*parts, *rest])
+    return stability(verdict)
+
+
+def _trimmed(parts: list[Part]) -> list[Part]:
+    if isinstance(parts[-1], str):
+        parts[-1] = parts[-1].rstrip()
     return parts

@@ -18,7 +18,7 @@ from lagcli.expression import Equation, Expression, Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.readable import deciding
-from lagcli.motions import Above, HamiltonJacobiSection, SteadyMotion, SteadySection
+from lagcli.motions import Above, HamiltonJacobiSection, SteadyMotion, SteadySection, Verdict
 from lagcli.problem import ExpectEquilibrium, ExpectSteady, Inequality
 from lagcli.reader.expected_reduction import CONSTANT_NAMES
 
@@ -96,10 +96,10 @@ class Reductions:
             verdicts.append(self._same_family(found, expected.on))
         if isinstance(expected.stable, tuple):
             if False not in verdicts:
-                given = (found.minimum, found.hurwitz, found.spectrum)
+                given = _conditions(found.verdict)
                 verdicts.append(self._same_conditions(given, expected.stable))
         elif expected.stable is not None:
-            verdicts.append(found.stable is expected.stable)
+            verdicts.append(found.verdict.stable is expected.stable)
         return _conjunction(verdicts)
 
     def _same_family(self, found: Equilibrium, expected: Equation) -> bool | None:
@@ -144,9 +144,9 @@ class Reductions:
             squares = found.frequencies_squared
             verdicts.append(self.comparison.same_set(squares, expected.frequencies_squared))
         if isinstance(expected.stable, tuple):
-            verdicts.append(self._same_conditions((found.spectrum, found.minimum), expected.stable))
+            verdicts.append(self._same_conditions(_conditions(found.verdict), expected.stable))
         elif expected.stable is not None:
-            verdicts.append(found.stable is expected.stable)
+            verdicts.append(found.verdict.stable is expected.stable)
         return _conjunction(verdicts)
 
     def _hamilton_jacobi(self) -> Iterator[Judged]:
@@ -197,6 +197,10 @@ class Reductions:
             ):
                 return True
         return False
+
+
+def _conditions(verdict: Verdict) -> tuple[tuple[Above, ...] | None, ...]:
+    return verdict.minimum, verdict.hurwitz, verdict.spectrum
 
 
 def _same_sign(a: Expr, b: Expr) -> bool:

@@ -144,6 +144,8 @@ def equilibrium_blocks(section: EquilibriaSection) -> Iterator[Block]:
     for equilibrium in section.equilibria or ():
         yield from state_blocks(equilibrium.at, on=equilibrium.on)
         yield Paragraph(_stability(equilibrium))
+    if section.equilibria is not None and not section.complete:
+        yield Paragraph(("There may be others.",))
 
 
 def state_blocks(
@@ -170,7 +172,7 @@ def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:
     parts: list[str | Formula] = []
     if equilibrium.where:
         parts += ["It exists where ", *conditions(equilibrium.where), ". "]
-    parts += stability(equilibrium)
+    parts += stability(equilibrium.verdict, equilibrium.free, equilibrium.on)
     if equilibrium.free:
         parts.append(" Free: ")
         for position, name in enumerate(equilibrium.free):

@@ -47,6 +47,7 @@ from lagcli.formatters.json_phase_space import of_phase_space
 from lagcli.formatters.json_values import SCHEMA, Object, Value
 from lagcli.formatters.options import Options
 from lagcli.motions import (
+    Above,
     HamiltonJacobiSection,
     OneFreedom,
     PeriodSeries,
@@ -249,15 +250,18 @@ def _range(unknown: str, range_: Range) -> list[str]:
 
 
 def _equilibrium(equilibrium: Equilibrium) -> Object:
-    result = _place(equilibrium) | {"stable": equilibrium.stable}
+    verdict = equilibrium.verdict
+    result = _place(equilibrium) | {"stable": verdict.stable}
     if equilibrium.where:
         result["condition"] = " and ".join(map(above, equilibrium.where))
-    if equilibrium.asymptotic:
+    if verdict.asymptotic:
         result["asymptotic"] = True
     for name in ("minimum", "hurwitz", "spectrum"):
-        conditions = getattr(equilibrium, name)
-        if conditions is not None:
-            result[name] = [above(each) for each in conditions]
+        conditions = getattr(verdict, name)
+        if conditions is not None and not (name == "minimum" and verdict.stable):
+            result[name] = _inequalities(conditions)
+    if verdict.unstable:
+        result["unstable"] = _inequalities(verdict.unstable)
     if equilibrium.free:
         result["free"] = equilibrium.free
     return result
@@ -322,15 +326,22 @@ def _steady(motion: SteadyMotion) -> Object:
         "momenta": _by_name(motion.momenta),
         "where": [above(each) for each in motion.where],
         "mirrored": motion.mirrored,
-        "stable": motion.stable,
-        "minimum": _unless_none(motion.minimum, lambda each: [above(a) for a in each]),
-        "spectrum": _unless_none(motion.spectrum, lambda each: [above(a) for a in each]),
+        "stable": motion.verdict.stable,
+        "asymptotic": motion.verdict.asymptotic,
+        "minimum": _unless_none(motion.verdict.minimum, _inequalities),
+        "hurwitz": _unless_none(motion.verdict.hurwitz, _inequalities),
+        "spectrum": _unless_none(motion.verdict.spectrum, _inequalities),
+        "unstable": _inequalities(motion.verdict.unstable),
         "frequencies_squared": _strings(motion.frequencies_squared),
         "mass": [_strings(row) for row in motion.mass],
         "velocity": [_strings(row) for row in motion.velocity],
         "stiffness": [_strings(row) for row in motion.stiffness],
-        "reason": motion.reason,
+        "reason": motion.verdict.reason.replace("{V}", motion.verdict.potential),
     }
+
+
+def _inequalities(where: Sequence[Above]) -> list[str]:
+    return [above(each) for each in where]
 
 
 def _dimensions(section: DimensionsSection) -> Object:

@@ -55,6 +55,7 @@ from lagcli.motions import (
     PeriodSeries,
     SteadyMotion,
     SteadySection,
+    Verdict,
 )
 from lagcli.phase_space import (
     BracketsSection,
@@ -292,23 +293,36 @@ HOOP = Answers(
         ),
         "equilibria": EquilibriaSection(
             equilibria=(
-                Equilibrium(at={"theta": ZERO}, stable=True, where=(Above(g, ZERO),), free=("x",)),
-                Equilibrium(at={"theta": Name("pi")}, stable=None),
+                Equilibrium(
+                    at={"theta": ZERO},
+                    verdict=Verdict(stable=True, reason="{V} has a minimum", potential="V_eff"),
+                    where=(Above(g, ZERO),),
+                    free=("x",),
+                ),
+                Equilibrium(at={"theta": Name("pi")}, verdict=Verdict(stable=None)),
                 Equilibrium(
                     at={"theta": Name("pi")},
-                    stable=None,
-                    minimum=(Above(g, R),),
-                    spectrum=(Above(R, g), Above(R, ZERO)),
-                    gyroscopic=True,
+                    verdict=Verdict(
+                        stable=None,
+                        minimum=(Above(g, R),),
+                        spectrum=(Above(R, g), Above(R, ZERO)),
+                        unstable=(Above(g, R), Above(ZERO, R)),
+                        gyroscopic=True,
+                    ),
                 ),
                 Equilibrium(
                     at={"theta": ZERO},
-                    stable=None,
-                    asymptotic=True,
-                    hurwitz=(Above(g, R),),
-                    reason="there may be other equilibria",
+                    verdict=Verdict(
+                        stable=None,
+                        asymptotic=True,
+                        hurwitz=(Above(g, R),),
+                        theorem="Hurwitz",
+                        reason="{V} may be fed",
+                        potential="",
+                    ),
                 ),
-            )
+            ),
+            complete=False,
         ),
         "modes": ModesSection(
             modes=(
@@ -390,9 +404,13 @@ HOOP = Answers(
                     momenta={"x": times(M, dx)},
                     where=(Above(g, ZERO),),
                     mirrored=True,
-                    stable=None,
-                    minimum=(Above(g, R),),
-                    spectrum=(Above(x, ZERO), Above(square(x), g)),
+                    verdict=Verdict(
+                        stable=None,
+                        potential="U_eff",
+                        minimum=(Above(g, R),),
+                        spectrum=(Above(x, ZERO), Above(square(x), g)),
+                        unstable=(Above(ZERO, x),),
+                    ),
                     frequencies_squared=(minus_half,),
                     mass=((ONE, ZERO), (ZERO, ONE)),
                     velocity=((ZERO, Negative(x)), (x, ZERO)),
@@ -405,11 +423,8 @@ HOOP = Answers(
                     momenta={"x": Name("p_x")},
                     where=(),
                     mirrored=False,
-                    stable=False,
-                    minimum=None,
-                    spectrum=None,
+                    verdict=Verdict(stable=False, reason="neutral"),
                     frequencies_squared=(),
-                    reason="neutral",
                 ),
             ),
             complete=False,

@@ -19,6 +19,7 @@ from lagcli.expression import Call, Name, Negative, Power, Quotient
 from lagcli.formatters import html, markdown
 from lagcli.formatters.mathml import MathmlPrinter, mathml_name
 from lagcli.formatters.options import Options
+from lagcli.motions import Verdict
 from lagcli.record import replace
 
 from .examples import HOOP, HOSTILE, g, number, plus, sin, square, times, x
@@ -132,7 +133,11 @@ def test_no_inline_formula_has_an_escape_or_emphasis():
         coordinates=("theta_1", "theta_2"),
         sections={
             "equilibria": EquilibriaSection(
-                equilibria=(Equilibrium(at={"x_1": times(g, Name("theta_2", 1))}, stable=True),)
+                equilibria=(
+                    Equilibrium(
+                        at={"x_1": times(g, Name("theta_2", 1))}, verdict=Verdict(stable=True)
+                    ),
+                )
             ),
         },
     )

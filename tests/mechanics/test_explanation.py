@@ -285,8 +285,8 @@ def test_small_oscillations_go_from_the_matrices_to_the_textbooks_frequency():
     shown = {row.left: row.right for row in rows(explanation, "Small oscillations")}
     K, M = shown[Label("K", matrix=True)], shown[Label("M", matrix=True)]
     assert normal(shown[Name("omega")]) ** 2 == normal(K) / normal(M)
-    assert "Stable: V has a strict minimum" in words(explanation, "States of rest")
-    assert "Unstable: V has no minimum" in words(explanation, "States of rest")
+    assert "Stable: … has a strict minimum" in words(explanation, "States of rest")
+    assert "Unstable: … has no minimum" in words(explanation, "States of rest")
 
 
 def test_a_steady_motion_goes_from_its_condition_to_its_frequency():

@@ -40,7 +40,7 @@ def states(text: str) -> list[tuple[str, dict[str, str], tuple[str, ...], bool |
             "" if e.on is None else " = ".join(map(to_grammar, e.on)),
             {name: to_grammar(value) for name, value in e.at.items()},
             e.free,
-            e.stable,
+            e.verdict.stable,
         )
         for e in found
     ]
@@ -128,9 +128,11 @@ def test_steady_motions_on_a_ring_and_beside_it():
     section, _ = steady_motions(derivation(text))
     assert section.motions is not None
     top, ring = section.motions
-    assert top.stable is False
+    assert top.verdict.stable is False
     assert tuple(map(to_grammar, ring.on)) == ("x^2 + y^2", "a^2")
-    assert ring.stable is True  # the momentum is the same all along the ring, which is compact
+    assert (
+        ring.verdict.stable is True
+    )  # the momentum is the same all along the ring, which is compact
     # K = V'' at any place of the ring, by hand: 2 k x_i x_j
     assert to_grammar(ring.stiffness[0][1]) == "2*k*x*y"
 

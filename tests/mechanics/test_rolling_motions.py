@@ -80,7 +80,7 @@ def test_upright_it_rolls_on_where_it_is_fast_enough(hoop):
     straight = next(m for m in hoop.motions if {n: to_grammar(v) for n, v in m.at.items()}
                     == {"theta": "pi/2"})  # fmt: skip
     assert to_grammar(straight.rates["phi"]) == "0"
-    [limit] = straight.spectrum
+    [limit] = straight.verdict.spectrum
     assert (to_grammar(limit.left), to_grammar(limit.right)) == ("2*psi'^2", "5")
     speed = sqrt(2.5)
     assert square(pi / 2, (0.0, speed)) == pytest.approx(0, abs=1e-8)

@@ -34,7 +34,7 @@ def shapes(text: str) -> list[list[Expr | None]]:
 def rest_states(text: str) -> dict[tuple[str, ...], bool | None]:
     found = equilibria(dynamics(text)).equilibria
     assert found is not None
-    return {tuple(map(to_grammar, e.at.values())): e.stable for e in found}
+    return {tuple(map(to_grammar, e.at.values())): e.verdict.stable for e in found}
 
 
 def told(conditions) -> list[str]:
@@ -60,8 +60,8 @@ def test_the_bead_on_a_rotating_hoop_has_two_more_equilibria_when_it_turns_fast(
     found = equilibria(dynamics(HOOP)).equilibria
     assert found is not None
     assert [told(e.where) for e in found] == [["R*w^2 > g"], ["R*w^2 > g"], [], []]
-    assert found[2].minimum is not None
-    assert told(found[2].minimum) == ["g > R*w^2"]
+    assert found[2].verdict.minimum is not None
+    assert told(found[2].verdict.minimum) == ["g > R*w^2"]
 
 
 def test_the_bead_oscillates_about_the_tilted_equilibrium():
@@ -96,7 +96,7 @@ V: k*((x2 - x1 - b)^2 + (x3 - x2 - b)^2)/2
     assert antisymmetric == formulas("1", "-2*m/M", "1")
     [equilibrium] = equilibria(dynamics(text)).equilibria or ()
     assert equilibrium.free == ("x3",)
-    assert equilibrium.stable is True
+    assert equilibrium.verdict.stable is True
 
 
 def test_coupled_pendulums():
@@ -219,12 +219,12 @@ V: k*(sqrt(h^2 + x^2) - b)^2/2
 """
     found = equilibria(dynamics(text)).equilibria
     assert found is not None
-    assert [e.reason for e in found if "other" in e.reason] == []
+    assert [e.verdict.reason for e in found if "other" in e.verdict.reason] == []
     aside = [e for e in found if to_grammar(e.at["x"]) != "0"]
     assert [normal(e.at["x"]) for e in aside] == formulas(
         "-sqrt((b + h)*(b - h))", "sqrt((b + h)*(b - h))"
     )
-    assert [e.stable for e in aside] == [True, True]
+    assert [e.verdict.stable for e in aside] == [True, True]
     assert told(aside[0].where) == ["b > h"]
 
 

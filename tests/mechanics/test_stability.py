@@ -7,8 +7,8 @@ import pytest
 from sympy import Rational
 
 from lagcli.formatters.grammar import to_grammar
-from lagcli.mechanics.oscillations.hurwitz import hurwitz_conditions
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
+from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
 
 from .derived import derive
 
@@ -50,11 +50,11 @@ T: ((x' - w*y)^2 + (y' + w*x)^2)/2
 V: x^2 - y^2
 """
     free = origin(saddle)
-    assert free.stable is None
-    assert free.spectrum is not None
-    assert free.gyroscopic
+    assert free.verdict.stable is None
+    assert free.verdict.spectrum is not None
+    assert free.verdict.gyroscopic
     damped = origin(saddle + "dissipation: b*(x'^2 + y'^2)/2\n")
-    assert damped.stable is False
+    assert damped.verdict.stable is False
 
 
 def test_damping_of_one_coordinate_reaches_the_other():
@@ -65,8 +65,8 @@ parameters: {k: POSITIVE, b: POSITIVE}
 L: (x'^2 + y'^2)/2 - k*(x^2 + y^2)/2 - k*(x - y)^2/2
 dissipation: b*x'^2/2
 """)
-    assert found.stable is True
-    assert found.asymptotic is True
+    assert found.verdict.stable is True
+    assert found.verdict.asymptotic is True
 
 
 def test_damping_of_a_relative_motion_leaves_the_common_one():
@@ -77,8 +77,8 @@ parameters: {k: POSITIVE, b: POSITIVE}
 L: (x'^2 + y'^2)/2 - k*(x^2 + y^2)/2
 dissipation: b*(x' - y')^2/2
 """)
-    assert found.stable is True
-    assert found.asymptotic is False
+    assert found.verdict.stable is True
+    assert found.verdict.asymptotic is False
 
 
 def test_negative_damping_is_unstable():
@@ -88,7 +88,7 @@ parameters: {k: POSITIVE, b: POSITIVE}
 L: x'^2/2 - k*x^2/2
 forces: {x: b*(1 - x^2)*x'}
 """)
-    assert found.stable is False
+    assert found.verdict.stable is False
 
 
 def test_damping_of_either_sign_is_a_condition():
@@ -98,16 +98,16 @@ parameters: {k: POSITIVE, b: {}}
 L: x'^2/2 - k*x^2/2
 forces: {x: -b*x'}
 """)
-    assert found.stable is None
-    assert told(found.hurwitz) == ["b > 0"]
+    assert found.verdict.stable is None
+    assert told(found.verdict.hurwitz) == ["b > 0"]
 
 
 def test_a_force_that_feeds_energy_in_third_order_is_not_overlooked():
     found = origin("{coordinates: [x], L: x'^2/2 - x^2/2, forces: {x: x'^3}}")
-    assert found.stable is None
-    assert "may feed energy" in found.reason
+    assert found.verdict.stable is None
+    assert "may feed energy" in found.verdict.reason
     drag = origin("{coordinates: [x], L: x'^2/2 - x^2/2, forces: {x: -x'^3}}")
-    assert drag.stable is True
+    assert drag.verdict.stable is True
 
 
 def test_flutter_agrees_with_the_roots_at_numbers():
@@ -120,7 +120,7 @@ V: (a^2 + (b - a)^2)/2
 dissipation: d*(a'^2 + (b' - a')^2)/2
 forces: {a: P*sin(a - b)}
 """)
-    assert told(found.hurwitz) == ["14*d^2 + 41 > 28*P"]
+    assert told(found.verdict.hurwitz) == ["14*d^2 + 41 > 28*P"]
     d = mpmath.mpf("0.3")
     bound = (14 * d**2 + 41) / 28
     for P, stable in ((bound - 0.01, True), (bound + 0.01, False)):

@@ -75,7 +75,9 @@ def _rest(teller: Teller, section: Section) -> Iterator[Block]:
             yield says(names(each.free), " is free." if len(each.free) == 1 else " are free.")
         if each.where:
             yield says("It exists where ", *inequalities(each.where), ".")
-        yield says(stability(each))
+        yield says(stability(each.verdict, each.free, each.on))
+    if not states.complete:
+        yield says("There may be others.")
 
 
 def _state(

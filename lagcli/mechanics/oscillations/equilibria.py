@@ -126,6 +126,13 @@ class RestPoints:
         )
 
     @cached_property
+    def energy_never_grows(self) -> bool:
+        """Whether no force, dissipation or constraint feeds the energy function."""
+        from lagcli.mechanics.stability.energy import never_grows
+
+        return never_grows(self.dynamics)
+
+    @cached_property
     def forces_at_rest(self) -> tuple[Expr, ...]:
         """forcing(q, q' = 0)."""
         at_rest = dict.fromkeys(self.system.qdot, S.Zero)

@@ -22,6 +22,7 @@ import sympy
 from sympy import Expr, S
 
 from lagcli.algebra import is_zero, nullspace, simplify, solve_linear
+from lagcli.algebra.build import free_of
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 
@@ -37,13 +38,17 @@ class Linearization:
         The columns of B, each a displacement of all coordinates.
     """
 
-    def __init__(self, rest: RestPoints, point: RestPoint) -> None:
+    def __init__(self, rest: RestPoints, point: RestPoint, *, released: bool = False) -> None:
         self.dynamics: Dynamics = rest.dynamics
         self.system = rest.system
         self.point = point
-        self._rest = rest
-        rows = [[at(a, point.values) for a in row] for row in self.dynamics.constraints.jacobian]
-        self._rows = rows
+        self.rest = rest
+        kinds, equations = self.dynamics.constraints.kinds, self.dynamics.constraints.equations
+        self._acting = [
+            k for k, e in enumerate(equations) if not (released and kinds[e.name] == "nonholonomic")
+        ]
+        rows = [[at(a, point.values) for a in equations[k].row] for k in self._acting]
+        self.rows = rows
         n = len(self.system.q)
         self.basis: Matrix = (
             nullspace(rows)
@@ -54,7 +59,7 @@ class Linearization:
     @property
     def forces_at_rest(self) -> tuple[Expr, ...]:
         """forcing(q, q' = 0)."""
-        return self._rest.forces_at_rest
+        return self.rest.forces_at_rest
 
     @cached_property
     def M(self) -> Matrix:
@@ -71,28 +76,33 @@ class Linearization:
     def K(self) -> Matrix:
         """The stiffness."""
         equations = self.dynamics.constraints.equations
-        lam = self._constraint_forces()
+        lam = self.constraint_forces
         total = [
-            force + sympy.Add(*(x * e.row[j] for x, e in zip(lam, equations, strict=True)))
-            for j, force in enumerate(self._rest.forces_at_rest)
+            force + sympy.Add(*(x * equations[k].row[j] for k, x in lam.items()))
+            for j, force in enumerate(self.rest.forces_at_rest)
         ]
         return self._along([[-f.diff(q) for q in self.system.q] for f in total])
 
-    def _constraint_forces(self) -> list[Expr]:
-        """lambda0 with A^T lambda0 = -forcing: from A A^T lambda0 = -A forcing."""
-        if not self._rows:
-            return []
-        kept = self.dynamics.independent_constraints
-        rows = [self._rows[k] for k in kept]
-        forces = [at(f, self.point.values) for f in self._rest.forces_at_rest]
+    @cached_property
+    def constraint_forces(self) -> dict[int, Expr]:
+        """lambda0 by constraint, A^T lambda0 = -forcing: from A A^T lambda0 = -A forcing."""
+        independent = self.dynamics.independent_constraints
+        kept = [k for k in self._acting if k in independent]
+        if not kept:
+            return {}
+        rows = [self.rows[self._acting.index(k)] for k in kept]
+        forces = [at(f, self.point.values) for f in self.rest.forces_at_rest]
         gram = [[_dot(a, b) for b in rows] for a in rows]
         solution = solve_linear(gram, [-_dot(a, forces) for a in rows])
-        lam: list[Expr] = [S.Zero] * len(self._rows)
         if solution is None or solution.singular:
             raise ZeroDivisionError
-        for k, value in zip(kept, solution.values, strict=True):
-            lam[k] = value
-        return lam
+        return dict(zip(kept, solution.values, strict=True))
+
+    @cached_property
+    def balanced(self) -> bool:
+        """Whether these constraints alone hold it at rest."""
+        forces = [at(f, self.point.values) for f in self.rest.forces_at_rest]
+        return all(is_zero(_dot(vector, forces)) is True for vector in self.basis)
 
     def _along(self, matrix: Sequence[Sequence[Expr]]) -> Matrix:
         """B^T matrix B at the equilibrium, with q' = 0."""
@@ -143,6 +153,17 @@ class Linearization:
             for i in range(len(self.C))
             for j in range(i)
         )
+
+    @cached_property
+    def exact(self) -> bool:
+        """Whether the equations of motion are linear themselves."""
+        system, lagrange = self.system, self.dynamics.lagrange
+        state = (*system.q, *system.qdot)
+        equations = self.dynamics.constraints.equations
+        constant = [entry for row in lagrange.mass_matrix for entry in row]
+        constant += [entry for e in equations for entry in e.row]
+        constant += [f.diff(x) for f in lagrange.forcing for x in state]
+        return all(free_of(simplify(entry), state) for entry in constant)
 
     @property
     def nonholonomic(self) -> bool:

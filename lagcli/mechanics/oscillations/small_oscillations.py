@@ -27,9 +27,9 @@ from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
-from lagcli.mechanics.oscillations.stability import Stability, stability
 from lagcli.mechanics.reduction.readable import conditions
-from lagcli.motions import Above
+from lagcli.mechanics.stability.judge import Stability, judge
+from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 
 
 def equilibria(dynamics: Dynamics) -> EquilibriaSection:
@@ -38,7 +38,10 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     places = oscillations.places
     if places is None:
         return EquilibriaSection(equilibria=None, reason=oscillations.rest.reason)
-    return EquilibriaSection(equilibria=tuple(map(oscillations.equilibrium, places)))
+    return EquilibriaSection(
+        equilibria=tuple(map(oscillations.equilibrium, places)),
+        complete=oscillations.rest.complete,
+    )
 
 
 def modes(dynamics: Dynamics) -> ModesSection:
@@ -84,10 +87,7 @@ class Place:
     @cached_property
     def verdict(self) -> Stability:
         """Whether it is stable."""
-        try:
-            return stability(self.linear, self.characteristic)
-        except ZeroDivisionError:
-            return Stability(None, "the equations of motion are singular there")
+        return judge(self.linear, self.characteristic)
 
     @cached_property
     def modes(self) -> list[NormalMode]:
@@ -116,32 +116,20 @@ class SmallOscillations:
 
     def equilibrium(self, place: Place) -> Equilibrium:
         """One equilibrium as a statement."""
-        verdict = place.verdict
-        reasons = [verdict.reason] if verdict.reason else []
-        if not self.rest.complete:
-            reasons.append("there may be other equilibria")
+        linear, order = place.linear, self.system.order
         return Equilibrium(
             at=self._at(place.point),
-            on=relation_sides(place.point, self.system.q, self.system.order),
-            stable=verdict.stable,
-            asymptotic=verdict.asymptotic,
-            where=conditions(place.point.positive, self.system.order),
-            minimum=self._conditions(verdict.minimum, place.point),
-            spectrum=self._conditions(verdict.spectrum, place.point),
-            hurwitz=self._conditions(verdict.hurwitz, place.point),
-            gyroscopic=place.linear.gyroscopic and place.linear.has_potential
-            if verdict.spectrum is not None
-            else False,
+            on=relation_sides(place.point, self.system.q, order),
+            verdict=stated(
+                place.verdict,
+                order,
+                place.point.positive,
+                potential=potential_of(self.rest),
+                gyroscopic=held_by_gyroscopic_terms(linear),
+            ),
+            where=conditions(place.point.positive, order),
             free=tuple(q.name for q in untied(place.point, self.system.q)),
-            reason="; ".join(reasons),
         )
-
-    def _conditions(
-        self, expressions: Sequence[Expr] | None, point: RestPoint
-    ) -> tuple[Above, ...] | None:
-        if expressions is None:
-            return None
-        return conditions(expressions, self.system.order, point.positive)
 
     def modes(self, place: Place) -> list[Mode]:
         """The modes about one equilibrium as statements."""

@@ -157,22 +157,34 @@ def conditions(
     expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
 ) -> tuple[Above, ...]:
     """What must be positive, without what the others imply."""
+    return tuple(dict.fromkeys(each for each, _ in _without_implied(expressions, order, positive)))
+
+
+def opposites(
+    expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
+) -> tuple[Above, ...]:
+    """The opposite inequalities of `conditions`, those that can hold."""
+    kept = _without_implied(expressions, order, positive)
+    possible = [each for each, rest in kept if weak_sign(rest, positive) != 1]
+    return tuple(dict.fromkeys(Above(each.right, each.left) for each in possible))
+
+
+def _without_implied(
+    expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr]
+) -> list[tuple[Above, Expr]]:
+    """Each inequality with what must be positive for it."""
     known = list(positive)
-    found: list[Above] = []
-    kept: list[Expr] = []
+    found: list[tuple[Above, Expr]] = []
     for expression in expressions:
         each = above(expression, order, known)
         rest = deciding(expression)
         if each is not None and not any(
             _implies(given, form) for given in known for form in (expression, rest)
         ):
-            implied = [n for n, earlier in enumerate(kept) if _implies(rest, earlier)]
-            found = [a for n, a in enumerate(found) if n not in implied]
-            kept = [e for n, e in enumerate(kept) if n not in implied]
-            found.append(each)
-            kept.append(rest)
+            found = [(a, e) for a, e in found if not _implies(rest, e)]
+            found.append((each, rest))
             known.append(rest)
-    return tuple(dict.fromkeys(found))
+    return found
 
 
 def _implies(given: Expr, expression: Expr) -> bool:

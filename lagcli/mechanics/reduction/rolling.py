@@ -30,10 +30,8 @@ from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.characteristic import determinant, determinant_in
 from lagcli.mechanics.oscillations.equilibria import at
-from lagcli.mechanics.oscillations.hurwitz import hurwitz_conditions
 from lagcli.mechanics.reduction.minimal import minimal
-from lagcli.mechanics.reduction.readable import weak_sign
-from lagcli.mechanics.reduction.verdict import Verdict
+from lagcli.mechanics.stability.judge import Stability, by_polynomial, undecided
 from lagcli.record import record
 
 _MOST_CHOICES = 40
@@ -243,19 +241,15 @@ class RollingMotions:
 
     # -- stability --------------------------------------------------------------------------------
 
-    def verdict(self, motion: RollingMotion) -> Verdict:
+    def verdict(self, motion: RollingMotion) -> tuple[Stability, tuple[Expr, ...]]:
         """By the roots s of the linearised equations, those that are not 0 along the family."""
         try:
             powers = self._characteristic(motion)
         except ZeroDivisionError:
             powers = None
         if powers is None:
-            return Verdict(None, None, False, (), "the linearised equations were not found")
-        zero = next(k for k, c in enumerate(powers) if c != 0)
-        rest = powers[zero:]
-        if len(rest) == 1:
-            return Verdict(None, None, False, (), "neutral: no force to first order")
-        return _by_roots(rest, motion.positive, neutral=zero > self._dimension(motion))
+            return undecided("the linearised equations were not found"), ()
+        return by_polynomial(powers, motion.positive, dimension=self._dimension(motion))
 
     def _dimension(self, motion: RollingMotion) -> int:
         """Of the steady motions near it: a manifold where the conditions have full rank."""
@@ -296,29 +290,3 @@ def _within(one: RollingMotion, other: RollingMotion) -> bool:
         )
     except ZeroDivisionError:
         return False
-
-
-def _by_roots(powers: Sequence[Expr], positive: Sequence[Expr], *, neutral: bool) -> Verdict:
-    """The verdict by the polynomial without its roots s = 0."""
-    a = [simplify(c / powers[-1]) for c in powers]
-    even = all(c == 0 for c in a[1::2])
-    squares: tuple[Expr, ...] = ()
-    conditions: list[Expr] | None
-    if even and len(a) == 3:
-        squares = (a[0],)
-        conditions = [a[0]]
-    elif even and len(a) == 5:
-        conditions = [a[2], a[0], simplify(a[2] ** 2 - 4 * a[0])]
-    elif even:
-        conditions = None
-    else:
-        conditions = hurwitz_conditions(a)
-    if conditions is None:
-        return Verdict(None, None, False, squares, "the roots have no simple criterion")
-    signs = [sign(e, positive) for e in conditions]
-    if -1 in signs:
-        return Verdict(None, None, True, squares)
-    if neutral or 0 in signs or any(weak_sign(e, positive) == -1 for e in conditions):
-        return Verdict(None, None, False, squares, "to first order at the limit of stability")
-    open_ = tuple(e for e, known in zip(conditions, signs, strict=True) if known is None)
-    return Verdict(None, open_, False, squares)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from sympy import Expr
 
 from lagcli.algebra.equations import written
 from lagcli.expression import Expression
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.rolling import RollingMotion, RollingMotions
-from lagcli.motions import Above, SteadyMotion, SteadySection
+from lagcli.mechanics.stability.statement import stated
+from lagcli.motions import SteadyMotion, SteadySection
 
 
 def rolling_section(found: RollingMotions) -> SteadySection:
@@ -27,15 +26,12 @@ def rolling_section(found: RollingMotions) -> SteadySection:
 def _motion(found: RollingMotions, motion: RollingMotion) -> SteadyMotion:
     system, values = found.system, motion.values
     order = system.order
-    judged = found.verdict(motion)
+    judged, squares = found.verdict(motion)
     coordinates = {system.names[j]: system.q[j] for j in found.coordinates}
     turning = {system.names[j]: system.qdot[j] for j in found.turning}
 
     def shaped(value: Expr) -> Expression:
         return written(value, order)
-
-    def where(expressions: Sequence[Expr] | None) -> tuple[Above, ...] | None:
-        return None if expressions is None else conditions(expressions, order, motion.positive)
 
     free = [s for s in (*coordinates.values(), *turning.values()) if s not in values]
     return SteadyMotion(
@@ -45,10 +41,7 @@ def _motion(found: RollingMotions, motion: RollingMotion) -> SteadyMotion:
         momenta={},
         where=conditions(motion.positive, order),
         mirrored=False,
-        stable=False if judged.unstable else None,
-        minimum=None,
-        spectrum=where(judged.spectrum),
-        frequencies_squared=tuple(map(shaped, judged.squares)),
-        reason=judged.reason,
+        verdict=stated(judged, order, motion.positive),
+        frequencies_squared=tuple(map(shaped, squares)),
         rolling=True,
     )

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import sympy
 from sympy import Expr
 
+from lagcli.algebra import simplify
 from lagcli.algebra.build import free_of
-from lagcli.algebra.equations import written
+from lagcli.algebra.equations import rounded, written
 from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
-from lagcli.mechanics.oscillations.feeding import cannot_feed
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.reduction.readable import conditions, without_moduli
 from lagcli.mechanics.reduction.rolling import RollingMotions
@@ -21,8 +23,10 @@ from lagcli.mechanics.reduction.rolling_statement import rolling_section
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.statement import Missing
 from lagcli.mechanics.reduction.steady import Steady, SteadyMotions
-from lagcli.mechanics.reduction.verdict import Verdict, curvature, verdict
-from lagcli.motions import Above, SteadyMotion, SteadySection
+from lagcli.mechanics.stability.judge import Stability, by_curvature, judge, undecided
+from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
+from lagcli.mechanics.theorems import LAGRANGE_DIRICHLET, ROUTH
+from lagcli.motions import Above, SteadyMotion, SteadySection, Verdict
 from lagcli.record import replace
 
 
@@ -87,24 +91,27 @@ class _Statement:
             else {j: without_moduli(rate, motion.positive) for j, rate in motion.rates.items()},
         )
         matrices: tuple[Matrix, ...] = ()
-        judged = Verdict(None, None, False, (), "the equations of motion are singular there")
+        turning = False
+        judged = undecided("the equations of motion are singular there")
+        squares: tuple[Expr, ...] = ()
         try:
             if motion.curvature is None:
                 linear = Linearization(self.steady.rest, self.steady.point(motion))
-                judged, matrices = verdict(linear), (linear.M, linear.C, linear.K)
+                judged, matrices = judge(linear), (linear.M, linear.C, linear.K)
+                squares, turning = squares_of(linear), held_by_gyroscopic_terms(linear)
                 if motion.family is not None:
-                    judged, matrices = self._on_all(motion.family, judged, matrices)
+                    squares, matrices = self._on_all(motion.family, squares, matrices)
             else:
                 [[mass]] = self.steady.dynamics.lagrange.mass_matrix
-                judged = curvature(motion.curvature, at(mass, motion.values), motion.positive)
-                if not cannot_feed(self.steady.system):
-                    reason = "a force without a potential acts"
-                    judged = Verdict(None, None, False, judged.squares, reason)
+                mass = at(mass, motion.values)
+                squares = (simplify(motion.curvature / mass),)
+                judged = by_curvature(motion.curvature, mass, motion.positive)
+                if not self.steady.rest.energy_never_grows:
+                    judged = undecided("a force without a potential acts")
         except ZeroDivisionError:
             pass
         system, names = self.steady.system, self.steady.full.names
         rates = motion.rates
-        minimum = self._conditions(judged.minimum, motion)
         point = self.steady.point(motion)
         fixed = shown(point)
         coordinates = {q.name: fixed[q] for q in system.q if q in fixed}
@@ -119,36 +126,35 @@ class _Statement:
             if rates is None
             else {names[j]: self._shape(self._whole(rate, motion)) for j, rate in rates.items()},
             momenta={name: self._shape(value) for name, value in momenta.items()},
-            where=self._conditions(motion.positive, motion, given=True) or (),
+            where=self._where(motion),
             mirrored=motion.mirrored,
-            stable=True if minimum == () else False if judged.unstable else None,
-            minimum=minimum,
-            spectrum=self._conditions(judged.spectrum, motion),
+            verdict=self._verdict(judged, motion, turning=turning),
             frequencies_squared=tuple(
-                self._shape(without_moduli(w, motion.positive)) for w in judged.squares
+                self._shape(without_moduli(w, motion.positive)) for w in squares
             ),
             mass=self._matrix(matrices[0]) if matrices else (),
             velocity=self._matrix(matrices[1]) if matrices else (),
             stiffness=self._matrix(matrices[2]) if matrices else (),
-            reason=judged.reason,
             on=relation_sides(point, system.q, self.order),
         )
 
-    def _conditions(
-        self, expressions: Sequence[Expr] | None, motion: Steady, *, given: bool = False
-    ) -> tuple[Above, ...] | None:
-        if expressions is None:
-            return None
-        if given:
-            shortest = sorted(expressions, key=lambda e: int(e.count_ops()))
-            return conditions(shortest, self.order)
-        found = conditions(expressions, self.order, motion.positive)
-        turning = [v**2 for v in self.steady.full.qdot if v in motion.free_rates]
-        if found and turning:
-            short = conditions(expressions, self.order, (*motion.positive, *turning))
-            if short != found:
-                return (*conditions(turning, self.order), *short)
-        return found
+    def _where(self, motion: Steady) -> tuple[Above, ...]:
+        shortest = sorted(motion.positive, key=lambda e: int(e.count_ops()))
+        return conditions(shortest, self.order)
+
+    def _verdict(self, judged: Stability, motion: Steady, *, turning: bool) -> Verdict:
+        cyclic = bool(self.routh.cyclic)
+        if cyclic and judged.by is LAGRANGE_DIRICHLET:
+            reason = judged.reason.replace(LAGRANGE_DIRICHLET.name, ROUTH.name)
+            judged = replace(judged, by=ROUTH, reason=reason)
+        return stated(
+            judged,
+            self.order,
+            motion.positive,
+            potential=potential_of(self.steady.rest, "U_eff"),
+            gyroscopic=turning,
+            given=[v**2 for v in self.steady.full.qdot if v in motion.free_rates],
+        )
 
     def _free(self, motion: Steady) -> tuple[str, ...]:
         """Coordinates, rates and momenta that the state is a function of."""
@@ -160,16 +166,15 @@ class _Statement:
         return tuple(s.name for s in (*places, *others))
 
     def _on_all(
-        self, family: Family, judged: Verdict, matrices: Sequence[Matrix]
-    ) -> tuple[Verdict, tuple[Matrix, ...]]:
+        self, family: Family, squares: Sequence[Expr], matrices: Sequence[Matrix]
+    ) -> tuple[tuple[Expr, ...], tuple[Matrix, ...]]:
         """What was found on a branch, as far as it holds on the whole family."""
-        squares = [family.written_back(square) for square in judged.squares]
-        if not squares or any(s is None or not free_of(s, self.steady.system.q) for s in squares):
-            judged = Verdict(None, None, False, (), "the motion near it differs along the family")
+        back = [family.written_back(square) for square in squares]
+        known = tuple(s for s in back if s is not None and free_of(s, self.steady.system.q))
         whole = [[[family.written_back(e) for e in row] for row in m] for m in matrices]
         if any(e is None for m in whole for row in m for e in row):
-            return judged, ()
-        return judged, tuple([[e for e in row if e is not None] for row in m] for m in whole)
+            return known, ()
+        return known, tuple([[e for e in row if e is not None] for row in m] for m in whole)
 
     def _whole(self, value: Expr, motion: Steady) -> Expr:
         """A rate or a momentum, of a family in all coordinates where it can be."""
@@ -181,3 +186,21 @@ class _Statement:
 
     def _shape(self, expression: Expr) -> Expression:
         return written(expression, self.order)
+
+
+def squares_of(linear: Linearization) -> tuple[Expr, ...]:
+    """ω² of the small oscillations, where they have a closed form."""
+    if linear.damped:
+        return ()
+    factors = Characteristic(linear).squares
+    found: list[Expr] = []
+    for roots, multiplicity, _ in factors or ():
+        if roots is None or any(root.has(sympy.I) for root in roots):
+            return ()
+        found += [_shorter(root) for root in roots] * multiplicity
+    return tuple(found)
+
+
+def _shorter(root: Expr) -> Expr:
+    short = rounded(simplify(root))
+    return root if sympy.count_ops(root) < sympy.count_ops(short) else short

@@ -34,7 +34,7 @@ def real_and_distinct(linear: Linearization) -> list[Expr] | None:
         powers = _in_square(linear, group)
         if powers is None or len(powers) - 1 > _MOST:
             return None
-        found += _conditions([simplify(x / powers[-1]) for x in powers])
+        found += conditions_of([simplify(x / powers[-1]) for x in powers])
     if any(sympy.count_ops(each) > _MOST_OPERATIONS for each in found):
         return None
     return found
@@ -64,8 +64,11 @@ def _in_square(linear: Linearization, group: Sequence[int]) -> list[Expr] | None
     return [(-1) ** k * c for k, c in enumerate(powers[::2])]
 
 
-def _conditions(c: Sequence[Expr]) -> list[Expr]:
-    """Of W^n + … + c_1 W + c_0."""
+def conditions_of(powers: Sequence[Expr]) -> list[Expr]:
+    """What makes the roots of W^n + … + c_1 W + c_0 that are not 0 positive and distinct."""
+    c = powers[next(k for k, power in enumerate(powers) if power != 0) :]
+    if len(c) == 1:
+        return []
     n = len(c) - 1
     e = [(-1) ** k * c[n - k] for k in range(n + 1)]  # e_0 = 1, e_1, …, e_n
     sums: list[Expr] = [sympy.Integer(n)]

@@ -1,0 +1,283 @@
+"""The motion near an equilibrium or a steady motion, as the theorems on stability ask for it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from itertools import combinations
+
+import sympy
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import is_zero, nullspace, rank, simplify
+from lagcli.algebra.build import free_of
+from lagcli.mechanics.oscillations.characteristic import (
+    Characteristic,
+    determinant,
+    determinant_in,
+)
+from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
+from lagcli.mechanics.stability.evenness import even
+from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
+from lagcli.mechanics.stability.signs import is_positive, sign_of
+from lagcli.mechanics.stability.spectrum import real_and_distinct
+
+_CORNERS = (sympy.sign, sympy.Abs)
+
+
+class Near:
+    """M x'' + C x' + K x = 0 and what is known beyond first order."""
+
+    def __init__(self, linear: Linearization, characteristic: Characteristic | None = None) -> None:
+        self.linear = linear
+        self.positive = linear.point.positive
+        self.characteristic = characteristic or Characteristic(linear)
+
+    def signs(self, expressions: Sequence[Expr]) -> list[int | None]:
+        """The sign of each; None where it depends on values."""
+        return [sign_of(e, self.positive) for e in expressions]
+
+    # -- the characteristic polynomial -------------------------------------------------------------
+
+    @cached_property
+    def powers(self) -> list[Expr] | None:
+        """The coefficients of det(s² M + s C + K) by powers of s, over the leading one."""
+        powers = self.characteristic.in_s
+        if powers is None or len(powers) != 2 * len(self.linear.M) + 1:
+            return None
+        return [simplify(c / powers[-1]) for c in powers]
+
+    @property
+    def zeros(self) -> int:
+        """How many roots s are 0."""
+        assert self.powers is not None
+        return next(k for k, c in enumerate(self.powers) if c != 0)
+
+    @property
+    def others(self) -> list[Expr]:
+        """The polynomial without its roots 0."""
+        assert self.powers is not None
+        return self.powers[self.zeros :]
+
+    @property
+    def even(self) -> bool:
+        """Whether with s also -s is a root."""
+        return all(c == 0 for c in self.others[1::2])
+
+    @cached_property
+    def conditions(self) -> list[Expr] | None:
+        """What must be positive of the roots that are not 0; None: too long.
+
+        For imaginary and distinct ones where with s also -s is a root, else for negative real
+        parts.
+        """
+        if len(self.others) == 1:
+            return []
+        return real_and_distinct(self.linear) if self.even else hurwitz_conditions(self.others)
+
+    @cached_property
+    def squares(self) -> list[Expr] | None:
+        """The roots W = -s², those that vanish last; None without a closed form."""
+        factors = self.characteristic.squares
+        if factors is None or any(roots is None for roots, _, _ in factors):
+            return None
+        found: list[Expr] = []
+        for roots, multiplicity, _ in factors:
+            found += [simplify(root) for root in roots or ()] * multiplicity
+        return sorted(found, key=lambda W: W == 0)
+
+    # -- the potential -----------------------------------------------------------------------------
+
+    @cached_property
+    def restoring(self) -> Linearization:
+        """The motion without the velocity constraints that cannot be integrated.
+
+        These do no work: energy theorems are about the displacements without them.
+        """
+        linear = self.linear
+        if not linear.nonholonomic:
+            return linear
+        return Linearization(linear.rest, linear.point, released=True)
+
+    @cached_property
+    def has_energy(self) -> bool:
+        """Whether the energy function cannot grow, and has the potential that K belongs to."""
+        return (
+            self.linear.rest.energy_never_grows
+            and (not self.linear.nonholonomic or self.restoring.balanced)
+            and self.restoring.has_potential
+        )
+
+    @cached_property
+    def inertia_is_definite(self) -> bool:
+        """Sylvester: all leading minors of the mass matrix are positive."""
+        return positive_definite(self.restoring.M, self.positive)
+
+    @cached_property
+    def curvatures(self) -> list[list[Expr]]:
+        """Lists of what is positive just where V has a minimum of second order.
+
+        The W of det(K - W M) where they have a closed form, their symmetric functions e_1, …, e_n,
+        det(K + W M) = det M (W + W_1) … (W + W_n), and a K that is diagonal.
+        """
+        linear = self.restoring
+        found: list[list[Expr]] = []
+        if not (linear.damped or linear.gyroscopic) and linear is self.linear and self.squares:
+            found.append(self.squares)
+        n, W = len(linear.M), Symbol("#W", real=True)
+        M, K = linear.M, linear.K
+        powers = determinant_in(W, [[W * M[i][j] + K[i][j] for j in range(n)] for i in range(n)])
+        if powers is not None:
+            found.append([simplify(power / powers[-1]) for power in powers[-2::-1]])
+        if n > 1 and all(K[i][j] == 0 for i in range(n) for j in range(n) if i != j):
+            found.append(sorted((K[i][i] for i in range(n)), key=lambda k: k == 0))
+        return found
+
+    # -- velocity terms ----------------------------------------------------------------------------
+
+    @cached_property
+    def complete(self) -> bool:
+        """Complete dissipation: the symmetric part of C is positive definite."""
+        linear = self.linear
+        return linear.damped and positive_definite(linear.damping, self.positive)
+
+    @cached_property
+    def damping_is_even(self) -> bool:
+        """Whether no velocity term is antisymmetric: V alone decides."""
+        return not self.linear.gyroscopic
+
+    # -- families ----------------------------------------------------------------------------------
+
+    @cached_property
+    def _tangents(self) -> list[list[Expr]]:
+        """dq along the equilibria near it, at the same values of everything else."""
+        values, q = self.linear.point.values, self.linear.system.q
+        if not all(free_of(value, q) for x, value in values.items() if x not in q):
+            return []  # a family in which momenta change from place to place
+        found = []
+        for s in self.linear.point.free:
+            steps = {x: at(values[x].diff(s), values) for x in q if x in values}
+            found.append([S.One if x == s else steps.get(x, S.Zero) for x in q])
+        return found
+
+    def _excluded(self, linear: Linearization) -> int:
+        """How many of these displacements the constraints exclude."""
+        rows = linear.rows
+        if not (rows and self._tangents):
+            return 0
+        products = [
+            [sympy.Add(*(a * x for a, x in zip(row, dq, strict=True))) for dq in self._tangents]
+            for row in rows
+        ]
+        return rank(products)
+
+    @cached_property
+    def dimension(self) -> int:
+        """Of the equilibria that it can be displaced to."""
+        return len(self._tangents) - self._excluded(self.linear)
+
+    @cached_property
+    def dimension_released(self) -> int:
+        """The same without the velocity constraints that cannot be integrated."""
+        return len(self._tangents) - self._excluded(self.restoring)
+
+    @cached_property
+    def as_many_equilibria(self) -> bool:
+        """Whether the equilibria near it are a manifold with a dimension for each root 0."""
+        velocity = sum(kind != "holonomic" for kind in self._kinds_of_independent())
+        return self.zeros == self.dimension and self._excluded(self.linear) == velocity
+
+    def _kinds_of_independent(self) -> list[str]:
+        constraints, dynamics = self.linear.dynamics.constraints, self.linear.dynamics
+        return [
+            "holonomic" if constraints.equations[k].holonomic else "velocity"
+            for k in dynamics.independent_constraints
+        ]
+
+    @cached_property
+    def is_even(self) -> bool:
+        """Whether V has its minimum across the family evenly along it."""
+        linear, known = self.linear, self.linear.point.family
+        return even(
+            linear.point.values if known is None else known.given,
+            linear.point.free,
+            linear.forces_at_rest,
+            [e.f for e in linear.dynamics.constraints.equations if e.holonomic],
+            linear.system.q,
+            None if known is None else known.relation,
+        )
+
+    @cached_property
+    def same_on_branches(self) -> bool:
+        """Whether no formula has the root by which one branch of a family was written."""
+        if self.linear.point.family is None or self.powers is None:
+            return True
+        entries = [e for m in (self.linear.M, self.linear.C) for row in m for e in row]
+        roots = {
+            power
+            for e in (*self.powers, *entries)
+            for power in e.atoms(sympy.Pow)
+            if not power.exp.is_Integer
+        }
+        return all(free_of(root, self.linear.system.q) for root in roots)
+
+    # -- smoothness --------------------------------------------------------------------------------
+
+    @cached_property
+    def smooth(self) -> bool:
+        """Whether the forces have a derivative there: |v| v has one, |x| and sign(v) have none."""
+        state = (*self.linear.system.q, *self.linear.system.qdot)
+        return all(
+            self._vanish([node.args[0]]) is False or self._vanish(_steps(force, node, state))
+            for force in self.linear.dynamics.lagrange.forcing
+            for node in force.atoms(*_CORNERS)
+            if not free_of(node, state)
+        )
+
+    def _vanish(self, expressions: Sequence[Expr]) -> bool | None:
+        """Whether all are 0 in this state."""
+        values = {**dict.fromkeys(self.linear.system.qdot, S.Zero), **self.linear.point.values}
+        known = [is_zero(at(e, values)) for e in expressions]
+        return False if False in known else None if None in known else True
+
+    @cached_property
+    def semisimple_zeros(self) -> bool:
+        """Whether no displacement drifts away: as many null vectors of K as roots 0."""
+        return len(nullspace(self.linear.K)) == self.zeros
+
+    def semisimple(self, W: Expr, multiplicity: int) -> bool:
+        """Whether the root has as many modes: the null space of K - W M + i ω C."""
+        M, C, K = self.linear.M, self.linear.C, self.linear.K
+        n, omega = len(M), sympy.sqrt(W)
+        block = [[simplify(K[i][j] - W * M[i][j]) for j in range(n)] for i in range(n)]
+        if not self.linear.gyroscopic:
+            return len(nullspace(block)) == multiplicity
+        turned = [[simplify(omega * C[i][j]) for j in range(n)] for i in range(n)]
+        real = [[*block[i], *(-x for x in turned[i])] for i in range(n)]
+        real += [[*turned[i], *block[i]] for i in range(n)]
+        return len(nullspace(real)) == 2 * multiplicity
+
+
+def _steps(force: Expr, node: Expr, state: Sequence[Symbol]) -> list[Expr]:
+    """The jump of the force and of its derivatives where the argument changes its sign."""
+    argument = node.args[0]
+    left, right = (
+        force.xreplace({sympy.Abs(argument): s * argument, sympy.sign(argument): S(s)})
+        for s in (-1, 1)
+    )
+    return [left - right, *((left - right).diff(x) for x in state)]
+
+
+def positive_definite(matrix: Matrix, positive: Sequence[Expr]) -> bool:
+    """Sylvester: all leading minors are positive."""
+    for k in range(1, len(matrix) + 1):
+        minor = determinant([row[:k] for row in matrix[:k]])
+        if minor is None or not is_positive(minor, positive):
+            return False
+    return True
+
+
+def contradictory(conditions: Sequence[Expr]) -> bool:
+    """Whether two conditions exclude each other: w² > 0 and -w² > 0."""
+    return any(sign_of(simplify(a / b), ()) == -1 for a, b in combinations(conditions, 2))

@@ -1,0 +1,77 @@
+"""A verdict in the shape in which it is read: inequalities, and their opposites."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from sympy import Expr
+
+from lagcli.algebra import is_zero
+from lagcli.mechanics.oscillations.characteristic import determinant
+from lagcli.mechanics.oscillations.equilibria import RestPoints
+from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.reduction.readable import conditions, opposites
+from lagcli.mechanics.stability.judge import Stability, always
+from lagcli.motions import Above, Verdict
+
+Stated = Callable[[Sequence[Expr]], tuple[Above, ...]]
+
+
+def stated(
+    found: Stability, order: Sequence[str], positive: Sequence[Expr] = (), *, potential: str = "V",
+    gyroscopic: bool = False, given: Sequence[Expr] = (),
+) -> Verdict:  # fmt: skip
+    """The statement of a verdict where each of `positive` > 0.
+
+    `given` are conditions to be stated first where they make the others shorter.
+    """
+
+    def where(expressions: Sequence[Expr] | None) -> tuple[Above, ...] | None:
+        if expressions is None:
+            return None
+        plain = conditions(expressions, order, positive)
+        short = conditions(expressions, order, (*positive, *given)) if plain and given else plain
+        return plain if short == plain else (*conditions(given, order), *short)
+
+    for name in ("minimum", "hurwitz"):
+        if getattr(found, name) and where(getattr(found, name)) == ():
+            found = always(found, name)
+    decisive = found.hurwitz if found.hurwitz is not None else found.spectrum
+    if decisive is None and found.reverses:
+        decisive = found.minimum
+    return Verdict(
+        stable=found.stable,
+        reason=found.reason,
+        theorem="" if found.by is None else found.by.name,
+        potential=potential,
+        asymptotic=found.asymptotic,
+        across=found.across,
+        minimum=where(found.minimum),
+        hurwitz=where(found.hurwitz),
+        spectrum=where(found.spectrum),
+        unstable=opposites(decisive or (), order, (*positive, *given))
+        if found.growing is None
+        else conditions([found.growing], order, positive),
+        exact=found.exact,
+        gyroscopic=gyroscopic and found.spectrum is not None,
+    )
+
+
+def potential_of(rest: RestPoints, usual: str = "V_eff") -> str:
+    """What has the minimum: V where it is the file's V alone, else `usual`; "" with forces."""
+    system = rest.system
+    at_rest = dict.fromkeys(system.qdot, 0)
+    if any(is_zero(force.xreplace(at_rest)) is not True for force in system.applied_forces):
+        return ""
+    if usual != "V_eff" or system.V is None:
+        return usual if usual != "V_eff" else "V"
+    alone = is_zero(system.L.xreplace(at_rest) + system.V.xreplace(at_rest))
+    return "V" if alone is True else usual
+
+
+def held_by_gyroscopic_terms(linear: Linearization) -> bool:
+    """Whether complete damping destroys stability where V has no minimum: det K is not 0."""
+    if not linear.M or linear.damped or not (linear.gyroscopic and linear.has_potential):
+        return False
+    whole = determinant(linear.K)
+    return whole is not None and is_zero(whole) is False
