@@ -12,7 +12,14 @@ from typing import Literal
 
 from lagcli.expression import Expression
 from lagcli.forces import ForcesSection
-from lagcli.motions import Above, HamiltonJacobiSection, OneFreedom, SteadySection, Verdict
+from lagcli.motions import (
+    Above,
+    HamiltonJacobiSection,
+    Irreducible,
+    OneFreedom,
+    SteadySection,
+    Verdict,
+)
 from lagcli.phase_space import BracketsSection, TransformationsSection
 from lagcli.questions import FindSection
 from lagcli.record import field, record
@@ -198,6 +205,7 @@ class Charge:
     rate: Expression | None
     verified: Verification | None = None
     broken_by: str = ""
+    when: str = ""  # of a conserved one, where the file has contacts: "between impacts"
     where: tuple[Above, ...] = ()
 
 
@@ -287,6 +295,8 @@ class ReductionSection:
     """R = L - sum p q' without the cyclic coordinates; R is None with a `reason`.
 
     `momenta` are those of the cyclic coordinates, `reconstruction` their velocities.
+    `eliminated` were solved for by the constraints, `irreducible` do not occur in L and are
+    kept all the same.
     R = T_2 + sum `gyroscopic` q' - `effective_potential` where it is quadratic in q'.
     """
 
@@ -299,6 +309,8 @@ class ReductionSection:
     gyroscopic: Mapping[str, Expression] = field(default_factory=dict)
     gyroscopic_forces: bool = False
     one_freedom: OneFreedom | None = None
+    eliminated: tuple[str, ...] = ()
+    irreducible: Mapping[str, Irreducible] = field(default_factory=dict)
     reason: str = ""
 
 

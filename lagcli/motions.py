@@ -61,11 +61,24 @@ class PeriodSeries:
     where: tuple[Above, ...] = ()
 
 
+@record
+class Irreducible:
+    """A coordinate that does not occur in L and that no reduction eliminates, and why.
+
+    `conserved` is whether its momentum is constant all the same, None where undecided.
+    """
+
+    conserved: bool | None
+    why: str
+
+
 @record(kw_only=True)
 class OneFreedom:
     """The one remaining coordinate: E = `energy`, dt = `rate` dq, T = 2 int `rate` dq.
 
-    `turning_points` are the roots of U_eff = E, None where that has no closed solution.
+    `turning_points` are the roots of U_eff = E, None where that has no closed solution; those
+    that are real count, where the coordinate is `positive` those that are positive.  All of
+    them are real for E between the bounds of each of `turning_energies`.
     """
 
     coordinate: str
@@ -74,6 +87,8 @@ class OneFreedom:
     turning_points: tuple[Expression, ...] | None
     rate: Expression
     periods: tuple[PeriodSeries, ...]
+    positive: bool = False
+    turning_energies: tuple[tuple[Expression, Expression], ...] = ()
     reason: str = ""
 
 

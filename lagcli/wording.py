@@ -7,10 +7,14 @@ from collections.abc import Mapping, Sequence
 from lagcli.answers import QuantityUnit
 from lagcli.document import Formula, Label, Row
 from lagcli.expression import ZERO, Expression, Name, operation_count
-from lagcli.motions import Above, SteadyMotion, Verdict
+from lagcli.motions import Above, Irreducible, SteadyMotion, Verdict
 
 Part = str | Formula
 
+#: Why h is conserved where dh/dt = -dL/dt + ... has no terms.
+CONSERVED = "L does not depend on t explicitly, no applied force and no constraint does work"
+#: What breaks a symmetry of the forces and the constraints that is none of L.
+CHANGE_OF_L = "a change of L that is not a total time derivative"
 #: The effective potential.
 POTENTIAL = Label("U", ("eff",))
 #: A condition of more operations is not written beside the frequency that it says of.
@@ -136,6 +140,16 @@ def _up_to(free: Sequence[str], on: tuple[Expression, Expression] | None) -> lis
     for position, name in enumerate(free):
         parts += [", " if position else " up to displacements of ", Name(name)]
     return parts
+
+
+def irreducible(name: str, each: Irreducible, L: Name) -> list[Part]:
+    """Why a coordinate that does not occur in L is not eliminated by its momentum."""
+    q, p = Name(name), Name(f"p_{name}")
+    if each.conserved:
+        return [q, " is cyclic and ", p, f" is constant, but {each.why}, so ", q,
+                " is not eliminated."]  # fmt: skip
+    verdict = " is not conserved" if each.conserved is False else " need not be constant"
+    return [q, " does not occur in ", L, ", but ", p, f"{verdict}: {each.why}."]
 
 
 def _is_long(condition: Above) -> bool:

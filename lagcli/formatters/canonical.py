@@ -98,7 +98,7 @@ def _generator(generator: GeneratingFunction, each: ExaminedTransformation) -> I
             (
                 "At constant time, ",
                 *scale,
-                "the sum of p dq less the sum of P dQ is dF with",
+                "the sum of p dq minus the sum of P dQ is dF with",
             )
         )
         yield Equations((Row(Label("F"), generator.function),))

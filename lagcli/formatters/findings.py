@@ -71,14 +71,15 @@ def charge_blocks(section: ChargesSection) -> Iterator[Block]:
 def _verdict(charge: Charge) -> str:
     checked = _CHECKED[charge.verified]
     if charge.conserved:
-        return f"Conserved: dQ/dt = 0 on the motion{checked}."
+        when = f" {charge.when}" if charge.when else ""
+        return f"Conserved{when}: dQ/dt = 0 on the motion{checked}."
     if charge.conserved is None:
         words = "Whether it is conserved is undecided"
         return f"{words}: {charge.broken_by}." if charge.broken_by else f"{words}."
     if charge.source == "momentum equation":
         return f"Not conserved: its rate is the momentum equation{checked}."
     words = f"Not conserved{checked}"
-    return f"{words}; broken by {charge.broken_by}." if charge.broken_by else f"{words}."
+    return f"{words}, because of {charge.broken_by}." if charge.broken_by else f"{words}."
 
 
 def find_blocks(section: FindSection) -> Iterator[Block]:
@@ -136,7 +137,7 @@ def _ranges(unknown: str, ranges: Sequence[Range]) -> tuple[str | Formula, ...]:
 
 
 def equilibrium_blocks(section: EquilibriaSection) -> Iterator[Block]:
-    """Say each state of rest with its stability."""
+    """Word each equilibrium with its stability."""
     if section.equilibria is None:
         yield Paragraph((f"Not found: {section.reason}.",))
     elif not section.equilibria:

@@ -70,11 +70,12 @@ def _sense(force: PointForce, magnitude: Label) -> tuple[str | Formula, ...]:
     elif force.away_from is not None:
         where = f", away from {force.away_from or 'the origin'}"
     words: list[str | Formula] = [where]
-    if force.kind == "tension" and force.towards is not None:
-        words += [": a pull where ", magnitude, " is positive, a push where it is negative."]
-    elif force.allowed is not None:
-        words += ["; the contact lasts while ", magnitude]
+    if force.allowed is not None:
+        taut = force.kind == "tension"
+        words += ["; it is taut while " if taut else "; the contact lasts while ", magnitude]
         words += [" is not negative." if force.allowed > 0 else " is not positive."]
+    elif force.kind == "tension" and force.towards is not None:
+        words += [": a pull where ", magnitude, " is positive, a push where it is negative."]
     else:
         words += ["."]
     return tuple(words)

@@ -17,23 +17,31 @@ from lagcli.document import (
 from lagcli.expression import ZERO, Name
 from lagcli.formatters.findings import state_blocks
 from lagcli.motions import OneFreedom, PeriodSeries
-from lagcli.wording import POTENTIAL, conditions
+from lagcli.wording import POTENTIAL, conditions, irreducible
 
 
 def reduction_blocks(section: ReductionSection) -> Iterator[Block]:
     """Say the Routhian, what it is made of, and the motion that is left."""
+    if section.eliminated:
+        names = [part for name in section.eliminated for part in (", ", Name(name))][1:]
+        yield Paragraph(("The constraints are used to eliminate ", *names, "."))
+    for name, each in section.irreducible.items():
+        yield Paragraph(tuple(irreducible(name, each, Name("L"))))
     if section.momenta:
         yield Paragraph(("Constant, since the coordinates are cyclic:",))
         yield Equations(
             tuple(Row(Name(f"p_{name}"), value) for name, value in section.momenta.items())
         )
+    elif section.irreducible:
+        yield Paragraph(("The Routhian is the Lagrangian.",))
     else:
-        yield Paragraph(("No coordinate is cyclic: the Routhian is the Lagrangian.",))
+        which = "None of the others" if section.eliminated else "No coordinate"
+        yield Paragraph((f"{which} is cyclic: the Routhian is the Lagrangian.",))
     if section.routhian is None:
         yield Paragraph((f"Not found: {section.reason}.",))
         return
     if section.momenta:
-        yield Paragraph(("The Routhian, the Lagrangian less the sum of p q' of these:",))
+        yield Paragraph(("The Routhian, the Lagrangian minus the sum of p q' of these:",))
     rows = [Row(Label("R"), section.routhian)]
     if section.effective_potential is not None:
         rows.append(Row(POTENTIAL, section.effective_potential))
@@ -75,12 +83,15 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
     constant, q = Name(motion.constant), Name(motion.coordinate)
     yield Equations((Row(constant, motion.energy, "conserved"),))
     if motion.turning_points is None:
-        yield Paragraph(("It turns where ", POTENTIAL, " = ", constant, "."))
+        yield Paragraph(("The turning points are the roots of ", POTENTIAL, " = ", constant, "."))
     elif motion.turning_points:
-        yield Paragraph(("Turning points, where these are real:",))
+        real = "real and positive" if motion.positive else "real"
+        yield Paragraph((f"Turning points, where these are {real}:",))
         yield Equations(tuple(Row(q, value) for value in motion.turning_points))
+        for lower, upper in motion.turning_energies:
+            yield Paragraph(("They are real for ", lower, " ≤ ", constant, " ≤ ", upper, "."))
     else:
-        yield Paragraph(("It turns nowhere.",))
+        yield Paragraph(("There are no turning points.",))
     yield Paragraph(("Time, and period between two turning points:",))
     yield Equations(
         (

@@ -74,7 +74,7 @@ _HEADINGS = {
     "canonical_equations": "Canonical equations",
     "brackets": "Poisson brackets",
     "canonical": "Canonical transformations",
-    "charges": "Charges",
+    "charges": "Symmetries and conserved quantities",
     "discovered": "Discovered symmetries",
     "algebra": "Algebra of symmetries",
     "find": "Questions",
@@ -286,8 +286,8 @@ def _energy(section: EnergySection) -> Iterator[Block]:
     yield _not_found() if section.function is None else _equation(Label("h"), section.function)
     conserved = {True: "Conserved.", False: "Not conserved.", None: "Conservation undecided."}
     total = {
-        True: " It is the total energy.",
-        False: " It is not the total energy.",
+        True: " It equals T + V.",
+        False: " It does not equal T + V.",
         None: "",
     }
     words = conserved[section.conserved] + total[section.is_total_energy]
@@ -314,12 +314,12 @@ def _algebra(section: AlgebraSection) -> Iterator[Block]:
     named = f", {section.name}" if section.name else ""
     integrable = {
         True: "The motion is integrable.",
-        False: "The charges found do not make the motion integrable.",
+        False: "These do not decide whether the motion is integrable.",
         None: "Whether the motion is integrable is undecided.",
     }
     yield Paragraph((f"Searched: {section.ansatz}.",))
     number = section.independent
-    charges = f"{number} independent charge{'' if number == 1 else 's'}"
+    charges = f"{number} independent conserved quantit{'y' if number == 1 else 'ies'}"
     if section.in_involution is not None:
         charges += f", {section.in_involution} in involution"
     yield Paragraph((f"Dimension {section.dimension}{named}; {charges}.",))
@@ -327,7 +327,9 @@ def _algebra(section: AlgebraSection) -> Iterator[Block]:
     for case in section.special:
         where = f"{case.parameter} = {to_grammar(case.value)}"
         yield Heading(
-            f"Where {where}: {case.number} charge{'s' * (case.number != 1)}, of which new", 2
+            f"Where {where}: {case.number} symmetr{'y' if case.number == 1 else 'ies'}, of "
+            f"which new",
+            2,
         )
         yield _by_name(case.charges)
 
@@ -351,8 +353,8 @@ def _model(section: ModelSection) -> Iterator[Block]:
 def _checked(level: Verification | None, symbols: Iterable[str] = ()) -> Iterator[Paragraph]:
     if level is not None:
         names = _listed(tuple(symbols))
-        head = (*names, " put") if names else ("Put",)
-        yield Paragraph((*head, f" back into the equations of motion: checked {_CHECKED[level]}."))
+        head = (*names, " substituted") if names else ("Substituted",)
+        yield Paragraph((*head, f" into the equations of motion: verified {_CHECKED[level]}."))
 
 
 def _not_found(reason: str = "") -> Paragraph:

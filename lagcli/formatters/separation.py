@@ -53,7 +53,10 @@ def _driven(section: HamiltonJacobiSection, rate: Expression) -> Iterator[Block]
     assert section.hamiltonian is not None
     assert section.derivatives is not None
     yield Paragraph(
-        ("With each momentum the derivative of S by its coordinate, H is minus that by the time:",)
+        (
+            "Each momentum is the derivative of S with respect to its coordinate, and H is minus that "
+            "with respect to t:",
+        )
     )
     yield Equations((Row(Label("H"), section.hamiltonian),))
     yield Paragraph(("The forces depend on the time alone, so S is linear in the coordinates:",))
@@ -63,7 +66,7 @@ def _driven(section: HamiltonJacobiSection, rate: Expression) -> Iterator[Block]
         action += [" + " if action else "S = ", Product((Name(f"p_{name}"), Name(name)))]
         rows.append(Row(Name(f"p_{name}"), momentum))
     f = Label("f")
-    yield Paragraph((*action, " + ", f, "; put back into the equation: checked exactly."))
+    yield Paragraph((*action, " + ", f, "; verified exactly by substitution into the equation."))
     rows = [row for row in rows if row.left != row.right]
     rows += [Row(Name(name), Integral(force, "t")) for name, force in section.integrals.items()]
     rows.append(Row(f, Integral(rate, "t")))
@@ -97,7 +100,7 @@ def _solution(section: HamiltonJacobiSection) -> Iterator[Block]:
             cases += [(name, each) for each in section.cases.get(name, ())]
         else:
             action += [" + ", Product((derivative, Name(name)))]
-    checked = "each root with either sign; put back into the equation: checked exactly."
+    checked = "each root with either sign; verified exactly by substitution into the equation."
     yield Paragraph((*action, f", {checked}"))
     if rows:
         yield Equations(tuple(rows))

@@ -29,7 +29,7 @@ def steady_blocks(section: SteadySection) -> Iterator[Block]:
             (
                 "The constraints give ",
                 *_listed(section.eliminated),
-                " by the other velocities.",
+                " in terms of the other velocities.",
             )
         )
     if section.conditions:

@@ -4,8 +4,12 @@
     dh/dt = -dL/dt + sum_j (Q_j - dD/dq_j') q_j' - sum_k lambda_k b_k
 
 so h is conserved when L does not depend on t explicitly, the applied forces do no work
-and no constraint moves.  It is T + V when T is homogeneous of degree two in the
-velocities and V does not depend on them.
+and no constraint moves.  By Euler's theorem on homogeneous functions
+
+    T = T_0 + T_1 + T_2,  V = V_0 + V_1   =>   h = T_2 - T_0 + V_0
+
+by degree in the velocities: h equals T + V when T = T_2 and V = V_0, and where the
+coordinates follow a prescribed motion (T_0, T_1 not 0) T + V may change while h does not.
 
 References
 ----------
@@ -24,7 +28,9 @@ from lagcli.algebra import is_zero
 from lagcli.algebra.build import free_of
 from lagcli.answers import Verification
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.impacts import between_impacts
 from lagcli.record import record
+from lagcli.wording import CONSERVED
 
 
 @record
@@ -60,8 +66,8 @@ class EnergyFunction:
         drag = sympy.Add(*(v * system.D.diff(v) for v in system.qdot))
         causes = [
             Power(
-                "the time in L",
-                "depends explicitly on the time",
+                "the explicit time dependence of L",
+                "depends on t explicitly",
                 -system.L.diff(system.t),
                 of_lagrangian=True,
             ),
@@ -120,10 +126,54 @@ class EnergyFunction:
             return system.T + system.V
         return self.function
 
+    @cached_property
+    def quadratic(self) -> bool:
+        """Whether T = T_2, homogeneous of degree two in the velocities."""
+        T, v = self.dynamics.system.T, self.dynamics.system.qdot
+        assert T is not None
+        return is_zero(sympy.Add(*(x * T.diff(x) for x in v)) - 2 * T) is True
+
+    @cached_property
+    def static_potential(self) -> Expr | None:
+        """V_0 where T = T_2 and V = V_0 + V_1 with V_1 not 0, so that h = T + V_0; else None."""
+        system = self.dynamics.system
+        if system.V is None or free_of(system.V, system.qdot) or not self.quadratic:
+            return None
+        still = system.V.xreplace(dict.fromkeys(system.qdot, sympy.S.Zero))
+        linear = sympy.Add(*(v * system.V.diff(v) for v in system.qdot))
+        return still if is_zero(system.V - still - linear) is True else None
+
+    @cached_property
+    def driven(self) -> bool:
+        """Whether T = T_2 + T_1 + T_0 and not T_2 alone, V = V_0: a motion is prescribed in T."""
+        system = self.dynamics.system
+        if self.is_total_energy is not False or system.V is None or self.quadratic:
+            return False
+        entries = [m for row in self.dynamics.lagrange.mass_matrix for m in row]
+        return free_of(system.V, system.qdot) and all(free_of(m, system.qdot) for m in entries)
+
+    @cached_property
+    def total_rate(self) -> Expr | None:
+        """d(T + V)/dt on the motion, simplified; 0 where that is proved, None where unknown."""
+        system = self.dynamics.system
+        if system.T is None or system.V is None:
+            return None
+        rate = self.dynamics.rate_on_motion(system.total_derivative(system.T + system.V))
+        if rate is None:
+            return None
+        holds = self.dynamics.verifier.is_zero(rate).holds
+        return None if holds is None else sympy.S.Zero if holds else self.dynamics.simplified(rate)
+
     @property
     def reason(self) -> str:
-        """Why h is (not) conserved and is (not) T + V, in a sentence."""
+        """Why h is (not) conserved and equals T + V or not, in a sentence."""
         return f"{self._why_conserved}; {self._why_total}"
+
+    @cached_property
+    def between_impacts(self) -> str:
+        """When h is constant, where the file has contacts; empty without."""
+        system = self.dynamics.system
+        return between_impacts(system, [sympy.S.Zero] * len(system.q), sympy.S.One)
 
     @property
     def _why_conserved(self) -> str:
@@ -131,14 +181,14 @@ class EnergyFunction:
             return "whether it is conserved was not decided"
         if not self.conserved:
             deeds = (f"L {p.deed}" if p.of_lagrangian else p.deed for p in self.powers)
-            return "not conserved: " + ", ".join(deeds)
+            return "not conserved: " + " and ".join(deeds)
+        when = self.between_impacts
+        conserved = f"conserved {when}" if when else "conserved"
         if not self.powers:
-            return "conserved: no explicit time in L, no force that does work, no moving constraint"
-        return (
-            "conserved: on the motion the powers cancel ("
-            + ", ".join(power.cause for power in self.powers)
-            + ")"
-        )
+            return f"{conserved}: {CONSERVED}"
+        causes = " and of ".join(power.cause for power in self.powers)
+        together = "cancel" if len(self.powers) > 1 else "vanish"
+        return f"{conserved}: on the motion the effects of {causes} {together}"
 
     @property
     def _why_total(self) -> str:
@@ -147,11 +197,14 @@ class EnergyFunction:
             given = "L" if system.H is None else "H"
             return f"only {given} is given, so T + V is not known"
         if self.is_total_energy:
-            return "it is T + V"
+            return "it equals T + V"
+        if self.static_potential is not None:
+            return "it equals T plus V without its terms linear in the velocities"
         reasons = []
         if not free_of(system.V, system.qdot):
             reasons.append("V depends on the velocities")
-        degree_two = sympy.Add(*(v * system.T.diff(v) for v in system.qdot)) - 2 * system.T
-        if is_zero(degree_two) is not True:
+        if not self.quadratic:
             reasons.append("T is not homogeneous of degree two in the velocities")
-        return "it is not T + V" + (": " + " and ".join(reasons) if reasons else "")
+        words = "it does not equal T + V" + (": " + " and ".join(reasons) if reasons else "")
+        changing = self.conserved and self.driven and self.total_rate not in {None, sympy.S.Zero}
+        return f"{words}; T + V is not conserved" if changing else words

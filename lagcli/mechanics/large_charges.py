@@ -16,6 +16,7 @@ from lagcli.mechanics.identities import vanish
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.problem import Symmetry
 from lagcli.record import record
+from lagcli.wording import CHANGE_OF_L, CONSERVED
 
 _NOT_SOLVED = "the system is too large to solve the motion in formulas"
 
@@ -84,8 +85,8 @@ class LargeCharges:
         form, graph = self.form, self.graph
         applied = zip(form.applied_forces, form.qdot, strict=True)
         powers = {
-            "L depends explicitly on the time": partial(graph, form.t)(form.written_lagrangian),
-            "applied forces do work": graph.sum(graph.product(f, v) for f, v in applied),
+            "L depends on t explicitly": partial(graph, form.t)(form.written_lagrangian),
+            "the applied forces do work": graph.sum(graph.product(f, v) for f, v in applied),
         }
         for constraint, row in zip(form.problem.constraints, form.constraints, strict=True):
             powers[f"the constraint '{constraint.name}' moves and does work"] = row.drift
@@ -101,16 +102,16 @@ class LargeCharges:
     @property
     def energy_reason(self) -> str:
         """Why h is (not) conserved and is (not) T + V."""
-        causes = ", ".join(self.powers)
+        causes = " and ".join(self.powers)
         conserved = {
-            True: "conserved: no explicit time in L, no force that does work, no moving constraint",
+            True: f"conserved: {CONSERVED}",
             False: f"not conserved: {causes}",
             None: f"whether it is conserved was not decided ({causes}): {_NOT_SOLVED}",
         }[self.energy_conserved]
         total = {
             True: "it equals T + V",
             False: "it differs from T + V",
-            None: "T + V is not known, or was not compared with it",
+            None: "it was not compared with T + V",
         }[self.is_total_energy]
         return f"{conserved}; {total}"
 
@@ -183,8 +184,8 @@ class LargeCharges:
             ]
         )
         causes = {
-            "the Lagrangian": graph.difference(change, form.read.total_derivative(boundary)),
-            "applied forces": graph.sum(
+            CHANGE_OF_L: graph.difference(change, form.read.total_derivative(boundary)),
+            "the applied forces": graph.sum(
                 graph.product(f, e) for f, e in zip(form.applied_forces, eta, strict=True)
             ),
         }
@@ -201,7 +202,7 @@ class LargeCharges:
         if not breaking:
             gauge = boundary
             conserved, rate = True, graph.zero
-        elif form.constraints or (gauge is None and "the Lagrangian" in breaking):
+        elif form.constraints or (gauge is None and CHANGE_OF_L in breaking):
             conserved, rate = None, None  # the motion, or a boundary term, may make it 0
         else:
             rate = graph.sum(causes[cause] for cause in breaking)

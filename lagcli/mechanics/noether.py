@@ -37,8 +37,8 @@ from lagcli.mechanics.total_derivative import boundary_term
 from lagcli.mechanics.translations import constant_nullspace
 from lagcli.problem import Symmetry
 from lagcli.record import record, replace
+from lagcli.wording import CHANGE_OF_L
 
-_LAGRANGIAN = "the Lagrangian"
 _OTHER_GAUGE = "the gauge given (left out, the right one is found)"
 
 
@@ -124,8 +124,8 @@ class Noether:
             return self._judged(name, source, transformation, self._gauge(change), change)
         judged = self._judged(name, source, transformation, gauge, change)
         causes = judged.broken_by.split(", ")
-        if _LAGRANGIAN in causes and self._gauge(change) is not None:
-            broken_by = ", ".join(_OTHER_GAUGE if c == _LAGRANGIAN else c for c in causes)
+        if CHANGE_OF_L in causes and self._gauge(change) is not None:
+            broken_by = ", ".join(_OTHER_GAUGE if c == CHANGE_OF_L else c for c in causes)
             return replace(judged, broken_by=broken_by)
         return judged
 
@@ -201,7 +201,7 @@ class Noether:
         system, dynamics = self.system, self.dynamics
         eta = self.characteristic(transformation)
         parts = {
-            _LAGRANGIAN: change - system.total_derivative(boundary),
+            CHANGE_OF_L: change - system.total_derivative(boundary),
             "the applied forces": _dot(system.forces, eta),
             "the dissipation": -sympy.Add(
                 *(system.D.diff(v) * e for v, e in zip(system.qdot, eta, strict=True))

@@ -35,6 +35,7 @@ from lagcli.expression import ZERO, Expression
 from lagcli.forces import ForcesSection
 from lagcli.mechanics.constraint_force import forces_on_points
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
@@ -332,7 +333,12 @@ class Statements(Stating):
             rate=None if charge.rate is None else self._on_surface(charge.rate),
             verified=charge.verified,
             broken_by=charge.broken_by,
+            when=self._when(charge) if charge.conserved else "",
         )
+
+    def _when(self, charge: NoetherCharge) -> str:
+        change = charge.transformation
+        return between_impacts(self.system, change.changes, change.time, charge.gauge)
 
     def _discovered(self) -> ChargesSection:
         from lagcli.mechanics.discovery.reality import real_where

@@ -20,7 +20,7 @@ def test_a_force_in_time_makes_h_the_energy_and_not_conserved():
     assert d.energy.conserved is False
     assert d.energy.is_total_energy is True
     assert same(d, d.energy.rate, "-x*f'(t)")
-    assert "L depends explicitly on the time" in d.energy.reason
+    assert "L depends on t explicitly" in d.energy.reason
 
 
 def test_a_moving_constraint_does_work():

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from lagcli.wording import CHANGE_OF_L
+
 from .derived import charge, derive, same
 
 FREE = "coordinates: [x, y]\nparameters: {m: {assume: positive}, k: {}, c: {assume: positive}}\n"
@@ -64,7 +66,7 @@ def test_charges(lagrangian: str, change: str, expected: str):
 @pytest.mark.parametrize(
     ("lagrangian", "change", "rate", "culprit"),
     [
-        ("T: m*(x'^2+y'^2)/2\nV: k*x^2/2", "x: 1", "-k*x", "the Lagrangian"),
+        ("T: m*(x'^2+y'^2)/2\nV: k*x^2/2", "x: 1", "-k*x", CHANGE_OF_L),
         ("T: m*(x'^2+y'^2)/2\ndissipation: k*x'^2/2", "x: 1", "-k*x'", "the dissipation"),
         ("T: m*(x'^2+y'^2)/2\nforces: {x: k}", "x: 1", "k", "the applied forces"),
         (
@@ -132,7 +134,7 @@ def test_a_general_lagrangian_conserves_its_energy_function():
     [
         ("x: t, gauge: m*x", ""),
         ("x: t, gauge: -m*x", "the gauge given (left out, the right one is found)"),
-        ("t: x, gauge: m*x", "the Lagrangian"),
+        ("t: x, gauge: m*x", CHANGE_OF_L),
     ],
 )
 def test_a_wrong_gauge_is_told_from_a_transformation_that_is_no_symmetry(change: str, cause: str):

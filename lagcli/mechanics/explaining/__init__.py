@@ -1,1 +1,1 @@
-"""The derivation told step by step, each formula taken from the derivation itself."""
+"""The derivation in steps with their reasons, each formula taken from the derivation itself."""

@@ -1,4 +1,4 @@
-"""The last steps: the energy function and the other charges, each with its reason."""
+"""The last steps: the energy function and the momenta, each with its reason."""
 
 from __future__ import annotations
 
@@ -9,21 +9,22 @@ import sympy
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import free_of
 from lagcli.document import Block, Equations, Heading, Label, Row
-from lagcli.expression import Diff, Name, Product
+from lagcli.expression import Diff, Name, Product, Rate, Sum
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, says, shows
+from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.noether import NoetherCharge
 
 
 def energy(teller: Teller) -> Iterator[Block]:
-    """What h is, whether it is the energy, whether it stays."""
+    """The energy function h, whether it equals T + V, whether it is conserved."""
     function, letters = teller.derivation.energy, teller.letters
     momentum = Diff(letters.L, letters.velocity)
     product = Product((letters.velocity, momentum))
     yield says(
         "The energy function is the sum of " if letters.several else "The energy function is ",
         product,
-        " over all coordinates, less " if letters.several else ", less ",
+        " over all coordinates, minus " if letters.several else ", minus ",
         letters.L,
         ":",
     )
@@ -34,72 +35,62 @@ def energy(teller: Teller) -> Iterator[Block]:
         yield says(
             "The Hamiltonian is ",
             letters.h,
-            " with the velocities expressed by the momenta. What was said of ",
-            letters.h,
-            " is true of it as well.",
+            " as a function of the coordinates and momenta, so the same holds for it.",
         )
 
 
 def _total(teller: Teller) -> list[Part]:
+    """Whether h equals T + V, and why."""
     system, letters = teller.system, teller.letters
     function = teller.derivation.energy
     h, T, V = letters.h, letters.T, letters.V
     if system.T is None or system.V is None:
-        return [
-            "Only ",
-            letters.L,
-            " is given, so nothing is said of ",
-            Label("T"),
-            " + ",
-            Label("V"),
-            ".",
-        ]
+        given = letters.L if system.H is None else letters.free("H")
+        return ["Only ", given, " is given, so it is not compared with ", T, " + ", V, "."]
     plain = free_of(system.V, system.qdot)
-    doubled = sympy.Add(*(v * system.T.diff(v) for v in system.qdot)) - 2 * system.T
-    quadratic = is_zero(doubled) is True
     if function.is_total_energy:
         if is_zero(system.V) is True:
-            return ["It is the kinetic energy, which is all the energy there is."]
-        if not (plain and quadratic):
-            return ["It is the total energy ", T, " plus ", V, "."]
+            return [V, " is 0 and ", h, " equals ", T, "."]
+        if not (plain and function.quadratic):
+            return [h, " equals ", T, " + ", V, "."]
         return [
-            T, " is of second degree in the velocities and ", V, " contains none, so ", h,
-            " is the total energy, ", T, " plus ", V, ".",
+            T, " is homogeneous of degree two in the velocities and ", V, " contains none, so ", h,
+            " is the total energy ", T, " + ", V, ".",
         ]  # fmt: skip
+    if function.static_potential is not None:
+        return ["The terms of ", V, " linear in the velocities drop out: ", h, " equals ", T,
+                " plus the rest of ", V, "."]  # fmt: skip
     reasons: list[Part] = []
-    if not quadratic:
-        reasons += [T, " is not purely of second degree in the velocities"]
+    if not function.quadratic:
+        reasons += [T, " is not homogeneous of degree two in the velocities"]
     if not plain:
         reasons += [" and " if reasons else "", V, " contains velocities"]
     undecided = function.is_total_energy is None
-    verdict = "whether it is the total energy was not decided" if undecided else (
-        "so it is not the total energy" if reasons else "it is not the total energy"
-    )  # fmt: skip
-    return [*reasons, ", " if reasons else "", f"{verdict}."]
+    verdict: list[Part] = ["whether ", h, " equals "] if undecided else [
+        "so " if reasons else "", h, " does not equal "]  # fmt: skip
+    end = " was not decided." if undecided else "."
+    return [*reasons, ", " if reasons else "", *verdict, T, " + ", V, end]
 
 
 def _rate(teller: Teller) -> Iterator[Block]:
     function, letters = teller.derivation.energy, teller.letters
     h = letters.h
     if not function.powers:
-        yield says(
-            letters.L,
-            " does not contain the time, no applied force does work and no constraint moves. So ",
-            h,
-            " is conserved.",
-        )
+        yield says(*_unchanged(teller), " So ", h, *_conserved(teller), ".")
+        yield from _work_of_drive(teller)
         return
     changes: list[Part] = []
     for power in function.powers:
         changes += ["; "] if changes else []
         changes += [letters.L, " ", power.deed] if power.of_lagrangian else [power.deed]
     total = sympy.Add(*(power.value for power in function.powers))
-    yield says("What changes it: ", changes, ". Its rate is")
+    yield says("It can change because ", changes, ". Its rate is")
     yield shows(Name(h.name, 1), teller.readable.by_terms(total))
     if function.conserved is None:
         yield says("Whether this vanishes on the motion was not decided.")
     elif function.conserved:
-        yield says("On the motion this is 0, so ", h, " is conserved all the same.")
+        yield says("On the motion this is 0, so ", h, *_conserved(teller), ".")
+        yield from _work_of_drive(teller)
     else:
         rate = function.rate
         if rate is not None and not total.free_symbols.isdisjoint(teller.system.multipliers):
@@ -108,8 +99,42 @@ def _rate(teller: Teller) -> Iterator[Block]:
         yield says("This is not 0 on every motion: ", h, " is not conserved.")
 
 
+def _unchanged(teller: Teller) -> list[Part]:
+    """Why dh/dt has no terms: dL/dt = 0, Q . q' = 0, and b = 0 for every constraint."""
+    parts: list[Part] = [teller.letters.L, " does not depend on t explicitly"]
+    parts += [", the applied forces do no work"] if teller.forced else []
+    constraints = len(teller.dynamics.constraints.equations)
+    if constraints:
+        parts += [" and " if not teller.forced else ", and "]
+        parts += ["the constraint does" if constraints == 1 else "the constraints do", " no work"]
+    return [*parts, "."]
+
+
+def _conserved(teller: Teller) -> list[Part]:
+    function = teller.derivation.energy
+    named = "" if function.is_total_energy else ", Jacobi's integral,"
+    when = f" {function.between_impacts}" if function.between_impacts else ""
+    return [f"{named} is conserved{when}"]
+
+
+def _work_of_drive(teller: Teller) -> Iterator[Block]:
+    """d(T + V)/dt, where h is conserved and differs from T + V."""
+    function, letters = teller.derivation.energy, teller.letters
+    rate = function.total_rate
+    if not function.driven or rate is None:
+        return
+    if rate == 0:
+        yield says(letters.T, " + ", letters.V, " is conserved as well.")
+        return
+    yield says(
+        letters.T, " + ", letters.V,
+        " is not conserved: what keeps up the prescribed motion does work. Its rate is",
+    )  # fmt: skip
+    yield shows(Rate(Sum((letters.T, letters.V))), teller.readable.on_surface(rate))
+
+
 def charges(teller: Teller) -> Iterator[Block]:
-    """Momenta of cyclic coordinates, and the charges of the candidates."""
+    """Momenta of cyclic coordinates, and the conserved quantities of the candidates."""
     for charge in teller.derivation.noether.charges:
         if charge.source == "cyclic":
             yield from _cyclic(teller, charge)
@@ -134,9 +159,9 @@ def _cyclic(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
         letters.L,
         ", so by Lagrange's equation for it the momentum ",
         Diff(letters.L, v),
-        " changes only by what acts along ",
+        " changes only by the forces along ",
         q,
-        ". Nothing does:" if nothing and charge.conserved else ". This is",
+        ", of which there are none:" if nothing and charge.conserved else ". Its rate is",
     )
     if not nothing:
         yield shows(Name(p.name, 1), teller.readable.by_terms(right))
@@ -153,6 +178,28 @@ def _cyclic(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
             yield shows(Name(p.name, 1), teller.readable.on_surface(rate))
         yield says("so it is not conserved:")
     yield shows(p, teller.readable.by_terms(charge.charge), _stays(charge))
+    if charge.conserved:
+        yield from _struck(teller, charge)
+
+
+def _acting(teller: Teller) -> str:
+    """Applied forces and constraints, as the subject of a sentence."""
+    constraints = len(teller.dynamics.constraints.equations)
+    forces = ["the applied forces"] * teller.forced + ["the dissipation"] * teller.damped
+    forces += [f"the force{'s' * (constraints > 1)} of the constraint{'s' * (constraints > 1)}"
+               ] * bool(constraints)  # fmt: skip
+    if not forces:
+        return ""
+    several = len(forces) > 1 or forces[0].startswith(("the applied", "the forces"))
+    words = " and ".join(forces)
+    return f"{words[0].upper()}{words[1:]} {'do' if several else 'does'}"
+
+
+def _struck(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
+    change = charge.transformation
+    when = between_impacts(teller.system, change.changes, change.time, charge.gauge)
+    if when:
+        yield says(f"This holds {when}.")
 
 
 def _stays(charge: NoetherCharge) -> str:
@@ -163,7 +210,7 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
     letters, write = teller.letters, teller.readable.as_written
     change = charge.transformation
     yield Heading(charge.name, 2)
-    yield says("The file asks about the transformation")
+    yield says("The transformation of the file is")
     named = [*zip(teller.system.names, change.changes, strict=True), ("t", change.time)]
     rows = [Row(Label(name, change=True), write(by)) for name, by in named if by != 0]
     yield Equations(tuple(rows))
@@ -173,13 +220,13 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
     same = is_zero(changed - teller.system.total_derivative(boundary)) is True
     if gauge is None:
         yield says(
-            "Under it the action changes, and no boundary term was found that accounts for the "
-            "change."
+            "Under it the action changes, and no boundary term was found whose total time "
+            "derivative equals the change."
         )
     elif is_zero(gauge) is True and same:
         yield says("Under it the action does not change: it is a symmetry of ", letters.L, ".")
     elif is_zero(gauge) is True and not same and not charge.conserved:
-        yield says("Under it the action changes, and by no boundary term alone.")
+        yield says("Under it the action changes by more than a boundary term.")
     elif gauge is not None:
         on_motion = "" if same else " on the motion" if charge.conserved else " and something more"
         yield says(
@@ -195,10 +242,12 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
     if charge.conserved is None:
         yield says("Whether it is conserved was not decided.")
     elif charge.conserved:
-        if teller.forced or teller.damped or teller.dynamics.constraints.equations:
-            yield says("What acts beside ", letters.L, " does no work along this transformation.")
+        acting = _acting(teller)
+        if acting:
+            yield says(acting, " no work along this transformation.")
+        yield from _struck(teller, charge)
     else:
-        yield says(f"It is not conserved, broken by {charge.broken_by}:")
+        yield says(f"It is not conserved, because of {charge.broken_by}:")
         if charge.rate is not None:
             yield shows(Name(letters.Q.name, 1), teller.readable.on_surface(charge.rate))
 
@@ -209,7 +258,7 @@ def noether_words(teller: Teller, *, with_gauge: bool, with_time: bool) -> list[
     momentum = Diff(letters.L, letters.velocity)
     change, delay = Label(letters.q.name, change=True), Label("t", change=True)
     several = letters.several
-    parts: list[Part] = ["Noether's charge is ", "the sum of " if several else "", momentum]
+    parts: list[Part] = ["Noether's theorem gives ", "the sum of " if several else "", momentum]
     if with_time:
         parts += [" times (", change, " − ", letters.velocity, " ", delay, ")"]
     else:
@@ -219,5 +268,5 @@ def noether_words(teller: Teller, *, with_gauge: bool, with_time: bool) -> list[
     if with_time:
         parts += [", plus ", letters.L, " ", delay]
     if with_gauge:
-        parts += [", less ", letters.G]
+        parts += [", minus ", letters.G]
     return [*parts, ":"]

@@ -48,22 +48,22 @@ def _unsolved(teller: Teller) -> Iterator[Block]:
             "The equations are linear in the accelerations, but the matrix of their coefficients "
             "(the second derivatives of ",
             teller.letters.L,
-            " by the velocities) has no inverse along ",
+            " with respect to the velocities) has no inverse along ",
             names(degenerate),
             ": the Lagrangian is singular, and the equations do not determine the accelerations.",
         )
         demanded = teller.dynamics.contradiction
         if demanded is not None:
-            yield says("They even demand")
+            yield says("They imply")
             yield Equations((Row(teller.readable.as_written(demanded), ZERO),))
-            yield says("which is never true: this Lagrangian has no motion.")
+            yield says("which is false: this Lagrangian has no motion.")
         return
     yield says(
-        "The equations are linear in the accelerations and multipliers, but there are too many "
-        "of them for solutions that one could read. They stay in matrix form, to be solved in "
-        "numbers: ",
+        "The equations are linear in the accelerations and multipliers, but too many for a "
+        "readable "
+        "solution. They stay in matrix form, to be solved numerically: ",
         *matrix_law(constrained=bool(teller.dynamics.constraints.equations)),
-        ". Ask for --show matrix_form of lagcli solve to see its entries.",
+        ". lagcli solve --show matrix_form prints its entries.",
     )
 
 
@@ -81,23 +81,23 @@ def _free(teller: Teller, motion: Motion) -> Iterator[Block]:
         elif operation_count(coefficient) <= _INLINE:
             yield says(
                 "The equation is linear in ", acceleration, ". Divided by its coefficient ",
-                coefficient, " it says",
+                coefficient, " it reads",
             )  # fmt: skip
         else:
             yield says("The equation is linear in ", acceleration,
-                       ". Divided by its coefficient it says")  # fmt: skip
+                       ". Divided by its coefficient it reads")  # fmt: skip
     elif _diagonal(M):
         yield says(
-            "In each equation there is only one acceleration. Divided by its coefficient, it says"
+            "Each equation contains only one acceleration. Divided by its coefficient it reads"
         )
     else:
         yield says(
-            "The equations are linear in the accelerations, which occur in several of them: ",
+            "The equations are linear in the accelerations and coupled: ",
             *matrix_law(constrained=False),
         )
         yield from _matrices(teller, [])
         yield says("The coefficients are the second derivatives of ", teller.letters.L,
-                   " by the velocities. Solved for the accelerations, this gives")  # fmt: skip
+                   " with respect to the velocities. The solution is")  # fmt: skip
     yield Equations(tuple(_accelerations(teller, motion)))
 
 
@@ -131,7 +131,7 @@ def _matrices(teller: Teller, kept: Sequence[ConstraintEquation]) -> Iterator[Bl
         if sum(operation_count(x) for row in entries for x in row) <= _SHOWN:
             yield Matrix(label, tuple(map(tuple, entries)), row_names, column_names)
         else:
-            yield says("(the entries of ", label, " are too long to be set here)")
+            yield says("The entries of ", label, " are too long to be printed here.")
 
 
 # -- with constraints -------------------------------------------------------------------------
@@ -142,25 +142,27 @@ def _with_multipliers(teller: Teller, motion: Motion) -> Iterator[Block]:
     kept = [dynamics.constraints.equations[k] for k in dynamics.independent_constraints]
     unknowns = len(teller.system.names) + len(kept)
     yield says(
-        "With the multiplier there is one unknown more than there are equations of motion. The "
-        "constraint makes up for it: it holds at all times, hence so do its time derivatives, "
-        "which bring in the accelerations:"
+        "With the multiplier there is one unknown more than equations of motion. The missing "
+        "equation comes from the constraint: it holds at all times, and so do its time "
+        "derivatives, "
+        "which contain the accelerations:"
         if len(kept) == 1
-        else "With the multipliers there are more unknowns than equations of motion. The "
-        "constraints make up for it: they hold at all times, hence so do their time derivatives, "
-        "which bring in the accelerations:"
+        else "With the multipliers there are more unknowns than equations of motion. The missing "
+        "equations come from the constraints: they hold at all times, and so do their time "
+        "derivatives, which contain the accelerations:"
     )
     yield Equations(tuple(_derivatives(teller, kept)))
     if dynamics.redundant:
         one = len(dynamics.redundant) == 1
         yield says(
-            f"({quoted(dynamics.redundant)} {'is' if one else 'are'} implied by the others. The "
-            f"{'multiplier' if one else 'multipliers'} of what is implied can be set to 0: the "
-            "accelerations do not depend on that choice.)"
+            f"({quoted(dynamics.redundant)} {'is' if one else 'are'} implied by the others, so "
+            f"{'its multiplier' if one else 'their multipliers'} can be set to 0: the "
+            f"accelerations do "
+            "not depend on that choice.)"
         )
     yield says(
-        f"So there are {unknowns} equations with accelerations or multipliers in them, linear in "
-        f"these {unknowns} unknowns."
+        f"Together these are {unknowns} equations, linear in the {unknowns} unknown accelerations "
+        f"and multipliers."
     )
     steps = _eliminated(teller, motion, kept)
     if steps is None:
@@ -171,10 +173,10 @@ def _with_multipliers(teller: Teller, motion: Motion) -> Iterator[Block]:
                 Label("M", matrix=True),
                 " alone has no inverse (",
                 names(teller.system.names[i] for i in dynamics.degenerate),
-                "), but together with the constraints everything is determined. The solution is",
+                "), but together with the constraints the system has a unique solution. It is",
             )
         else:
-            yield says("Solved together and simplified with the constraints, they give")
+            yield says("The solution, simplified with the constraints, is")
     else:
         yield from steps
     yield from _solution(teller, motion)
@@ -217,25 +219,22 @@ def _eliminated(
         return None
     one = len(kept) == 1
     symbols = names(e.multiplier.name for e in kept)
-    left = "What is left is a condition" if one else "What is left are conditions"
+    left = "They leave a condition" if one else "They leave conditions"
     return [
         says(
-            "First Lagrange's equations are solved for the accelerations, as if ",
+            "First Lagrange's equations are solved for the accelerations in terms of ",
             symbols,
-            " were known:",
+            ":",
         ),
         Equations(tuple(map(Row, teller.accelerations, solved))),
         says(
-            f"Put into the differentiated {'constraint' if one else 'constraints'}, they leave no "
-            f"acceleration there. {left} on ",
+            "These are substituted into the differentiated "
+            f"{'constraint' if one else 'constraints'}. {left} on ",
             symbols,
             ":",
         ),
         Equations(tuple(rows)),
-        says(
-            f"Solved, put back, and simplified with the {'constraint' if one else 'constraints'}, "
-            f"{'this gives' if one else 'these give'}"
-        ),
+        says(f"The solution, simplified with the {'constraint' if one else 'constraints'}, is"),
     ]
 
 
@@ -296,6 +295,5 @@ def _solution(teller: Teller, motion: Motion) -> Iterator[Block]:
         yield says(
             names(unknown),
             " are" if len(unknown) > 1 else " is",
-            " not determined one by one, since constraints imply each other: only the "
-            "sum of their forces is.",
+            " not unique, because the constraints are redundant: only the sum of their forces is.",
         )

@@ -15,7 +15,7 @@ from lagcli.mechanics.explaining.words import Part, difference, names, says, sho
 
 
 def equations(teller: Teller) -> Iterator[Block]:
-    """The law, then coordinate by coordinate what stands in it."""
+    """The law, then its terms for each coordinate."""
     yield from _law(teller)
     for index in range(len(teller.system.names)):
         yield from _one(teller, index)
@@ -26,12 +26,12 @@ def _law(teller: Teller) -> Iterator[Block]:
     kind = "first kind (with multipliers)" if constrained else "second kind"
     if letters.several:
         yield says(
-            f"Lagrange's equations, of the {kind}, are, with ",
+            f"Lagrange's equations of the {kind} are, for each coordinate ",
             letters.q,
-            " any one of the coordinates,",
+            ",",
         )
     else:
-        yield says(f"Lagrange's equation, of the {kind}, is")
+        yield says(f"Lagrange's equation of the {kind} is")
     L = letters.L
     left = difference(Rate(Diff(L, letters.velocity)), Diff(L, letters.q))
     right: list[Expression] = []
@@ -40,8 +40,8 @@ def _law(teller: Teller) -> Iterator[Block]:
     if teller.damped:
         right.append(Negative(Diff(letters.D, letters.velocity)))
     for equation in teller.dynamics.constraints.equations:
-        slope = Diff(letters.f(equation.name), _variable(letters.q, equation))
-        right.append(Product((Name(equation.multiplier.name), slope)))
+        gradient = Diff(letters.f(equation.name), _variable(letters.q, equation))
+        right.append(Product((Name(equation.multiplier.name), gradient)))
     yield shows(left, Sum(tuple(right)) if len(right) > 1 else right[0] if right else ZERO)
     if constrained:
         yield says(*_multipliers(teller))
@@ -56,16 +56,16 @@ def _multipliers(teller: Teller) -> list[Part]:
     found = teller.dynamics.constraints.equations
     one = len(found) == 1
     words: list[Part] = [
-        "The constraint adds its force: its slope times the multiplier "
+        "The constraint adds its force: its gradient times the multiplier "
         if one
-        else "Each constraint adds its force: its slope times its multiplier. The multipliers ",
+        else "Each constraint adds its force: its gradient times its multiplier. The multipliers ",
         *names(e.multiplier.name for e in found),
         ", which is not known yet." if one else " are not known yet.",
     ]
     if any(not e.holonomic for e in found):
         words.append(
-            " For a constraint on velocities the slope is that by the velocity, the coefficient "
-            "that says which displacements it permits."
+            " The gradient of a constraint on velocities is taken with respect to the velocities: "
+            "its coefficients, which determine the displacements that it allows."
         )
     return words
 
@@ -79,7 +79,7 @@ def _one(teller: Teller, index: int) -> Iterator[Block]:
     if letters.several:
         yield Heading("The equation for", 2, q)
     else:
-        yield says("What stands in it is")
+        yield says("Its terms are")
     rows = [
         Row(Diff(letters.L, q), readable.by_terms(force)),
         Row(Diff(letters.L, v), readable.by_terms(momentum)),
@@ -90,8 +90,8 @@ def _one(teller: Teller, index: int) -> Iterator[Block]:
     if is_zero(system.forces[index]) is not True:
         rows.append(Row(Label("Q", (name,)), readable.as_written(system.forces[index])))
     if teller.damped:
-        slope = system.D.diff(system.qdot[index])
-        rows.append(Row(Diff(letters.D, v), readable.by_terms(slope)))
+        drag = system.D.diff(system.qdot[index])
+        rows.append(Row(Diff(letters.D, v), readable.by_terms(drag)))
     acting = [e for e in dynamics.constraints.equations if is_zero(e.row[index]) is not True]
     rows += [
         Row(Diff(letters.f(e.name), _variable(q, e)), readable.as_written(e.row[index]))

@@ -1,4 +1,4 @@
-"""The steps in order, and what was missing on the way."""
+"""The steps in order, and the answers that were not found."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ def explanation(
     Parameters
     ----------
     derivation
-        That of a system of readable size; a large one is told by `large`.
+        That of a system of readable size; for a large one see `large`.
     also
-        Out of `lagcli.explanation.FURTHER`, told after the rest.
+        Out of `lagcli.explanation.FURTHER`, explained after the rest.
     others
-        Makers of sections that are none of mechanics, by name.
+        Makers of sections that do not belong to mechanics, by name.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def explanation(
     dynamics, problem = teller.dynamics, teller.problem
     motion = dynamics.motion
     constrained = bool(dynamics.constraints.equations)
-    told = [
+    steps = [
         Step("The system", tuple(scene(teller))),
         Step("The Lagrangian", tuple(lagrangian(teller))),
         Step("Lagrange's equations", tuple(equations(teller))),
@@ -53,19 +53,19 @@ def explanation(
         ),
     ]
     if motion is not None:
-        told.append(Step("The check", tuple(check(teller, motion))))
+        steps.append(Step("The verification", tuple(check(teller, motion))))
         if constrained:
-            told.append(Step("What the multipliers mean", tuple(meaning(teller, motion))))
-    told.append(Step("The energy", tuple(energy(teller))))
+            steps.append(Step("What the multipliers mean", tuple(meaning(teller, motion))))
+    steps.append(Step("The energy", tuple(energy(teller))))
     found = tuple(charges(teller))
     if found:
-        told.append(Step("The charges", found))
+        steps.append(Step("Conserved quantities", found))
     missing = tuple(_missing(teller))
     if also:
         from lagcli.mechanics.explaining.further import further
 
-        steps, unfound = further(teller, also, others or {})
-        told += steps
+        more, unfound = further(teller, also, others or {})
+        steps += more
         missing = (*missing, *unfound)
     quantities = (*problem.coordinates, *problem.parameters)
     return Explanation(
@@ -73,7 +73,7 @@ def explanation(
         coordinates=teller.system.names,
         parameters=tuple(p.name for p in problem.parameters),
         degrees_of_freedom=dynamics.degrees_of_freedom,
-        steps=tuple(told),
+        steps=tuple(steps),
         symbols={q.name: q.symbol for q in quantities if q.symbol is not None},
         warnings=missing,
         complete=not missing,

@@ -15,6 +15,10 @@ from lagcli.mechanics.dynamics import Motion
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import names, says
 
+#: What acts along a coordinate, by its unit.
+_KINDS = {"m": "force", "cm": "force", "mm": "force", "km": "force", "rad": "torque",
+          "deg": "torque"}  # fmt: skip
+
 
 def check(teller: Teller, motion: Motion) -> Iterator[Block]:
     """How the solution was checked."""
@@ -29,12 +33,12 @@ def check(teller: Teller, motion: Motion) -> Iterator[Block]:
     )
     verb = "were" if constrained or teller.letters.several else "was"
     yield says(
-        f"The {what} {verb} put back {where}. There left side less right side is 0"
+        f"The {what} {verb} substituted {where}. The left side minus the right side is 0"
         + (" on the constraints" if constrained else "")
         + (
-            ": the computer's algebra reduces it to 0 exactly."
+            ": it simplifies to 0 exactly."
             if motion.verified == "exact"
-            else ": calculated at random states to 50 digits, where all digits cancel."
+            else ", evaluated at random states to 50 digits."
         )
     )
 
@@ -44,10 +48,11 @@ def meaning(teller: Teller, motion: Motion) -> Iterator[Block]:
     dynamics = teller.dynamics
     on_points = forces_on_points(dynamics)
     yield says(
-        "The force of a constraint along a coordinate is its multiplier times its slope. Along a "
-        "length it is a force, along an angle a torque. It points to where the quantity that the "
-        "constraint keeps at 0 grows, if the multiplier is positive, and the other way if it is "
-        "negative."
+        "The generalized force of a constraint is its multiplier times its gradient: a force along "
+        "a length, a torque along an angle. For a positive multiplier it has the direction in "
+        "which "
+        "the left side of the constraint minus its right side grows, for a negative one the "
+        "opposite."
     )
     for k, equation in enumerate(dynamics.constraints.equations):
         multiplier = Name(equation.multiplier.name)
@@ -76,12 +81,12 @@ def meaning(teller: Teller, motion: Motion) -> Iterator[Block]:
                 if is_zero(entry) is not True
             )
         )
-        yield from _direction(equation, multiplier, along)
+        yield from _direction(teller, equation, multiplier, along)
         yield from _on_points(teller, on_points.get(equation.name, {}))
         if motion.multipliers[k] is not None and is_zero(motion.multipliers[k]) is True:
-            yield says("It is 0: the motion keeps to the constraint by itself.")
+            yield says("It is 0: the motion satisfies the constraint without a force.")
     if dynamics.redundant and dynamics.total_constraint_force is not None:
-        yield says("All constraints together act along each coordinate with")
+        yield says("The sum of the constraint forces is")
         total = map(teller.readable.on_surface, dynamics.total_constraint_force)
         names_of = teller.system.names
         yield Equations(
@@ -89,15 +94,19 @@ def meaning(teller: Teller, motion: Motion) -> Iterator[Block]:
         )
 
 
-def _direction(equation: ConstraintEquation, multiplier: Name, along: list[str]) -> Iterator[Block]:
+def _direction(
+    teller: Teller, equation: ConstraintEquation, multiplier: Name, along: list[str]
+) -> Iterator[Block]:
     """Where the multiplier is the force itself, and which way a positive one points."""
     if len(along) != 1:
         return
+    units = {c.name: c.unit for c in teller.problem.coordinates}
+    kind = _KINDS.get(units[along[0]] or "", "generalized force")
     q, entry = Name(along[0]), sympy.Add(*equation.row)
     if is_zero(entry - 1) is True:
-        yield says(multiplier, " is this force itself: positive towards larger ", q, ".")
+        yield says(multiplier, f" equals this {kind}: positive towards larger ", q, ".")
     elif is_zero(entry + 1) is True:
-        yield says(multiplier, " is this force reversed: positive towards smaller ", q, ".")
+        yield says(multiplier, f" equals minus this {kind}: positive towards smaller ", q, ".")
 
 
 def _on_points(teller: Teller, points: dict[str, tuple[sympy.Expr, ...]]) -> Iterator[Block]:

@@ -1,4 +1,4 @@
-"""The steps that are told when asked for: rest, small oscillations, reduction, questions."""
+"""The steps of `--also`: equilibria, small oscillations, reduction, questions."""
 
 from __future__ import annotations
 
@@ -10,20 +10,21 @@ from typing import cast
 from sympy import Expr
 
 from lagcli.algebra import is_zero
-from lagcli.answers import EquilibriaSection, ModesSection, ReductionSection, Section
+from lagcli.answers import EquilibriaSection, ModesSection, Section
 from lagcli.document import Block, Equations, Heading, Label, Matrix, Row
 from lagcli.explanation import Step
-from lagcli.expression import ZERO, Expression, Name, Number, Power, Product
+from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.mechanics.explaining import phase_space, quantities, symmetries
 from lagcli.mechanics.explaining.questions import questions
 from lagcli.mechanics.explaining.real_forces import real_forces
+from lagcli.mechanics.explaining.reduction import reduction
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.transformations import transformations
 from lagcli.mechanics.explaining.words import Part, names, says, shows
 from lagcli.mechanics.statements import Statements
 from lagcli.mechanics.stating import Stating
-from lagcli.wording import POTENTIAL, place_rows, stability
 from lagcli.wording import conditions as inequalities
+from lagcli.wording import place_rows, stability
 
 Others = Mapping[str, Callable[[Stating], Section]]
 
@@ -33,22 +34,22 @@ _SQUARE = Number(Fraction(2))
 def further(teller: Teller, also: Sequence[str], others: Others) -> tuple[list[Step], list[str]]:
     """The steps of these sections, and what was not found on the way.
 
-    `others` makes sections that are none of mechanics.
+    `others` makes sections that do not belong to mechanics.
     """
     statements = Statements(teller.derivation)
     statements.others.update({name: partial(make, statements) for name, make in others.items()})
-    told = []
+    steps = []
     for name in also:
-        title, tell = _TOLD[name]
+        title, explain = _STEPS[name]
         section = statements.answers([name]).sections[name]
-        told.append(Step(title, tuple(tell(teller, section))))
-    return told, list(dict.fromkeys(statements.warnings))
+        steps.append(Step(title, tuple(explain(teller, section))))
+    return steps, list(dict.fromkeys(statements.warnings))
 
 
-# -- rest ----------------------------------------------------------------------------------------
+# -- equilibria ------------------------------------------------------------------------------------
 
 
-def _rest(teller: Teller, section: Section) -> Iterator[Block]:
+def _equilibria(teller: Teller, section: Section) -> Iterator[Block]:
     from lagcli.mechanics.oscillations.equilibria import RestPoints
 
     states = cast(EquilibriaSection, section)
@@ -56,25 +57,26 @@ def _rest(teller: Teller, section: Section) -> Iterator[Block]:
     rest = RestPoints(teller.dynamics)
     constrained = bool(teller.dynamics.constraints.equations)
     yield says(
-        "At rest all velocities and accelerations are 0. What is left of Lagrange's equations is "
-        "that the forces balance"
-        + (", along every displacement that the constraints allow" if constrained else "")
-        + ". These must vanish:"
+        "At an equilibrium all velocities and accelerations are 0. Lagrange's equations then "
+        "require "
+        "that the generalized forces vanish"
+        + (" along every displacement that the constraints allow" if constrained else "")
+        + ":"
     )
     conditions = [teller.readable.as_written(e) for e in rest.equations]
     yield Equations(tuple(Row(ZERO, condition) for condition in conditions))
     if found is None:
-        yield says(f"They were not solved: {states.reason}.")
+        yield says(f"These were not solved: {states.reason}.")
         return
     if not found:
-        yield says("They have no solution: there is no state of rest.")
+        yield says("These have no solution: there is no equilibrium.")
     for number, each in enumerate(found, 1):
-        yield Heading(f"State of rest {number}", 2)
+        yield Heading(f"Equilibrium {number}", 2)
         yield _state(each.at, each.on)
         if each.free:
             yield says(names(each.free), " is free." if len(each.free) == 1 else " are free.")
         if each.where:
-            yield says("It exists where ", *inequalities(each.where), ".")
+            yield says("It exists for ", *inequalities(each.where), ".")
         yield says(stability(each.verdict, each.free, each.on))
     if not states.complete:
         yield says("There may be others.")
@@ -92,7 +94,7 @@ def _oscillations(teller: Teller, section: Section) -> Iterator[Block]:
     known = cast(ModesSection, section)
     found = known.modes
     if not found:
-        yield says(f"There is none to be told of: {known.reason}.")
+        yield says(f"There are none: {known.reason}.")
         return
     oscillations = SmallOscillations(teller.dynamics)
     for at, on in {
@@ -103,7 +105,7 @@ def _oscillations(teller: Teller, section: Section) -> Iterator[Block]:
             for p in oscillations.places or ()
             if (oscillations.equilibrium(p).at, oscillations.equilibrium(p).on) == (at, on)
         ]
-        yield says("To first order in the displacements from the state of rest")
+        yield says("To first order in the displacements from the equilibrium")
         yield _state(at, on)
         yield from _linear(teller, *places[0].matrices)
         for mode in found:
@@ -117,9 +119,9 @@ def _oscillations(teller: Teller, section: Section) -> Iterator[Block]:
             shapes = [] if mode.shape is None else [mode.shape, *mode.more_shapes]
             for number, shape in enumerate(shapes if len(mode.shape or ()) > 1 else ()):
                 yield says(
-                    "and, as the frequency is a multiple root, independently of these"
+                    "and independently of these, as the root is multiple,"
                     if number
-                    else "Then the displacements are in the ratio"
+                    else "with the amplitudes in the ratio"
                 )
                 yield Equations(tuple(Row(Label("a", (q,)), part) for q, part in shape.items()))
 
@@ -146,7 +148,7 @@ def _linear(
         else:
             yield Matrix(Label(letter, matrix=True), trees, tags, tags)
     if teller.dynamics.constraints.equations:
-        yield says("taken along the displacements that the constraints allow.")
+        yield says("restricted to the displacements that the constraints allow.")
     omega, s = Name("omega"), Name("s")
     form: list[Part] = [K, " − ", Power(omega, _SQUARE), " ", M]
     if moving:
@@ -160,97 +162,19 @@ def _linear(
     )
 
 
-# -- reduction -----------------------------------------------------------------------------------
-
-
-def _reduction(teller: Teller, section: Section) -> Iterator[Block]:
-    reduced = cast(ReductionSection, section)
-    letters = teller.letters
-    R = letters.free("R")
-    cyclic = list(reduced.momenta)
-    if cyclic:
-        one = len(cyclic) == 1
-        yield says(names(cyclic), " is cyclic. Constant is" if one else " are cyclic. Constant are")
-        yield Equations(
-            tuple(Row(Name(f"p_{name}"), value) for name, value in reduced.momenta.items())
-        )
-    else:
-        yield says("No coordinate is cyclic, so there is nothing to take out.")
-    if reduced.routhian is None:
-        yield says(f"The reduction was not found: {reduced.reason}.")
-        return
-    if reduced.reconstruction:
-        yield says("Solved for the velocities, as if the momenta were given:")
-        yield Equations(
-            tuple(Row(Name(name, 1), value) for name, value in reduced.reconstruction.items())
-        )
-        momentum = Product((Name(f"p_{cyclic[0]}"), Name(cyclic[0], 1)))
-        what: list[Part] = (
-            [momentum] if len(cyclic) == 1 else ["the sum of ", momentum, " and its like"]
-        )
-        yield says(
-            letters.L,
-            " less ",
-            what,
-            ", with these put in, is the Routhian, the Lagrangian of the other coordinates:",
-        )
-        yield shows(R, reduced.routhian)
-    if reduced.effective_potential is not None:
-        yield says(
-            "What it has without velocities is the effective potential, with its sign turned:"
-        )
-        yield shows(POTENTIAL, reduced.effective_potential)
-    if reduced.equations:
-        yield says("Lagrange's equations with it:")
-        yield Equations(tuple(Row(each.left, each.right) for each in reduced.equations))
-    yield from _one_freedom(reduced)
-
-
-def _one_freedom(reduced: ReductionSection) -> Iterator[Block]:
-    motion = reduced.one_freedom
-    if motion is None:
-        return
-    q, E = Name(motion.coordinate), Name(motion.constant)
-    yield says("One coordinate is left, ", q, ", and its energy is conserved:")
-    yield shows(E, motion.energy)
-    yield says("It turns where its velocity is 0, ", POTENTIAL, " = ", E, ":"
-               if motion.turning_points else ".")  # fmt: skip
-    if motion.turning_points:
-        yield Equations(tuple(Row(q, root) for root in motion.turning_points))
-    for each in motion.periods:
-        if each.at:
-            yield says("Between turning points on both sides of the minimum of ", POTENTIAL, " at")
-            yield _state(each.at)
-        elif each.root_of is not None:
-            yield says("About the minimum of ", POTENTIAL, ", where this vanishes,")
-            yield shows(ZERO, each.root_of)
-        words: list[Part] = []
-        if each.amplitude:
-            a = Name(each.amplitude)
-            words = [", with half their distance ", a, " and up to higher powers of ", a]
-        elif each.order:
-            words = [f", the same for all amplitudes up to their power {each.order}"]
-        if each.root_of is not None:
-            yield says("the period of small oscillations is")
-        else:
-            words = words or [", for small oscillations"]
-            yield says("the period is twice the time from one to the other", *words, ":")
-        yield shows(Label("T", ("period",)), each.period)
-
-
-_TOLD: Mapping[str, tuple[str, Callable[[Teller, Section], Iterator[Block]]]] = {
-    "find": ("The questions", questions),
-    "equilibria": ("States of rest", _rest),
+_STEPS: Mapping[str, tuple[str, Callable[[Teller, Section], Iterator[Block]]]] = {
+    "find": ("Questions", questions),
+    "equilibria": ("Equilibria", _equilibria),
     "modes": ("Small oscillations", _oscillations),
-    "reduction": ("The reduction", _reduction),
+    "reduction": ("The reduction", reduction),
     "steady_motions": ("Steady motions", phase_space.steady),
-    "canonical_equations": ("The canonical equations", phase_space.canonical_equations),
+    "canonical_equations": ("Canonical equations", phase_space.canonical_equations),
     "brackets": ("Poisson brackets", phase_space.brackets),
     "canonical": ("Canonical transformations", transformations),
-    "hamilton_jacobi": ("The equation of Hamilton and Jacobi", phase_space.hamilton_jacobi),
-    "discovered": ("Symmetries that nobody asked about", symmetries.discovered),
-    "algebra": ("The algebra of the charges", symmetries.algebra),
-    "forces": ("The real forces", real_forces),
+    "hamilton_jacobi": ("The Hamilton-Jacobi equation", phase_space.hamilton_jacobi),
+    "discovered": ("Discovered symmetries", symmetries.discovered),
+    "algebra": ("The algebra of the symmetries", symmetries.algebra),
+    "forces": ("Forces", real_forces),
     "model": ("The model of a numerical run", quantities.model),
-    "dimensions": ("The units", quantities.dimensions),
+    "dimensions": ("Units", quantities.dimensions),
 }

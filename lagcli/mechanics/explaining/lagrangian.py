@@ -1,4 +1,4 @@
-"""The second step: T and V with everything put in, L, and what no potential gives."""
+"""The second step: T, V and L, and the forces without a potential."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ def lagrangian(teller: Teller) -> Iterator[Block]:
         yield says(
             names(letters.moved),
             " means" if len(letters.moved) == 1 else " mean",
-            " something else in this file. What the books write so has the index 'sys' here.",
+            " something else in this file, so the usual quantity has the index 'sys' here.",
         )
     if problem.definitions:
-        yield says("The file abbreviates")
+        yield says("The definitions of the file are")
         yield Equations(tuple(Row(Name(n), formula) for n, formula in problem.definitions.items()))
     if system.H is not None:
         yield from _hamiltonian(teller, system.H)
@@ -49,7 +49,7 @@ def lagrangian(teller: Teller) -> Iterator[Block]:
             yield from _potential(teller)
             yield says("so that the Lagrangian ", difference(letters.T, letters.V), " is")
             yield shows(letters.L, by_terms(system.L, as_given=True))
-    yield from _beside(teller)
+    yield from _without_potential(teller)
 
 
 def _hamiltonian(teller: Teller, H: Expr) -> Iterator[Block]:
@@ -57,7 +57,7 @@ def _hamiltonian(teller: Teller, H: Expr) -> Iterator[Block]:
     system, letters, readable = teller.system, teller.letters, teller.readable
     yield says("The Hamiltonian is given:")
     yield shows(letters.free("H"), readable.as_written(H))
-    yield says("Its derivatives by the momenta are the velocities:")
+    yield says("Its derivatives with respect to the momenta are the velocities:")
     yield Equations(
         tuple(
             Row(name, readable.as_written(simplify(H.diff(p))))
@@ -65,8 +65,8 @@ def _hamiltonian(teller: Teller, H: Expr) -> Iterator[Block]:
         )
     )
     yield says(
-        "Solved for the momenta and put into the sum of momentum times velocity, over all "
-        "coordinates, less the Hamiltonian, this gives the Lagrangian"
+        "Solved for the momenta, and substituted into the sum of momentum times velocity over all "
+        "coordinates, minus the Hamiltonian, this gives the Lagrangian"
     )
     yield shows(letters.L, readable.by_terms(system.L, as_given=True))
 
@@ -85,9 +85,9 @@ def _points(teller: Teller) -> Iterator[Block]:
         speed = sympy.Add(*(system.total_derivative(x) ** 2 for x in particle.position))
         squared = Power(letters.free(f"v_{particle.name}"), _SQUARE)
         rows.append(Row(squared, teller.readable.by_terms(speed.xreplace(still))))
-    yield says("The points are at these Cartesian places and have these speeds:")
+    yield says("The points have these Cartesian coordinates and squared speeds:")
     yield Equations(tuple(rows))
-    yield says("Each mass contributes half of itself times its speed squared:")
+    yield says("The kinetic energy is the sum of half of each mass times its squared speed:")
 
 
 def _potential(teller: Teller) -> Iterator[Block]:
@@ -96,20 +96,17 @@ def _potential(teller: Teller) -> Iterator[Block]:
     if free_of(V, teller.system.qdot):
         yield says("and the potential energy")
     else:
-        yield says(
-            "and the potential, which depends on velocities too (Lagrange's equations take "
-            "account of that by themselves),"
-        )
+        yield says("and the potential, which depends on the velocities,")
     yield shows(letters.V, teller.readable.by_terms(V, as_given=True))
 
 
-def _beside(teller: Teller) -> Iterator[Block]:
+def _without_potential(teller: Teller) -> Iterator[Block]:
     """Forces without a potential, and dissipation."""
     system, letters = teller.system, teller.letters
     if teller.forced:
         pushed = any(particle.force is not None for particle in system.particles)
         yield says(
-            "Forces act that no potential gives. Along each coordinate they are",
+            "The generalized forces without a potential are",
             " (those on points by their virtual work)" if pushed else "",
         )
         yield Equations(
@@ -120,9 +117,9 @@ def _beside(teller: Teller) -> Iterator[Block]:
             )
         )
     if teller.damped:
-        yield says("Friction comes from Rayleigh's dissipation function,")
+        yield says("Rayleigh's dissipation function is")
         yield shows(letters.D, teller.readable.by_terms(system.D, as_given=True))
-        slope = Diff(letters.D, letters.velocity)
+        drag = Negative(Diff(letters.D, letters.velocity))
         yield says(
-            "which adds the force ", Negative(slope), " along each coordinate ", letters.q, "."
+            "It adds the generalized force ", drag, " along each coordinate ", letters.q, "."
         )

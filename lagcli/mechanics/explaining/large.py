@@ -24,7 +24,7 @@ UNSOLVED = "the accelerations and multipliers were not solved in closed form"
 
 
 def explanation_of_large(form: MatrixForm) -> Explanation:
-    """What can be told of a large system from its structure."""
+    """What follows for a large system from its structure."""
     problem = form.problem
     charges = LargeCharges(form)
     steps = [
@@ -47,11 +47,11 @@ def explanation_of_large(form: MatrixForm) -> Explanation:
 
 def _system(form: MatrixForm) -> Iterator[Block]:
     coordinates = [q.name for q in form.problem.coordinates]
-    yield says("The coordinates ", names(coordinates), " describe where everything is.")
+    yield says("The coordinates ", names(coordinates), " describe the configuration.")
     free, rank = form.degrees_of_freedom, len(form.independent)
     freedom = f"the system has {counted(free, 'degree')} of freedom."
     if not form.constraints:
-        yield says(f"Nothing restricts them: {freedom}")
+        yield says(f"No constraint acts on them: {freedom}")
         return
     yield says(
         f"{counted(len(form.constraints), 'constraint').capitalize()} "
@@ -63,7 +63,7 @@ def _system(form: MatrixForm) -> Iterator[Block]:
         items.append((f"'{constraint.name}': {kind}",))
     yield Items(tuple(items))
     yield says(
-        f"{counted(len(coordinates), 'velocity', 'velocities').capitalize()} less "
+        f"{counted(len(coordinates), 'velocity', 'velocities').capitalize()} minus "
         f"{counted(rank, 'independent condition')} on them: {freedom}"
     )
 
@@ -73,24 +73,22 @@ def _equations(form: MatrixForm) -> Iterator[Block]:
     constrained = bool(form.constraints)
     left = difference(Rate(Diff(letters.L, letters.velocity)), Diff(letters.L, letters.q))
     yield says(
-        "With ",
+        "For each coordinate ",
         letters.q,
-        " any one of the coordinates, Lagrange's equation for it has ",
+        ", Lagrange's equation has ",
         left,
-        " on its left side and what acts beside ",
-        letters.L,
-        " on its right side",
-        ", the forces of the constraints with their multipliers among it" if constrained else "",
-        ". Carried out for all coordinates, this is linear in the accelerations: ",
+        " on its left side and the other generalized forces on its right side",
+        ", with those of the constraints and their multipliers" if constrained else "",
+        ". These equations are linear in the accelerations: ",
         *matrix_law(constrained=constrained),
         ".",
     )
     count = operations(form.entries)
     yield says(
-        f"With their common parts worked out once, the entries take {count:,} operations. "
-        "Solutions in formulas would be longer than anyone could read, so the system stays in "
-        "this matrix form, to be solved in numbers at each moment: --show matrix_form of lagcli "
-        "solve prints the entries, lagcli simulate computes the motion."
+        f"With common subexpressions shared, the entries take {count:,} operations. A solution in "
+        "formulas would not be readable, so the system stays in this matrix form, to be solved "
+        "numerically: lagcli solve --show matrix_form prints the entries, lagcli simulate computes "
+        "the motion."
     )
 
 
@@ -101,7 +99,7 @@ def _energy(form: MatrixForm, charges: LargeCharges) -> Iterator[Block]:
         letters.h,
         " is the sum of ",
         Product((letters.velocity, Diff(letters.L, letters.velocity))),
-        " over all coordinates, less ",
+        " over all coordinates, minus ",
         letters.L,
         f". {charges.energy_reason[0].upper()}{charges.energy_reason[1:]}.",
     )
@@ -113,7 +111,7 @@ def _energy(form: MatrixForm, charges: LargeCharges) -> Iterator[Block]:
             letters.L,
             ": the momentum " if len(cyclic) == 1 else ": the momenta ",
             names(f"p_{name}" for name in cyclic),
-            " changes only by what acts beside L."
+            " changes only by the other generalized forces."
             if len(cyclic) == 1
-            else " change only by what acts beside L.",
+            else " change only by the other generalized forces.",
         )

@@ -1,4 +1,4 @@
-"""The steps on steady motions and on phase space: what is asked once the equations are known."""
+"""The steps on steady motions and on phase space."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from lagcli.document import (
     Matrix,
     Row,
 )
-from lagcli.expression import ZERO, Expression, Name, Negative, Number, Power, Product
+from lagcli.expression import ZERO, Diff, Expression, Name, Negative, Number, Power, Product
 from lagcli.mechanics.explaining.teller import Teller
-from lagcli.mechanics.explaining.words import Part, listed, names, says, shows
+from lagcli.mechanics.explaining.words import Part, difference, listed, names, says, shows
 from lagcli.motions import HamiltonJacobiSection, SteadyMotion, SteadySection
 from lagcli.phase_space import BracketsSection
 from lagcli.wording import POTENTIAL, conditions, place_rows, steady_stability
@@ -30,22 +30,27 @@ _SQUARED = Power(Name("omega"), Number(Fraction(2)))
 
 
 def steady(_: Teller, section: Section) -> Iterator[Block]:
-    """Where the other coordinates rest while the cyclic ones turn, and what a push does there."""
+    """The relative equilibria: cyclic velocities constant, the other coordinates at rest."""
     found = cast(SteadySection, section)
     if found.eliminated:
         yield says(
             "The constraints give ",
             names(found.eliminated, 1),
-            " by the other velocities. With these put in, the rates of the other velocities "
-            "depend on few of the coordinates. In a steady motion these rest and the velocities "
-            "are constant, so that their rates vanish:",
+            " in terms of the other velocities. With these substituted, the accelerations of the "
+            "other coordinates depend on few of the coordinates. In a steady motion these few are "
+            "constant and so are the velocities, and the accelerations vanish:",
         )
         yield from _steady_states(found)
         return
+    if found.motions and not any(motion.momenta for motion in found.motions):
+        yield says("No coordinate is cyclic, so the steady motions are the equilibria:")
+        yield from _steady_states(found)
+        return
     yield says(
-        "In a steady motion the coordinates that are not cyclic rest, and the cyclic ones have "
-        "constant velocities. In the Routhian's equations all velocities and accelerations are "
-        "then 0, and what is left is that the derivatives of ",
+        "In a steady motion the coordinates that are not cyclic are constant, and the cyclic ones "
+        "have constant velocities. All velocities and accelerations in the Routhian's "
+        "equations are "
+        "then 0, so the derivatives of ",
         POTENTIAL,
         " vanish, with the momenta of the cyclic coordinates as constants:",
     )
@@ -56,10 +61,10 @@ def _steady_states(found: SteadySection) -> Iterator[Block]:
     wanted = dict.fromkeys(found.conditions.values())
     yield Equations(tuple(Row(ZERO, each) for each in wanted if each != ZERO or len(wanted) == 1))
     if found.motions is None:
-        yield says(f"They were not solved: {found.reason}.")
+        yield says(f"These were not solved: {found.reason}.")
         return
     if not found.motions:
-        yield says("They have no solution: there is no steady motion.")
+        yield says("These have no solution: there is no steady motion.")
     for number, motion in enumerate(found.motions, 1):
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(motion)
@@ -77,14 +82,14 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
         yield Equations(place_rows(motion.at, motion.on))
     rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
     if rates:
-        yield says("The cyclic coordinates then turn with")
+        yield says("The velocities of the cyclic coordinates are then")
         yield Equations(tuple(Row(Name(name, 1), rate) for name, rate in rates.items()))
     momenta = {n: p for n, p in motion.momenta.items() if p != Name(f"p_{n}")}
     if momenta:
         yield says("and the momenta are" if rates else "The momenta are")
         yield Equations(tuple(Row(Name(f"p_{name}"), p) for name, p in momenta.items()))
     if motion.where:
-        yield says("It is possible where ", conditions(motion.where), ".")
+        yield says("It is possible for ", conditions(motion.where), ".")
     if motion.mass:
         yield from _displaced(motion)
     yield says(steady_stability(motion))
@@ -102,8 +107,8 @@ def _rolling(motion: SteadyMotion) -> Iterator[Block]:
     yield Equations((*places, *(Row(Name(name, 1), rate) for name, rate in rates.items())))
     if motion.frequencies_squared:
         yield says(
-            "Linearised about it, the equations have as many roots 0 as there are neighbouring "
-            "steady motions; the others have the squared frequency below."
+            "The linearised equations have the root 0, of the dimension of the family of steady "
+            "motions; the other roots have the squared frequency below."
         )
     yield says(steady_stability(motion))
     if motion.frequencies_squared:
@@ -116,7 +121,7 @@ def _displaced(motion: SteadyMotion) -> Iterator[Block]:
     turning = any(entry != ZERO for row in motion.velocity for entry in row)
     velocities: list[Part] = [C, " · velocities + "] if turning else []
     yield says(
-        "Displaced a little, with the momenta unchanged, the coordinates obey to first order ",
+        "Small displacements at unchanged momenta obey to first order ",
         *(M, " · accelerations + ", *velocities, K, " · displacements = 0 with"),
     )
     tags = tuple(str(n) for n in range(1, len(motion.mass) + 1))
@@ -141,7 +146,9 @@ def canonical_equations(teller: Teller, section: Section) -> Iterator[Block]:
     """The Legendre transform, and Hamilton's equations."""
     found = cast(CanonicalSection, section)
     derivation = teller.derivation
-    yield says("The momenta are the derivatives of ", teller.letters.L, " by the velocities:")
+    yield says(
+        "The momenta are the derivatives of ", teller.letters.L, " with respect to the velocities:"
+    )
     momenta = teller.dynamics.lagrange.momenta
     yield Equations(
         tuple(
@@ -155,27 +162,36 @@ def canonical_equations(teller: Teller, section: Section) -> Iterator[Block]:
         yield says(f"There is no Hamiltonian: {found.reason or derivation.hamiltonian.reason}.")
         return
     yield says(
-        "Solved for the velocities and put into the sum of momentum times velocity less ",
+        "Solved for the velocities, and substituted into the sum of momentum times velocity minus ",
         teller.letters.L,
         ", they give",
     )
     yield shows(H, teller.readable.as_written(function))
-    yield says("Its derivative by a momentum is the velocity,")
+    yield says("The velocities are its derivatives with respect to the momenta,")
     yield Equations(tuple(Row(Name(q, 1), pair.q) for q, pair in found.equations.items()))
-    yield says("and that by a coordinate, with its sign turned, the rate of the momentum:")
+    yield says(*_momentum_rates(teller))
     yield Equations(tuple(Row(Name(f"p_{q}", 1), pair.p) for q, pair in found.equations.items()))
+
+
+def _momentum_rates(teller: Teller) -> list[Part]:
+    """-dH/dq + Q - dD/dq' + lambda a."""
+    more = ["the applied forces"] * (teller.forced or teller.damped)
+    more += ["the forces of the constraints"] * bool(teller.dynamics.constraints.equations)
+    added = f", plus {' and '.join(more)}" if more else ""
+    return [f"and the rates of the momenta minus those with respect to the coordinates{added}:"]
 
 
 def brackets(_: Teller, section: Section) -> Iterator[Block]:
     """{A, B} = sum of dA/dq dB/dp - dA/dp dB/dq."""
     found = cast(BracketsSection, section)
+    A, B, q, p = Name("A"), Name("B"), Name("q_j"), Name("p_j")
+    first, second = Product((Diff(A, q), Diff(B, p))), Product((Diff(A, p), Diff(B, q)))
     yield says(
-        "The Poisson bracket of two functions is the sum, over the coordinates, of the derivative "
-        "of the first by the coordinate times that of the second by its momentum, less the same "
-        "with coordinate and momentum exchanged. That of a coordinate and its momentum is 1."
-    )
+        "The Poisson bracket ", Bracket(A, B), " is the sum of ", difference(first, second),
+        " over all coordinates, so that a coordinate and its momentum have the bracket 1.",
+    )  # fmt: skip
     if not found.brackets and not found.reason:
-        yield says("The file names no functions to take it of.")
+        yield says("The file names no functions.")
     if found.observables:
         yield Equations(tuple(Row(Name(name), value) for name, value in found.observables.items()))
     if found.reason:
@@ -186,15 +202,19 @@ def brackets(_: Teller, section: Section) -> Iterator[Block]:
         if value is not None:
             rows.append(Row(Bracket(each.left, each.right), value))
     if rows:
-        yield says("Put in, this gives")
+        yield says("For the functions of the file")
         yield Equations(tuple(rows))
     if found.rates:
-        yield says("The bracket with H and the derivative by t make the rate on the motion:")
+        yield says(
+            "The rates on the motion are the brackets with H plus the partial "
+            "derivatives with "
+            "respect to t:"
+        )
         yield Equations(tuple(Row(Name(name, 1), rate) for name, rate in found.rates.items()))
 
 
 def hamilton_jacobi(_: Teller, section: Section) -> Iterator[Block]:
-    """From H(q, dS/dq) = E to the parts of S, one coordinate at a time."""
+    """From H(q, dS/dq) = E to the parts of S, coordinate by coordinate."""
     found = cast(HamiltonJacobiSection, section)
     if found.hamiltonian is None:
         yield says(f"The equation was not found: {found.reason}.")
@@ -205,9 +225,13 @@ def hamilton_jacobi(_: Teller, section: Section) -> Iterator[Block]:
         return
     H, W = Label("H"), Label("W")
     yield says(
-        *("In the Hamiltonian each momentum is the derivative of ", S, " by its coordinate. "),
-        *(H, " does not contain the time, so ", S, " = ", Negative(Product((E, Name("t"))))),
-        *(" + ", W, ", and ", W, " obeys"),
+        *(
+            "Each momentum in the Hamiltonian is the derivative of ",
+            S,
+            " with respect to its coordinate. ",
+        ),
+        *(H, " does not depend on t explicitly, so ", S, " = ", Negative(Product((E, Name("t"))))),
+        *(" + ", W, ", where ", W, " satisfies"),
     )
     yield shows(E, found.hamiltonian)
     if found.obstacle:
@@ -218,23 +242,35 @@ def hamilton_jacobi(_: Teller, section: Section) -> Iterator[Block]:
     if found.derivatives is None:
         yield says(f"Its separation was not found: {found.reason}.")
         return
-    yield says(
-        *("Levi-Civita's condition holds for every pair of coordinates, so ", W, " is a sum of "),
-        "functions of one coordinate each. What depends on one coordinate only is constant; "
-        "the constants are ",
-        *(names(found.constants), "."),
-    )
+    if len(found.derivatives) > 1:
+        yield says(
+            *(
+                "Levi-Civita's condition holds for every pair of coordinates, so ",
+                W,
+                " is a sum of ",
+            ),
+            "functions of one coordinate each. The terms with one coordinate are constant; the "
+            "constants of separation are ",
+            *(names(found.constants), "."),
+        )
     if found.equations:
         yield Equations(tuple(Row(ZERO, each) for each in found.equations.values()))
     cyclic = [name for name in found.derivatives if name not in found.equations]
     if cyclic:
-        yield says("Of a cyclic coordinate ", W, " has the constant momentum times the coordinate.")
+        yield says("A cyclic coordinate contributes its constant momentum times itself to ", W, ".")
     if found.equations:
-        yield says("Each of these is quadratic in its momentum. With the root of either sign")
+        each = "Each of these" if len(found.equations) > 1 else "This"
+        yield says(f"{each} is solved for its momentum, with a square root of either sign:")
     for name in found.equations:
         yield from _part(found, name)
-    yield says("The derivatives of ", S, " by the constants are constant as well: by ", E,
-               " this is the motion in time, by the others the path.")  # fmt: skip
+    if len(found.constants) == 1:
+        yield says("The derivative of ", S, " with respect to ", E,
+                   " is constant, which gives the motion in time.")  # fmt: skip
+        return
+    yield says(
+        *("The derivatives of ", S, " with respect to the constants are constant: that with "),
+        *("respect to ", E, " gives the motion in time, the others the path."),
+    )
 
 
 def _by_forces_of_time(found: HamiltonJacobiSection, rate: Expression) -> Iterator[Block]:
@@ -242,14 +278,18 @@ def _by_forces_of_time(found: HamiltonJacobiSection, rate: Expression) -> Iterat
     assert found.derivatives is not None
     S, f, H = Label("S"), Label("f"), Label("H")
     yield says(
-        *("In the Hamiltonian each momentum is the derivative of ", S, " by its coordinate, "),
-        *("and the derivative of ", S, " by the time is ", Negative(Name("H")), ", with"),
+        *(
+            "Each momentum in the Hamiltonian is the derivative of ",
+            S,
+            " with respect to its coordinate, ",
+        ),
+        *("and that with respect to t is ", Negative(Name("H")), ", with"),
     )
     yield shows(H, found.hamiltonian)
     yield says(
-        *(H, " is linear in the coordinates, with factors that depend on the time alone: so is "),
-        *(S, ", with the momenta as factors, and a function ", f, " of the time. "),
-        "The terms with a coordinate give the rate of its momentum, which is the force on it. "
+        *(H, " is linear in the coordinates, with coefficients that depend on t alone. So is "),
+        *(S, ", with the momenta as coefficients, plus a function ", f, " of t. "),
+        "The terms with a coordinate give the rate of its momentum, which is the force along it. "
         "Integrated,",
     )
     rows = [Row(Name(f"p_{name}"), p) for name, p in found.derivatives.items()]
@@ -263,7 +303,7 @@ def _by_forces_of_time(found: HamiltonJacobiSection, rate: Expression) -> Iterat
     rows = [Row(f, Integral(rate, "t"))]
     rows += [] if found.of_time is None else [Row(f, found.of_time)]
     yield Equations(tuple(rows))
-    yield says("The derivatives of ", S, " by the constants are constant as well: this is the "
+    yield says("The derivatives of ", S, " with respect to the constants are constant: this is the "
                "motion.")  # fmt: skip
 
 
@@ -277,5 +317,5 @@ def _part(found: HamiltonJacobiSection, name: str) -> Iterator[Block]:
     yield Equations(tuple(rows))
     for each in found.cases.get(name, ()):
         where: list[Part] = conditions(each.where)
-        yield says("Where ", where, ",")
+        yield says("For ", where, ",")
         yield shows(W, each.function)

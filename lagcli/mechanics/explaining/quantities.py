@@ -14,19 +14,20 @@ from lagcli.wording import unit_rows
 
 
 def model(_: Teller, section: Section) -> Iterator[Block]:
-    """What a numerical run integrates, and why not the rest."""
+    """The coordinates that a numerical run integrates, and why not the others."""
     found = cast(ModelSection, section)
     if found.kept is None:
         yield says("There is no such model.")
         return
     yield says(
-        "A numerical run integrates no more than it must. A constraint that can be solved for a "
-        "coordinate leaves that coordinate out."
+        "A numerical run integrates as few coordinates as possible. A constraint that can be "
+        "solved "
+        "for a coordinate eliminates it."
     )
     if found.eliminated:
-        yield says("Solved and put in:")
+        yield says("Eliminated:")
         yield Equations(tuple(Row(Name(name), value) for name, value in found.eliminated.items()))
-    yield says("So it integrates ", names(found.kept), ".")
+    yield says("It integrates ", names(found.kept), ".")
     if found.ignorable:
         yield says(
             names(found.ignorable),
@@ -35,42 +36,44 @@ def model(_: Teller, section: Section) -> Iterator[Block]:
             else " are cyclic: they follow from the others by their constant momenta.",
         )
     if found.dropped:
-        yield says("On ", names(found.dropped), " the motion does not depend.")
+        yield says("The motion does not depend on ", names(found.dropped), ".")
     if found.reason:
-        yield says("The reasons, one by one:")
+        yield says("The reasons:")
         yield Items(tuple((Name(name), f": {why}.") for name, why in found.reason.items()))
 
 
 def dimensions(teller: Teller, section: Section) -> Iterator[Block]:
-    """From the units of the file to those of everything else."""
+    """From the units of the file to those of all other quantities."""
     found = cast(DimensionsSection, section)
     if not found.units_given:
-        yield says("The file gives no units, so nothing is checked or inferred.")
+        yield says("The file gives no units, so none are checked or inferred.")
         return
     own = {**found.coordinates, **found.parameters}
-    yield says("The file gives")
+    yield says("Given are")
     yield from _units({name: Label(name, unit=True) for name in own}, own, "given")
     derived = {**own, **found.functions, **found.definitions}
     inferred = {name: each for name, each in derived.items() if each.source == "inferred"}
     yield says(
-        "The terms of a sum have one unit, and the argument of a sine, an exponential or the like "
-        "has none. Every sum and every call in the file was compared in this way: all fit."
+        "All terms of a sum must have the same unit, and the argument of a sine or an exponential "
+        "must have none. Every sum and every function in the file was checked: all are consistent."
     )
     if any(each.unit for each in inferred.values()):
-        yield says("This determines as well")
+        yield says("This determines")
         yield from _units({n: Label(n, unit=True) for n in inferred}, inferred)
     L = teller.letters.L
     yield says("The unit of ", L, " is")
     yield from _units({"L": Label(L.name, unit=True)}, {"L": found.energy})
-    yield says("A momentum has the unit of ", L, " over that of a velocity:")
+    yield says("A momentum has the unit of ", L, " divided by that of the velocity:")
     yield from _units({n: Label(f"p_{n}", unit=True) for n in found.momenta}, found.momenta)
-    yield says("A generalized force has that of ", L, " over that of its coordinate:")
+    yield says("A generalized force has that of ", L, " divided by that of its coordinate:")
     yield from _units({n: Label("Q", (n,), unit=True) for n in found.forces}, found.forces)
     if found.multipliers:
-        yield says("A multiplier has that of ", L, " over that of what its constraint keeps at 0:")
+        yield says("A multiplier has that of ", L, " divided by that of its constraint:")
         yield from _units({n: Label(n, unit=True) for n in found.multipliers}, found.multipliers)
     if found.charges:
-        yield says("A charge has that of the momentum times the change of the coordinate:")
+        yield says(
+            "A conserved quantity has that of the momentum times the change of the coordinate:"
+        )
         yield from _units({n: Label("Q", (n,), unit=True) for n in found.charges}, found.charges)
     left = [name for name, each in derived.items() if each.unit is None]
     if left:

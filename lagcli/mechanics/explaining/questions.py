@@ -18,10 +18,10 @@ _COMPARISONS = {"<": " < ", "<=": " ≤ ", ">": " > ", ">=": " ≥ "}
 
 
 def questions(teller: Teller, section: Section) -> Iterator[Block]:
-    """Each question, what is put in, and its answer."""
+    """Each question, the substitutions, and its answer."""
     answers = cast(FindSection, section).answers
     if not answers:
-        yield says("The file asks nothing.")
+        yield says("The file has no questions.")
         return
     along = AlongTheMotion(teller.dynamics, teller.derivation.noether)
     yield from _known(along)
@@ -36,13 +36,13 @@ def questions(teller: Teller, section: Section) -> Iterator[Block]:
 def _known(along: AlongTheMotion) -> Iterator[Block]:
     if along.initial is None:
         yield says(
-            "The file gives no initial state, so only the solved accelerations and multipliers are "
-            "put in, and the constraints."
+            "The file gives no initial state, so only the solved accelerations and multipliers and "
+            "the constraints are used."
         )
         return
     yield says(
-        "The solved accelerations and multipliers are put in, the constraints are used, and every "
-        "conserved quantity keeps its value in the initial state. So these stay 0:"
+        "The solved accelerations and multipliers are substituted, the constraints are used, and "
+        "every conserved quantity keeps its initial value. So these are 0 on the motion:"
     )
     laws = [along.tree(law) for law in along.level_set.laws]
     yield Equations(tuple(Row(ZERO, law) for law in laws))
@@ -58,13 +58,13 @@ def _asked(question: Question) -> list[Part]:
         case Lasting(condition=condition, unknown=unknown):
             comparison = _COMPARISONS[condition.comparison]
             holds: list[Part] = [condition.left, comparison, condition.right]
-            return ["For which ", unknown, " is ", *holds, " all the time?"]
+            return ["For which ", unknown, " is ", *holds, " at all times?"]
         case Reaching(coordinate=coordinate, value=value, unknown=unknown):
-            return ["For which ", unknown, " does ", coordinate, " come to ", value, "?"]
+            return ["For which ", unknown, " does ", coordinate, " reach ", value, "?"]
 
 
 def _on_the_way(teller: Teller, along: AlongTheMotion, question: Question) -> Iterator[Block]:
-    """The asked quantity on the motion, and the square of the velocity, in one coordinate."""
+    """The quantity of the question on the motion, and the squared velocity, by one coordinate."""
     system = teller.system
     if isinstance(question, Rewrite):
         return
@@ -84,7 +84,7 @@ def _on_the_way(teller: Teller, along: AlongTheMotion, question: Question) -> It
             formula = along.rewritten(system.build(sides[0]) - system.build(sides[1]), [u])
         if square is None or square == 0 or (sides and formula is None):
             continue
-        yield says("Put in, this leaves ", Name(u.name), " alone:")
+        yield says("In terms of ", Name(u.name), " alone:")
         rows = [Row(along.tree(rate**2), along.tree(square))]
         if formula is not None:
             rows.append(Row(_difference(sides), along.tree(formula)))
@@ -104,19 +104,20 @@ def _answer(answer: Answer, *, is_open: bool) -> Iterator[Block]:
         case Solutions(unknown=unknown, solutions=tuple(roots)):
             left = Name(unknown.rstrip("'"), len(unknown) - len(unknown.rstrip("'")))
             if roots:
-                yield says("The answer:" if is_open else "Of its roots the motion comes to")
+                yield says("The solution is" if is_open else "Of its roots the motion reaches")
                 yield Equations(tuple(Row(left, root) for root in roots))
             else:
-                yield says("The motion comes to none of its roots.")
+                yield says("The motion reaches none of its roots.")
         case Rewritten(value=value, subject=subject) if value is not None:
-            yield says("With the rest eliminated it is")
+            yield says("It is")
             yield shows(Name("value") if subject is None else subject, value)
         case Ranges(unknown=unknown, ranges=tuple(ranges)):
             yield says(
                 "The answer can change only at values of ",
                 Name(unknown),
-                " with which two roots along the motion meet, or one meets the start. Between "
-                "these one motion decides. The answer is yes for ",
+                " for which two roots along the motion coincide, or a root coincides with the "
+                "initial "
+                "state. Between these values one motion decides. The condition holds for ",
                 *_ranges(unknown, ranges),
                 ".",
             )

@@ -1,4 +1,4 @@
-"""The step from multipliers to real forces: normal, friction, tension, and what they need."""
+"""The step from multipliers to forces: normal force, friction, tension, and their limits."""
 
 from __future__ import annotations
 
@@ -20,17 +20,18 @@ def real_forces(teller: Teller, section: Section) -> Iterator[Block]:
     """From lambda df/dr to a signed magnitude along a unit vector."""
     found = cast(ForcesSection, section)
     if found.forces is None:
-        yield says(f"They were not found: {found.reason}.")
+        yield says(f"These were not found: {found.reason}.")
         return
     equations = teller.dynamics.constraints.equations
     if not equations:
-        yield says("There are no constraints, so there are no such forces.")
+        yield says("There are no constraints and no forces of constraint.")
         return
     yield says(
-        "A constraint does the same work as a force on its points, for every displacement. So its "
-        "force on a point is the multiplier times the gradient of left less right side by the "
-        "point's Cartesian coordinates. The gradient is taken apart into its length and a unit "
-        "vector e."
+        "For every displacement a constraint does the same virtual work as a force on its "
+        "points: the "
+        "multiplier times the gradient of the constraint with respect to the Cartesian "
+        "coordinates of "
+        "the point. The force is written as a magnitude with a sign, times a unit vector e."
     )
     gradients = on_points(teller.dynamics, {e.name: e.row for e in equations})
     for equation in equations:
@@ -56,7 +57,7 @@ def real_forces(teller: Teller, section: Section) -> Iterator[Block]:
             )
             yield from _magnitude(force, multiplier)
         if torques:
-            yield says("On an angle of a body, on which no point depends, it acts as a torque:")
+            yield says("Along an angle on which no point depends it acts as a torque:")
             yield Equations(tuple(Row(Label("Q", (q,)), value) for q, value in torques.items()))
     for needed in found.friction_needed:
         yield from _friction(needed)
@@ -69,44 +70,45 @@ def _magnitude(force: PointForce, multiplier: Name) -> Iterator[Block]:
         return
     where = "."
     if force.allowed is not None:
-        where = ", to where the contact pushes." if force.allowed > 0 else "."
+        where = ", in the direction in which the contact pushes," if force.allowed > 0 else "."
     if force.towards is not None:
-        where = f", towards {force.towards or 'the origin'}."
+        where = f" towards {force.towards or 'the origin'}"
     elif force.away_from is not None:
-        where = f", away from {force.away_from or 'the origin'}."
-    yield says("The unit vector along it is", where.replace(".", ":") if where != "." else "")
+        where = f" away from {force.away_from or 'the origin'}"
+    yield says("Its unit vector", f"{where.rstrip('.')} is" if where != "." else " is")
     yield Equations(
         tuple(
             Row(Label("e", (axis,)), part)
             for axis, part in zip("xyz", force.direction, strict=False)
         )
     )
-    yield says("With ", multiplier, " put in, the force along it is")
+    yield says("With the value of ", multiplier, ", the force along it is")
     yield shows(F, force.force)
-    if force.kind == "tension" and force.towards is not None:
-        yield says("It is a pull where this is positive, and a push where it is negative.")
     if force.allowed is not None:
-        sign = "negative" if force.allowed > 0 else "positive"
-        yield says("The contact holds from one side only: it is lost where ", F,
-                   f" comes to 0 and would become {sign}.")  # fmt: skip
+        bound = " ≥ 0." if force.allowed > 0 else " ≤ 0."
+        taut = force.kind == "tension"
+        yield says("It can only pull: it is taut while " if taut else
+                   "The contact is one-sided: it holds while ", F, bound)  # fmt: skip
+    elif force.kind == "tension" and force.towards is not None:
+        yield says("It is a pull where this is positive, a push where it is negative.")
 
 
 def _friction(needed: FrictionNeeded) -> Iterator[Block]:
     frictions = " and ".join(needed.frictions)
-    yield Heading(f"The coefficient that {frictions} needs", 2)
+    yield Heading(f"The coefficient of friction of {frictions}", 2)
     if needed.coefficient is None:
-        yield says(f"It was not found: {needed.reason}.")
+        yield says(f"This was not found: {needed.reason}.")
         return
     several = len(needed.frictions) > 1
     yield says(
-        "Static friction is at most its coefficient times the normal force. So nothing slips as "
-        "long as the coefficient is at least ",
-        f"the length of the sum of {frictions}" if several else f"that of {frictions}",
-        f" over that of {needed.normal}:",
+        "Static friction is at most its coefficient times the normal force. There is no slipping "
+        "while the coefficient is at least the magnitude of ",
+        f"the sum of {frictions}" if several else frictions,
+        f" divided by that of {needed.normal}:",
     )
     yield shows(Label("mu", ("min",)), needed.coefficient)
     parts: list[Part] = []
     for position, positive in enumerate(needed.where):
-        parts += [" and " if position else "It is so written where ", positive, " > 0"]
+        parts += [" and " if position else "This form holds where ", positive, " > 0"]
     if parts:
         yield says(*parts, ".")

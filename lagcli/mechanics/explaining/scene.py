@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from lagcli.algebra import is_zero
 from lagcli.document import Block, Equations, Items, Row
-from lagcli.expression import Name
+from lagcli.expression import ZERO, Name, Negative
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, counted, names, quoted, says
@@ -22,26 +22,30 @@ def scene(teller: Teller) -> Iterator[Block]:
     yield says(
         "The coordinate " if one else "The coordinates ",
         names(coordinates),
-        " describes where everything is." if one else " describe where everything is.",
+        " describes the configuration." if one else " describe the configuration.",
         *_constants([p.name for p in problem.parameters]),
     )
     equations = dynamics.constraints.equations
     if not equations:
         count = len(coordinates)
         yield says(
-            f"Nothing restricts {'it' if one else 'them'}: "
+            f"No constraint acts{'' if one else ' on them'}: "
             f"the system has {counted(count, 'degree')} of freedom."
         )
+        yield from _gaps(teller)
         return
     what = counted(len(equations), "constraint").capitalize()
-    verb = "restricts the motion; this" if len(equations) == 1 else "restrict the motion; these"
-    yield says(f"{what} {verb} must stay 0:")
+    verb = "restricts the motion, with this equal to 0:"
+    if len(equations) > 1:
+        verb = "restrict the motion, with these equal to 0:"
+    yield says(f"{what} {verb}")
     yield Equations(
         tuple(Row(teller.letters.f(e.name), teller.readable.as_written(e.f)) for e in equations)
     )
     yield Items(tuple(tuple(_kind(teller, equation)) for equation in equations))
     yield from _contacts(teller)
     yield from _freedom(teller)
+    yield from _gaps(teller)
 
 
 def _constants(parameters: list[str]) -> list[Part]:
@@ -73,7 +77,7 @@ def _kind(teller: Teller, equation: ConstraintEquation) -> list[Part]:
         )
     if is_zero(equation.drift) is not True:
         parts.append(
-            " It contains the time, so the constraint itself moves and its force can do work."
+            " It depends on t explicitly, so the constraint itself moves and its force can do work."
             if equation.holonomic
             else " It has a term without velocities, so its force can do work."
         )
@@ -90,8 +94,37 @@ def _contacts(teller: Teller) -> Iterator[Block]:
             bound.left,
             _COMPARISONS[bound.comparison],
             bound.right,
-            ". What follows is true as long as it does.",
+            ". What follows holds for as long.",
         )
+
+
+def _gaps(teller: Teller) -> Iterator[Block]:
+    """The contacts of the file, which act only while they are closed."""
+    contacts = teller.problem.contacts
+    if not contacts:
+        return
+    build, write = teller.system.build, teller.readable.as_written
+    one = len(contacts) == 1
+    what = counted(len(contacts), "contact").capitalize()
+    verbs = "acts only while its gap is 0 and pushes" if one else (
+        "act, each only while its gap is 0, and push")  # fmt: skip
+    yield says(f"{what} {verbs} towards a larger gap:")
+    rows = []
+    for contact in contacts:
+        gap = build(contact.equation.left) - build(contact.equation.right)
+        rows.append(Row(teller.letters.free(f"gap_{contact.name}"), write(gap)))
+    yield Equations(tuple(rows))
+    for contact in contacts:
+        if contact.restitution is None:
+            yield says(f"Where the gap '{contact.name}' closes, a run stops.")
+        elif contact.restitution == ZERO:
+            yield says(f"At an impact the rate of the gap '{contact.name}' becomes 0.")
+        else:
+            yield says(f"At an impact the rate of the gap '{contact.name}' is multiplied by ",
+                       Negative(contact.restitution), ".")  # fmt: skip
+    struck = any(contact.restitution is not None for contact in contacts)
+    when = "between impacts, " if struck else ""
+    yield says(f"What follows holds {when}while {'the gap is' if one else 'all gaps are'} open.")
 
 
 def _freedom(teller: Teller) -> Iterator[Block]:
@@ -104,7 +137,7 @@ def _freedom(teller: Teller) -> Iterator[Block]:
         )
     left = counted(count - rank, "degree")
     yield says(
-        f"{counted(count, 'velocity', 'velocities').capitalize()} less "
+        f"{counted(count, 'velocity', 'velocities').capitalize()} minus "
         f"{counted(rank, 'independent condition')} on them: "
         f"{count} − {rank} = {count - rank}, so the system has {left} of freedom."
     )

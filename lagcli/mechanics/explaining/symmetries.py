@@ -1,4 +1,4 @@
-"""The steps on symmetries that nobody asked about, and on their algebra."""
+"""The steps on the discovered symmetries and on their algebra."""
 
 from __future__ import annotations
 
@@ -27,26 +27,29 @@ _CHECKED = {"exact": "exactly", "50 digits": "at random states to 50 digits"}
 
 
 def discovered(teller: Teller, section: Section) -> Iterator[Block]:
-    """The ansatz, the condition, and each charge with its check."""
+    """The ansatz, the condition, and each conserved quantity with its check."""
     found = cast(ChargesSection, section).charges
     discovery = teller.derivation.discovery
     letters = teller.letters
     constrained = bool(teller.dynamics.constraints.equations)
     yield says(
-        "A symmetry changes the coordinates and the time so that the action changes only by a "
-        "boundary term. The search takes an ansatz with unknown coefficients: "
+        "A symmetry is a change of the coordinates and the time under which the action "
+        "changes only "
+        f"by a boundary term. The search uses an ansatz with unknown coefficients: "
         f"{discovery.ansatz}."
     )
     yield says(
-        "Lagrange's derivative of a total time derivative is 0, and of nothing else. So for a "
-        "point transformation that of the change of ",
+        "For a point transformation the Euler-Lagrange expression of the change of ",
         letters.L,
-        " must vanish identically" + (" on the constraints" if constrained else "") + "; for an "
-        "integral of the motion its time derivative with the accelerations put in must. Both are "
-        "linear in the unknown coefficients, and these linear equations are solved exactly.",
+        " must vanish identically" + (" on the constraints" if constrained else "") + ", "
+        "which holds "
+        "for total time derivatives and only for them. For a constant of the motion the time "
+        "derivative "
+        "on the motion must vanish. Both conditions are linear in the unknown coefficients and are "
+        "solved exactly.",
     )
     if not found:
-        yield says("They have no solution but 0: within this ansatz there is no symmetry.")
+        yield says("They have only the solution 0: within this ansatz there is no symmetry.")
         return
     charges = [each for each in found if each.source != "momentum equation"]
     if charges:
@@ -58,8 +61,9 @@ def discovered(teller: Teller, section: Section) -> Iterator[Block]:
         yield says(*law, *boundary, ".")
         levels = {each.verified for each in charges if each.verified}
         how = f"; this was checked {_CHECKED[levels.pop()]}" if len(levels) == 1 else ""
-        yield says("The time derivative of each charge, with the accelerations put in, is 0"
-                   f"{how}. What lies beyond the ansatz was not searched.")  # fmt: skip
+        yield says(f"The time derivative of each of them on the motion is 0{how}. Nothing "
+                   f"outside of "
+                   "the ansatz was searched.")  # fmt: skip
     for charge in found:
         yield from _charge(teller, charge)
 
@@ -71,20 +75,22 @@ def _charge(teller: Teller, charge: Charge) -> Iterator[Block]:
     rows = [Row(Label(name, change=True), by) for name, by in charge.transformation.items()]
     if charge.gauge is not None and charge.gauge != ZERO:
         rows.append(Row(letters.G, charge.gauge))
+    energy = charge.name == "energy" and set(charge.transformation) == {"t"}
     if charge.charge is not None:
-        rows.append(Row(letters.Q, charge.charge))
+        rows.append(Row(letters.h if energy else letters.Q, charge.charge))
     if moves and charge.rate is not None:
         rows.append(Row(Name(letters.Q.name, 1), charge.rate))
     yield Equations(tuple(rows))
+    if energy:
+        yield says("This is the energy function, with the opposite sign of ", letters.Q, ".")
     if moves:
-        yield says("The constraints allow this displacement, but it changes from place to place: "
+        yield says("The constraints allow this displacement, but it depends on the configuration: "
                    "the momentum is not constant, and has this rate.")  # fmt: skip
     elif any(_quick(change) for change in charge.transformation.values()):
-        yield says("The change depends on the velocities, so this is no point transformation; ",
-                   letters.L, " changes as it must on the motion.")  # fmt: skip
+        yield says("The change depends on the velocities, so this is not a point transformation.")
     if charge.where:
-        yield says("It is real where ", conditions(charge.where),
-                   "; elsewhere its real and its imaginary part are conserved.")  # fmt: skip
+        yield says("It is real for ", conditions(charge.where),
+                   "; otherwise its real and its imaginary part are conserved.")  # fmt: skip
 
 
 def _quick(change: Expression) -> bool:
@@ -95,11 +101,11 @@ def _quick(change: Expression) -> bool:
 
 
 def algebra(teller: Teller, section: Section) -> Iterator[Block]:
-    """Brackets of the charges, the algebra that they make, and Liouville's count."""
+    """Brackets of the conserved quantities, their algebra, and Liouville's count."""
     found = cast(AlgebraSection, section)
     charges = teller.derivation.discovery.charges
     if not charges:
-        yield says(f"No charge was found, so there is no algebra. Searched: {found.ansatz}.")
+        yield says(f"No symmetry was found, so there is no algebra. Searched: {found.ansatz}.")
         return
     yield from _brackets(teller)
     if found.name:

@@ -10,7 +10,7 @@ from lagcli.mechanics.readable import Readable
 
 
 class Teller:
-    """One derivation, ready to be told."""
+    """One derivation, ready to be explained."""
 
     def __init__(self, derivation: Derivation) -> None:
         self.derivation = derivation

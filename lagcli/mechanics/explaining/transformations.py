@@ -10,7 +10,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra import shape
 from lagcli.answers import Section
 from lagcli.document import Block, Bracket, Equations, Formula, Heading, Label, Row
-from lagcli.expression import Diff, Expression, Name, Number, Product, walk
+from lagcli.expression import Diff, Expression, Name, Negative, Number, Product, walk
 from lagcli.mechanics.canonical.transformation import CanonicalTest
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import says, shows
@@ -29,14 +29,16 @@ _VARIABLES = {
     "F4": "the old and the new momenta",
 }
 _LAWS = {
-    "F1": "Its derivatives by the old coordinates are the old momenta, those by the new "
-    "coordinates the new momenta with their signs turned",
-    "F2": "Its derivatives by the old coordinates are the old momenta, those by the new momenta "
-    "the new coordinates",
-    "F3": "Its derivatives by the old momenta are the old coordinates, those by the new "
-    "coordinates the new momenta, all with their signs turned",
-    "F4": "Its derivatives by the old momenta are the old coordinates with their signs turned, "
-    "those by the new momenta the new coordinates",
+    "F1": "Its derivatives with respect to the old coordinates are the old momenta, those with "
+    "respect to the new coordinates minus the new momenta",
+    "F2": "Its derivatives with respect to the old coordinates are the old momenta, those with "
+    "respect to the new momenta the new coordinates",
+    "F3": "Its derivatives with respect to the old momenta are minus the old coordinates, "
+    "those with "
+    "respect to the new coordinates minus the new momenta",
+    "F4": "Its derivatives with respect to the old momenta are minus the old coordinates, "
+    "those with "
+    "respect to the new momenta the new coordinates",
 }
 
 
@@ -44,12 +46,14 @@ def transformations(teller: Teller, section: Section) -> Iterator[Block]:
     """Each transformation of the file: is it canonical, what generates it, what is K."""
     found = cast(TransformationsSection, section).transformations
     if not found:
-        yield says("The file gives no transformation.")
+        yield says("The file gives no transformation of phase space.")
         return
     yield says(
-        "New variables are canonical when their Poisson brackets are those of the old ones: 1 "
-        "between a coordinate and its own momentum, 0 between all others. Then Hamilton's "
-        "equations keep their form, whatever the Hamiltonian is."
+        "A transformation is canonical when the Poisson brackets of the new variables are "
+        "those of the "
+        "old ones: 1 between a coordinate and its own momentum, 0 between all others. Then "
+        "Hamilton's "
+        "equations keep their form for every Hamiltonian."
     )
     given = {each.name: each for each in teller.derivation.given.canonical_transformations}
     system = teller.derivation.hamiltonian.system
@@ -66,7 +70,7 @@ def _transformation(test: CanonicalTest, each: ExaminedTransformation) -> Iterat
         yield says("Whether it is canonical was not decided.")
         return
     if each.generator is not None and each.generator.kind == "F":
-        yield says("So the sum of p dq less the sum of P dQ, ",
+        yield says("So the sum of p dq minus the sum of P dQ, ",
                    *_scaled(each), "at constant time, is the total differential of")  # fmt: skip
         yield shows(Label("F"), each.generator.function)
     elif each.generator is not None:
@@ -83,11 +87,11 @@ def _scaled(each: ExaminedTransformation) -> list[str | Formula]:
 
 
 def _brackets(test: CanonicalTest, each: ExaminedTransformation) -> Iterator[Block]:
-    """The slopes where there are only four, then the brackets."""
+    """The derivatives where there are only four, then the brackets."""
     old, names = test.old, [s.name for s in test.new]
     n = len(names) // 2
     if n == 1:
-        yield says("Their derivatives by the old ones are")
+        yield says("Their derivatives with respect to the old ones are")
         yield Equations(
             tuple(
                 Row(Diff(Name(name), Name(by.name)), _written(test, f.diff(by)))
@@ -95,9 +99,9 @@ def _brackets(test: CanonicalTest, each: ExaminedTransformation) -> Iterator[Blo
                 for by in old
             )
         )
-        yield says("so the first times the last less the second times the third is")
+        yield says("so the first times the last minus the second times the third is")
     else:
-        yield says("From their derivatives by the old ones these brackets follow:")
+        yield says("Their Poisson brackets in the old variables are")
     failing = {(f.left, f.right): f for f in each.failing}
     rows = []
     for i, j, value in test.brackets:
@@ -112,26 +116,26 @@ def _brackets(test: CanonicalTest, each: ExaminedTransformation) -> Iterator[Blo
     others = "" if n == 1 else " All others are 0." if not failing else " The others are right."
     how = f" It was checked {_CHECKED[each.verified]}." if each.verified else ""
     if each.kind == "canonical":
-        yield says(f"as it must be.{others} The transformation is canonical.{how}")
+        yield says(f"as required.{others} The transformation is canonical.{how}")
     elif each.kind == "extended canonical":
         assert each.valence is not None
         pairs = "" if n == 1 else f", and the same for every pair.{others} It is"
         yield says(f"This is a constant, but not 1{pairs or ','} the valence of the "
                    "transformation: Hamilton's equations keep their form with the Hamiltonian "
-                   f"times the valence.{how}")  # fmt: skip
+                   f"multiplied by the valence (extended canonical).{how}")  # fmt: skip
     elif each.kind == "not canonical":
         yield says(f"{others} So the transformation is not canonical.".lstrip())
 
 
 def _should(expected: Expression) -> str:
-    """A number that the bracket should be stands beside it."""
+    """The value that the bracket should have, as a note."""
     if isinstance(expected, Number) and expected.value.denominator == 1:
         return f"should be {expected.value.numerator}"
     return "should be that of the first pair"
 
 
 def _given_function(test: CanonicalTest, each: ExaminedTransformation) -> Iterator[Block]:
-    """The function of the file, its derivatives, and whether they are what they should be."""
+    """The function of the file, its derivatives, and whether they agree."""
     generator = each.generator
     F = test.generating
     assert generator is not None
@@ -143,12 +147,13 @@ def _given_function(test: CanonicalTest, each: ExaminedTransformation) -> Iterat
     yield says(_LAWS[generator.kind], ", the old ones times the valence:" if scaled else ":")
     yield Equations(tuple(_derivatives(test, each)))
     if generator.generates:
-        yield says("With the new variables put in, each of these is an identity in the old ones: ",
+        yield says("With the new variables substituted, each of these is an identity in the "
+                   "old ones: ",
                    label, " generates the transformation.")  # fmt: skip
     elif generator.generates is None:
-        yield says("Whether these hold with the new variables put in was not decided.")
+        yield says("Whether these hold with the new variables substituted was not decided.")
     else:
-        yield says("With the new variables put in, these would have to be equal and are not:")
+        yield says("With the new variables substituted, these should be equal and are not:")
         yield Equations(tuple(Row(left, right) for left, right in generator.failing))
         yield says("So ", label, " does not generate the transformation.")
 
@@ -180,7 +185,7 @@ def _new_hamiltonian(test: CanonicalTest, each: ExaminedTransformation) -> Itera
     if each.kind == "extended canonical" and each.valence is not None:
         scale = [" times ", each.valence]
     timed = [*test.functions, *(() if test.generating is None else (test.generating,))]
-    yield says("The transformation is solved for the old variables and put into ", Label("H"),
+    yield says("The transformation, solved for the old variables, is substituted into ", Label("H"),
                *scale, *(_explicit(each) if any(f.has(test.system.t) for f in timed) else ()),
                ". That is the new Hamiltonian,")  # fmt: skip
     yield shows(K, each.hamiltonian)
@@ -193,9 +198,12 @@ def _new_hamiltonian(test: CanonicalTest, each: ExaminedTransformation) -> Itera
 def _explicit(each: ExaminedTransformation) -> tuple[str | Formula, ...]:
     """What is added where the transformation depends on the time."""
     if each.generator is not None and each.generator.kind != "F":
-        return (", plus the derivative of ", Label("F", (each.generator.kind[1],)), " by the time")
-    more = "by P and −dP/dt by Q, at constant q and p and up to a function of the time alone"
-    return (f", plus what has the derivatives dQ/dt {more}",)
+        return (", plus the partial derivative of ", Label("F", (each.generator.kind[1],)),
+                " with respect to t")  # fmt: skip
+    P, Q, t = Name("P"), Name("Q"), Name("t")
+    whose = ", plus a function of P, Q and t, determined up to a function of t, whose "
+    by = "derivatives with respect to P and Q are "
+    return (whose + by, Diff(Q, t), " and ", Negative(Diff(P, t)), " at constant q and p")
 
 
 def _names(tree: Expression) -> set[str]:

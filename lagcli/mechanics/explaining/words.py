@@ -104,5 +104,5 @@ class Letters:
         return Name(f"{letter}_sys" if letter in self._taken else letter)
 
     def f(self, constraint: str) -> Name:
-        """Left side less right side of a constraint."""
+        """Left side minus right side of a constraint."""
         return self.free(f"f_{constraint}")

@@ -23,6 +23,7 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.parameter_values import DIGITS, admissible_values
 from lagcli.mechanics.reduction.readable import weak_sign
@@ -30,6 +31,7 @@ from lagcli.mechanics.reduction.routh import Routh
 
 _ZERO = mpf(10) ** -(DIGITS - 15)
 _TRIED = 24
+_BOUNDED = (sympy.acos, sympy.asin)
 
 
 #: What the constant energy is called: the first name that the problem does not use.
@@ -80,6 +82,24 @@ class OneFreedom:
         roots = [simplify(root) for root in found.values]
         roots = [root for root in roots if not self._excluded(root)]
         return tuple(roots) if all(self._is_root(root, excess) for root in roots) else None
+
+    @cached_property
+    def turning_energies(self) -> tuple[tuple[Expr, Expr], ...]:
+        """The range of E for which acos and asin in all turning points are real.
+
+        -1 <= (E - b)/a <= 1 just for b - |a| <= E <= b + |a|.
+        """
+        arguments = {f.args[0] for root in self.turning_points or () for f in root.atoms(*_BOUNDED)}
+        ranges: dict[tuple[Expr, Expr], None] = {}
+        for argument in arguments:
+            slope = simplify(argument.diff(self.E))
+            direction = sign(slope)
+            if not free_of(slope, [self.E]) or direction not in (1, -1):
+                return ()
+            middle = simplify(-(argument - self.E * slope) / slope)
+            half = simplify(direction / slope)
+            ranges[simplify(middle - half), simplify(middle + half)] = None
+        return tuple(ranges) if len(ranges) == 1 else ()
 
     def _excluded(self, root: Expr) -> bool:
         """Whether the assumptions on the coordinate rule the value out."""

@@ -63,6 +63,29 @@ class Routh:
             and all(self._untouched(e, j) for e in dynamics.constraints.equations)
         )
 
+    @cached_property
+    def irreducible(self) -> dict[int, tuple[bool | None, str]]:
+        """Coordinates that do not occur in L and are kept: is p_j constant, and why kept."""
+        charges = {c.name: c.conserved for c in self.full.noether.charges if c.source == "cyclic"}
+        found = {}
+        for j in self.full.noether.cyclic:
+            if j not in self.cyclic:
+                conserved = charges.get("p_" + self.system.names[j], True)
+                found[j] = (conserved, self._why_kept(j))
+        return found
+
+    def _why_kept(self, j: int) -> str:
+        """What `cyclic` demands and coordinate j does not meet."""
+        q, forces = self.system.q[j], self.system.applied_forces
+        for equation in self.full.dynamics.constraints.equations:
+            if not self._untouched(equation, j):
+                acts = is_zero(equation.row[j]) is not True
+                return f"the constraint '{equation.name}' {'acts along' if acts else 'contains'} it"
+        if is_zero(forces[j]) is not True:
+            return "a force without a potential acts along it"
+        assert not all(_independent(f, q) for f in forces)
+        return "a force without a potential depends on it"
+
     def _untouched(self, equation: ConstraintEquation, j: int) -> bool:
         q = self.system.q[j]
         parts = (*equation.row, equation.f if equation.holonomic else equation.drift)

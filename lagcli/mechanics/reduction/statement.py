@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 
 import sympy
@@ -20,7 +21,7 @@ from lagcli.mechanics.reduction.period import Periods
 from lagcli.mechanics.reduction.period import PeriodSeries as Found
 from lagcli.mechanics.reduction.readable import conditions, effective_potential
 from lagcli.mechanics.reduction.routh import Routh
-from lagcli.motions import OneFreedom, PeriodSeries
+from lagcli.motions import Irreducible, OneFreedom, PeriodSeries
 
 #: What was asked for and not found, and why.
 Missing = list[tuple[str, str]]
@@ -29,12 +30,13 @@ Missing = list[tuple[str, str]]
 def reduction(derivation: Derivation) -> tuple[ReductionSection, Missing]:
     """The reduction by all cyclic coordinates, and what of it was not found."""
     routh = Routh(derivation)
-    return _Statement(routh).section()
+    return _Statement(routh, derivation.system.names).section()
 
 
 class _Statement:
-    def __init__(self, routh: Routh) -> None:
+    def __init__(self, routh: Routh, given: Sequence[str]) -> None:
         self.routh = routh
+        self.given = given
         self.missing: Missing = []
         system = routh.system
         self.names = system.names
@@ -54,7 +56,10 @@ class _Statement:
         reduced = routh.reduced
         if reduced is None or routh.velocities is None:
             self.missing.append(("the reduction", routh.reason))
-            section = ReductionSection(momenta=momenta, routhian=None, reason=routh.reason)
+            section = ReductionSection(
+                momenta=momenta, routhian=None, reason=routh.reason,
+                eliminated=self.eliminated, irreducible=self.irreducible,
+            )  # fmt: skip
             return section, self.missing
         from lagcli.mechanics.statements import Statements
 
@@ -86,9 +91,22 @@ class _Statement:
                 gyroscopic=gyroscopic,
                 gyroscopic_forces=routh.gyroscopic_forces if gyroscopic else False,
                 one_freedom=self._one_freedom(potential),
+                eliminated=self.eliminated,
+                irreducible=self.irreducible,
             ),
             self.missing,
         )
+
+    @property
+    def eliminated(self) -> tuple[str, ...]:
+        """The coordinates for which the constraints are solved."""
+        return tuple(name for name in self.given if name not in self.names)
+
+    @property
+    def irreducible(self) -> dict[str, Irreducible]:
+        """By name."""
+        found = self.routh.irreducible
+        return {self.names[j]: Irreducible(*each) for j, each in found.items()}
 
     def _by_parts(self, lines: tuple[LagrangeEquation, ...]) -> tuple[LagrangeEquation, ...]:
         """The left sides as what the velocities give and dU_eff/dq."""
@@ -149,6 +167,11 @@ class _Statement:
             turning_points=None if points is None else tuple(written(x, order) for x in points),
             rate=shape(motion.rate, order),
             periods=found,
+            positive=bool(motion.q.is_positive),
+            turning_energies=tuple(
+                (shape(lower, order), shape(upper, order))
+                for lower, upper in motion.turning_energies
+            ),
             reason=periods.reason,
         )
 

@@ -1,0 +1,113 @@
+"""The step on the reduction by cyclic coordinates and on one degree of freedom."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import cast
+
+from lagcli.answers import ReductionSection, Section
+from lagcli.document import Block, Equations, Label, Row
+from lagcli.expression import ZERO, Expression, Name, Number, Power, Product
+from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.words import Part, names, says, shows
+from lagcli.motions import OneFreedom, PeriodSeries
+from lagcli.wording import POTENTIAL, conditions, irreducible, place_rows
+
+_TWICE = "the period is twice the time between the turning points."
+
+
+def reduction(teller: Teller, section: Section) -> Iterator[Block]:
+    """Momenta, Routhian, effective potential, equations, and the motion in one coordinate."""
+    reduced = cast(ReductionSection, section)
+    yield from _cyclic(teller, reduced)
+    if reduced.routhian is None:
+        if reduced.momenta:
+            yield says(f"The reduction was not found: {reduced.reason}.")
+        return
+    if reduced.reconstruction:
+        yield from _routhian(teller, reduced, reduced.routhian)
+    if reduced.effective_potential is not None:
+        whole = teller.letters.free("R") if reduced.momenta else teller.letters.L
+        yield says("The terms of ", whole,
+                   " without velocities, with the opposite sign, are the effective "
+                   "potential:")  # fmt: skip
+        yield shows(POTENTIAL, reduced.effective_potential)
+    if reduced.equations and (reduced.momenta or reduced.eliminated):
+        yield says("Lagrange's equations are then")
+        yield Equations(tuple(Row(each.left, each.right) for each in reduced.equations))
+    if reduced.one_freedom is not None:
+        yield from _one_freedom(reduced.one_freedom)
+
+
+def _cyclic(teller: Teller, reduced: ReductionSection) -> Iterator[Block]:
+    cyclic = list(reduced.momenta)
+    if reduced.eliminated:
+        one = len(reduced.eliminated) == 1
+        yield says(f"The constraint{'s are' if not one else ' is'} used to eliminate ",
+                   names(reduced.eliminated), ".")  # fmt: skip
+    if cyclic:
+        one = len(cyclic) == 1
+        yield says(names(cyclic), " is cyclic, with the constant momentum" if one
+                   else " are cyclic, with the constant momenta")  # fmt: skip
+        yield Equations(
+            tuple(Row(Name(f"p_{name}"), value) for name, value in reduced.momenta.items())
+        )
+    elif not reduced.irreducible:
+        which = "None of the others" if reduced.eliminated else "No coordinate"
+        yield says(f"{which} is cyclic, so the Routhian is ", teller.letters.L, ".")
+    for name, why in reduced.irreducible.items():
+        yield says(*irreducible(name, why, teller.letters.L))
+
+
+def _routhian(teller: Teller, reduced: ReductionSection, routhian: Expression) -> Iterator[Block]:
+    L, R, cyclic = teller.letters.L, teller.letters.free("R"), list(reduced.momenta)
+    yield says("Solved for the velocities of the cyclic coordinates:")
+    yield Equations(
+        tuple(Row(Name(name, 1), value) for name, value in reduced.reconstruction.items())
+    )
+    products = [Product((Name(f"p_{name}"), Name(name, 1))) for name in cyclic]
+    terms: list[Part] = [part for each in products for part in (" − ", each)]
+    yield says("With these, the Routhian ", R, " = ", L, *terms,
+               " is the Lagrangian of the other coordinates:")  # fmt: skip
+    yield shows(R, routhian)
+
+
+def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
+    q, E = Name(motion.coordinate), Name(motion.constant)
+    yield says("One coordinate is left, ", q, ". Its energy function is constant:")
+    yield shows(E, motion.energy)
+    if motion.turning_points is None:
+        yield says("Its turning points are the roots of ", POTENTIAL, " = ", E, ".")
+    elif motion.turning_points:
+        real = "real and positive" if motion.positive else "real"
+        yield says("Its turning points are the roots of ", POTENTIAL, " = ", E,
+                   f" that are {real}:")  # fmt: skip
+        yield Equations(tuple(Row(q, root) for root in motion.turning_points))
+        for lower, upper in motion.turning_energies:
+            yield says("They exist for ", lower, " ≤ ", E, " ≤ ", upper, ".")
+            yield says("For larger ", E, ", ", q, " does not turn back.")
+    else:
+        yield says("It has no turning point.")
+    for each in motion.periods:
+        yield from _period(each)
+
+
+def _period(each: PeriodSeries) -> Iterator[Block]:
+    if each.at:
+        yield says("About the minimum of ", POTENTIAL, " at")
+        yield Equations(place_rows(each.at, None))
+    elif each.root_of is not None:
+        yield says("About a minimum of ", POTENTIAL, ", where this vanishes,")
+        yield shows(ZERO, each.root_of)
+    if each.amplitude:
+        a, order = Name(each.amplitude), Number(Fraction(each.order))
+        yield says(f"{_TWICE} With ", a, " half their distance it is, to the order ",
+                   Power(a, order), ",")  # fmt: skip
+    elif each.order:
+        yield says(f"{_TWICE} Up to the power {each.order} of the amplitude it is constant:")
+    else:
+        yield says("the period of small oscillations is")
+    yield shows(Label("T", ("period",)), each.period)
+    if each.where:
+        yield says("for ", *conditions(each.where), ".")

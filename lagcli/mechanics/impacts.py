@@ -1,0 +1,69 @@
+"""What stays constant when a contact closes: an impulse along the gradient of its gap.
+
+At an impact the contact with the gap g(q, t) >= 0 gives an impulse P >= 0 along dg/dq,
+
+    p_j+ - p_j- = P dg/dq_j,    dg/dt+ = -e dg/dt-  (Newton's restitution),
+
+and for T of second degree in the velocities the work of the impulse is P times the mean of
+the velocity before and after.  For Q = sum p_j Dq_j - h Dt - G, with Dq, Dt and G functions of
+q and t, it follows that
+
+    Q+ - Q- = P (sum dg/dq_j Dq_j + dg/dt Dt - Dt (1 - e)/2 dg/dt-),
+
+0 where the displacement lies along the surface of contact, and e = 1 where the time is moved.
+
+References
+----------
+Whittaker, *Analytical Dynamics*, 4th ed., chapter 2 (Lagrange's equations of impulsive motion).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import is_zero
+from lagcli.algebra.build import free_of
+from lagcli.mechanics.system import System
+from lagcli.problem import Contact
+
+
+def between_impacts(
+    system: System, changes: Sequence[Expr], time: Expr, gauge: Expr | None = None
+) -> str:
+    """When a charge is constant if its contacts are left out; empty: always.
+
+    Parameters
+    ----------
+    system
+        With the contacts of its file.
+    changes, time
+        Dq_j by coordinate and Dt of the charge's transformation.
+    gauge
+        Its boundary term G, 0 for None.
+    """
+    striking = [c for c in system.problem.contacts if c.restitution is not None]
+    if not striking:  # a run ends where a gap closes
+        return "while the gaps are open" if system.problem.contacts else ""
+    if all(_kept(system, contact, changes, time, gauge) for contact in striking):
+        return ""
+    return "between impacts"
+
+
+def _kept(
+    system: System, contact: Contact, changes: Sequence[Expr], time: Expr, gauge: Expr | None
+) -> bool:
+    """Whether Q+ = Q-, by the formula above."""
+    assert contact.restitution is not None
+    if not all(free_of(x, system.qdot) for x in (*changes, time, gauge or sympy.S.Zero)):
+        return False
+    if time != 0 and is_zero(system.build(contact.restitution) - 1) is not True:
+        return False
+    gap = system.build(contact.equation.left) - system.build(contact.equation.right)
+    across = sympy.Add(
+        *(gap.diff(q) * change for q, change in zip(system.q, changes, strict=True)),
+        gap.diff(system.t) * time,
+    )
+    return is_zero(across) is True
