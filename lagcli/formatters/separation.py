@@ -52,12 +52,8 @@ def _driven(section: HamiltonJacobiSection, rate: Expression) -> Iterator[Block]
     """S = sum p_i(t) q_i + f(t), where the forces depend on the time alone."""
     assert section.hamiltonian is not None
     assert section.derivatives is not None
-    yield Paragraph(
-        (
-            "Each momentum is the derivative of S with respect to its coordinate, and H is minus that "
-            "with respect to t:",
-        )
-    )
+    words = "Each momentum is the derivative of S with respect to its coordinate, H is minus that "
+    yield Paragraph((f"{words}with respect to t:",))
     yield Equations((Row(Label("H"), section.hamiltonian),))
     yield Paragraph(("The forces depend on the time alone, so S is linear in the coordinates:",))
     action: list[str | Formula] = []

@@ -102,10 +102,10 @@ def test_every_section_is_there():
     printed = render([HOOP], Options())
     for words in (
         "L = M ẋ²/2 + M R² θ̇²/2 − M g (l − x) sin(α)",
-        "checked exactly",
+        "verified exactly",
         "at random states to 50 digits",
         "Q̇  = M R g sin(α)/2",
-        "50 digits;",
+        "50 digits, because of",
         "(rolling: holonomic)",
         "θ = arccos(4/7)",
     ):
