@@ -22,6 +22,7 @@ COMMANDS = {
     "list": "List the problems of the library that comes with lagcli.",
     "show": "Print the file of a problem of the library, to read or to change.",
     "formats": "List the formats that `solve --format` knows.",
+    "schema": "Print the JSON Schema of problem files, or of the answers in JSON.",
     "help": "Read the manual, or its page on a topic.",
     "cache": "Show where the answers of earlier runs are kept, or remove them.",
     "version": "Print the version.",

@@ -8,6 +8,8 @@ BINARY = ("npz", "parquet")
 #: The forms of a study of `tradeoff`, and what it weighs.
 STUDIES = ("text", "json", "csv")
 COSTS = ("total", "integration", "evaluations")
+#: What `lagcli schema` describes.
+SCHEMAS = ("problem", "answers")
 #: The formats of a page of the manual.
 MANUAL_FORMATS = ("text", "markdown", "html", "man")
 
@@ -107,3 +109,8 @@ def complete_template(incomplete: str) -> list[str]:
     from lagcli.templates import TEMPLATES
 
     return [name for name in TEMPLATES if name.startswith(incomplete)]
+
+
+def complete_schema(incomplete: str) -> list[str]:
+    """The schemas whose name begins so."""
+    return [name for name in SCHEMAS if name.startswith(incomplete)]

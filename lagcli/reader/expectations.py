@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from lagcli.expression import Equation, Expression
     from lagcli.reader.sections import Sections
 
-_KEYS = (
+KEYS = (
     "degrees_of_freedom", "equations", "accelerations", "multipliers", "constraint_forces",
     "forces", "friction_needed", "momenta", "hamiltonian", "energy", "charges", "discovered",
     "equilibria", "modes", "find", "trajectory", "reduction", "steady_motions", "hamilton_jacobi",
@@ -85,7 +85,7 @@ class ExpectReader:
 
     def read(self, node: Node) -> Expect:
         """The whole section."""
-        found = self.sections.attributes(node, "expect", _KEYS)
+        found = self.sections.attributes(node, "expect", KEYS)
         values: dict[str, Any] = {}
         for name, (key, value) in found.items():
             self.spans[(name,)] = key.span

@@ -27,7 +27,7 @@ _KINDS = {
     "F4": "momenta and new momenta",
 }
 _EXPECTED = ("kind", "valence", "generates", "hamiltonian")
-_VERDICTS = ("canonical", "extended canonical", "not canonical")
+VERDICTS = ("canonical", "extended canonical", "not canonical")
 _WRITE = "write name: {Q: p_x, p_Q: -x}"
 
 #: What a bracket calls the Hamiltonian, where the file has no such name.
@@ -208,7 +208,7 @@ def read_expected_canonical(
             spans["canonical", key.label, name] = value.span
             match name:
                 case "kind":
-                    values[name] = _word(sections, value, _VERDICTS)
+                    values[name] = _word(sections, value, VERDICTS)
                 case "generates":
                     word = _word(sections, value, ("yes", "no"))
                     values[name] = None if word is None else word == "yes"

@@ -1,0 +1,44 @@
+"""`lagcli schema`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from lagcli.cli.choices import complete_schema
+from lagcli.cli.options import Output
+
+What = Annotated[
+    str,
+    typer.Argument(metavar="[WHAT]", help="problem or answers.", autocompletion=complete_schema),
+]
+
+
+def schema(what: What = "problem", output: Output = None) -> int:
+    """Print the JSON Schema of problem files, or of the answers in JSON.
+
+    An editor with a YAML language server completes and underlines problem files whose first
+    line is
+
+      # yaml-language-server: $schema=problem.schema.json
+
+    \b
+    Examples:
+      lagcli schema -o problem.schema.json
+      lagcli schema answers
+    """  # noqa: D301 - click reads the control character \b
+    import json
+
+    from lagcli.cli.choices import SCHEMAS
+    from lagcli.cli.delivering import has_place, place
+    from lagcli.cli.running import is_known
+    from lagcli.cli.status import Status
+    from lagcli.formatters.schema import answers_schema
+    from lagcli.reader.schema import problem_schema
+
+    if not is_known("the schema", what, SCHEMAS) & has_place(output):
+        return Status.USAGE
+    made = problem_schema() if what == "problem" else answers_schema()
+    text = json.dumps(made, indent=1, ensure_ascii=False) + "\n"
+    return Status.WELL if place(text.encode(), output) else Status.USAGE
