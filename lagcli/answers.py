@@ -99,7 +99,10 @@ class EquationsSection:
 
 @record(kw_only=True)
 class MatrixFormSection:
-    """M q'' = forcing + A^T lambda with A q'' + bias = 0; `shared` in order of use."""
+    """M q'' = forcing + A^T lambda with A q'' + bias = 0; `shared` in order of use.
+
+    `mass_matrix` is empty where the form is not given.
+    """
 
     mass_matrix: tuple[tuple[Expression, ...], ...]
     constraint_jacobian: tuple[tuple[Expression, ...], ...]

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from lagcli.mechanics.stating import Stating
     from lagcli.problem import Problem
 
+#: Off only where the cost of verification is measured.
+VERIFYING = True
+
 
 @record(kw_only=True)
 class Request:
@@ -124,7 +127,11 @@ def state(derivation: Derivation, request: Request) -> Answers:
         When the derivation finds that the problem cannot be meant: contradictory
         constraints, a constraint that is not linear in the velocities.
     """
+    from lagcli.verification import verified
+
     answers = _statements(derivation).answers(request.sections)
+    if VERIFYING:
+        answers = verified(derivation.problem, answers)
     if not request.numeric:
         return answers
     from lagcli.decimals import with_decimals

@@ -104,6 +104,8 @@ def _value(section: Section) -> Value:
             return _string(section.lagrangian)
         case EquationsSection():
             return _unless_none(section.equations, lambda each: [_equation(e) for e in each])
+        case MatrixFormSection(mass_matrix=()):
+            return None
         case MatrixFormSection():
             return {
                 "mass_matrix": [_strings(row) for row in section.mass_matrix],

@@ -185,6 +185,9 @@ def _equations(section: EquationsSection) -> Iterator[Block]:
 
 
 def _matrix_form(section: MatrixFormSection, answers: Answers) -> Iterator[Block]:
+    if not section.mass_matrix:
+        yield _not_found()
+        return
     mass, jacobian = Label("M", matrix=True), Label("A", matrix=True)
     forcing, bias = Label("F", matrix=True), Label("b", matrix=True)
     constrained = bool(section.constraint_jacobian)

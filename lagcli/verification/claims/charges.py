@@ -1,0 +1,112 @@
+"""Charges: the formula, whether it is conserved, and its rate.
+
+For Delta q = Dq, Delta t = Dt and the boundary term G (Noether 1918; Hill, Rev. Mod. Phys. 23
+(1951) 253):
+
+    Q = sum_j dL/dq_j' (Dq_j - q_j' Dt) + L Dt - G.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from flint import arb
+
+from lagcli.answers import AlgebraSection, Charge, ChargesSection
+from lagcli.expression import ONE, ZERO
+from lagcli.record import replace
+from lagcli.verification.examination import Examination
+from lagcli.verification.linear import dot
+from lagcli.verification.states import State
+
+
+def charges(x: Examination, section: ChargesSection) -> ChargesSection:
+    """Each charge of a section."""
+    checked = tuple(_charge(x, charge) for charge in section.charges)
+    return section if checked == section.charges else replace(section, charges=checked)
+
+
+def _charge(x: Examination, charge: Charge) -> Charge:
+    if charge.charge is None:
+        return charge
+    what = f"the charge '{charge.name}'"
+    places = x.places(what, [charge.charge])
+    tried = len(x.unchecked)
+    if places is None or not _is_noethers(x, what, charge):
+        return _without(charge)
+    rate = _rate(x, charge, places[0])
+    if rate is None:
+        x.unchecked.append(what)
+    elif charge.conserved is not None:
+        claim = f"that '{charge.name}' is {'' if charge.conserved else 'not '}conserved"
+        if not x.constant(claim, charge.conserved, rate):
+            return _without(charge)
+        known = charge.rate
+        if known is not None and not x.holds(f"the rate of '{charge.name}'", known, rate):
+            return replace(charge, rate=None, conserved=None, verified=None, broken_by="")
+    return charge if len(x.unchecked) == tried else replace(charge, verified=None)
+
+
+def _without(charge: Charge) -> Charge:
+    why = "its printed form was not confirmed at random states"
+    return replace(charge, charge=None, rate=None, conserved=None, verified=None, broken_by=why)
+
+
+def _is_noethers(x: Examination, what: str, charge: Charge) -> bool:
+    """Whether Q is that of the transformation and of the boundary term."""
+    assert charge.charge is not None
+    truth = _noether(x, what, charge)
+    return truth is None or x.holds(what, charge.charge, truth)
+
+
+def _sign(charge: Charge) -> int:
+    """The energy is listed with Q = +h for Dt = 1."""
+    shift = dict(charge.transformation) == {"t": ONE}
+    return -1 if shift and charge.source in {"time", "discovered"} else 1
+
+
+def _noether(x: Examination, what: str, charge: Charge) -> Callable[[State], arb] | None:
+    if not charge.transformation:
+        return None
+    transformation = [charge.transformation.get(n, ZERO) for n in (*x.reference.names, "t")]
+    gauge = ZERO if charge.gauge is None else charge.gauge
+    places = x.places(what, [*transformation, gauge])
+    if places is None:
+        return None
+    sign = _sign(charge)
+
+    def truth(s: State) -> arb:
+        *changes, time, boundary = (s.at(place) for place in places)
+        laws = s.laws
+        moved = [d - v * time for d, v in zip(changes, laws.velocities, strict=True)]
+        return sign * (dot(laws.momenta, moved) + laws.lagrangian * time - boundary)
+
+    return truth
+
+
+def _rate(x: Examination, charge: Charge, place: int) -> Callable[[State], arb] | None:
+    """dQ/dt on the motion; where q'' is not determined, what is left of it for any q''.
+
+    None where constraints do not determine q'' either.
+    """
+    if x.regular:
+        return lambda s: s.laws.rate(place)
+    changes = x.places("", [charge.transformation.get(n, ZERO) for n in x.reference.names])
+    time = x.places("", [charge.transformation.get("t", ZERO)])
+    if x.reference.rows or not charge.transformation or changes is None or time is None:
+        return None
+    sign = _sign(charge)
+
+    def off_the_motion(s: State) -> arb:
+        """dQ/dt - sum_j (d/dt(dL/dq_j') - dL/dq_j - Q_j) (Dq_j - q_j' Dt)."""
+        stretch = s.at(time[0])
+        moved = [s.at(d) - v * stretch for d, v in zip(changes, s.laws.velocities, strict=True)]
+        return s.loose.rate(place) - sign * dot(s.loose.residuals, moved)
+
+    return off_the_motion
+
+
+def algebra(x: Examination, section: AlgebraSection) -> AlgebraSection:
+    """Nothing is claimed of one state."""
+    del x
+    return section

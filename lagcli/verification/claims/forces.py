@@ -1,0 +1,176 @@
+"""Forces of constraints on points: they do the work of the generalized force.
+
+sum_i R_i . dr_i/dq_j = lambda_k a_kj   along every q_j on which a point depends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from flint import arb
+
+from lagcli.answers import ConstraintForcesSection
+from lagcli.expression import ZERO, Expression, Product
+from lagcli.forces import ForcesSection, FrictionNeeded
+from lagcli.record import replace
+from lagcli.verification.examination import Examination
+from lagcli.verification.linear import dot
+from lagcli.verification.states import State
+from lagcli.verification.sweeps import column
+
+_UNKNOWN = "its printed form was not confirmed at random states"
+
+#: Point -> the printed components of a vector on it.
+Vectors = Mapping[str, Sequence[Expression]]
+
+
+def constraint_forces(x: Examination, section: ConstraintForcesSection) -> ConstraintForcesSection:
+    """Lambda df/dq by constraint and coordinate, and their total."""
+    found: dict[str, Mapping[str, Expression | None] | None] = dict(section.forces)
+    for k, row in enumerate(x.reference.rows):
+        name = row.constraint.name
+        force = found.get(name)
+        if force is not None:
+            known = {q: f for q, f in force.items() if f is not None}
+            where = [x.reference.names.index(q) for q in known]
+            ok = x.hold(
+                f"the generalized force of '{name}'",
+                list(known.values()),
+                lambda s, k=k, where=where: [s.laws.constraint_force(k)[j] for j in where],  # type: ignore[misc]
+            )
+            found[name] = force if ok else None
+    total = section.total
+    if total is not None and not x.hold(
+        "the total constraint force",
+        [total[name] for name in x.reference.names],
+        lambda s: s.laws.total_constraint_force,
+    ):
+        total = None
+    return _on_points(x, replace(section, forces=found, total=total))
+
+
+def _on_points(x: Examination, section: ConstraintForcesSection) -> ConstraintForcesSection:
+    """The forces on points that stand beside the generalized forces."""
+    kept = {
+        name: forces
+        for name, forces in section.on_points.items()
+        if _do_the_work(x, f"the force of '{name}' on points", name, forces)
+    }
+    return section if len(kept) == len(section.on_points) else replace(section, on_points=kept)
+
+
+def forces(x: Examination, section: ForcesSection) -> ForcesSection:
+    """Signed magnitudes and directions, torques, and the friction that is needed."""
+    if section.forces is None:
+        return section
+    wrong = {name for name in {f.constraint for f in section.forces} if not _hold(x, name, section)}
+    found = tuple(
+        replace(each, force=None) if each.constraint in wrong else each for each in section.forces
+    )
+    friction = tuple(_needed(x, each, section, wrong) for each in section.friction_needed)
+    torques = {n: by for n, by in section.torques.items() if _turn(x, n, by)}
+    return replace(section, forces=found, friction_needed=friction, torques=torques)
+
+
+def _hold(x: Examination, name: str, section: ForcesSection) -> bool:
+    """Whether magnitude times direction does the work, the direction being a unit vector."""
+    what = f"the force of '{name}' on points"
+    assert section.forces is not None
+    acting = [each for each in section.forces if each.constraint == name]
+    if any(each.force is None for each in acting):
+        return True
+    vectors = {
+        each.point: [Product((each.force or ZERO, axis)) for axis in each.direction]
+        for each in acting
+    }
+    lengths = x.places(what, [axis for each in acting for axis in each.direction])
+    widths = [len(each.direction) for each in acting]
+    return (
+        lengths is not None
+        and _do_the_work(x, what, name, vectors)
+        and x.decide(what, lambda s: _unit(s, lengths, widths))
+    )
+
+
+def _unit(s: State, places: Sequence[int], widths: Sequence[int]) -> tuple[list[arb], list[arb]]:
+    components = iter([s.at(place) for place in places])
+    vectors = [[next(components) for _ in range(width)] for width in widths]
+    return [dot(vector, vector) for vector in vectors], [arb(1)] * len(vectors)
+
+
+def _turn(x: Examination, name: str, torques: Mapping[str, Expression]) -> bool:
+    """The torque about the point is the generalized force."""
+    k = [row.constraint.name for row in x.reference.rows].index(name)
+    where = [x.reference.names.index(q) for q in torques]
+    return x.hold(
+        f"the torque of '{name}'",
+        list(torques.values()),
+        lambda s: [s.laws.constraint_force(k)[j] for j in where],
+    )
+
+
+def _needed(
+    x: Examination, each: FrictionNeeded, section: ForcesSection, wrong: set[str]
+) -> FrictionNeeded:
+    """|friction|/|normal force| on the first point, where the conditions hold."""
+    if each.coefficient is None or each.normal is None:
+        return each
+    names = (each.normal, *each.frictions)
+    what = f"the coefficient of friction for {' and '.join(each.frictions)}"
+    first = {f.constraint: f for f in reversed(section.forces or ())}
+    vectors = [first[name] for name in names if name in first]
+    known = all(f.force is not None for f in vectors) and not wrong & set(names)
+    parts = [Product((f.force or ZERO, axis)) for f in vectors for axis in f.direction]
+    places = x.places(what, [each.coefficient, *each.where, *parts])
+    if not known or places is None or len(vectors) < len(names):
+        return replace(each, coefficient=None, reason=_UNKNOWN)
+    conditions = places[1 : 1 + len(each.where)]
+    width = len(vectors[0].direction)
+
+    def ratio(s: State) -> tuple[list[arb], list[arb]] | None:
+        if not all(s.at(place) > 0 for place in conditions):
+            return None  # it is so written for other values only
+        components = [s.at(place) for place in places[1 + len(each.where) :]]
+        normal, tangential = components[:width], components[width:]
+        total = [sum(tangential[axis::width], arb(0)) for axis in range(width)]
+        return [s.at(places[0])], [(dot(total, total) / dot(normal, normal)).sqrt()]
+
+    if x.decide(what, ratio):
+        return each
+    return replace(each, coefficient=None, reason=_UNKNOWN)
+
+
+def _positions(x: Examination) -> dict[str, tuple[int, ...]]:
+    place = x.reference.place
+    return {p.name: tuple(map(place, p.position)) for p in x.problem.points}
+
+
+def _arms(x: Examination, s: State) -> dict[str, list[list[arb]]]:
+    """Point -> axis -> dr/dq_j."""
+    return {
+        point: [column(s.at.gradient(place), x.reference.q) for place in places]
+        for point, places in _positions(x).items()
+    }
+
+
+def _do_the_work(x: Examination, what: str, name: str, vectors: Vectors) -> bool:
+    flat = [component for vector in vectors.values() for component in vector]
+    places = x.places(what, flat)
+    if places is None:
+        return False
+    k = [row.constraint.name for row in x.reference.rows].index(name)
+
+    def work(s: State) -> tuple[list[arb], list[arb]]:
+        arms = _arms(x, s)
+        acting = iter([s.at(place) for place in places])
+        total = [arb(0)] * s.laws.size
+        for point, vector in vectors.items():
+            for axis in arms[point][: len(vector)]:
+                force = next(acting)
+                total = [w + force * arm for w, arm in zip(total, axis, strict=True)]
+        rows = [axis for axes in arms.values() for axis in axes]
+        moving = [j for j in range(s.laws.size) if any(not axis[j].is_zero() for axis in rows)]
+        true = s.laws.constraint_force(k)
+        return [total[j] for j in moving], [true[j] for j in moving]
+
+    return x.decide(what, work)

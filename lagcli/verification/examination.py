@@ -1,0 +1,241 @@
+"""The examination of one answer sheet: what it shares between the kinds of claims.
+
+Every formula is printed in the grammar of the problem format, as the JSON has it, read back,
+and evaluated at random states.  A claim that a state refutes is retracted with a sentence.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+from flint import arb, ctx
+
+from lagcli.diagnostics import ProblemError
+from lagcli.expression import Expression
+from lagcli.formatters.grammar import to_grammar
+from lagcli.problem import Problem
+from lagcli.reader import parse_text
+from lagcli.verification.comparison import Verdict, compare
+from lagcli.verification.reference import Reference
+from lagcli.verification.states import State, random_states
+from lagcli.verification.sweeps import Unknown, Values
+
+#: States at which each claim is tried, and how many are looked at where it has no value.
+STATES = 3
+LOOKED_AT = 9
+#: Bits, and those with which balls are evaluated again where they are too wide to decide.
+PRECISIONS = (128, 320, 800)
+
+#: A true value at a state, and the values in which a printed formula is evaluated there.
+Truth = Callable[[State], arb]
+#: Two lists of values at a state; None where the claim says nothing of it.
+Sides = Callable[[State], tuple[Sequence[arb], Sequence[arb]] | None]
+Truths = Callable[[State], Sequence[arb]]
+Scene = Callable[[State], Values]
+
+
+def at_state(state: State) -> Values:
+    """The values of parameters, t, q, q', q'', multipliers and momenta there."""
+    return state.at
+
+
+class Unreadable(Exception):
+    """What is printed cannot be read back."""
+
+
+class Examination:
+    """The reference, the states, and what was found.
+
+    Attributes
+    ----------
+    retracted : list of str
+        A sentence for each claim that did not hold.
+    unchecked : list of str
+        What could not be evaluated.
+    """
+
+    def __init__(self, problem: Problem, reference: Reference | None = None) -> None:
+        self.problem = problem
+        self.reference = Reference(problem) if reference is None else reference
+        self.retracted: list[str] = []
+        self.unchecked: list[str] = []
+        self._count = 1 if self.reference.large else STATES
+        self._why = ""
+        self._read: dict[str, int] = {}
+        self._found: dict[int, list[State]] = {}
+        self._more: dict[int, Iterator[State]] = {}
+
+    # -- states -----------------------------------------------------------------------------
+
+    def states(self, count: int = 0, bits: int = PRECISIONS[0]) -> list[State]:
+        """The first states (as many as each claim is tried at), fewer where no more are found."""
+        count = count or self._count
+        found = self._found.setdefault(bits, [])
+        more = self._more.setdefault(bits, random_states(self.reference))
+        while len(found) < count:
+            with ctx.workprec(bits):
+                state = next(more, None)
+            if state is None:
+                break
+            found.append(state)
+        return found[:count]
+
+    @property
+    def regular(self) -> bool:
+        """Whether the equations determine q'' at the states."""
+        return all(state.laws.regular for state in self.states())
+
+    # -- formulas -----------------------------------------------------------------------------
+
+    def place(self, expression: Expression) -> int:
+        """The step of a formula, read back from its printed form.
+
+        Raises
+        ------
+        Unreadable
+            When the reader does not read it.
+        """
+        text = to_grammar(expression)
+        if text not in self._read:
+            try:
+                self._read[text] = self.reference.place(parse_text(text))
+            except (ProblemError, KeyError) as error:
+                raise Unreadable(text) from error
+        return self._read[text]
+
+    def places(self, what: str, expressions: Sequence[Expression]) -> list[int] | None:
+        """The steps of printed formulas; None, and noted, where one cannot be read back."""
+        try:
+            return [self.place(expression) for expression in expressions]
+        except Unreadable as error:
+            self.refute(what, f"its printed form {error} cannot be read back")
+        return None
+
+    def define(self, what: str, shared: Mapping[str, Expression]) -> None:
+        """Let names stand for printed formulas, each of which may use earlier ones."""
+        for name, expression in shared.items():
+            if self.places(what, [expression]) is not None:
+                self.reference.program.define(name, self.place(expression))
+
+    def holds(
+        self, what: str, expression: Expression, truth: Truth, scene: Scene = at_state
+    ) -> bool:
+        """Whether a printed formula has the true value at random states; noted if not."""
+        return self.hold(what, [expression], lambda s: [truth(s)], scene)
+
+    def hold(self, what: str, expressions: Sequence[Expression], truths: Truths,
+             scene: Scene = at_state) -> bool:  # fmt: skip
+        """The same for several formulas that are one claim."""
+        places = self.places(what, expressions)
+        if places is None:
+            return False
+        return self.decide(what, lambda s: ([scene(s)(place) for place in places], truths(s)))
+
+    def differ_by(
+        self, what: str, sides: Sequence[tuple[Expression, Expression]], truths: Truths
+    ) -> bool:
+        """Whether left - right of printed equations is right for any q'' and lambda."""
+        places = self.places(what, [side for pair in sides for side in pair])
+        if places is None:
+            return False
+        pairs = list(zip(places[::2], places[1::2], strict=True))
+        return self.decide(
+            what, lambda s: ([s.loose.at(a) - s.loose.at(b) for a, b in pairs], truths(s))
+        )
+
+    def vanishes(self, what: str, value: Truth) -> bool:
+        """Whether a quantity is 0 at random states; noted if not."""
+        return self.decide(what, lambda s: ([value(s)], [arb(0)]))
+
+    def constant(self, what: str, claim: bool, value: Truth) -> bool:
+        """Whether a rate is 0 at all states (claim True), or not 0 at one (False); noted if not."""
+        if claim:
+            return self.vanishes(what, value)
+        values = [value(state) for state in self.states()]
+        if not values:
+            self.unchecked.append(what)
+        elif all(compare(each, arb(0)) is Verdict.EQUAL for each in values):
+            self.refute(what, "the value that it denies to be 0 is 0 at random states")
+            return False
+        return True
+
+    def determined(self, what: str, at: Callable[[State], bool]) -> bool:
+        """Whether the laws determine a quantity at some state; noted if not."""
+        states = self.states()
+        if not states or any(map(at, states)):
+            return True
+        self.refute(what, "the equations do not determine it")
+        return False
+
+    def decide(self, what: str, sides: Sides) -> bool:
+        """Whether two lists of values agree at random states; noted if not."""
+        tried = looked_at = 0
+        undefined = False
+        while tried < self._count and looked_at < LOOKED_AT:
+            looked_at += 1
+            try:
+                verdict = self._at_state(sides, looked_at)
+            except Unknown as error:
+                self.refute(what, f"its printed form uses {error}, which is not declared")
+                return False
+            if verdict is Verdict.DIFFERENT:
+                self.refute(what, f"as derived it is {self._why}")
+                return False
+            tried += verdict is Verdict.EQUAL
+            undefined |= verdict is Verdict.UNDEFINED
+        if tried:
+            return True
+        if undefined:
+            self.refute(what, "as derived it has no real value at random states")
+            return False
+        self.unchecked.append(what)
+        return True
+
+    def _at_state(self, sides: Sides, number: int) -> Verdict | None:
+        """What one state says, with more bits where balls are too wide; None: nothing."""
+        verdict = None
+        for bits in PRECISIONS:
+            states = self.states(number, bits)
+            if len(states) < number:
+                return verdict
+            with ctx.workprec(bits):
+                values = sides(states[-1])
+                verdict = None if values is None else self._compared(*values)
+            if verdict in {None, Verdict.EQUAL, Verdict.UNDEFINED} or self._exact(verdict):
+                break
+        return verdict
+
+    def _exact(self, verdict: Verdict | None) -> bool:
+        """Whether no rounding of a projected state can be what makes a difference."""
+        return verdict is Verdict.DIFFERENT and not self.reference.rows
+
+    def _compared(self, left: Sequence[arb], right: Sequence[arb]) -> Verdict:
+        verdicts = []
+        for a, b in zip(left, right, strict=True):
+            verdict = compare(a, b)
+            if verdict is Verdict.DIFFERENT:
+                self._why = f"{_shown(a)} at a random state, where {_shown(b)} is right"
+                return verdict
+            verdicts.append(verdict)
+        worse = (v for v in (Verdict.UNDECIDED, Verdict.UNDEFINED) if v in verdicts)
+        return next(worse, Verdict.EQUAL)
+
+    # -- findings -----------------------------------------------------------------------------
+
+    def refute(self, what: str, why: str) -> None:
+        """Note that a claim is not printed."""
+        sentence = f"{what} could not be confirmed and is not given: {why}"
+        if sentence not in self.retracted:
+            self.retracted.append(sentence)
+
+    def warnings(self) -> tuple[str, ...]:
+        """A sentence for each claim that is not printed, and one for all that were not tried."""
+        if not self.unchecked:
+            return tuple(self.retracted)
+        names = ", ".join(dict.fromkeys(self.unchecked))
+        why = "no random state was found" if not self.states() else "no random state decides"
+        return (*self.retracted, f"not verified in numbers ({why}): {names}")
+
+
+def _shown(x: arb) -> str:
+    return f"{float(x.mid()):.6g}"

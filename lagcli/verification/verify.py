@@ -1,0 +1,86 @@
+"""The sections of one problem, each claim examined; what a state refutes is left out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from flint import ctx
+
+from lagcli.answers import (
+    AccelerationsSection,
+    Answers,
+    CanonicalSection,
+    ChargesSection,
+    ConstraintForcesSection,
+    EnergySection,
+    EquationsSection,
+    HamiltonianSection,
+    LagrangianSection,
+    MatrixFormSection,
+    MomentaSection,
+    MultipliersSection,
+    Section,
+)
+from lagcli.forces import ForcesSection
+from lagcli.problem import Problem
+from lagcli.record import replace
+from lagcli.verification.claims import charges, energies, forces, motion
+from lagcli.verification.examination import PRECISIONS, Examination
+from lagcli.verification.linear import Unclear
+
+#: What examines each kind of section; a kind that is not here is not verified in numbers.
+_CLAIMS: dict[type, Callable[[Examination, Any], Section]] = {
+    LagrangianSection: motion.lagrangian,
+    EquationsSection: motion.equations,
+    MatrixFormSection: motion.matrix_form,
+    AccelerationsSection: motion.accelerations,
+    MultipliersSection: motion.multipliers,
+    ConstraintForcesSection: forces.constraint_forces,
+    ForcesSection: forces.forces,
+    MomentaSection: energies.momenta,
+    EnergySection: energies.energy,
+    HamiltonianSection: energies.hamiltonian,
+    CanonicalSection: energies.canonical_equations,
+    ChargesSection: charges.charges,
+}
+
+
+def verified(problem: Problem, answers: Answers) -> Answers:
+    """The answers without what random states refute, and a warning for each of that.
+
+    Parameters
+    ----------
+    problem
+        The problem as it was read, with L, or T and V.
+    answers
+        What was derived from it.
+    """
+    if problem.hamiltonian is not None:
+        return answers
+    examination = Examination(problem)
+    with ctx.workprec(PRECISIONS[0]):
+        sections = {
+            name: _examined(examination, name, section)
+            for name, section in answers.sections.items()
+        }
+    warnings = examination.warnings()
+    if not warnings:
+        return answers
+    return replace(
+        answers,
+        sections=sections,
+        warnings=(*answers.warnings, *warnings),
+        complete=answers.complete and not examination.retracted,
+    )
+
+
+def _examined(examination: Examination, name: str, section: Section) -> Section:
+    examine = _CLAIMS.get(type(section))
+    if examine is None:
+        return section
+    try:
+        return examine(examination, section)
+    except (ArithmeticError, ValueError, Unclear):  # numbers beyond what balls can hold
+        examination.unchecked.append(f"the section '{name}'")
+        return section
