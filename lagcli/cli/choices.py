@@ -13,6 +13,10 @@ SCHEMAS = ("problem", "answers")
 #: The formats of a page of the manual.
 MANUAL_FORMATS = ("text", "markdown", "html", "man")
 
+#: What `plot` draws, and the endings of the files it writes.
+KINDS = ("series", "phase", "path", "potential", "drift", "error")
+PICTURES = ("svg", "pdf", "png")
+
 #: What `simulate --show` knows besides the names of the file.
 _SHOWN = (
     "coordinates", "velocities", "accelerations", "multipliers", "constraint_forces", "momenta",
@@ -50,6 +54,11 @@ def complete_method(incomplete: str) -> list[str]:
     from lagcli.problem import METHODS
 
     return [name for name in METHODS if name.startswith(incomplete)]
+
+
+def complete_kind(incomplete: str) -> list[str]:
+    """The kinds of pictures that begin so."""
+    return [name for name in KINDS if name.startswith(incomplete)]
 
 
 def complete_column(incomplete: str) -> list[str]:

@@ -102,7 +102,7 @@ def _simulate_together(files: Sequence[str], wish: Wish) -> Status:
 
 def _table(wish: Wish) -> tuple[bytes | None, Status]:
     """The table of one run, or None, and how the run ended."""
-    found = understood(wish.file, wish.settings, wish.state, lambda p: _asked(p, wish))
+    found = understood(wish.file, wish.settings, wish.state, lambda p: asked_of(p, wish))
     return (None, Status.USAGE) if found is None else _run(*found, wish)
 
 
@@ -145,8 +145,11 @@ def _is_installed(package: str) -> bool:
 # -- options -----------------------------------------------------------------------------------
 
 
-def _asked(problem: Problem, wish: Wish) -> Asked | None:
-    """The options as values; every mistake is told."""
+def asked_of(problem: Problem, wish: Wish, *, without_end: float | None = None) -> Asked | None:
+    """The options as values; every mistake is told.
+
+    Where neither the options nor the file give an end, it is `without_end`, if that is given.
+    """
     from lagcli.numerics.asked import Asked
     from lagcli.numerics.columns import Column
     from lagcli.reader.columns import (
@@ -157,7 +160,10 @@ def _asked(problem: Problem, wish: Wish) -> Asked | None:
     )
 
     run, numbers = problem.simulation, Numbers(problem.source)
-    until = numbers.end(wish.file, wish.until, run.until)
+    if without_end is None or wish.until is not None or run.until is not None:
+        until = numbers.end(wish.file, wish.until, run.until)
+    else:
+        until = without_end
     accuracy = numbers.accuracy(wish.accuracy, run.accuracy)
     method = run.method if wish.method == "auto" and run.method else wish.method
     good = is_known("--method", method, METHODS) and numbers.good

@@ -18,8 +18,8 @@ _HEAD = re.compile(r"# (?P<title>.+)\n\n(?P<topics>(?:`[^`]+` ?)+): (?P<summary>
 
 #: The pages in reading order.
 ORDER = (
-    "tour", "problem-format", "solve", "explain", "simulate", "tradeoff", "extremes", "check",
-    "symmetries", "find", "forces", "equilibria", "reduction", "phase-space", "units",
+    "tour", "problem-format", "solve", "explain", "simulate", "plot", "tradeoff", "extremes",
+    "check", "symmetries", "find", "forces", "equilibria", "reduction", "phase-space", "units",
     "python", "conventions", "extending", "architecture", "glossary",
 )  # fmt: skip
 

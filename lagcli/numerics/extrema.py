@@ -15,6 +15,8 @@ _NODES = 9
 def crossing(f: Function, good: float, bad: float, above: float, below: float) -> float:
     """The place beyond which f is negative, to rounding: f(good) = above >= 0 > f(bad) = below.
 
+    Either of the two places may be the larger one.
+
     References
     ----------
     The Illinois form of regula falsi with a bisection now and then: Dahlquist, Björck,
@@ -23,13 +25,15 @@ def crossing(f: Function, good: float, bad: float, above: float, below: float) -
     side, least = 0, _WIDTH * abs(bad - good)
     for count in range(_ROUNDS):
         width = bad - good
-        if abs(width) <= max(least, _WIDTH * abs(bad)):
+        nearest = max(least, _WIDTH * abs(bad))
+        if abs(width) <= nearest:
             break
         x = (good + bad) / 2
         if count % 3 != 2:
             x = bad - below * width / (below - above)
-            nearest = 0.2 * _WIDTH  # a little beyond the root, so that it is enclosed
-            x = min(max(x, good + nearest), bad - nearest)
+            # a little beyond the root, so that it is enclosed from both sides
+            low, high = sorted((good, bad))
+            x = min(max(x, low + nearest / 2), high - nearest / 2)
         if not min(good, bad) < x < max(good, bad):
             break
         value = f(x)

@@ -1,0 +1,97 @@
+"""`lagcli plot`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from lagcli.cli.choices import complete_kind
+from lagcli.cli.options import Output, State
+from lagcli.cli.simulate import Accuracy, File, Method, Project, Set, Show, StopWhen, Until
+
+Kind = Annotated[
+    str | None,
+    typer.Option(
+        "--kind",
+        "-k",
+        metavar="NAME",
+        help="series, phase, path, potential, drift or error.  [default: series, or "
+        "phase where there is no end]",
+        autocompletion=complete_kind,
+    ),
+]
+Samples = Annotated[
+    int,
+    typer.Option(
+        "--samples", metavar="N", min=2, max=1_000_000, help="Points of a curve over time."
+    ),
+]
+Dark = Annotated[bool, typer.Option("--dark", help="Light lines on a dark page.")]
+Width = Annotated[
+    int | None,
+    typer.Option("--width", metavar="COLUMNS", min=40, max=400, help="Of a picture in characters."),
+]
+Ascii = Annotated[bool, typer.Option("--ascii", help="Draw with letters, not with Braille.")]
+
+
+def plot(
+    file: File,
+    kind: Kind = None,
+    show: Show = None,
+    output: Output = None,
+    until: Until = None,
+    accuracy: Accuracy = None,
+    samples: Samples = 1001,
+    settings: Set = None,
+    state: State = None,
+    dark: Dark = False,
+    width: Width = None,
+    ascii_only: Ascii = False,
+    project: Project = False,
+    method: Method = "auto",
+    stop_when: StopWhen = None,
+) -> int:
+    """Draw a motion: over time, in space, in phase space; or its potential, its error.
+
+    The picture goes to the terminal, or with -o to a file whose ending says what it is: .svg,
+    .pdf or .png, which need Matplotlib (pip install 'lagcli[plot]').  What the certificate of
+    the motion does not hold for is not drawn.
+
+    The exit status is 0; 1 when the accuracy was not reached to the end; 2 when there is no
+    such picture, or the command line or the file is wrong.
+
+    \b
+    Examples:
+      lagcli plot problems/pendulums/plane-pendulum.yaml
+      lagcli plot problems/pendulums/plane-pendulum.yaml --kind phase -o pendulum.pdf
+      lagcli plot problems/central/kepler.yaml --kind path --dark -o kepler.svg
+      lagcli plot problems/central/kepler.yaml --show "x,y,energy" --until 20
+    """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.plotting import PlotWish, plot_file
+    from lagcli.cli.simulating import Wish
+
+    run = Wish(
+        file=file,
+        until=until,
+        accuracy=accuracy,
+        samples=samples,
+        settings=tuple(settings or ()),
+        state=tuple(state or ()),
+        show=tuple(show or ()),
+        format_name="table",
+        output=output,
+        project=project,
+        precision=None,
+        method=method,
+        stop_when=stop_when,
+        whole=False,
+    )
+    wish = PlotWish(
+        run=run,
+        kind=kind,
+        dark=dark,
+        width=width,
+        ascii_only=ascii_only,
+    )
+    return plot_file(wish)

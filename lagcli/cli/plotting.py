@@ -1,0 +1,146 @@
+"""One file to one picture: options read, motion computed, picture written whole."""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lagcli.cli.choices import KINDS, PICTURES
+from lagcli.cli.delivering import has_place, place
+from lagcli.cli.printing import PIPE_WIDTH
+from lagcli.cli.running import is_known, shared, understood
+from lagcli.cli.simulating import Wish, asked_of
+from lagcli.cli.status import Status
+from lagcli.cli.telling import tell, tell_line
+from lagcli.record import record, replace
+
+if TYPE_CHECKING:
+    from lagcli.numerics.asked import Asked
+    from lagcli.pictures.drawing import Picture
+    from lagcli.problem import Problem
+
+#: What is drawn without an end: states, not a motion.
+_WITHOUT_MOTION = ("phase", "potential")
+#: Stands for an end where only states are drawn.
+_NO_END = 0.0
+
+
+@record(kw_only=True)
+class PlotWish:
+    """The command line, as it was written."""
+
+    run: Wish
+    kind: str | None
+    dark: bool
+    width: int | None
+    ascii_only: bool
+
+
+def plot_file(wish: PlotWish) -> Status:
+    """Compute, draw, and say how it ended."""
+    output = wish.run.output
+    good = wish.kind is None or is_known("--kind", wish.kind, KINDS)
+    if not (good & is_drawn_as(output, PICTURES)) or not has_place(output):
+        return Status.USAGE
+    run = wish.run
+    found = understood(run.file, run.settings, run.state, lambda p: _asked(p, wish))
+    return Status.USAGE if found is None else _draw(*found, wish)
+
+
+def _draw(problem: Problem, asked: Asked, wish: PlotWish) -> Status:
+    from lagcli.diagnostics import ProblemError
+    from lagcli.numerics.refusal import Refusal
+    from lagcli.pictures.drawing import CannotDraw
+    from lagcli.pictures.kinds import Request, picture_of
+
+    kind = _kind(asked, wish)
+    request = Request(kind=kind, chosen=bool(wish.run.show))
+    try:
+        with shared("integrating") as progress:
+            picture, refusal = picture_of(problem, asked, request, progress)
+    except Refusal as mistake:
+        tell(problem.source, mistake.diagnostics)
+        return Status.USAGE if mistake.mistake else Status.NOT_FOUND
+    except ProblemError as mistakes:
+        tell(mistakes.source, mistakes.diagnostics)
+        return Status.USAGE
+    except CannotDraw as reason:
+        tell_line(f"{problem.source.name}: error: {reason}")
+        return Status.USAGE
+    if not place(_written(picture, wish), wish.run.output):
+        return Status.USAGE
+    if refusal:
+        tell_line(f"{problem.source.name}: {refusal}")
+        return Status.NOT_FOUND
+    return Status.WELL
+
+
+def _asked(problem: Problem, wish: PlotWish) -> Asked | None:
+    """The options of the run; of a picture over time the coordinates, unless others are given."""
+    run = wish.run
+    if not run.show and wish.kind in {None, "series"}:
+        run = replace(run, show=("coordinates",))
+    needs_no_end = wish.kind in {*_WITHOUT_MOTION, None} and not wish.run.show
+    return asked_of(problem, run, without_end=_NO_END if needs_no_end else None)
+
+
+def _kind(asked: Asked, wish: PlotWish) -> str:
+    """The kind that was named; else the motion where it has an end, else the phase portrait."""
+    if wish.kind is not None:
+        return wish.kind
+    return "series" if asked.until > 0 else "phase"
+
+
+def _written(picture: Picture, wish: PlotWish) -> bytes:
+    output = wish.run.output
+    if output is not None:
+        from lagcli.pictures.figure import to_bytes
+
+        return to_bytes(picture, ending(output), dark=wish.dark)
+    from lagcli.pictures.terminal import Terminal, to_text
+
+    encoding = (sys.stdout.encoding or "utf-8").lower()
+    terminal = Terminal(
+        width=wish.width or _columns(),
+        unicode=encoding.startswith("utf") and not wish.ascii_only,
+        colour=sys.stdout.isatty() and "NO_COLOR" not in os.environ,
+    )
+    return to_text(picture, terminal).encode(encoding, "replace")
+
+
+def _columns() -> int:
+    if not sys.stdout.isatty():
+        return PIPE_WIDTH
+    from shutil import get_terminal_size
+
+    return max(40, get_terminal_size((PIPE_WIDTH, 24)).columns)
+
+
+# -- files ---------------------------------------------------------------------------------------
+
+
+def ending(path: Path) -> str:
+    """`svg` of `pendulum.SVG`."""
+    return path.suffix.lower().removeprefix(".")
+
+
+def is_drawn_as(output: Path | None, endings: tuple[str, ...]) -> bool:
+    """Whether the ending of a file is one of these, and there is what writes it; told if not."""
+    if output is None:
+        return True
+    kind = ending(output)
+    if kind not in endings:
+        first = output.with_suffix(f".{endings[0]}")
+        known = ", ".join(f".{each}" for each in endings)
+        what = f"'.{kind}' is not one of" if kind else "the ending says the form, one of"
+        tell_line(f"lagcli: error: -o {output}: {what} {known}: for example -o {first}")
+        return False
+    if kind != "html" and find_spec("matplotlib") is None:
+        tell_line(
+            f"lagcli: error: -o {output} needs the package matplotlib: pip install 'lagcli[plot]'"
+        )
+        return False
+    return True

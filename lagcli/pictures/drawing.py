@@ -1,0 +1,148 @@
+"""What a picture consists of, whoever draws it: panels with axes, curves, marks and lines.
+
+Coordinates are those of the problem, in its own units.  Roles say what a part means; each
+writer has its own colours, dashes and characters for them.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from lagcli.record import field, record
+
+Point = tuple[float, float]
+Piece = tuple[Point, ...]
+
+#: series: one of several, told apart by `colour`; motion: the one that the file asks for.
+CurveRole = Literal["series", "motion", "level", "separatrix", "potential", "surface"]
+MarkRole = Literal["stable", "unstable", "turning", "start", "event", "dots", "impact"]
+RuleRole = Literal["event", "bound", "certificate", "energy", "zero"]
+
+
+@record(kw_only=True)
+class Label:
+    """A name in the notations of the writers.
+
+    Attributes
+    ----------
+    plain, ascii
+        In Unicode and in ASCII.
+    tex
+        As Matplotlib's mathtext has it, with the dollar signs around its formulas.
+    """
+
+    plain: str
+    ascii: str
+    tex: str
+
+
+def words(text: str) -> Label:
+    """A label without formulas."""
+    ascii_ = text.replace("\N{MINUS SIGN}", "-")
+    return Label(plain=text, ascii=ascii_, tex=text.replace("$", r"\$"))
+
+
+def symbol(letter: str) -> Label:
+    """A letter set as a formula."""
+    return Label(plain=letter, ascii=letter, tex=f"${letter}$")
+
+
+@record(kw_only=True)
+class Axis:
+    """An axis from `low` to `high`; an angle has its marks at multiples of pi."""
+
+    label: Label
+    low: float
+    high: float
+    logarithmic: bool = False
+    angle: bool = False
+
+
+@record(kw_only=True)
+class Curve:
+    """A line in pieces; between two pieces nothing is drawn."""
+
+    pieces: tuple[Piece, ...]
+    role: CurveRole
+    colour: int = 0
+    label: Label | None = None
+
+
+@record(kw_only=True)
+class Marks:
+    """Points with a sign at each."""
+
+    points: Piece
+    role: MarkRole
+    colour: int = 0
+    label: Label | None = None
+
+
+@record(kw_only=True)
+class Rule:
+    """A straight line over the whole panel where x, or y, has a value."""
+
+    at: float
+    of: Literal["x", "y"]
+    role: RuleRole
+    colour: int = 0
+    label: Label | None = None
+
+
+@record(kw_only=True)
+class Band:
+    """The part of a panel where x lies between two values: beyond the certificate."""
+
+    low: float
+    high: float
+    label: Label | None = None
+
+
+Item = Curve | Marks | Rule | Band
+
+
+@record(kw_only=True)
+class Panel:
+    """Axes with what is drawn in them; `equal`: lengths along x and y are the same."""
+
+    x: Axis
+    y: Axis
+    items: tuple[Item, ...]
+    equal: bool = False
+
+
+@record(kw_only=True)
+class Picture:
+    """Panels under one title, below each other or beside each other."""
+
+    title: str
+    panels: tuple[Panel, ...]
+    beside: bool = False
+    notes: tuple[str, ...] = field(default=())
+
+
+#: A width as small as this beside the values is their rounding.
+_ROUNDING = 1e-12
+
+
+class CannotDraw(Exception):
+    """Why there is no such picture of this problem, and what to do: a sentence for the user."""
+
+
+def drawn_by(panel: Panel) -> list[Curve | Marks | Rule]:
+    """The parts that a key of the panel lists: those with a label, each label once."""
+    found: dict[str, Curve | Marks | Rule] = {}
+    for item in panel.items:
+        if not isinstance(item, Band) and item.label is not None:
+            found.setdefault(item.label.plain, item)
+    return sorted(found.values(), key=lambda item: not isinstance(item, Curve))
+
+
+def extent(values: list[float], room: float = 0.05) -> tuple[float, float]:
+    """The least and the largest value with some room; a width that is never 0."""
+    low, high = min(values), max(values)
+    width = high - low
+    if width <= _ROUNDING * max(abs(low), abs(high)):  # a constant stands in the middle
+        width = 0.2 * (max(abs(low), abs(high)) or 1.0)
+        low, high = low - width / 2, high + width / 2
+    return low - room * width, high + room * width

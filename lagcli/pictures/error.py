@@ -1,0 +1,97 @@
+"""The error of a run as it really is, beside the bound of its certificate.
+
+The reference is another run, a thousand times as exact and with as many digits as that takes:
+what the run of the file claims is compared with numbers that it has not seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from lagcli.numerics.asked import Asked
+from lagcli.pictures.drawing import (
+    Axis,
+    CannotDraw,
+    Curve,
+    Item,
+    Panel,
+    Picture,
+    Piece,
+    Rule,
+    words,
+)
+from lagcli.pictures.drift import FLOOR
+from lagcli.pictures.run import Run, largest_so_far, short
+from lagcli.problem import Problem
+from lagcli.record import replace
+
+#: So much more exact is the reference, and so many digits it may carry.
+_FINER, _DIGITS = 1e-3, 40
+_HEADROOM = 10.0
+_MOST = 7
+
+
+def error(
+    problem: Problem, asked: Asked, progress: Callable[[float], None] | None = None
+) -> tuple[Picture, str]:
+    """The error of each column, relative to its scale, and the largest bound.
+
+    Raises
+    ------
+    CannotDraw
+        Where the reference does not reach so far.
+    """
+    run = Run(problem, asked, progress)
+    finer = replace(
+        asked, accuracy=max(asked.accuracy * _FINER, 1e-25), digits=_DIGITS, until=asked.until
+    )
+    reference = Run(problem, finer, progress)
+    held = run.result.certificate
+    if reference.certain_until <= 0:
+        raise CannotDraw(f"there is no reference to compare with: {reference.result.refusal}")
+    items: list[Item] = list(run.over_time())
+    largest = FLOOR
+    for place in range(1, min(len(run.names), _MOST + 1)):
+        pieces = largest_so_far(_errors(run, reference, place, held.scales[place]))
+        largest = max([largest, *(y for piece in pieces for _, y in piece)])
+        label = run.labels.of(run.columns[place - 1].expression, run.names[place])
+        items.append(Curve(pieces=pieces, role="series", colour=place - 1, label=label))
+    items += _bounds(run)
+    y = Axis(
+        label=words("largest error so far, relative"),
+        low=FLOOR,
+        high=_HEADROOM * max(largest, asked.accuracy),
+        logarithmic=True,
+    )
+    panel = Panel(x=run.time_axis(), y=y, items=tuple(items))
+    how = f"The reference is a run to {short(finer.accuracy)} by {reference.result.method}"
+    notes = (f"{how}; that of the file is by {run.result.method}.",)
+    picture = Picture(title=problem.title, panels=(panel,), notes=(*run.notes(), *notes))
+    return picture, run.result.refusal
+
+
+def _bounds(run: Run) -> list[Rule]:
+    held = run.result.certificate
+    bound = max(max(held.global_error.values(), default=0.0), FLOOR)
+    rules = [
+        Rule(at=bound, of="y", role="bound", colour=6,
+             label=words(f"bound of the certificate, {short(bound)}")),
+    ]  # fmt: skip
+    if bound < held.accuracy:
+        text = words(f"accuracy asked for, {short(held.accuracy)}")
+        rules.append(Rule(at=held.accuracy, of="y", role="energy", colour=7, label=text))
+    return rules
+
+
+def _errors(run: Run, reference: Run, place: int, scale: float) -> tuple[Piece, ...]:
+    """|x - reference| / scale at the rows that both have; rows beside an event differ in time."""
+    known = {row[0]: row[place] for row in reference.result.rows}
+    found: list[Piece] = []
+    for piece in run.pieces:
+        line = [
+            (row[0] or 0.0, max(abs(value - other) / scale, FLOOR))
+            for row in piece
+            if (value := row[place]) is not None and (other := known.get(row[0])) is not None
+        ]
+        found.append(tuple(line))
+    return tuple(line for line in found if line)

@@ -1,0 +1,140 @@
+"""The one degree of freedom of a phase portrait: its energy as a function of numbers.
+
+Cyclic coordinates go by Routh's reduction, constraints by being solved; what is left is
+E(q, q') with the momenta at their values at t = 0.  U_eff(q) = E(q, 0).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cached_property
+
+from lagcli.algebra import terms
+from lagcli.expression import Expression, Name
+from lagcli.graph.derivative import partial
+from lagcli.graph.nodes import Node
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.reduction.one_freedom import OneFreedom as Reduced
+from lagcli.mechanics.reduction.routh import Routh
+from lagcli.numerics.arithmetic import Doubles
+from lagcli.numerics.constants import constants_of
+from lagcli.numerics.contact import with_contacts
+from lagcli.numerics.equations import Equations
+from lagcli.numerics.motion import Motion
+from lagcli.numerics.start import initial_state
+from lagcli.numerics.straight_line import straight_line
+from lagcli.pictures.contours import quiet
+from lagcli.pictures.drawing import CannotDraw
+from lagcli.problem import Coordinate, Problem
+
+
+class OneFreedom:
+    """E(q, q') of the coordinate that is left.
+
+    Parameters
+    ----------
+    problem
+        With values for its parameters.
+
+    Attributes
+    ----------
+    coordinate : Coordinate
+        The one that is left.
+    momenta : mapping of str to float
+        Those of the cyclic coordinates, at t = 0.
+    start : tuple of float
+        q and q' at t = 0.
+
+    Raises
+    ------
+    CannotDraw
+        Where there are more degrees of freedom, or no conserved energy.
+    Refusal
+        Where a value is missing.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self._equations = Equations(with_contacts(problem))
+        name, energy, momenta = self._reduced()
+        self.coordinate: Coordinate = next(c for c in problem.coordinates if c.name == name)
+        self._prepare(energy, momenta)
+
+    def _reduced(self) -> tuple[str, Node, tuple[str, ...]]:
+        """The coordinate, its energy, and the momenta that are constants in it."""
+        e = self._equations
+        if len(e.q) == 1 and not e.rows and "energy" in e.evident_charges:
+            return e.q[0].name, e.energy, ()
+        routh = Routh(Derivation(self.problem))
+        reduced = routh.reduced
+        if reduced is None:
+            raise CannotDraw(f"there is no portrait of one degree of freedom: {routh.reason}")
+        left = [q.name for q in reduced.system.q]
+        if len(left) != 1 or reduced.dynamics.constraints.equations:
+            raise CannotDraw(_too_many(left))
+        motion = Reduced(routh)
+        if motion.why_not_conserved:
+            raise CannotDraw(_not_conserved(left[0], motion.why_not_conserved))
+        if not routh.quadratic:
+            raise CannotDraw("the reduced Lagrangian is not quadratic in the velocity")
+        formula = terms(motion.energy, reduced.system.order, frozenset())
+        return left[0], e.form.read(formula), tuple(p.name for p in routh.momenta)
+
+    def _prepare(self, energy: Node, momenta: tuple[str, ...]) -> None:
+        e, arithmetic = self._equations, Doubles()
+        kinds = [*(x for row in e.mass for x in row), *e.forcing, *e.positions, energy]
+        initial = [e.form.read(value) for value in self.problem.initial.values()]
+        constants = constants_of(e, [*kinds, *initial], arithmetic)
+        motion = Motion(e, constants, arithmetic)
+        place = {q.name: j for j, q in enumerate(e.q)}
+        needed = [e.momenta[place[name.removeprefix("p_")]] for name in momenta]
+        q, v = initial_state(motion)
+        values = straight_line(e.state, needed, constants, arithmetic)(0.0, *q, *v)
+        self.momenta: Mapping[str, float] = dict(zip(momenta, map(float, values), strict=True))
+        constants |= {e.graph.symbol(name): value for name, value in self.momenta.items()}
+        j = place[self.coordinate.name]
+        self.start = (float(q[j]), float(v[j]))
+        pair = (e.q[j], e.qdot[j])
+        slope = partial(e.graph, e.q[j])(energy)
+        try:
+            self._energy = straight_line(pair, [energy], constants, arithmetic)
+            self._slope = straight_line(pair, [slope], constants, arithmetic)
+        except ArithmeticError as error:
+            raise CannotDraw(f"the energy is not defined: {error}") from None
+
+    @cached_property
+    def energy(self) -> Callable[[float, float], float]:
+        """E(q, q'), nan where it is not defined."""
+        return quiet(lambda q, v: float(self._energy(q, v)[0]))
+
+    @cached_property
+    def potential(self) -> Callable[[float], float]:
+        """U_eff(q) = E(q, 0)."""
+        return quiet(lambda q: float(self._energy(q, 0.0)[0]))
+
+    @cached_property
+    def slope(self) -> Callable[[float], float]:
+        """dU_eff/dq."""
+        return quiet(lambda q: float(self._slope(q, 0.0)[0]))
+
+    @property
+    def columns(self) -> list[tuple[str, Expression | None]]:
+        """q and q'."""
+        name = self.coordinate.name
+        return [(name, Name(name)), (f"{name}'", Name(name, 1))]
+
+
+def _not_conserved(name: str, why: str) -> str:
+    return (
+        f"the energy is not conserved ({why}), so there are no energy levels to draw; --kind phase "
+        f"--show {name} draws the motion by itself"
+    )
+
+
+def _too_many(left: list[str]) -> str:
+    names = ", ".join(left)
+    return (
+        f"without constraints and cyclic coordinates {names} are left: a portrait with energy "
+        f"levels needs one; --kind phase --show {left[0]} draws the motion in the plane of one "
+        "coordinate"
+    )

@@ -1,0 +1,194 @@
+"""The phase portrait of one degree of freedom: energy levels, separatrix, equilibria, motion.
+
+The levels are E(q, q') = const; a separatrix is the level of an unstable equilibrium.  With
+`--show` it is the motion in the plane of any two columns, without levels.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from lagcli.expression import Name
+from lagcli.formatters.unicode import unicode_name
+from lagcli.numerics.asked import Asked
+from lagcli.numerics.columns import Column
+from lagcli.pictures.contours import Contours, grid
+from lagcli.pictures.drawing import (
+    Axis,
+    CannotDraw,
+    Curve,
+    Item,
+    Label,
+    Marks,
+    Panel,
+    Picture,
+    Piece,
+    Point,
+    extent,
+    words,
+)
+from lagcli.pictures.labels import Labels
+from lagcli.pictures.one_freedom import OneFreedom
+from lagcli.pictures.run import Run, run_with
+from lagcli.pictures.window import Window
+from lagcli.problem import Problem
+
+Progress = Callable[[float], None]
+
+_ACROSS, _UP = 221, 161
+#: So many levels, closer where the energy is low; none where a separatrix is as near as this.
+_LEVELS, _TOO_NEAR = 10, 0.03
+_IN_A_WELL = (0.11, 0.44)
+_MOTION, _SEPARATRIX, _START = 0, 1, 2
+
+
+def portrait(
+    problem: Problem, asked: Asked, progress: Progress | None = None
+) -> tuple[Picture, str]:
+    """The portrait with the motion in it, where that has an end.
+
+    Raises
+    ------
+    CannotDraw
+        Where more than one degree of freedom is left, or the energy is not conserved.
+    """
+    freedom = OneFreedom(problem)
+    labels = Labels(problem)
+    run = run_with(problem, asked, freedom.columns, progress) if asked.until > 0 else None
+    seen = tuple(run.values(1)) if run is not None else ()
+    window = Window(freedom, labels, (min(seen), max(seen)) if seen else ())
+    items: list[Item] = [*_levels(freedom, window)]
+    if run is not None:
+        items += _motion(run, window)
+    items += _equilibria(window)
+    (name, q), (rate, v) = freedom.columns
+    panel = Panel(
+        x=Axis(
+            label=labels.axis(q, name), low=window.q[0], high=window.q[1], angle=labels.is_angle(q)
+        ),
+        y=Axis(label=labels.axis(v, rate), low=window.v[0], high=window.v[1]),
+        items=tuple(items),
+    )
+    notes = (*constants(freedom), *(run.notes() if run is not None else ()))
+    picture = Picture(title=problem.title, panels=(panel,), notes=notes)
+    return picture, run.result.refusal if run is not None else ""
+
+
+def constants(freedom: OneFreedom) -> tuple[str, ...]:
+    """The momenta that the picture is for."""
+    if not freedom.momenta:
+        return ()
+    shown = ", ".join(f"{unicode_name(n)} = {x:.6g}" for n, x in freedom.momenta.items())
+    return (f"For the constant momenta of the initial state: {shown}.",)
+
+
+def _levels(freedom: OneFreedom, window: Window) -> list[Item]:
+    lines = Contours(freedom.energy, grid(*window.q, _ACROSS), grid(*window.v, _UP))
+    height = window.highest - window.lowest
+    named = window.separatrices
+    items: list[Item] = []
+    label: Label | None = words("energy levels")
+    energies = [window.lowest + height * (k / _LEVELS) ** 2 for k in range(1, _LEVELS + 1)]
+    energies = [e for e in energies if all(abs(e - n) >= _TOO_NEAR * height for n in named)]
+    inner = min(named, default=math.inf)
+    if not any(energy < inner for energy in energies):  # a shallow well has its levels, too
+        energies += [window.lowest + (inner - window.lowest) * part for part in _IN_A_WELL]
+    for energy in sorted(energies):
+        pieces = lines.at(energy)
+        if pieces:
+            items.append(Curve(pieces=pieces, role="level", label=label))
+            label = None
+    for energy in named:
+        if energy <= window.highest:
+            pieces = lines.at(energy)
+            if pieces:
+                items.append(
+                    Curve(
+                        pieces=pieces,
+                        role="separatrix",
+                        colour=_SEPARATRIX,
+                        label=words("separatrix"),
+                    )
+                )
+    return items
+
+
+def _equilibria(window: Window) -> list[Item]:
+    items: list[Item] = []
+    low, high = window.q
+    for role, places, colour in window.marked:
+        points = tuple((x, 0.0) for x in places if low - 0.02 <= x <= high + 0.02)
+        if points:
+            items.append(
+                Marks(points=points, role=role, colour=colour, label=words(f"{role} equilibrium"))
+            )
+    return items
+
+
+def _motion(run: Run, window: Window) -> list[Item]:
+    pieces = run.curve(1, 2)
+    if not pieces:
+        return []
+    if window.turns:
+        pieces = tuple(part for piece in pieces for part in _wrapped(piece))
+    return [
+        Curve(pieces=pieces, role="motion", colour=_MOTION, label=words("motion")),
+        Marks(points=pieces[0][:1], role="start", colour=_MOTION, label=words("start")),
+    ]
+
+
+def _wrapped(piece: Piece) -> list[Piece]:
+    """An angle within one turn: the line goes on at the other side."""
+    found: list[list[Point]] = []
+    last: int | None = None
+    for angle, rate in piece:
+        turn = math.floor((angle + math.pi) / (2 * math.pi))
+        if turn != last:
+            if found and last is not None:  # up to the edge
+                found[-1].append((angle - 2 * math.pi * last, rate))
+            found.append([])
+            last = turn
+        found[-1].append((angle - 2 * math.pi * turn, rate))
+    return [tuple(part) for part in found]
+
+
+# -- any two columns -----------------------------------------------------------------------------
+
+
+def plane(problem: Problem, asked: Asked, progress: Progress | None = None) -> tuple[Picture, str]:
+    """The motion in the plane of two columns; of one coordinate q, that of q and q'.
+
+    Raises
+    ------
+    CannotDraw
+        Where it is not two columns.
+    """
+    columns = list(asked.columns[1:])
+    first = columns[0].expression if columns else None
+    if len(columns) == 1 and isinstance(first, Name) and first.primes < 2:
+        rate = Name(first.name, first.primes + 1)
+        columns.append(Column(str(rate), rate))
+    if len(columns) != 2:
+        raise CannotDraw(
+            f"--kind phase draws one column over another, and {len(columns)} are given: "
+            "--show x draws x' over x, --show x,y draws y over x"
+        )
+    run = run_with(problem, asked, [(c.name, c.expression) for c in columns], progress)
+    pieces = run.curve(1, 2)
+    if not pieces:
+        raise CannotDraw("the columns have no values together")
+    axes = []
+    for place, column in enumerate(columns, start=1):
+        low, high = extent(run.values(place))
+        label = run.labels.axis(column.expression, column.name)
+        axes.append(
+            Axis(label=label, low=low, high=high, angle=run.labels.is_angle(column.expression))
+        )
+    items = (
+        Curve(pieces=pieces, role="motion", colour=_MOTION),
+        Marks(points=pieces[0][:1], role="start", colour=_MOTION, label=words("start")),
+    )
+    panel = Panel(x=axes[0], y=axes[1], items=items)
+    picture = Picture(title=problem.title, panels=(panel,), notes=run.notes())
+    return picture, run.result.refusal

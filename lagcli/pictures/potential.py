@@ -1,0 +1,101 @@
+"""The effective potential of one degree of freedom with its turning points at the energy E."""
+
+from __future__ import annotations
+
+import math
+
+from lagcli.numerics.asked import Asked
+from lagcli.pictures.contours import grid
+from lagcli.pictures.drawing import (
+    Axis,
+    Curve,
+    Item,
+    Label,
+    Marks,
+    Panel,
+    Picture,
+    Point,
+    Rule,
+    words,
+)
+from lagcli.pictures.labels import Labels, with_unit
+from lagcli.pictures.one_freedom import OneFreedom
+from lagcli.pictures.portrait import constants
+from lagcli.pictures.window import Window
+from lagcli.problem import JACOBI_FUNCTION, Problem
+
+_PLACES = 1201
+#: Room below the lowest energy, in heights of what is shown.
+_BELOW = 0.15
+
+
+def potential(problem: Problem, asked: Asked) -> tuple[Picture, str]:
+    """U_eff over q, the energy of the initial state, and where the motion turns.
+
+    Raises
+    ------
+    CannotDraw
+        Where more than one degree of freedom is left, or the energy is not conserved.
+    """
+    del asked  # states are drawn, no motion
+    freedom = OneFreedom(problem)
+    labels, window = Labels(problem), Window(freedom, Labels(problem))
+    u, energy = freedom.potential, window.energy
+    low, high = window.q
+    height = window.highest - window.lowest
+    bottom, top = min(window.lowest, energy) - _BELOW * height, window.highest
+    if window.turns:
+        top = max([energy, *map(u, window.unstable)]) + _BELOW * height
+    items: list[Item] = [
+        Curve(pieces=_pieces(freedom, window, bottom, top), role="potential", colour=0,
+              label=_symbol(freedom)),
+        Rule(at=energy, of="y", role="energy", colour=1, label=_value(energy)),
+    ]  # fmt: skip
+    turning = tuple((x, energy) for x in window.turning_points if low <= x <= high)
+    if turning:
+        shown = ", ".join(f"{x:.6g}" for x, _ in turning)
+        shown = shown.replace("-", "\N{MINUS SIGN}")
+        text = words(f"turning points: {shown}" if len(turning) <= 4 else "turning points")
+        items.append(Marks(points=turning, role="turning", colour=1, label=text))
+    for role, places, colour in window.marked:
+        points = tuple((x, u(x)) for x in places if bottom <= u(x) <= top)
+        if points:
+            text = words("minimum" if role == "stable" else "maximum")
+            items.append(Marks(points=points, role=role, colour=colour, label=text))
+    name, q = freedom.columns[0]
+    panel = Panel(
+        x=Axis(label=labels.axis(q, name), low=low, high=high, angle=labels.is_angle(q)),
+        y=Axis(label=_energies(labels, freedom), low=bottom, high=top),
+        items=tuple(items),
+    )
+    return Picture(title=problem.title, panels=(panel,), notes=constants(freedom)), ""
+
+
+def _value(energy: float) -> Label:
+    shown = f"{energy:.6g}"
+    minus = shown.replace("-", "\N{MINUS SIGN}")
+    return Label(plain=f"E = {minus}", ascii=f"E = {shown}", tex=f"$E = {shown}$")
+
+
+def _symbol(freedom: OneFreedom) -> Label:
+    name = Label(plain="U_eff", ascii="U_eff", tex=r"$U_{\mathrm{eff}}$")
+    return name if freedom.momenta else Label(plain="U", ascii="U", tex="$U$")
+
+
+def _energies(labels: Labels, freedom: OneFreedom) -> Label:
+    return with_unit(_symbol(freedom), labels.unit(JACOBI_FUNCTION))
+
+
+def _pieces(
+    freedom: OneFreedom, window: Window, bottom: float, top: float
+) -> tuple[tuple[Point, ...], ...]:
+    """The curve where it is defined; what is far outside of the panel is left out."""
+    margin = 2 * (top - bottom)
+    pieces: list[list[Point]] = [[]]
+    for x in grid(*window.q, _PLACES):
+        y = freedom.potential(x)
+        if math.isfinite(y) and bottom - margin <= y <= top + margin:
+            pieces[-1].append((x, y))
+        elif pieces[-1]:
+            pieces.append([])
+    return tuple(tuple(piece) for piece in pieces if piece)
