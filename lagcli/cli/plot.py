@@ -52,7 +52,9 @@ def plot(
     method: Method = "auto",
     stop_when: StopWhen = None,
 ) -> int:
-    """Draw a motion: over time, in space, in phase space; or its potential, its error.
+    """Draw a motion over time, in space or in phase space.
+
+    Or the effective potential, the drift of what is conserved, the error as it really is.
 
     The picture goes to the terminal, or with -o to a file whose ending says what it is: .svg,
     .pdf or .png, which need Matplotlib (pip install 'lagcli[plot]').  What the certificate of
