@@ -29,6 +29,7 @@ from lagcli.expression import (
     Sum,
 )
 from lagcli.problem import Comparison, Inequality
+from lagcli.reader.habits import fraction
 from lagcli.reader.limits import NUMBER_DIGITS, thousands
 from lagcli.reader.text import Mistake
 from lagcli.record import replace
@@ -242,6 +243,8 @@ def _split_name(token: Token) -> tuple[str, int]:
 
 def _advice(before: str, character: str) -> str:
     """What to write instead of a superscript, a subscript or an accent."""
+    if fraction(character):
+        return f"write {before}{fraction(character)}"
     plain = unicodedata.normalize("NFKC", character)
     decomposition = unicodedata.decomposition(character)
     if decomposition.startswith("<super>"):

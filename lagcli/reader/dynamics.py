@@ -147,11 +147,14 @@ def read_by_coordinate(
 ) -> dict[str, Expression]:
     """A map coordinate → expression."""
     found = {}
-    for key, value in sections.entries(node, section):
+    first = next(sections.scope.of_kind("coordinate"), "x")
+    given = node.value.strip() if isinstance(node, Scalar) else ""
+    for key, value in sections.entries(node, section, f"write {first}: {given or '…'}"):
         if sections.scope.kinds.get(key.label) != "coordinate":
             coordinates = list(sections.scope.of_kind("coordinate"))
             hint = did_you_mean(key.label, coordinates)
             hint = hint or f"the coordinates are {', '.join(coordinates)}"
-            sections.error(f"'{key.label}' in {section} is no coordinate", key.span, hint)
+            if not sections.scope.refused:
+                sections.error(f"'{key.label}' in {section} is not a coordinate", key.span, hint)
         found[key.label] = sections.expression(value, what.format(key.label), role)
     return found

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, get_args
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.expression import FUNCTIONS, Call, Diff, Expression, Name, PartialCall, walk
+from lagcli.expression import FUNCTIONS, Call, Diff, Expression, Name, Number, PartialCall, walk
 from lagcli.problem import Assumption
+from lagcli.reader.habits import function_meant, velocity_meant
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import closest, did_you_mean
 
@@ -42,8 +43,10 @@ def name_mistakes(
                 yield from _call(node, scope, what)
             case PartialCall():
                 yield from _partial_call(node, scope)
-            case Diff(variable=variable):
+            case Diff(operand=operand, variable=variable):
                 yield from _variable(variable, scope)
+                if variable.name == "t":
+                    yield from _partial_by_time(node, operand, scope)
 
 
 def derivative_order(expression: Expression, scope: Scope) -> int:
@@ -161,11 +164,18 @@ def _other_name(node: Name, scope: Scope, role: Role, what: str) -> Iterator[Dia
             yield Diagnostic(f"the momentum '{name}' cannot stand in {what}", span)
         elif node.primes:
             yield Diagnostic("a momentum has no primes", span)
-    else:
+    elif not scope.refused:  # else it may be one of those that could not be declared
         yield Diagnostic(f"unknown name '{name}' in {what}", span, _advice(name, scope, role))
 
 
 def _advice(name: str, scope: Scope, role: Role) -> str:
+    coordinates = list(scope.of_kind("coordinate"))
+    if name == "dt" and coordinates:
+        return f"a time derivative is a prime: d{coordinates[0]}/dt is {coordinates[0]}'"
+    if role.momenta and name in {"p", "P"} and coordinates:
+        return "momenta are named p_" + ", p_".join(coordinates)
+    if role.order > 0 and velocity_meant(name, coordinates):
+        return velocity_meant(name, coordinates)
     hint = did_you_mean(name, scope.usable(role))
     if not hint and name in {"e", "E"}:
         return "the exponential function is exp(…)"
@@ -195,12 +205,24 @@ def _call(node: Call, scope: Scope, what: str) -> Iterator[Diagnostic]:
     elif name in scope.kinds or name in {"t", "pi"} or scope.coordinate_of_momentum(name):
         written = name + "'" * node.primes
         message = f"{written} is {_a(scope.kinds.get(name))}, not a function"
-        yield Diagnostic(message, node.span, f"did you mean {written}*(…)?")
+        hint = f"did you mean {written}*(…)?"
+        if scope.kinds.get(name) == "coordinate" and node.arguments == (Name("t"),):
+            hint = f"a coordinate is a function of t by itself: write {written}"
+        yield Diagnostic(message, node.span, hint)
     else:
         functions = [*FUNCTIONS, "diff", *scope.of_kind("function")]
         best = closest(name, functions)
         hint = f"did you mean {best}(…)?" if best else "declare it under 'functions'"
+        arguments = [_shown(each) for each in node.arguments]
+        hint = function_meant(name, arguments) or hint
         yield Diagnostic(f"unknown function '{name}' in {what}", node.span, hint)
+
+
+def _shown(argument: Expression) -> str:
+    """A name or a number as it is written, anything else as `…`."""
+    if isinstance(argument, Name):
+        return str(argument)
+    return str(argument.value) if isinstance(argument, Number) else "…"
 
 
 def _a(kind: str | None) -> str:
@@ -226,6 +248,16 @@ def _partial_call(node: PartialCall, scope: Scope) -> Iterator[Diagnostic]:
         if not 1 <= index <= arity:
             message = f"'{name}' has no argument number {index}"
             yield Diagnostic(message, node.span, f"they count from 1 to {arity}")
+
+
+def _partial_by_time(node: Expression, operand: Expression, scope: Scope) -> Iterator[Diagnostic]:
+    """diff(x, t) is taken for x' by those who come from SymPy, and is 0."""
+    if derivative_order(operand, scope) == CONSTANT or depends_on_time(operand, scope):
+        return
+    hint = "a total time derivative is a prime: x', or the prime of a definition"
+    if isinstance(operand, Name):
+        hint = f"the velocity of {operand} is {operand}'"
+    yield Diagnostic("this is a partial derivative, and 0: t is not in it", node.span, hint)
 
 
 def _variable(variable: Name, scope: Scope) -> Iterator[Diagnostic]:

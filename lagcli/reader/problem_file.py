@@ -19,6 +19,7 @@ from lagcli.reader.dynamics import (
     read_points,
 )
 from lagcli.reader.expectations import ExpectReader
+from lagcli.reader.habits import key_meant
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.nodes import Mapping, Node, kind
 from lagcli.reader.phase_space import read_brackets, read_observables, read_transformations
@@ -33,7 +34,7 @@ from lagcli.reader.restrictions import declare_constraints, read_constraints, re
 from lagcli.reader.scope import PHASE_SPACE, STATE, Role
 from lagcli.reader.sections import Sections
 from lagcli.reader.text import Mistake, Text, decode
-from lagcli.reader.value_checks import check_values
+from lagcli.reader.value_checks import check_values, without_inertia
 from lagcli.record import record
 
 if TYPE_CHECKING:
@@ -93,7 +94,7 @@ def read_problem(source_name: str, data: bytes) -> Reading:
     sections = Sections(diagnostics=diagnostics)
     problem = _read(sections, source, root)
     if problem is not None and not sections.diagnostics:
-        sections.diagnostics += _dimension_mistakes(problem)
+        sections.diagnostics += [*_dimension_mistakes(problem), *without_inertia(problem)]
     found = tuple(sorted(sections.diagnostics, key=lambda diagnostic: diagnostic.span))
     has_errors = any(diagnostic.is_error for diagnostic in found)
     return Reading(source, None if has_errors else problem, found)
@@ -175,7 +176,9 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
         simulation=read_simulation(sections, section("simulation")),
         expect=expect.read(section("expect")),
     )
-    check_masses(sections, problem, section("points").span)
+    meant = {key_meant(key.label, KEYS) for key, _ in root.entries}
+    if not meant & {"T", "L", "H", "points"}:  # else the energy is there under another key
+        check_masses(sections, problem, section("points").span)
     if not sections.diagnostics:
         check_values(sections, problem)
     return problem

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, TypedDict, cast, get_args
 
 from lagcli.expression import Expression, Name, walk
@@ -107,8 +108,8 @@ def _declared(
         names = [sections.scalar(item, "a name") for item in node.items]
         entries = [(name, None) for name in names if name is not None]
     elif isinstance(node, Scalar) and not node.is_empty:
-        hint = f"write [{', '.join(node.value.replace(',', ' ').split())}]"
-        sections.error(f"{section} must be a list or a map", node.span, hint)
+        sections.error(f"{section} must be a list or a map", node.span, _list_advice(node.value))
+        sections.scope.refused += re.findall(r"[^\W\d]\w*", node.value)
         return
     else:
         sections.error(f"{section} must be a list or a map, not {kind(node)}", node.span)
@@ -116,6 +117,14 @@ def _declared(
     for key, value in entries:
         if sections.declare(key.label, kind_, key.span):
             yield key, value
+
+
+def _list_advice(text: str) -> str:
+    """`[x, y]` for `x, y`, and `m: 1` for `m = 1`."""
+    given = re.match(r"\s*(\w+)\s*=\s*(\S+)", text)
+    if given:
+        return f"write {given[1]}: {given[2]}"
+    return f"write [{', '.join(text.replace(',', ' ').split())}]"
 
 
 def _attributes(

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from lagcli.expression import FUNCTIONS, RESERVED
+from lagcli.reader.habits import name_meant
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -79,6 +80,8 @@ class Scope:
     spans: dict[str, Span] = field(default_factory=dict)
     arity: dict[str, int] = field(default_factory=dict)  # of the declared functions
     definitions: dict[str, Definition] = field(default_factory=dict)
+    #: names that could not be declared: what is unknown afterwards may be one of them
+    refused: list[str] = field(default_factory=list)
 
     def of_kind(self, kind: Kind) -> Iterator[str]:
         """The names of one kind, in the order of their declaration."""
@@ -113,13 +116,15 @@ def name_mistake(name: str) -> tuple[str, str] | None:
         meaning = {"t": "the time", "pi": "the number", "diff": "the partial derivative"}
         return f"'{name}' is {meaning.get(name, 'a function')} and cannot be declared", ""
     if any(prime in name for prime in "'’′″‴"):
-        return f"'{name}' is no name", "declare it without primes; x' is the velocity of x"
+        return f"'{name}' is not a name", "declare it without primes; x' is the velocity of x"
     if not name:
         return "a name is missing", ""
     if name[0].isdigit():
-        return f"'{name}' is no name", "a name does not begin with a digit"
+        return f"'{name}' is not a name", "a name does not begin with a digit"
     if not all(_is_name_character(character) for character in name):
-        return f"'{name}' is no name", "a name has letters, digits and underscores"
+        better = name_meant(name)
+        message = f"'{name}' is not a name: a name has letters, digits and underscores"
+        return message, f"write {better}" if better else ""
     return None
 
 

@@ -10,10 +10,11 @@ from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import ZERO, Equation, Expression, Name
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression
 from lagcli.reader.growth import exponential_levels
+from lagcli.reader.habits import key_meant, unit_behind
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence, kind
-from lagcli.reader.scope import Kind, Role, Scope, name_mistake
+from lagcli.reader.scope import NUMBERS, VALUES, Kind, Role, Scope, name_mistake
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.text import Mistake
 
@@ -27,6 +28,8 @@ _T = TypeVar("_T")
 
 #: What stands for an expression that could not be read; the file is refused anyway.
 UNREADABLE = ZERO
+#: Places where a number stands, without its unit.
+_NUMERIC = (VALUES, NUMBERS)
 _NO_EQUATION = Equation(ZERO, ZERO)
 
 
@@ -98,7 +101,9 @@ class Sections:
             if key.label in names:
                 found[key.label] = (key, value)
             else:
-                hint = did_you_mean(key.label, names) or f"known are {', '.join(names)}"
+                meant = key_meant(key.label, names)
+                hint = f"the key is {meant}" if meant else did_you_mean(key.label, names)
+                hint = hint or f"known are {', '.join(names)}"
                 if key.in_flow and isinstance(value, Scalar) and value.is_empty:
                     hint = "inside { } a comma ends the value: put a text with commas in quotes"
                 self.error(f"unknown key '{key.label}' in {what}", key.span, hint)
@@ -110,11 +115,23 @@ class Sections:
         self, node: Node, what: str, role: Role, before: int | None = None
     ) -> Expression:
         """A formula whose names are all known and allowed in its role."""
+        unit = unit_behind(node.value) if role in _NUMERIC and isinstance(node, Scalar) else ""
+        if unit and unit not in self.scope.kinds:
+            self._misplaced_unit(node, what, unit)
+            return UNREADABLE
         expression = self._read(node, what, read_expression)
         if expression is None:
             return UNREADABLE
         self._check_names(expression, role, what, before)
         return expression
+
+    def _misplaced_unit(self, node: Node, what: str, unit: str) -> None:
+        assert isinstance(node, Scalar)
+        number = node.value.strip().removesuffix(unit).strip()
+        hint = f"write {number}: numbers are in the units of the file"
+        if what.startswith("the value of"):
+            hint = f"write {{value: {number}, unit: {unit}}}"
+        self.error(f"the unit '{unit}' cannot stand behind a number", node.span, hint)
 
     def equation(self, node: Node, what: str, role: Role) -> Equation:
         """`left = right`, or an expression that is 0."""
@@ -152,8 +169,14 @@ class Sections:
         try:
             return read(node.excerpt())
         except Mistake as error:
-            self.diagnostics += error.diagnostics
+            self.diagnostics += [each for each in error.diagnostics if not self._is_known(each)]
             return None
+
+    def _is_known(self, mistake: Diagnostic) -> bool:
+        """Whether a character that is in no name was reported where the name was declared."""
+        refused = "".join(self.scope.refused)
+        named = mistake.message.startswith(("a name has letters", "'\\' has no meaning"))
+        return named and any(f"'{character}'" in mistake.message for character in refused)
 
     # Names.
 
@@ -162,6 +185,7 @@ class Sections:
         wrong = name_mistake(name)
         if wrong is not None:
             self.error(wrong[0], span, wrong[1])
+            self.scope.refused.append(name)
             return False
         if name in self.scope.kinds:
             taken = self.scope.kinds[name]

@@ -14,7 +14,6 @@ _ELSEWHERE = {
     "fabs": "abs",
     "Abs": "abs",
     "sgn": "sign",
-    "pow": "^",
     "Pi": "pi",
     "PI": "pi",
     "π": "pi",

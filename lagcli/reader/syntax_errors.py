@@ -8,6 +8,7 @@ from lark.exceptions import UnexpectedCharacters
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import FUNCTIONS
+from lagcli.reader.habits import fraction, superscript
 
 if TYPE_CHECKING:
     from lark.lexer import Token
@@ -82,12 +83,23 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
     span = excerpt.span(at, at + 1)
     shown = f"'{character}'" if character.isprintable() else f"U+{ord(character):04X}"
     if character == "'":
-        before = tokens[-1] if tokens else None
-        hint = "a prime stands right behind a name, without a blank"
-        if before is not None and before.type == "RPAR":
-            hint = "a prime stands behind a name; give the expression a name under 'definitions'"
-        return Diagnostic("a prime without a name", span, hint)
+        return Diagnostic("a prime without a name", span, _prime_advice(tokens))
+    if character == "°":
+        number = tokens[-1] if tokens and tokens[-1].type == "NUMBER" else "x"
+        return Diagnostic("angles are in radians", span, f"write {number}*pi/180")
+    if fraction(character):
+        return Diagnostic(f"{shown} has no meaning", span, f"write {fraction(character)}")
     return Diagnostic(f"{shown} has no meaning in an expression", span, _INSTEAD.get(character, ""))
+
+
+def _prime_advice(tokens: list[Token]) -> str:
+    if [token.type for token in tokens[-4:]] == ["NAME", "LPAR", "NAME", "RPAR"] and (
+        tokens[-2] == "t"
+    ):
+        return f"a coordinate is a function of t by itself: write {tokens[-4]}'"
+    if tokens and tokens[-1].type == "RPAR":
+        return "a prime stands behind a name; give the expression a name under 'definitions'"
+    return "a prime stands right behind a name, without a blank"
 
 
 def _unexpected_end(tokens: list[Token], excerpt: Excerpt) -> Diagnostic:
@@ -119,6 +131,10 @@ def _missing_product(
     if left.type == "NUMBER" and right.startswith("_") and not apart:
         return Diagnostic("digits are not grouped by '_'", span)
     before = str(left) if left.type != "RPAR" else "(…)"
+    if superscript(right):
+        return Diagnostic(
+            "a power is written with '^'", span, f"write {before}{superscript(right)}"
+        )
     after = str(right) if right.type != "LPAR" else "(…)"
     if right.type == "NAME" and following is not None and following.type == "LPAR":
         after += "(…)"
@@ -144,14 +160,23 @@ def _unexpected(
             return "an equation has one '='", ""
         if start == "equation" and inside is not None:
             return "'=' stands inside parentheses", "is a ')' missing before it?"
-        return "'=' stands only in constraints and equations", ""
+        alone = len(before) == 1 and previous is not None and previous.type == "NAME"
+        hint = f"leave out '{previous} ='" if alone else ""
+        return "'=' stands only in constraints and equations", hint
     if token.type == "COMPARISON":
-        return f"'{token}' stands only in 'holds_while' and in the gap of a contact, and once", ""
+        message = f"'{token}' stands only in 'holds_while' and in the gap of a contact, and once"
+        return message, _contact_advice(previous, start)
     if token.type == "COMMA" and previous is not None and previous.type in _END_VALUE:
         return "a comma stands only between the arguments of a function", _comma_advice(previous)
     if previous is None:
         return f"nothing stands before '{token}'", ""
     return f"'{token}' cannot follow '{previous}'", ""
+
+
+def _contact_advice(previous: Token | None, start: str) -> str:
+    if start != "equation" or previous is None:
+        return ""
+    return f"a one-sided contact stands under contacts, as in floor: {previous} >= 0"
 
 
 def _comma_advice(previous: Token) -> str:

@@ -8,13 +8,42 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lagcli.assumptions import broken
+from lagcli.diagnostics import Diagnostic
+from lagcli.expression import Name, walk
 from lagcli.reader.constants import rational_value
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
+    from lagcli.expression import Expression
     from lagcli.problem import Problem
     from lagcli.reader.sections import Sections
+
+
+def without_inertia(problem: Problem) -> list[Diagnostic]:
+    """A warning for each coordinate that T forgets, unless a constraint or contact holds it."""
+    if problem.kinetic is None:
+        return []
+    equations = [one.equation for one in problem.constraints]
+    equations += [one.equation for one in problem.contacts]
+    elsewhere = [side for equation in equations for side in (equation.left, equation.right)]
+    elsewhere += problem.definitions.values()
+    held = {name.name for formula in elsewhere for name in _names(formula)}
+    moving = {name.name for name in _names(problem.kinetic) if name.primes}
+    return [
+        Diagnostic(
+            f"the coordinate '{one.name}' is missing in T: {one.name}' does not occur there",
+            one.span,
+            "it has no inertia",
+            severity="warning",
+        )
+        for one in problem.coordinates
+        if one.name not in moving | held
+    ]
+
+
+def _names(formula: Expression) -> list[Name]:
+    return [node for node in walk(formula) if isinstance(node, Name)]
 
 
 def check_values(sections: Sections, problem: Problem) -> None:

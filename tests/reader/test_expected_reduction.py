@@ -21,12 +21,15 @@ def mistakes(expect: str) -> list[str]:
     [
         ("{reduction: {routian: 1}}", "unknown key 'routian' in 'reduction'"),
         ("{reduction: {turning_points: E/m}}", "'turning_points' must be a list, not a text"),
-        ("{reduction: {reconstruction: {psi: 1}}}", "'psi' in 'reconstruction' is no coordinate"),
+        (
+            "{reduction: {reconstruction: {psi: 1}}}",
+            "'psi' in 'reconstruction' is not a coordinate",
+        ),
         ("{reduction: {period: a*tau}}", "unknown name 'tau' in the expected period"),
         ("{steady_motions: {at: {r: 1}}}", "'steady_motions' must be a list, not a map"),
         ("{steady_motions: [{stable: m >= 1}]}", "a condition of stability has > or <"),
         ("{hamilton_jacobi: {separable: maybe}}", "'separable' is yes or no"),
-        ("{hamilton_jacobi: {functions: {s: E}}}", "'s' in 'functions' is no coordinate"),
+        ("{hamilton_jacobi: {functions: {s: E}}}", "'s' in 'functions' is not a coordinate"),
         (
             "{hamilton_jacobi: {functions: {r: beta_1*r}}}",
             "unknown name 'beta_1' in the expected part W of the action by 'r'",

@@ -177,7 +177,7 @@ FILES = [
     (after("V: x\n  + zz\n"), "10:5", "unknown name 'zz'"),
     # Sections.
     (after("forces: {x: atan2(y, x)}\n"), "9:13", "a comma ends the value"),
-    (after("forces: {z: x}\n"), "9:10", "no coordinate"),
+    (after("forces: {z: x}\n"), "9:10", "not a coordinate"),
     (after("points: {p: {position: x}}\n"), "9:24", "write [x]"),
     (after("points: {p: {position: [x']}}\n"), "9:25", "the velocity x'"),
     (after("points: {p: {position: [x, y, x, y]}}\n"), "9:24", "1 to 3"),

@@ -1,0 +1,105 @@
+"""What people write from the habit of a book or another program, and what it is here.
+
+Each table has one kind of habit; the reader looks into it before it searches for names that
+are spelled alike.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+#: Words for the keys of a problem -> the key.
+KEYS = {
+    "kinetic": "T", "kinetic_energy": "T", "potential": "V", "potential_energy": "V", "U": "V",
+    "lagrangian": "L", "Lagrangian": "L", "hamiltonian": "H", "Hamiltonian": "H",
+    "damping": "dissipation", "rayleigh": "dissipation", "friction": "dissipation",
+    "name": "title", "reference": "source", "variables": "coordinates", "coords": "coordinates",
+    "generalized_coordinates": "coordinates", "q": "coordinates", "dofs": "coordinates",
+    "constants": "parameters", "params": "parameters", "values": "parameters",
+    "initial_conditions": "initial", "initial_state": "initial", "x0": "initial",
+    "force": "forces", "external_forces": "forces", "particles": "points", "masses": "points",
+    "constraint": "constraints", "symmetry": "symmetries", "simulate": "simulation",
+    "run": "simulation", "questions": "find", "expected": "expect", "answers": "expect",
+}  # fmt: skip
+
+#: A number with a unit behind it, as in `10 kg` and `9.81 m/s^2`.
+_WITH_UNIT = re.compile(
+    r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*"
+    r"(?P<unit>(?:[kmcµu]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa)|rad|deg|min|h|mol)(?:[ \^*/].*)?)"
+)
+_SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
+_VULGAR = {"½": "1/2", "⅓": "1/3", "⅔": "2/3", "¼": "1/4", "¾": "3/4", "⅛": "1/8"}
+
+
+def key_meant(word: str, known: tuple[str, ...]) -> str | None:
+    """The key of a problem that a word stands for elsewhere."""
+    meant = KEYS.get(word) or KEYS.get(word.casefold().replace(" ", "_").replace("-", "_"))
+    return meant if meant in known else None
+
+
+def name_meant(name: str) -> str:
+    """A valid name for one with raised or lowered digits, LaTeX or blanks; `theta_1` for θ₁."""
+    plain = "".join(map(_on_the_line, name)).lstrip("\\$").rstrip("$")
+    found = re.sub(r"[\s.,{}()\[\]^_-]+", "_", plain).strip("_")
+    return found if re.fullmatch(r"[^\W\d]\w*", found) and found != name else ""
+
+
+def _on_the_line(character: str) -> str:
+    plain = unicodedata.normalize("NFKC", character)
+    return f"_{plain}" if plain != character and plain.isdigit() else plain
+
+
+def unit_behind(text: str) -> str:
+    """The unit in `10 kg` or `9.81 m/s^2`; nothing where a number stands alone."""
+    found = _WITH_UNIT.fullmatch(text.strip())
+    return found["unit"] if found else ""
+
+
+def superscript(text: str) -> str:
+    """The power that raised digits mean: `^2` for `²`; nothing for other characters."""
+    digits = [str(_SUPERSCRIPTS.index(c)) for c in text if c in _SUPERSCRIPTS]
+    return "^" + "".join(digits) if text and len(digits) == len(text) else ""
+
+
+def fraction(character: str) -> str:
+    """`1/2` for ½; nothing for other characters."""
+    return _VULGAR.get(character, "")
+
+
+def function_meant(name: str, arguments: list[str]) -> str:
+    """What to write instead of a function of other programs."""
+    if name in {"Derivative", "derivative", "D", "ddt", "dt", "Dt"} and arguments:
+        return f"the velocity of x is x': write {arguments[0]}'" if _plain(arguments[0]) else ""
+    if name in {"pow", "power", "Pow"} and len(arguments) == 2:
+        return f"write {_group(arguments[0])}^{_group(arguments[1])}"
+    if name in {"sq", "square"} and len(arguments) == 1:
+        return f"write {_group(arguments[0])}^2"
+    if name in {"dot", "norm"}:
+        return "write the sum over the components"
+    return ""
+
+
+def velocity_meant(name: str, coordinates: list[str]) -> str:
+    """`x'` for dx, x_t, xp, vx and the like, where x is a coordinate and no letter is lost."""
+    for coordinate in coordinates:
+        if name in {f"d{coordinate}", f"v{coordinate}", f"v_{coordinate}", f"{coordinate}p",
+                    f"{coordinate}_t", f"D{coordinate}", f"d_{coordinate}"}:  # fmt: skip
+            return f"the velocity of {coordinate} is {coordinate}'"
+        if name in {f"{coordinate}̇", _dotted(coordinate)}:
+            return f"write {coordinate}'"
+        if name in {f"a{coordinate}", f"dd{coordinate}", f"d2{coordinate}"}:
+            return f"the acceleration of {coordinate} is {coordinate}''"
+    return ""
+
+
+def _dotted(letter: str) -> str:
+    return unicodedata.normalize("NFC", f"{letter}̇")
+
+
+def _plain(text: str) -> bool:
+    return re.fullmatch(r"\w+", text) is not None
+
+
+def _group(text: str) -> str:
+    return text if re.fullmatch(r"\w+'*", text) else f"({text})"

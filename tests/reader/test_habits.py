@@ -1,0 +1,124 @@
+"""What beginners write from the habit of a book or another program: one mistake, one hint.
+
+Each case is what is changed in a good file, and the hint that names what would be right.
+"""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from lagcli.library import entries
+from lagcli.reader import read_problem
+
+GOOD = {
+    "coordinates": "[x]",
+    "parameters": "{m: 1, k: 2, g: 9.81}",
+    "T": "m*x'^2/2",
+    "V": "k*x^2/2",
+}
+
+
+def text(**changed):
+    parts = {key: value for key, value in (GOOD | changed).items() if value is not None}
+    return "".join(f"{key}: {value}\n" for key, value in parts.items())
+
+
+def messages(written):
+    reading = read_problem("p.yaml", written.encode())
+    return [f"{each.message}; {each.hint}" for each in reading.diagnostics]
+
+
+HABITS = [
+    (text(T="m*x'²/2"), "write x'^2"),
+    (text(V="k*(x + 1)²/2"), "write (…)^2"),
+    (text(V="k*x³"), "write x^3"),
+    (text(T="½*m*x'^2"), "write 1/2"),
+    (text(V="¾*x"), "write 3/4"),
+    (text(parameters="{m: 1 kg, k: 2}"), "write {value: 1, unit: kg}"),
+    (text(parameters="{m: 1, k: 2.5 N/m}"), "write {value: 2.5, unit: N/m}"),
+    (text(parameters="{m: 1, k: 2, g: {value: 9.81 m/s^2}}"), "unit: m/s^2}"),
+    (text(initial="{x: 10 cm}"), "write 10"),
+    (text(simulation="{until: 10 s}"), "write 10"),
+    (text(T=None, V=None, H="p^2/(2*m)"), "momenta are named p_x"),
+    (text(V=None, potential="k*x^2"), "the key is V"),
+    (text(T=None, kinetic="m*x'^2"), "the key is T"),
+    (text(T=None, V=None, lagrangian="m*x'^2"), "the key is L"),
+    (text(V=None, **{"Potential energy": "k*x^2"}), "the key is V"),
+    (text(damping="x'^2"), "the key is dissipation"),
+    (text(parameters=None, T="x'^2", V=None, constants="[m]"), "the key is parameters"),
+    (text(parameters="\n  m: 1\n  k: 9,81"), "a decimal point is written '.'"),
+    (text(initial="{x: 30°}"), "write 30*pi/180"),
+    (text(T="m*Derivative(x, t)^2/2"), "write x'"),
+    (text(T="m*diff(x, t)^2/2"), "the velocity of x is x'"),
+    (text(T="m*diff(x^2, t)^2/2"), "a total time derivative is a prime"),
+    (text(T="m*x(t)'^2/2"), "write x'"),
+    (text(V="k*x(t)^2"), "write x"),
+    (text(T="m*pow(x', 2)/2"), "write x'^2"),
+    (text(T="m*vx^2/2"), "the velocity of x is x'"),
+    (text(T="m*xdot^2/2"), "did you mean x'"),
+    (text(T="m*ẋ^2/2"), "write x'"),
+    (text(forces="F"), "write x: F"),
+    (text(coordinates="x"), "write [x]"),
+    (text(coordinates="x, y", T="m*(x'^2 + y'^2)/2"), "write [x, y]"),
+    (text(parameters="\n  m = 1\n  k = 2"), "write m: 1"),
+    (text(constraints="{floor: x > 0}"), "under contacts, as in floor: x >= 0"),
+    (text(coordinates="[θ₁]", T="m*θ₁'^2/2", V="k*θ₁"), "write θ_1"),
+    (text(coordinates="[\\theta]", T="m*\\theta'^2/2", V=None), "write theta"),
+    (text(T="T = m*x'^2/2"), "leave out 'T ='"),
+    (text(V="k*sin^2(x)"), "sin(…)^2"),
+    (text(V="k*sin x"), "sin(x)"),
+    (text(V="k*ln(x)"), "log(…)"),
+    (text(V="k*e^x"), "exp(…)"),
+    (text(V="k*|x|"), "write abs(x)"),
+    (text(V="k*√x"), "write sqrt(x)"),
+    (text(V="k x"), "did you mean k*x"),
+    (text(V="2x"), "did you mean 2*x"),
+    (text(V="k·x"), "write '*'"),
+    (text(constraints="{a: x == 1}"), "one '='"),
+    (text(constraints="[x = 1]"), "write name: equation"),
+    (text(initial="x = 1"), "write x: 1"),
+    (text(simulate="{until: 3}"), "the key is simulation"),
+    ("coordinates: [x]\nparameters: [m]\n T: m*x'^2/2\n", "indented like its neighbours"),
+]
+
+
+@pytest.mark.parametrize(("written", "hint"), HABITS)
+def test_a_habit_gets_one_mistake_with_the_hint_that_helps(written, hint):
+    [only] = messages(written)
+    assert hint in only
+
+
+def test_a_coordinate_that_is_missing_in_T_is_pointed_out():
+    reading = read_problem("p.yaml", text(coordinates="[x, y]").encode())
+    assert reading.problem is not None
+    assert [each.message for each in reading.diagnostics] == [
+        "the coordinate 'y' is missing in T: y' does not occur there"
+    ]
+
+
+@pytest.mark.parametrize("entry", entries(), ids=lambda entry: entry.name)
+def test_no_problem_of_the_library_is_warned_of(entry):
+    assert read_problem(entry.name, entry.path.read_bytes()).diagnostics == ()
+
+
+SUPERSCRIPTS = "²³⁴⁵⁶⁷⁸⁹"
+UNITS = ["kg", "m", "s", "N", "J", "N/m", "m/s^2", "kg*m^2", "rad"]
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_random_members_of_a_habit_are_hinted_alike(seed):
+    draw = random.Random(seed)
+    name = draw.choice(["q", "phi", "θ", "r_1", "X"])
+    digit = draw.randrange(len(SUPERSCRIPTS))
+    number = draw.choice(["1", "2.5", "9.81", "1e3"])
+    unit = draw.choice(UNITS)
+    raised = text(coordinates=f"[{name}]", T=f"m*{name}'{SUPERSCRIPTS[digit]}", V=None)
+    assert messages(raised)[0].endswith(f"write {name}'^{digit + 2}")
+    valued = text(parameters=f"{{b: {number} {unit}}}", T="x'^2/2", V=None)
+    assert messages(valued) == [
+        f"the unit '{unit}' cannot stand behind a number; write {{value: {number}, unit: {unit}}}"
+    ]
+    typed = text(coordinates=f"[{name}]", T=f"m*Derivative({name}, t)^2", V=None)
+    assert f"write {name}'" in messages(typed)[0]
