@@ -247,6 +247,7 @@ class Equilibrium:
     """A state of rest, which exists where each of `where` holds.
 
     With `free` coordinates, or an equation `on`, a family, stable up to displacements along it.
+    The contacts `touching` are closed; with `sticking` dry friction holds it.
     """
 
     at: Mapping[str, Expression]
@@ -254,6 +255,8 @@ class Equilibrium:
     verdict: Verdict
     where: tuple[Above, ...] = ()
     free: tuple[str, ...] = ()
+    touching: tuple[str, ...] = ()
+    sticking: bool = False
 
 
 @record(kw_only=True)

@@ -118,7 +118,9 @@ class SteadyMotion:
 
 @record(kw_only=True)
 class SteadySection:
-    """The conditions dU_eff/dq = 0 by coordinate, and the motions; None with a `reason`.
+    """The conditions that vanish, by coordinate or number, and the motions; None with a `reason`.
+
+    They are dU_eff/dq less what is `acting`: "forces", "constraints", along which they are taken.
 
     Under velocity constraints the conditions are those of constant velocities, where the
     `eliminated` ones follow from the constraints; each motion is then `rolling`.
@@ -128,6 +130,7 @@ class SteadySection:
     motions: tuple[SteadyMotion, ...] | None
     complete: bool = True
     eliminated: tuple[str, ...] = ()
+    acting: tuple[str, ...] = ()
     reason: str = ""
 
 

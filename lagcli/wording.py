@@ -91,6 +91,12 @@ def _potential(name: str) -> Part:
     return Label(letter, (index,) if index else ()) if name else "the potential of all forces"
 
 
+def holding(touching: Sequence[str], *, sticking: bool) -> str:
+    """What holds it at rest beside smooth forces."""
+    closed = f"In contact: {', '.join(touching)}. " if touching else ""
+    return closed + ("Static friction holds it. " if sticking else "")
+
+
 def _with_potential(reason: str, name: str) -> list[Part]:
     before, found, after = reason.partition("{V}")
     parts: list[Part] = [before, _potential(name), after] if found else [reason]

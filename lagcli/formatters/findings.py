@@ -24,7 +24,7 @@ from lagcli.document import (
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power, operation_count
 from lagcli.questions import FindSection, Range, Ranges, Rewritten, Solutions
-from lagcli.wording import conditions, place_rows, stability
+from lagcli.wording import conditions, holding, place_rows, stability
 
 _SOURCES = {
     "candidate": "candidate",
@@ -173,6 +173,7 @@ def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:
     parts: list[str | Formula] = []
     if equilibrium.where:
         parts += ["It exists where ", *conditions(equilibrium.where), ". "]
+    parts += [holding(equilibrium.touching, sticking=equilibrium.sticking)]
     parts += stability(equilibrium.verdict, equilibrium.free, equilibrium.on)
     if equilibrium.free:
         parts.append(" Free: ")

@@ -266,6 +266,10 @@ def _equilibrium(equilibrium: Equilibrium) -> Object:
         result["unstable"] = _inequalities(verdict.unstable)
     if equilibrium.free:
         result["free"] = equilibrium.free
+    if equilibrium.touching:
+        result["touching"] = equilibrium.touching
+    if equilibrium.sticking:
+        result["sticking"] = True
     return result
 
 

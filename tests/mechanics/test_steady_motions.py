@@ -118,7 +118,7 @@ def test_nothing_is_said_of_a_parametric_drive():
         derive("{coordinates: [x], parameters: [w], L: x'^2/2 - (1 + cos(w*t))*x^2/2}")
     )
     assert section.motions is None
-    assert missing == [("the steady motions", "the system depends explicitly on the time")]
+    assert missing == [("the steady motions", "the equations depend explicitly on the time")]
 
 
 def test_a_state_that_is_given_is_taken_when_it_is_steady():

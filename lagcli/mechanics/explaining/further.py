@@ -24,7 +24,7 @@ from lagcli.mechanics.explaining.words import Part, names, says, shows
 from lagcli.mechanics.statements import Statements
 from lagcli.mechanics.stating import Stating
 from lagcli.wording import conditions as inequalities
-from lagcli.wording import place_rows, stability
+from lagcli.wording import holding, place_rows, stability
 
 Others = Mapping[str, Callable[[Stating], Section]]
 
@@ -56,15 +56,23 @@ def _equilibria(teller: Teller, section: Section) -> Iterator[Block]:
     found = states.equilibria
     rest = RestPoints(teller.dynamics)
     constrained = bool(teller.dynamics.constraints.equations)
+    sticking = any(each.sticking for each in found or ())
     yield says(
         "At an equilibrium all velocities and accelerations are 0. Lagrange's equations then "
-        "require "
-        "that the generalized forces vanish"
+        "require that the generalized forces vanish"
         + (" along every displacement that the constraints allow" if constrained else "")
-        + ":"
+        + ("." if sticking else ":")
     )
-    conditions = [teller.readable.as_written(e) for e in rest.equations]
-    yield Equations(tuple(Row(ZERO, condition) for condition in conditions))
+    if sticking:
+        yield says(
+            "Dry friction takes at rest whatever is needed to hold the body, up to its largest "
+            "value, in either direction: what it acts on is at rest in a whole range of places."
+        )
+    else:
+        conditions = [teller.readable.as_written(e) for e in rest.equations]
+        yield Equations(tuple(Row(ZERO, condition) for condition in conditions))
+    if teller.system.problem.contacts:
+        yield says("Each contact is either closed, and pushes, or open, and there is no force.")
     if found is None:
         yield says(f"These were not solved: {states.reason}.")
         return
@@ -77,7 +85,8 @@ def _equilibria(teller: Teller, section: Section) -> Iterator[Block]:
             yield says(names(each.free), " is free." if len(each.free) == 1 else " are free.")
         if each.where:
             yield says("It exists for ", *inequalities(each.where), ".")
-        yield says(stability(each.verdict, each.free, each.on))
+        firm = holding(each.touching, sticking=each.sticking)
+        yield says(firm, *stability(each.verdict, each.free, each.on))
     if not states.complete:
         yield says("There may be others.")
 

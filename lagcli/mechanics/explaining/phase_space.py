@@ -26,6 +26,14 @@ from lagcli.wording import POTENTIAL, conditions, place_rows, steady_stability
 
 _SQUARED = Power(Name("omega"), Number(Fraction(2)))
 
+_BALANCED = {
+    (): "vanish",
+    ("forces",): "balance the other forces",
+    ("constraints",): "vanish along every displacement that the constraints allow",
+    ("forces", "constraints"): "balance the other forces along every displacement that the "
+    "constraints allow",
+}
+
 # -- steady motions ------------------------------------------------------------------------------
 
 
@@ -52,7 +60,7 @@ def steady(_: Teller, section: Section) -> Iterator[Block]:
         "equations are "
         "then 0, so the derivatives of ",
         POTENTIAL,
-        " vanish, with the momenta of the cyclic coordinates as constants:",
+        f" {_BALANCED[found.acting]}, with the momenta of the cyclic coordinates as constants:",
     )
     yield from _steady_states(found)
 

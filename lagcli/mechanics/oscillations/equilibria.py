@@ -68,7 +68,7 @@ class RestPoints:
 
         `complete` tells afterwards whether there can be no other.
         """
-        if self._depends_on_time():
+        if self.depends_on_time:
             self.reason = "the equations depend explicitly on the time"
             return None
         equations = self.equations
@@ -114,7 +114,9 @@ class RestPoints:
         free = tuple(s for s in q if s not in values)
         return RestPoint(values, free, positive, known)
 
-    def _depends_on_time(self) -> bool:
+    @cached_property
+    def depends_on_time(self) -> bool:
+        """Whether the equations or the constraints have t in them."""
         system, constraints = self.system, self.dynamics.constraints
         everything = [
             *self.dynamics.lagrange.forcing,

@@ -23,13 +23,18 @@ from lagcli.answers import EquilibriaSection, Equilibrium, Mode, ModesSection
 from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
+from lagcli.mechanics.oscillations.equilibria import RestPoint
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
+from lagcli.mechanics.oscillations.held import Held, held
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
 from lagcli.mechanics.reduction.readable import conditions
-from lagcli.mechanics.stability.judge import Stability, judge
+from lagcli.mechanics.stability.judge import GRAZES, Stability, judge, undecided
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
+from lagcli.record import replace
+
+_STICKS = "static friction holds it with force to spare"
+_PRESSED = "it is pressed against what it touches"
 
 
 def equilibria(dynamics: Dynamics) -> EquilibriaSection:
@@ -40,7 +45,7 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
         return EquilibriaSection(equilibria=None, reason=oscillations.rest.reason)
     return EquilibriaSection(
         equilibria=tuple(map(oscillations.equilibrium, places)),
-        complete=oscillations.rest.complete,
+        complete=oscillations.complete,
     )
 
 
@@ -56,6 +61,8 @@ def modes(dynamics: Dynamics) -> ModesSection:
         return ModesSection(modes=(), reason="there is no equilibrium to expand about")
     chosen = [p for p in places if p.verdict.stable is not False] or places
     found = [mode for place in chosen for mode in oscillations.modes(place)]
+    if not found and all(place.held.firmly and not place.linear.M for place in places):
+        return ModesSection(modes=(), reason="contacts or static friction hold what is at rest")
     if not found:
         return ModesSection(
             modes=None,
@@ -67,9 +74,9 @@ def modes(dynamics: Dynamics) -> ModesSection:
 class Place:
     """One equilibrium with the motion near it."""
 
-    def __init__(self, rest: RestPoints, point: RestPoint) -> None:
-        self.point = point
-        self.linear = Linearization(rest, point)
+    def __init__(self, held: Held, point: RestPoint) -> None:
+        self.held, self.point = held, point
+        self.linear = Linearization(held.rest, point)
         self.characteristic = Characteristic(self.linear)
 
     @property
@@ -87,7 +94,12 @@ class Place:
     @cached_property
     def verdict(self) -> Stability:
         """Whether it is stable."""
-        return judge(self.linear, self.characteristic)
+        if self.held.grazes(self.point):
+            return undecided(GRAZES)
+        if self.held.firmly and not self.linear.M:
+            return Stability(stable=True, reason=_STICKS if self.held.sticking else _PRESSED)
+        found = judge(self.linear, self.characteristic)
+        return replace(found, asymptotic=False) if self.held.firmly else found
 
     @cached_property
     def modes(self) -> list[NormalMode]:
@@ -106,13 +118,21 @@ class SmallOscillations:
     def __init__(self, dynamics: Dynamics) -> None:
         self.dynamics = dynamics
         self.system = dynamics.system
-        self.rest = RestPoints(dynamics)
+        self.held = held(dynamics)
+        self.rest = self.held[0].rest
 
     @cached_property
     def places(self) -> list[Place] | None:
         """The equilibria; None where the equations could not be solved."""
-        points = self.rest.points
-        return None if points is None else [Place(self.rest, point) for point in points]
+        found = [(each, each.points()) for each in self.held]
+        if all(points is None for _, points in found):
+            return None
+        return [Place(each, point) for each, points in found for point in points or ()]
+
+    @property
+    def complete(self) -> bool:
+        """Whether there can be no other."""
+        return all(each.rest.complete and each.rest.points is not None for each in self.held)
 
     def equilibrium(self, place: Place) -> Equilibrium:
         """One equilibrium as a statement."""
@@ -129,6 +149,8 @@ class SmallOscillations:
             ),
             where=conditions(place.point.positive, order),
             free=tuple(q.name for q in untied(place.point, self.system.q)),
+            touching=place.held.touching,
+            sticking=place.held.sticking,
         )
 
     def modes(self, place: Place) -> list[Mode]:

@@ -38,13 +38,14 @@ class Routh:
 
     Attributes
     ----------
-    full : Derivation
-        The system that is reduced: solved constraints are put in.
+    given, full : Derivation
+        The system of the file, and that which is reduced: solved constraints are put in.
     reduced : Derivation or None
         That of the remaining coordinates, with R for L; None with a `reason`.
     """
 
     def __init__(self, derivation: Derivation) -> None:
+        self.given = derivation
         self.full = minimal(derivation)
         self.system: System = self.full.system
         self.reason = ""

@@ -30,9 +30,10 @@ from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.oscillations.characteristic import determinant
 from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 from lagcli.mechanics.oscillations.family import Family
+from lagcli.mechanics.oscillations.held import held, one_sided
 from lagcli.mechanics.reduction.readable import deciding, weak_sign
 from lagcli.mechanics.reduction.routh import Routh
-from lagcli.record import record
+from lagcli.record import record, replace
 
 _AT_SINGULAR = "dU_eff/dq vanishes only where the coordinates are singular"
 _UNSOLVED = "the conditions dU_eff/dq = 0 could not be solved"
@@ -96,8 +97,11 @@ class SteadyMotions:
     @cached_property
     def motions(self) -> tuple[Steady, ...] | None:
         """All that were found, each by substitution; None with a reason."""
-        if is_zero(self.system.L.diff(self.system.t)) is not True:
-            self.reason = "the system depends explicitly on the time"
+        if self.rest.depends_on_time:
+            self.reason = "the equations depend explicitly on the time"
+            return None
+        if self._sticks:
+            self.reason = "static friction holds it at rest where it can: see the equilibria"
             return None
         given = self._given()
         if self.routh.cyclic and self._free:
@@ -106,6 +110,7 @@ class SteadyMotions:
             found = self._by_momenta()
         if given is not None and not any(g.values == given.values for g in found):
             found.insert(0, given)
+        found = [each for motion in found if (each := self._standing(motion)) is not None]
         if not found and (self._singular or not self.complete):
             self.reason = _AT_SINGULAR if self._singular else _UNSOLVED
             return None
@@ -125,6 +130,75 @@ class SteadyMotions:
     def conditions(self) -> tuple[Expr, ...]:
         """dU_eff/dq, shape (n,)."""
         return tuple(simplify(self.routh.effective_potential.diff(q)) for q in self.system.q)
+
+    @property
+    def balance(self) -> list[Expr]:
+        """What vanishes, with all that acts: dU_eff/dq less the forces, along the constraints."""
+        if self.rest.depends_on_time or self._sticks:
+            return []
+        if self._free:
+            return list(self.conditions)
+        if self.dynamics.constraints.equations:
+            return self.rest.equations
+        return [simplify(-force) for force in self.rest.forces_at_rest]
+
+    @property
+    def acting(self) -> tuple[str, ...]:
+        """What stands in the balance beside dU_eff/dq."""
+        forces = any(is_zero(f) is not True for f in self.system.applied_forces)
+        constrained = bool(self.dynamics.constraints.equations)
+        return ("forces",) * forces + ("constraints",) * constrained
+
+    # -- one-sided contacts and dry friction ------------------------------------------------------
+
+    @cached_property
+    def _sticks(self) -> bool:
+        return any(each.sticking for each in held(self.dynamics))
+
+    @cached_property
+    def _demands(self) -> tuple[tuple[Expr, bool], ...]:
+        """What is not negative on the motion, and what is not 0 either, in q and q' of `full`."""
+        given, constraints = self.routh.given.dynamics, self.routh.given.dynamics.constraints
+        demands: list[tuple[Expr, bool]] = []
+        for each in one_sided(given):
+            parts = each.demands if each.given else (each.gap,)
+            found = [given.on_motion(part) for part in parts if part is not None]
+            demands += [(part, not each.given) for part in found if part is not None]
+        solved = {} if constraints.relations is None else dict(constraints.relations.solved)
+        flow = dict(zip(given.system.q, given.system.qdot, strict=True))
+        for q, value in reversed([(q, v) for q, v in solved.items() if q in flow]):
+            put_in = {q: value, flow[q]: given.system.total_derivative(value)}
+            demands = [(part.xreplace(put_in), strict) for part, strict in demands]
+        return tuple(demands)
+
+    def _standing(self, motion: Steady) -> Steady | None:
+        """The motion where every one-sided contact holds; None where one does not."""
+        positive = list(motion.positive)
+        for value, strict in self._pressing(motion):
+            known = sign(value, positive)
+            if known == -1 or (known == 0 and strict) or weak_sign(value, positive) == -1:
+                return None
+            positive += [value] if known is None else []
+        return replace(motion, positive=tuple(dict.fromkeys(positive)))
+
+    def _pressing(self, motion: Steady) -> list[tuple[Expr, bool]]:
+        """What is not negative on it, and whether it is not 0; none where that is not known."""
+        rates = motion.rates
+        if rates is None:
+            if any(is_zero(motion.values.get(p, p)) is not True for p in self.routh.momenta):
+                return []
+            rates = dict.fromkeys(self.routh.cyclic, S.Zero)
+        still: dict[Expr, Expr] = dict.fromkeys(self.system.qdot, S.Zero)
+        still |= {self.full.qdot[j]: rate for j, rate in rates.items()}
+        try:
+            found = [(at(x.xreplace(still), motion.values), strict) for x, strict in self._demands]
+        except ZeroDivisionError:
+            return []
+        return [] if any(x.has(S.NaN, S.ComplexInfinity) for x, _ in found) else found
+
+    def grazes(self, motion: Steady) -> bool:
+        """Whether nothing presses on something that is closed, so that it may open."""
+        return any(is_zero(value) is True for value, _ in self._pressing(motion))
 
     # -- without families -------------------------------------------------------------------------
 

@@ -23,7 +23,7 @@ from lagcli.mechanics.reduction.rolling_statement import rolling_section
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.statement import Missing
 from lagcli.mechanics.reduction.steady import Steady, SteadyMotions
-from lagcli.mechanics.stability.judge import Stability, by_curvature, judge, undecided
+from lagcli.mechanics.stability.judge import GRAZES, Stability, by_curvature, judge, undecided
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.mechanics.theorems import LAGRANGE_DIRICHLET, ROUTH
 from lagcli.motions import Above, SteadyMotion, SteadySection, Verdict
@@ -57,17 +57,18 @@ class _Statement:
         steady = self.steady
         found = steady.motions
         conditions = (
-            {
-                q.name: self._shape(c)
-                for q, c in zip(steady.system.q, steady.conditions, strict=True)
-            }
+            {str(k): self._shape(c) for k, c in enumerate(steady.balance)}
             if self.routh.quadratic
             else {}
         )
         if found is None:
             return (
                 SteadySection(
-                    conditions=conditions, motions=None, complete=False, reason=steady.reason
+                    conditions=conditions,
+                    motions=None,
+                    complete=False,
+                    reason=steady.reason,
+                    acting=steady.acting,
                 ),
                 [("the steady motions", steady.reason)],
             )
@@ -76,6 +77,7 @@ class _Statement:
                 conditions=conditions,
                 motions=tuple(map(self._motion, found)),
                 complete=steady.complete,
+                acting=steady.acting,
             ),
             [],
         )
@@ -110,6 +112,8 @@ class _Statement:
                     judged = undecided("a force without a potential acts")
         except ZeroDivisionError:
             pass
+        if self.steady.grazes(motion):
+            judged = undecided(GRAZES)
         system, names = self.steady.system, self.steady.full.names
         rates = motion.rates
         point = self.steady.point(motion)

@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from sympy import Add, Expr, S, Symbol
+from sympy import Abs, Add, Expr, Integer, S, Symbol
+from sympy import sign as sign_function
 
 from lagcli.algebra import is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
@@ -28,7 +29,7 @@ def never_grows(dynamics: Dynamics) -> bool:
     system, constraints = dynamics.system, dynamics.constraints
     if any(is_zero(e.drift) is not True for e in constraints.equations):
         return False
-    forces = system.applied_forces
+    forces = [_near_rest(force, system.qdot) for force in system.applied_forces]
     if all(is_zero(force) is True for force in forces):
         return True
     rows = constraints.jacobian
@@ -38,6 +39,17 @@ def never_grows(dynamics: Dynamics) -> bool:
     return _have_potential(at_rest, system.q, along) and _never_negative(
         *_loss(forces, at_rest, system.qdot, along)
     )
+
+
+def _near_rest(force: Expr, velocities: Sequence[Symbol]) -> Expr:
+    """The force where velocities are small: sign(v - v0) is that of -v0."""
+    still = dict.fromkeys(velocities, S.Zero)
+    put_in: dict[Expr, Expr] = {}
+    for node in force.atoms(sign_function, Abs):
+        known = sign(node.args[0].xreplace(still))
+        if known in (1, -1):
+            put_in[node] = Integer(known) * (node.args[0] if isinstance(node, Abs) else S.One)
+    return force.xreplace(put_in)
 
 
 def _axes(n: int) -> list[list[Expr]]:

@@ -43,6 +43,8 @@ NOT_DEFINITE = (
     "the kinetic energy is not known to be positive definite (say which parameters are: "
     "{assume: positive})"
 )
+#: Of contacts without a force.
+GRAZES = "nothing presses on the contact, which may open"
 _GROWING = "a root of the characteristic polynomial has a positive real part"
 _ALL_ROOTS = "all roots have negative real parts"
 _NEUTRAL = "neutral: no force to first order"

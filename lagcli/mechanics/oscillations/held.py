@@ -1,0 +1,230 @@
+"""What holds a body at rest beside smooth forces: one-sided contacts and static friction.
+
+Each combination of closed contacts is a system of its own, in which these are constraints, and
+those that are open have a gap > 0.  An equilibrium in it is one of the problem where every
+condition on a multiplier (`holds_while`, N >= 0) holds at rest.
+
+Dry friction -f sign(u), u = sum a_j q_j', takes at rest whatever holds it, up to f (Coulomb): the
+rest states are those of the system with u = 0 for a constraint, where its force has |lambda| <= f.
+
+References
+----------
+Pfeiffer, Glocker, *Multibody Dynamics with Unilateral Contacts* (1996), section 2.2 and
+chapter 5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+
+import sympy
+from sympy import Expr, S
+
+from lagcli.algebra import is_zero, shape, simplify
+from lagcli.algebra.build import free_of
+from lagcli.diagnostics import ProblemError
+from lagcli.expression import ZERO, Equation
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.reduction.minimal import with_lagrangian
+from lagcli.mechanics.stability.signs import sign_of, weak_sign
+from lagcli.problem import Constraint, pushing_sign
+from lagcli.record import record, replace
+
+_MOST_CONTACTS = 4
+
+
+@record
+class Friction:
+    """-f sign(u), by the rows of u and f."""
+
+    u: Expr
+    f: Expr
+
+
+@record
+class OneSided:
+    """A contact, or a constraint of the file (`given`) under conditions.
+
+    The `gap` is positive where it is open; None: the model ends where it opens.
+    """
+
+    name: str
+    multiplier: str
+    demands: tuple[Expr, ...]
+    gap: Expr | None
+    given: bool
+
+    @property
+    def may_open(self) -> bool:
+        """Whether there is a motion without it."""
+        return self.gap is not None
+
+
+@record
+class Held:
+    """One combination of what is closed, and what must not be negative at rest.
+
+    Attributes
+    ----------
+    rest
+        The equilibria with the closed contacts, and what sticks, as constraints.
+    demands
+        Functions of q and the multipliers.
+    gaps
+        Of the contacts that are open.
+    touching, sticking
+        The names of the closed contacts; whether dry friction holds something.
+    """
+
+    rest: RestPoints
+    demands: tuple[Expr, ...] = ()
+    gaps: tuple[Expr, ...] = ()
+    touching: tuple[str, ...] = ()
+    sticking: bool = False
+
+    def points(self) -> tuple[RestPoint, ...] | None:
+        """The equilibria that these conditions allow; None where they were not found."""
+        points = self.rest.points
+        if points is None or not (self.demands or self.gaps):
+            return points
+        kept = (self._allowed(point) for point in points)
+        return tuple(point for point in kept if point is not None)
+
+    def _allowed(self, point: RestPoint) -> RestPoint | None:
+        """The equilibrium with the conditions for it; None where one fails."""
+        conditions: list[Expr] = []
+        for demand in (*self.demands, *self.gaps):
+            value = self._at_rest(demand, point)
+            if value is None:
+                continue
+            known = sign_of(value, point.positive)
+            strict = any(demand is gap for gap in self.gaps)
+            if known == -1 or (known == 0 and strict):
+                return None
+            if known is None and weak_sign(value, point.positive) == -1:
+                return None
+            conditions += [value] if known is None else []
+        return replace(point, positive=tuple(dict.fromkeys((*point.positive, *conditions))))
+
+    def _at_rest(self, demand: Expr, point: RestPoint) -> Expr | None:
+        """Its value; None where a multiplier is not determined."""
+        try:
+            forces = Linearization(self.rest, point).constraint_forces
+        except ZeroDivisionError:
+            return None
+        system, equations = self.rest.system, self.rest.dynamics.constraints.equations
+        put_in: dict[Expr, Expr] = dict.fromkeys((*system.qdot, *system.qddot), S.Zero)
+        put_in |= {equations[k].multiplier: value for k, value in forces.items()}
+        there = at(demand.xreplace(put_in), point.values)
+        return there if free_of(there, [e.multiplier for e in equations]) else None
+
+    def grazes(self, point: RestPoint) -> bool:
+        """Whether nothing presses on something that is closed, so that it may open."""
+        return any(self._at_rest(demand, point) == 0 for demand in self.demands)
+
+    @property
+    def firmly(self) -> bool:
+        """Whether contacts or friction exclude displacements."""
+        return self.sticking or bool(self.touching)
+
+
+def held(dynamics: Dynamics) -> list[Held]:
+    """All combinations; the system itself where nothing may open or close and nothing sticks."""
+    contacts, friction = one_sided(dynamics), _friction(dynamics)
+    if not (any(each.may_open for each in contacts) or friction):
+        demands = tuple(x for each in contacts for x in each.demands)
+        return [Held(RestPoints(dynamics), demands)]
+    names = [each.name for each in contacts if each.may_open][:_MOST_CONTACTS]
+    variants = [
+        _variant(dynamics, contacts, friction, opened)
+        for size in range(len(names), -1, -1)
+        for opened in combinations(names, size)
+    ]
+    return [each for each in variants if each is not None] or [Held(RestPoints(dynamics))]
+
+
+def one_sided(dynamics: Dynamics) -> list[OneSided]:
+    """The contacts, and the constraints that hold under a condition."""
+    system, problem = dynamics.system, dynamics.system.problem
+    found = []
+    for given, equation in zip(problem.constraints, dynamics.constraints.equations, strict=True):
+        if given.holds_while is None:
+            continue
+        condition = given.holds_while
+        difference = system.build(condition.left) - system.build(condition.right)
+        demand = difference if condition.comparison[0] == ">" else -difference
+        side = pushing_sign(given.multiplier, condition) if given.on_loss == "release" else None
+        gap = None if side is None else side * equation.f
+        found.append(OneSided(given.name, given.multiplier, (demand,), gap, given=True))
+    for each in problem.contacts:
+        gap = system.build(each.equation.left) - system.build(each.equation.right)
+        found.append(OneSided(each.name, each.multiplier, (), gap, given=False))
+    return found
+
+
+def _variant(
+    dynamics: Dynamics,
+    contacts: Sequence[OneSided],
+    friction: Sequence[Friction],
+    opened: Sequence[str],
+) -> Held | None:
+    """The system with these contacts open; None where the others cannot be closed together."""
+    system, problem = dynamics.system, dynamics.system.problem
+    closed = [each for each in contacts if each.name not in opened]
+    added = [(x.name, x.gap, x.multiplier) for x in closed if not x.given and x.gap is not None]
+    forces = list(system.applied_forces)
+    for k, each in enumerate(friction):
+        forces = [f.xreplace({sympy.sign(each.u): S.Zero}) for f in forces]
+        added.append((f"sticks{k}", each.u, f"#lambda{k}"))
+    given = zip(dynamics.constraints.equations, problem.constraints, strict=True)
+    rows = [(c.name, e.f, c.multiplier) for e, c in given if c.name not in opened]
+    derivation = with_lagrangian(
+        Derivation(problem),
+        list(range(len(system.q))),
+        system.L,
+        forces,
+        problem.parameters,
+        tuple(
+            Constraint(name=name, equation=Equation(shape(f, system.order), ZERO), multiplier=lam)
+            for name, f, lam in (*rows, *added)
+        ),
+    )
+    try:
+        derivation.dynamics.independent_constraints  # noqa: B018 - asks whether they agree
+    except ProblemError:
+        return None
+    symbol = derivation.system.symbol_of
+    demands = [x for each in closed for x in each.demands or (symbol(each.multiplier),)]
+    for k, each in enumerate(friction):
+        demands += [each.f - symbol(f"#lambda{k}"), each.f + symbol(f"#lambda{k}")]
+    return Held(
+        RestPoints(derivation.dynamics),
+        tuple(demands),
+        tuple(x.gap for x in contacts if x.name in opened and x.gap is not None),
+        tuple(each.name for each in closed if each.may_open),
+        sticking=bool(friction),
+    )
+
+
+def _friction(dynamics: Dynamics) -> list[Friction]:
+    """The terms -f sign(u) in the forces with u linear in the velocities, 0 at rest."""
+    system = dynamics.system
+    still = dict.fromkeys(system.qdot, S.Zero)
+    found: dict[Expr, Friction] = {}
+    for j, force in enumerate(system.applied_forces):
+        for node in force.atoms(sympy.sign):
+            u = node.args[0]
+            slope = simplify(u.diff(system.qdot[j]))
+            if (
+                slope == 0
+                or not free_of(slope, system.qdot)
+                or is_zero(u.xreplace(still)) is not True
+            ):
+                continue
+            part = simplify(force.xreplace({node: S.One}) - force.xreplace({node: S.Zero}))
+            found.setdefault(u, Friction(u, simplify(-part / slope)))
+    return list(found.values())

@@ -1,0 +1,149 @@
+"""Equilibria with one-sided contacts and dry friction, against what the books say and by hand."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.oscillations.small_oscillations import equilibria
+from lagcli.mechanics.reduction.steady_statement import steady_motions
+
+from .derived import derive
+from .formulas import normal
+
+
+def found(text: str):
+    states = equilibria(derive(text.replace("POSITIVE", "{assume: positive}")).dynamics).equilibria
+    assert states is not None
+    return states
+
+
+def places(text: str, name: str) -> list[str]:
+    return [to_grammar(each.at[name]) if name in each.at else "free" for each in found(text)]
+
+
+def conditions(each) -> set[str]:
+    return {f"{to_grammar(a.left)} > {to_grammar(a.right)}" for a in each.where}
+
+
+SPHERE = """
+coordinates: {r: POSITIVE, theta: {}}
+parameters: {m: POSITIVE, g: POSITIVE, R: POSITIVE}
+T: m*(r'^2 + r^2*theta'^2)/2
+V: m*g*r*cos(theta)
+constraints:
+  surface: {equation: r = R, multiplier: N, holds_while: N SIGN 0}
+"""
+
+
+@pytest.mark.parametrize(("sign", "place", "stable"), [(">=", "0", False), ("<=", "pi", True)])
+def test_a_surface_does_not_pull(sign, place, stable):
+    """On top of a sphere, and at the bottom of a bowl; the other place needs a pull."""
+    text = SPHERE.replace("SIGN", sign)
+    assert places(text, "theta") == [place]
+    assert [each.verdict.stable for each in found(text)] == [stable]
+    section, _ = steady_motions(derive(text.replace("POSITIVE", "{assume: positive}")))
+    assert [to_grammar(m.at["theta"]) for m in section.motions or ()] == [place]
+
+
+def test_a_string_hangs_down():
+    text = """
+coordinates: [x, y]
+parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE}
+T: m*(x'^2 + y'^2)/2
+V: m*g*y
+constraints:
+  string: {equation: x^2 + y^2 = l^2, multiplier: S, holds_while: S <= 0, on_loss: release}
+"""
+    assert places(text, "y") == ["-l"]
+    assert found(text)[0].touching == ("string",)
+
+
+def test_a_ball_rests_on_the_floor_of_its_contact():
+    ball = """
+coordinates: [x, y]
+parameters: {m: POSITIVE, g: POSITIVE, k: POSITIVE, e: {assume: nonnegative}}
+T: m*(x'^2 + y'^2)/2
+V: m*g*y + k*x^2/2
+contacts:
+  floor: {gap: y >= 0, restitution: e}
+"""
+    [rest] = found(ball)
+    assert {name: to_grammar(v) for name, v in rest.at.items()} == {"x": "0", "y": "0"}
+    assert rest.touching == ("floor",)
+    assert rest.verdict.stable is True
+    assert rest.verdict.asymptotic is False
+    assert found(ball.replace("m*g*y", "-m*g*y")) == ()
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_spring_beside_a_wall(seed):
+    """x rests at c where that is not in the wall, else at the wall, pressed with k |c - w|."""
+    source = random.Random(seed)
+    wall, k = source.randint(-4, 4), source.randint(1, 5)
+    centre = wall + source.choice([-3, -2, -1, 1, 2, 3])
+    text = f"""
+coordinates: [x]
+T: x'^2/2
+V: {k}*(x - {centre})^2/2
+contacts:
+  wall: {{gap: x >= {wall}, restitution: 1/2}}
+""".replace("- -", "+ ")
+    [rest] = found(text)
+    assert to_grammar(rest.at["x"]) == str(max(centre, wall))
+    assert rest.touching == (("wall",) if centre < wall else ())
+    assert rest.verdict.stable is True
+
+
+def test_dry_friction_holds_a_block_on_an_incline():
+    """Where mu > tan(alpha) every place is one of rest."""
+    [rest] = found("""
+coordinates: [x]
+parameters: {m: POSITIVE, g: POSITIVE, alpha: POSITIVE, mu: POSITIVE}
+T: m*x'^2/2
+V: m*g*x*sin(alpha)
+forces: {x: -mu*m*g*cos(alpha)*sign(x')}
+""")
+    assert rest.free == ("x",)
+    assert rest.sticking
+    assert "mu*cos(alpha) > sin(alpha)" in conditions(rest)
+    assert rest.verdict.stable is True
+
+
+def test_dry_friction_holds_a_spring_within_its_bounds():
+    [rest] = found("""
+coordinates: [x]
+parameters: {m: POSITIVE, g: POSITIVE, k: POSITIVE, mu: POSITIVE}
+T: m*x'^2/2
+V: k*x^2/2
+forces: {x: -mu*m*g*sign(x')}
+""")
+    assert rest.free == ("x",)
+    assert len(rest.where) == 2
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_friction_in_one_of_two_coordinates(seed):
+    """One block sticks, the other hangs on a spring between: it rests where its spring balances."""
+    source = random.Random(seed)
+    k, K, f, F = (source.randint(1, 6) for _ in range(4))
+    [rest] = found(f"""
+coordinates: [x, y]
+T: x'^2/2 + y'^2/2
+V: {k}*x^2/2 + {K}*(y - x)^2/2 - {F}*y
+forces: {{x: -{f}*sign(x')}}
+""")
+    # K (y - x) = F, and |F - k x| <= f
+    for x in (-3.0, -1.0, 0.0, 0.7, 1.5, 4.0):
+        at = {"x": x, "y": x + F / K}
+        inside = all(number(each.left, at) > number(each.right, at) for each in rest.where)
+        assert inside == (abs(F - k * x) < f)
+    assert rest.verdict.stable is True
+
+
+def number(tree, at: dict[str, float]) -> float:
+    value = normal(tree)
+    assert value is not None
+    return float(value.subs({s: at[s.name] for s in value.free_symbols}))
