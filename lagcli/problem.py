@@ -53,6 +53,20 @@ class Point:
 
 
 @record(kw_only=True)
+class Scenery:
+    """What a picture shows beside the points; it has no influence on the motion.
+
+    `places` are more points, without mass; `rods` and `springs` join two names; `trails` are
+    the points that leave one, None for all.
+    """
+
+    places: Mapping[str, tuple[Expression, ...]] = field(default_factory=dict)
+    rods: tuple[tuple[str, str], ...] = ()
+    springs: tuple[tuple[str, str], ...] = ()
+    trails: tuple[str, ...] | None = None
+
+
+@record(kw_only=True)
 class Inequality:
     """`left comparison right`, such as `N >= 0`."""
 
@@ -395,4 +409,5 @@ class Problem:
     initial: Mapping[Name, Expression] = field(default_factory=dict)  # Name("x", primes=0 or 1)
     find: tuple[Question, ...] = ()
     simulation: Simulation = field(default_factory=Simulation)
+    picture: Scenery = field(default_factory=Scenery)
     expect: Expect = field(default_factory=Expect)

@@ -16,6 +16,7 @@ COMMANDS = {
     "explain": "Tell the derivation step by step, with its reasons.",
     "simulate": "Compute the motion to a stated accuracy, with a certificate.",
     "plot": "Draw a motion over time, in space or in phase space.",
+    "animate": "Show a motion as a page to play, a GIF or an MP4.",
     "tradeoff": "Measure what accuracy costs: every method against a known reference.",
     "extremes": "Take a problem to its extremes and report where it breaks.",
     "check": "Check problems against their known answers and against the mathematics.",

@@ -16,6 +16,7 @@ MANUAL_FORMATS = ("text", "markdown", "html", "man")
 #: What `plot` draws, and the endings of the files it writes.
 KINDS = ("series", "phase", "path", "potential", "drift", "error")
 PICTURES = ("svg", "pdf", "png")
+ANIMATIONS = ("html", "gif", "mp4")
 
 #: What `simulate --show` knows besides the names of the file.
 _SHOWN = (

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from lagcli.cli.choices import KINDS, PICTURES
 from lagcli.cli.delivering import has_place, place
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from lagcli.numerics.asked import Asked
     from lagcli.pictures.drawing import Picture
     from lagcli.problem import Problem
+
+Made = TypeVar("Made")
 
 #: What is drawn without an end: states, not a motion.
 _WITHOUT_MOTION = ("phase", "potential")
@@ -51,31 +54,42 @@ def plot_file(wish: PlotWish) -> Status:
 
 
 def _draw(problem: Problem, asked: Asked, wish: PlotWish) -> Status:
-    from lagcli.diagnostics import ProblemError
-    from lagcli.numerics.refusal import Refusal
-    from lagcli.pictures.drawing import CannotDraw
-    from lagcli.pictures.kinds import Request, picture_of
+    def work() -> tuple[bytes, str]:
+        from lagcli.pictures.kinds import Request, picture_of
 
-    kind = _kind(asked, wish)
-    request = Request(kind=kind, chosen=bool(wish.run.show))
-    try:
+        request = Request(kind=_kind(asked, wish), chosen=bool(wish.run.show))
         with shared("integrating") as progress:
             picture, refusal = picture_of(problem, asked, request, progress)
-    except Refusal as mistake:
-        tell(problem.source, mistake.diagnostics)
-        return Status.USAGE if mistake.mistake else Status.NOT_FOUND
-    except ProblemError as mistakes:
-        tell(mistakes.source, mistakes.diagnostics)
-        return Status.USAGE
-    except CannotDraw as reason:
-        tell_line(f"{problem.source.name}: error: {reason}")
-        return Status.USAGE
-    if not place(_written(picture, wish), wish.run.output):
+        return _written(picture, wish), refusal
+
+    found = attempted(problem, work)
+    if isinstance(found, Status):
+        return found
+    data, refusal = found
+    if not place(data, wish.run.output):
         return Status.USAGE
     if refusal:
         tell_line(f"{problem.source.name}: {refusal}")
         return Status.NOT_FOUND
     return Status.WELL
+
+
+def attempted(problem: Problem, work: Callable[[], Made]) -> Made | Status:
+    """What the work gives; the exit status where it cannot be done, once that is told."""
+    from lagcli.diagnostics import ProblemError
+    from lagcli.numerics.refusal import Refusal
+    from lagcli.pictures.drawing import CannotDraw
+
+    try:
+        return work()
+    except Refusal as mistake:
+        tell(problem.source, mistake.diagnostics)
+        return Status.USAGE if mistake.mistake else Status.NOT_FOUND
+    except ProblemError as mistakes:
+        tell(mistakes.source, mistakes.diagnostics)
+    except CannotDraw as reason:
+        tell_line(f"{problem.source.name}: error: {reason}")
+    return Status.USAGE
 
 
 def _asked(problem: Problem, wish: PlotWish) -> Asked | None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 
 from lagcli.expression import ONE, Expression, Name
-from lagcli.formatters.grammar import to_grammar
 from lagcli.pictures.drawing import CannotDraw
+from lagcli.pictures.labels import Labels
 from lagcli.problem import Problem
 from lagcli.record import record
 
@@ -79,10 +79,14 @@ def _cartesian(problem: Problem) -> tuple[Track, ...]:
 
 def _missing(problem: Problem) -> str:
     names = ", ".join(coordinate.name for coordinate in problem.coordinates)
-    first = problem.coordinates[0].name
-    length = next((p.name for p in problem.parameters if p.unit == "m"), None)
-    factor = f"{length or 'l'}*"
-    example = f"points: {{P: {{position: [{factor}sin({first}), -{factor}cos({first})]}}}}"
+    labels = Labels(problem)
+    angles = [c.name for c in problem.coordinates if labels.is_angle(Name(c.name))]
+    lengths = [c.name for c in problem.coordinates if c.name not in angles]
+    lengths += [p.name for p in problem.parameters if p.unit == "m"]
+    length, angle = (*lengths, "l")[0], (*angles, "theta")[0]
+    example = f"points: {{P: {{position: [{length}*sin({angle}), -{length}*cos({angle})]}}}}"
+    if not angles:
+        example = f"points: {{P: {{position: [{length}, 0]}}}}"
     return (
         f"the file does not state where its bodies are: the coordinates {names} are not Cartesian "
         f"(x, y, z, x1, y1, ...) and there are no points; add them, for example {example}"
@@ -106,9 +110,3 @@ def components(found: tuple[Track, ...]) -> list[tuple[str, Expression | None]]:
         for track in found
         for axis, formula in zip(track.axes, track.position, strict=True)
     ]
-
-
-def spelled(track: Track) -> str:
-    """A point with its position, for a page that describes it."""
-    inner = ", ".join(map(to_grammar, track.position))
-    return f"{track.name} at [{inner}]"

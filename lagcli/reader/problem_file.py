@@ -31,6 +31,7 @@ from lagcli.reader.quantities import (
 )
 from lagcli.reader.questions import read_find, read_initial, read_simulation
 from lagcli.reader.restrictions import declare_constraints, read_constraints, read_symmetries
+from lagcli.reader.scenery import read_scenery
 from lagcli.reader.scope import PHASE_SPACE, STATE, Role
 from lagcli.reader.sections import Sections
 from lagcli.reader.text import Mistake, Text, decode
@@ -44,7 +45,7 @@ KEYS = (
     "title", "source", "description", "coordinates", "parameters", "functions", "definitions",
     "points", "T", "V", "L", "H", "forces", "dissipation", "constraints", "contacts", "symmetries",
     "observables", "brackets", "canonical_transformations", "initial", "find", "simulation",
-    "expect",
+    "picture", "expect",
 )  # fmt: skip
 
 
@@ -174,6 +175,7 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
         initial=read_initial(sections, section("initial")),
         find=questions,
         simulation=read_simulation(sections, section("simulation")),
+        picture=read_scenery(sections, section("picture"), points),
         expect=expect.read(section("expect")),
     )
     meant = {key_meant(key.label, KEYS) for key, _ in root.entries}

@@ -67,6 +67,9 @@ _YES_OR_NO: Schema = {"enum": ["yes", "no", True, False]}
 _STABLE: Schema = {"anyOf": [_YES_OR_NO, _ref("inequality"), _list(_ref("inequality"))]}
 _ONE_OR_MORE: Schema = {"anyOf": [_FORMULA, _list({"anyOf": [_FORMULA, _list(_FORMULA)]})]}
 
+_POSITION: Schema = {**_list(_FORMULA), "minItems": 1, "maxItems": 3}
+_PAIR: Schema = {**_list(_TEXT), "minItems": 2, "maxItems": 2}
+
 _QUANTITY: dict[str, Schema] = {
     "unit": {
         "type": ["string", "number"],
@@ -118,7 +121,7 @@ _DEFINITIONS: dict[str, Schema] = {
     },
     "point": _record(
         ("position",),
-        position={**_list(_FORMULA), "minItems": 1, "maxItems": 3},
+        position=_POSITION,
         mass=_FORMULA,
         force={**_list(_FORMULA), "minItems": 1, "maxItems": 3},
     ),
@@ -232,6 +235,9 @@ _PARTS: dict[str, Schema] = {
     "initial": _FORMULAS,
     "find": _map(_ref("question")),
     "simulation": _record(until=_FORMULA, accuracy=_FORMULA, method={"enum": list(METHODS)}),
+    "picture": _record(
+        places=_map(_POSITION), rods=_list(_PAIR), springs=_list(_PAIR), trails=_list(_TEXT)
+    ),
     "expect": _record((), **{key: _EXPECTED[key] for key in EXPECTED}),
 }
 
@@ -259,5 +265,6 @@ _MEANING = {
     "initial": "the state at t = 0: {theta: 0.1, theta': 0}",
     "find": "questions about the motion",
     "simulation": "defaults of a numerical run",
+    "picture": "what an animation draws beside the points: places, rods, springs, trails",
     "expect": "the known answers, for lagcli check",
 }

@@ -1,0 +1,72 @@
+"""`lagcli animate`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from lagcli.cli.options import Output, State
+from lagcli.cli.plot import Dark
+from lagcli.cli.simulate import Accuracy, File, Method, Project, Set, StopWhen, Until
+
+Samples = Annotated[
+    int,
+    typer.Option("--samples", metavar="N", min=2, max=20_000, help="Frames of the page."),
+]
+Forces = Annotated[
+    bool,
+    typer.Option("--forces", help="Show forces as arrows: applied ones and those of constraints."),
+]
+
+
+def animate(
+    file: File,
+    output: Output = None,
+    until: Until = None,
+    accuracy: Accuracy = None,
+    samples: Samples = 601,
+    settings: Set = None,
+    state: State = None,
+    forces: Forces = False,
+    dark: Dark = False,
+    project: Project = False,
+    method: Method = "auto",
+    stop_when: StopWhen = None,
+) -> int:
+    """Show a motion as a page to play, a GIF or an MP4.
+
+    The ending of -o says which: .html, which is also what goes to standard output, has
+    everything in one file and needs no network; .gif and .mp4 need Matplotlib (pip install
+    'lagcli[plot]'), and .mp4 the program ffmpeg.  Bodies are the points of the file, or
+    coordinates with the names x, y, z, x1, y1; its key `picture` adds rods and springs.
+
+    The exit status is 0; 1 when the accuracy was not reached to the end; 2 when there is
+    nothing to show, or the command line or the file is wrong.
+
+    \b
+    Examples:
+      lagcli animate problems/pendulums/double-pendulum.yaml -o double.html
+      lagcli animate problems/impact/bouncing-ball.yaml --until 4 -o ball.gif
+      lagcli animate problems/pendulums/pendulum-cartesian.yaml --until 5 --forces -o forces.html
+    """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.animating import AnimationWish, animate_file
+    from lagcli.cli.simulating import Wish
+
+    run = Wish(
+        file=file,
+        until=until,
+        accuracy=accuracy,
+        samples=samples,
+        settings=tuple(settings or ()),
+        state=tuple(state or ()),
+        show=(),
+        format_name="table",
+        output=output,
+        project=project,
+        precision=None,
+        method=method,
+        stop_when=stop_when,
+        whole=False,
+    )
+    return animate_file(AnimationWish(run=run, forces=forces, dark=dark))
