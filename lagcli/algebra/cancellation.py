@@ -16,7 +16,12 @@ from collections.abc import Sequence
 from flint import nmod_poly
 
 from lagcli.algebra.field import Element, FractionField
-from lagcli.algebra.ring import Poly
+from lagcli.algebra.half_angles import (
+    angles_of,
+    degree_in_angle,
+    from_half_angle,
+    to_half_angle,
+)
 
 _PRIME = 2**61 - 1
 _MAX_TERMS = 600
@@ -28,14 +33,8 @@ def cancelled(field: FractionField, element: Element) -> Element:
     if element.is_polynomial() or element.size() > _MAX_TERMS:
         return element
     element = _rationalized(field, element)
-    angles = [
-        g for g in field.ring.used(element.denominator) if field.generators[g].kind == "cos"
-    ] + [
-        field.generators[g].partner
-        for g in field.ring.used(element.denominator)
-        if field.generators[g].kind == "sin"
-    ]
-    shared = [g for g in sorted(set(angles)) if _may_cancel(field, element, g)]
+    angles = angles_of(field, element.denominator)
+    shared = [g for g in angles if _may_cancel(field, element, g)]
     if not shared:
         return element
     shorter = _in_half_angles(field, element, shared)
@@ -61,14 +60,6 @@ def _rationalized(field: FractionField, element: Element) -> Element:
     return element
 
 
-def _degree(field: FractionField, poly: Poly, cosine: int) -> int:
-    """The degree in sin and cos of one angle together."""
-    return max(
-        sum(e for g, e in monomial if g in (cosine, cosine + 1))
-        for monomial, _ in field.ring.terms(poly)
-    )
-
-
 def _may_cancel(field: FractionField, element: Element, cosine: int) -> bool:
     """Whether both have a common factor in t where everything else is a random number.
 
@@ -85,7 +76,9 @@ def _may_cancel(field: FractionField, element: Element, cosine: int) -> bool:
             values[index + 1] = 2 * t * scale % _PRIME
         elif index not in values:
             values[index] = source.randrange(_PRIME)
-    degree = max(_degree(field, p, cosine) for p in (element.numerator, element.denominator))
+    degree = max(
+        degree_in_angle(field, p, cosine) for p in (element.numerator, element.denominator)
+    )
     polys = []
     for poly in (element.numerator, element.denominator):
         sums: dict[tuple[int, int], int] = {}
@@ -116,49 +109,12 @@ def _in_half_angles(field: FractionField, element: Element, angles: Sequence[int
     """Cancel in t = tan(angle/2); the slot of the sine stands for t meanwhile."""
     above, below = element.numerator, element.denominator
     for cosine in angles:
-        degree = max(_degree(field, p, cosine) for p in (above, below))
-        above, below = (_to_half(field, p, cosine, degree) for p in (above, below))
+        degree = max(degree_in_angle(field, p, cosine) for p in (above, below))
+        above, below = (to_half_angle(field, p, cosine, degree) for p in (above, below))
     common = above.gcd(below)
     above, below = above / common, below / common
     for cosine in angles:
         t = cosine + 1
         degree = (max(field.ring.degree(p, t) for p in (above, below)) + 1) // 2
-        above, below = (_from_half(field, p, cosine, degree) for p in (above, below))
+        above, below = (from_half_angle(field, p, cosine, degree) for p in (above, below))
     return field.element(above, below)
-
-
-def _to_half(field: FractionField, poly: Poly, cosine: int, degree: int) -> Poly:
-    """(1 + t²)^degree times the polynomial."""
-    ring = field.ring
-    t = ring.generator(cosine + 1)
-    result = ring.zero
-    for (c, s), rest in _split(field, poly, (cosine, cosine + 1)).items():
-        result += rest * (1 - t * t) ** c * (2 * t) ** s * (1 + t * t) ** (degree - c - s)
-    return result
-
-
-def _from_half(field: FractionField, poly: Poly, cosine: int, degree: int) -> Poly:
-    """2^degree (1 + t²)^-degree times the polynomial in t.
-
-    t²/(1 + t²) = (1 − cos)/2, 1/(1 + t²) = (1 + cos)/2, t/(1 + t²) = sin/2.
-    """
-    ring = field.ring
-    c, s = ring.generator(cosine), ring.generator(cosine + 1)
-    result = ring.zero
-    for (power,), rest in _split(field, poly, (cosine + 1,)).items():
-        half, odd = divmod(power, 2)
-        result += rest * (1 - c) ** half * (1 + c) ** (degree - odd - half) * s**odd
-    return result
-
-
-def _split(
-    field: FractionField, poly: Poly, generators: tuple[int, ...]
-) -> dict[tuple[int, ...], Poly]:
-    """The coefficients of the powers of some generators."""
-    groups: dict[tuple[int, ...], list[tuple[tuple[tuple[int, int], ...], int]]] = {}
-    for monomial, coefficient in field.ring.terms(poly):
-        exponents = dict(monomial)
-        key = tuple(exponents.get(g, 0) for g in generators)
-        rest = tuple(pair for pair in monomial if pair[0] not in generators)
-        groups.setdefault(key, []).append((rest, coefficient))
-    return {key: field.ring.build(terms) for key, terms in groups.items()}

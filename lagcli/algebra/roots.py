@@ -13,11 +13,19 @@ from typing import TYPE_CHECKING
 import sympy
 
 from lagcli.algebra.field import Element, Generator
+from lagcli.algebra.half_angles import (
+    angles_of,
+    degree_in_angle,
+    from_half_angle,
+    to_half_angle,
+)
 from lagcli.algebra.ring import Poly, factorization
 
 if TYPE_CHECKING:
     from lagcli.algebra.entry import Field
 
+_MOST_ANGLES = 5  # beyond, and at higher degrees, no square is looked for in half angles
+_HIGHEST = 8
 _MAX_FACTORED = 10**24  # larger integers under a root are not factored
 
 
@@ -153,6 +161,32 @@ def _integer_root(field: Field, number: int, index: int) -> Element:
 
 def _hidden_square(field: Field, radicand: Poly) -> Element | None:
     """The square root modulo sin² + cos² = 1: 1 − cos² is a square though it factors."""
+    return _square_of_one_angle(field, radicand) or _square_in_half_angles(field, radicand)
+
+
+def _square_in_half_angles(field: Field, radicand: Poly) -> Element | None:
+    """The square root of 1 − cos²(a + b), which is one of a polynomial in tan(a/2), tan(b/2)."""
+    radicand = field.ring.lift(radicand)
+    angles = angles_of(field, radicand)
+    degrees = [degree_in_angle(field, radicand, cosine) for cosine in angles]
+    if not 1 < len(angles) < _MOST_ANGLES or any(d % 2 or d > _HIGHEST for d in degrees):
+        return None
+    inside = radicand
+    for cosine, degree in zip(angles, degrees, strict=True):
+        inside = to_half_angle(field, inside, cosine, degree)
+    content, factors = inside.factor_squarefree()
+    if content < 0 or any(exponent % 2 for _, exponent in factors):
+        return None
+    root = field.ring.one
+    for factor, exponent in factors:
+        root *= factor ** (exponent // 2)
+    for cosine, degree in zip(angles, degrees, strict=True):
+        root = from_half_angle(field, root, cosine, degree // 2)
+    scale = field.rational(Fraction(1, 2 ** sum(d // 2 for d in degrees)))
+    return _integer_root(field, int(content), 2) * field.polynomial(root) * scale
+
+
+def _square_of_one_angle(field: Field, radicand: Poly) -> Element | None:
     ring = field.ring
     radicand = ring.lift(radicand)
     for index in ring.used(radicand):

@@ -68,7 +68,7 @@ class Writer:
         for base, exponent in pairs:
             if isinstance(base, Call) and base.function == "exp":
                 exponents.append(self.product(exponent, [(base.arguments[0], Fraction(1))]))
-            elif isinstance(base, Power):
+            elif isinstance(base, Power) and exponent.denominator == 1:
                 part = self.product(exponent, [(base.exponent, Fraction(1))])
                 powers.setdefault(base.base, []).append(part)
             else:
@@ -210,6 +210,8 @@ def _flattened(coefficient: Fraction, factors: Iterable[Factor]) -> tuple[Fracti
                 stack.extend([(below, -exponent), (above, exponent)])
             case Power(base=inner_base, exponent=Number(value=value)) if whole:
                 stack.append((inner_base, exponent * value))
+            case Power(base=inner_base, exponent=Number(value=value)) if value % 2 == 0:
+                stack.append((_modulus(inner_base), exponent * value))  # sqrt(f²) = |f|
             case Call(function="sqrt", arguments=(radicand,)):
                 stack.append((radicand, exponent / 2))
             case Sum(terms=terms) if whole and _all_negative(base):
@@ -218,6 +220,11 @@ def _flattened(coefficient: Fraction, factors: Iterable[Factor]) -> tuple[Fracti
             case _:
                 result.append((base, exponent))
     return coefficient, result
+
+
+def _modulus(node: Expression) -> Expression:
+    absolute = isinstance(node, Call) and node.function in ("abs", "exp", "cosh", "sqrt")
+    return node if absolute else Call("abs", (node,))
 
 
 def _all_negative(node: Sum) -> bool:

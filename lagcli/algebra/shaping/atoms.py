@@ -100,8 +100,12 @@ class Atoms:
                 tree = self._translator.tree(generator.expression)
             except TypeError:  # nothing that the grammar can say, such as a Piecewise
                 tree = Name(f"#{number}")
-            if generator.kind == "opaque" and isinstance(tree, (Call, PartialCall)):
+            if generator.kind == "opaque" and isinstance(tree, Call | PartialCall):
                 tree = self._with_short_arguments(tree, generator.expression)
+            if generator.kind in ("abs", "sign") and isinstance(tree, Call):
+                short = self._with_short_arguments(tree, generator.expression)
+                if short != tree:  # |sin(a + b)|, whose expression is that of the tree
+                    return ((self.add(short), 1),)
             return ((self.add(tree, generator.expression), 1),)
         return tuple((a, _exact(Fraction(e) / generator.index)) for a, e in self._inside(number))
 
