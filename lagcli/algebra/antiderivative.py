@@ -7,18 +7,26 @@ rest is left to SymPy's rules.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
 import sympy
 from sympy import Add, Expr, Mul, Pow, Symbol
 from sympy.core.function import AppliedUndef
 
-from lagcli.algebra.build import free_of, unspecified
+from lagcli.algebra.build import ELEMENTARY, free_of, unspecified
 from lagcli.algebra.simplification import is_zero
 
 _MOST_PARTS = 60
+_LONGEST = 1000  # operations while integrating by parts
+_MOST_RULES = 60  # integrands; what succeeded in the library took 23
 
 
-def antiderivative(expression: Expr, variable: Symbol) -> Expr | None:
+def antiderivative(expression: Expr, variable: Symbol, *, rules: bool = True) -> Expr | None:
     """An F with dF/dvariable = expression, or None where none was found.
+
+    Without `rules` only what goes term by term is integrated, which takes little time.
 
     Parameters of a formula are general: the integral of t^n is t^(n+1)/(n+1), that of
     sin(a t) cos(b t) has a - b in a denominator.
@@ -28,7 +36,7 @@ def antiderivative(expression: Expr, variable: Symbol) -> Expr | None:
     for term in Add.make_args(rest):
         part = _term(term, variable)
         if part is None:
-            whole = _by_rules(expression if by_parts == 0 else rest, variable)
+            whole = _by_rules(expression if by_parts == 0 else rest, variable) if rules else None
             if whole is None:
                 return None
             terms = [by_parts, whole]
@@ -55,7 +63,7 @@ def _unspecified_by_parts(expression: Expr, x: Symbol) -> tuple[Expr, Expr]:
             for factor in Mul.make_args(term)
             if isinstance(factor, AppliedUndef) and _integral_of(factor, x) is not None
         ]
-        if not choices:
+        if not choices or sympy.count_ops(rest) > _LONGEST:
             break
         _, term, factor = max(choices, key=lambda choice: choice[0])
         integral = _integral_of(factor, x)
@@ -165,17 +173,40 @@ def _of_elementary(factor: Expr, x: Symbol) -> Expr | None:
 
 def _by_rules(expression: Expr, x: Symbol) -> Expr | None:
     """SymPy's table of rules, on formulas short enough for it."""
-    from sympy.integrals.manualintegrate import manualintegrate
+    from sympy.integrals import manualintegrate
 
     # a sum with radicals branches without end: 33 operations took 47 s
     radicals = any(power.exp.is_Rational and power.exp.q > 1 for power in expression.atoms(Pow))
     if expression.atoms(AppliedUndef) or sympy.count_ops(expression) > (20 if radicals else 100):
         return None
     try:
-        result = manualintegrate(expression, x)
+        with _at_most(_MOST_RULES):
+            result = manualintegrate.manualintegrate(expression, x)
     except (NotImplementedError, ValueError, RecursionError):
         return None
-    return None if result.has(sympy.Integral) or result.has(sympy.Piecewise) else result
+    known = all(type(f) in ELEMENTARY for f in result.atoms(sympy.Function))
+    return result if known and not result.has(sympy.Integral) else None
+
+
+@contextmanager
+def _at_most(count: int) -> Iterator[None]:
+    """Let the rules be tried on so many integrands; then NotImplementedError."""
+    from sympy.integrals import manualintegrate
+
+    steps, tried = manualintegrate.integral_steps, 0
+
+    def counted(*arguments: Any, **options: Any) -> Any:
+        nonlocal tried
+        tried += 1
+        if tried > count:
+            raise NotImplementedError
+        return steps(*arguments, **options)
+
+    manualintegrate.integral_steps = counted
+    try:
+        yield
+    finally:
+        manualintegrate.integral_steps = steps
 
 
 def _summed(waves: Expr) -> Expr:

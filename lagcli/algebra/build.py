@@ -16,6 +16,7 @@ import sympy
 from sympy import Expr, Rational, Symbol
 from sympy.core.function import AppliedUndef, ArgumentIndexError, UndefinedFunction
 
+from lagcli.algebra.integral import integral
 from lagcli.expression import (
     Call,
     Diff,
@@ -54,7 +55,11 @@ _SYMPY_FUNCTIONS: dict[str, Callable[..., Expr]] = {
     "asinh": sympy.asinh,
     "acosh": sympy.acosh,
     "atanh": sympy.atanh,
+    "integral": integral,
 }
+
+#: The functions that an answer may hold.
+ELEMENTARY = frozenset(_SYMPY_FUNCTIONS.values())
 
 _ASSUMPTIONS: dict[str, dict[str, bool]] = {
     "real": {"real": True},

@@ -9,6 +9,7 @@ import sympy
 from sympy import Add, Expr, Mul, Pow, Rational, Symbol
 
 from lagcli.algebra.field import Element, FractionField, Generator
+from lagcli.algebra.integral import DefiniteIntegral
 from lagcli.algebra.multiples import Multiples
 from lagcli.algebra.ring import Poly
 from lagcli.algebra.roots import absolute, make_radical, rational_power, sign
@@ -179,6 +180,8 @@ class Field(FractionField):
     def opaque(self, expression: Expr) -> Element:
         """The generator of an expression that the field does not look into."""
         if expression not in self._numbers:
+            if isinstance(expression, DefiniteIntegral):
+                self.doubtful = True  # it may be elementary
             undefined = isinstance(expression, sympy.core.function.AppliedUndef)
             if not undefined and any(
                 g.kind == "opaque" and g.expression.args for g in self.generators

@@ -9,6 +9,7 @@ import sympy
 from sympy import Expr
 from sympy.core.function import AppliedUndef
 
+from lagcli.algebra.integral import DefiniteIntegral, written_arguments
 from lagcli.algebra.writing import Writer, name
 from lagcli.expression import Call, Expression, Name, PartialCall, Power, operation_count
 
@@ -74,6 +75,8 @@ class Translator:
             return Call("exp", (self.tree(node.args[0]),))
         if isinstance(node, AppliedUndef):
             return self._unspecified(node)
+        if isinstance(node, DefiniteIntegral):
+            return self._integral(node)
         if node.is_Function:
             function = type(node).__name__
             return Call(_NAMES.get(function, function), tuple(self.tree(a) for a in node.args))
@@ -94,6 +97,9 @@ class Translator:
         if node.exp.is_Rational:
             return self.writer.product(Fraction(1), [self._factor(node)])
         return Power(self.tree(node.base), self.tree(node.exp))
+
+    def _integral(self, node: DefiniteIntegral) -> Expression:
+        return Call("integral", tuple(self.tree(part) for part in written_arguments(node)))
 
     def _unspecified(self, node: AppliedUndef) -> Expression:
         arguments = tuple(self.tree(a) for a in node.args)

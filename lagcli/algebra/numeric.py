@@ -20,6 +20,8 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 from sympy.core.function import AppliedUndef
 
+from lagcli.algebra.integral import DefiniteIntegral
+
 _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "sin": mpmath.sin,
     "cos": mpmath.cos,
@@ -173,6 +175,8 @@ class Evaluator:
             indices = getattr(kind, "indices", ())
             concrete = self._functions.get(base) or concrete_function(base, len(node.args))
             return (lambda v: concrete(v, indices)), node.args
+        if isinstance(node, DefiniteIntegral):
+            return self._quadrature(node)
         name = type(node).__name__
         function = _FUNCTIONS.get(name)
         if function is None:
@@ -181,6 +185,20 @@ class Evaluator:
         if largest is not None:
             return (lambda v: function(_bounded(v[0], largest))), node.args
         return (lambda v: function(*v)), node.args
+
+    def _quadrature(
+        self, node: DefiniteIntegral
+    ) -> tuple[Callable[[list[Any]], Any], tuple[Expr, ...]]:
+        """By tanh-sinh or Gauss's rule of mpmath, at the precision that is set."""
+        integrand, variable, start, end = node.args
+        others = sorted(integrand.free_symbols - {variable}, key=lambda s: s.name)
+        inner = Evaluator([integrand], self.digits, self._functions)
+
+        def value(v: list[Any]) -> Any:
+            given = dict(zip(others, v[2:], strict=True))
+            return mpmath.quad(lambda x: inner({**given, variable: x})[0], [v[0], v[1]])
+
+        return value, (start, end, *others)
 
 
 def _bounded(x: Any, largest: int) -> Any:

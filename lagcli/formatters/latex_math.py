@@ -224,12 +224,22 @@ class LatexPrinter(Printer[Box]):
         if node.function == "abs":
             content = self.show(node.arguments[0])
             return Box(_enclosed(content, r"\lvert ", r" \rvert "), height=content.height)
+        if node.function == "integral":
+            return self._integral(node)
         if node.function in _FUNCTIONS:
             return self._function(node)
         head = self.names.name(node.function) + "'" * node.primes
         width = self.names.width(node.function) + 3 * node.primes
         arguments = self._arguments(node.arguments)
         return Box((Piece(head, width), *arguments.pieces), height=arguments.height)
+
+    def _integral(self, node: Call) -> Box:
+        inner = self.at(node.arguments[0], Level.PRODUCT)
+        variable, start, end = (self.show(each) for each in node.arguments[1:])
+        limits = rf"\int_{{{start.text}}}^{{{end.text}}} "
+        sign = Piece(limits, 14.0 + max(start.width, end.width))
+        by = Piece(rf"\,\mathrm{{d}}{variable.text}", 8.0 + variable.width)
+        return Box((sign, *inner.pieces, by), Level.QUOTIENT, _TALL)
 
     def _root(self, content: Box) -> Box:
         if content.width > WIDEST:

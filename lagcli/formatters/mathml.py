@@ -130,11 +130,19 @@ class MathmlPrinter(Printer[str]):
             return f"<msqrt>{self.show(node.arguments[0])}</msqrt>"
         if node.function == "abs":
             return enclosed("|", self.show(node.arguments[0]), "|")
+        if node.function == "integral":
+            return self._integral(node)
         if node.function in _FIXED:
             head = f"<mi>{_FUNCTIONS.get(node.function, node.function)}</mi>"
         else:
             head = _primed(mathml_name(node.function), node.primes)
         return f"<mrow>{head}{_APPLIED}{self.arguments(node.arguments)}</mrow>"
+
+    def _integral(self, node: Call) -> str:
+        variable, start, end = (self.show(each) for each in node.arguments[1:])
+        sign = f"<msubsup><mo>∫</mo>{start}{end}</msubsup>"
+        inner = self.at(node.arguments[0], Level.PRODUCT)
+        return self.bracketed(f"{sign}{inner}<mi>d</mi>{variable}")
 
     def partial_call(self, node: PartialCall) -> str:
         slots = "".join(f"<msub><mo>∂</mo><mn>{index}</mn></msub>" for index in node.indices)

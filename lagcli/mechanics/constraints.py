@@ -164,7 +164,7 @@ class Constraints:
         while forms:
             kernel = [list(v) for v in nullspace(forms)]
             columns = [
-                [_exterior_derivative(form, variables, u, v) for form in forms]
+                [exterior_derivative(form, variables, u, v) for form in forms]
                 for u, v in combinations(kernel, 2)
             ]
             columns = [column for column in columns if any(is_zero(c) is not True for c in column)]
@@ -190,7 +190,7 @@ def _independent(rows: Sequence[Sequence[Expr]]) -> list[list[Expr]]:
     return kept
 
 
-def _exterior_derivative(
+def exterior_derivative(
     form: Sequence[Expr], variables: Sequence[Symbol], u: Sequence[Expr], v: Sequence[Expr]
 ) -> Expr:
     """dw(u, v) = sum_ij (dw_j/dx_i) (u_i v_j - u_j v_i)."""

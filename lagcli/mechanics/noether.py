@@ -33,12 +33,13 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.answers import ChargeSource, Verification
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.energy import EnergyFunction
-from lagcli.mechanics.total_derivative import boundary_term
+from lagcli.mechanics.gauge import Gauge, GaugeSearch
 from lagcli.mechanics.translations import constant_nullspace
 from lagcli.problem import Symmetry
 from lagcli.record import record, replace
 from lagcli.wording import CHANGE_OF_L
 
+_NO_GAUGE_KNOWN = "no gauge was found, and whether there is one was not decided"
 _OTHER_GAUGE = "the gauge given (left out, the right one is found)"
 
 
@@ -54,7 +55,9 @@ class Transformation:
 class NoetherCharge:
     """A transformation with its boundary term, charge and rate.
 
-    `gauge` is None where K is no total derivative; the charge is then that of G = 0.
+    `gauge` is None where K is no total derivative; the charge is then that of G = 0.  It is
+    None, too, where a gauge exists, or may exist, and was not found: the charge is then not
+    `complete`, since it lacks that gauge.
     `conserved` and `rate` are None where the motion was not solved and the rate needs it.
     """
 
@@ -67,6 +70,7 @@ class NoetherCharge:
     rate: Expr | None
     verified: Verification | None
     broken_by: str
+    complete: bool = True
 
 
 class Noether:
@@ -121,10 +125,11 @@ class Noether:
         """The charge of a transformation; a boundary term that is not given is sought."""
         change = simplify(self.change_of_action(transformation))
         if gauge is None:
-            return self._judged(name, source, transformation, self._gauge(change), change)
+            found = self._gauge(change, transformation)
+            return self._judged(name, source, transformation, found.term, change, found.exists)
         judged = self._judged(name, source, transformation, gauge, change)
         causes = judged.broken_by.split(", ")
-        if CHANGE_OF_L in causes and self._gauge(change) is not None:
+        if CHANGE_OF_L in causes and self._gauge(change, transformation).exists:
             broken_by = ", ".join(_OTHER_GAUGE if c == CHANGE_OF_L else c for c in causes)
             return replace(judged, broken_by=broken_by)
         return judged
@@ -148,17 +153,14 @@ class Noether:
             system.L * stretch,
         )
 
-    def _gauge(self, change: Expr) -> Expr | None:
-        """G with dG/dt = K, identically or else with the constraints used."""
-        if is_zero(change) is True:
-            return sympy.S.Zero
-        identically = boundary_term(change, self.system)
-        if identically is not None or not self.dynamics.constraints.equations:
-            return identically
-        on_motion = self.dynamics.rate_on_motion(change)
-        if on_motion is None:
-            return None
-        return boundary_term(self.dynamics.simplified(on_motion), self.system)
+    def _gauge(self, change: Expr, transformation: Transformation) -> Gauge:
+        """G with dG/dt = K, or whether there is one."""
+        system = self.system
+        still = dict.fromkeys(system.qdot, sympy.S.Zero)
+        momenta = (p.xreplace(still) for p in self.dynamics.lagrange.momenta)
+        parts = [p * by for p, by in zip(momenta, transformation.changes, strict=True)]
+        guess = sympy.Add(*parts, system.L.xreplace(still) * transformation.time)
+        return GaugeSearch(self.dynamics).of(change, guess)
 
     def _judged(
         self,
@@ -167,9 +169,12 @@ class Noether:
         transformation: Transformation,
         gauge: Expr | None,
         change: Expr,
+        exists: bool | None = True,
     ) -> NoetherCharge:
         boundary = sympy.S.Zero if gauge is None else gauge
         contributions = self._contributions(transformation, boundary, change)
+        if gauge is None and exists:
+            contributions.pop(CHANGE_OF_L, None)  # K = dG/dt, whatever G is
         system = self.system
         charge = sympy.Add(
             *(
@@ -183,9 +188,12 @@ class Noether:
         )
         rate, conserved, verified = self._rate(list(contributions.values()))
         broken_by = "" if conserved is not False else self._broken_by(contributions)
-        return NoetherCharge(
-            name, source, transformation, gauge, charge, conserved, rate, verified, broken_by
-        )
+        if gauge is None and exists is None and conserved is False:
+            rate = conserved = verified = None
+            broken_by = _NO_GAUGE_KNOWN
+        complete = gauge is not None or exists is False
+        verdict = (conserved, rate, verified, broken_by)
+        return NoetherCharge(name, source, transformation, gauge, charge, *verdict, complete)
 
     def characteristic(self, transformation: Transformation) -> tuple[Expr, ...]:
         """Dq_j - q_j' Dt, the change in form."""
@@ -313,7 +321,7 @@ class Noether:
 
     def conserved_quantities(self) -> tuple[Expr, ...]:
         """Functions of q, q', t that are constant along the motion."""
-        evident = [charge for charge in self.charges if charge.conserved]
+        evident = [charge for charge in self.charges if charge.conserved and charge.complete]
         joint = [
             charge
             for charge in self.joint_translations

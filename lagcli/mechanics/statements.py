@@ -311,7 +311,8 @@ class Statements(Stating):
     def _charge(self, charge: NoetherCharge) -> Charge:
         if charge.conserved is None:
             self._missing(
-                f"whether '{charge.name}' is conserved", "its rate needs the solved motion"
+                f"whether '{charge.name}' is conserved",
+                charge.broken_by or "its rate needs the solved motion",
             )
         self._note_check(f"the rate of '{charge.name}'", charge.verified)
         named = dict(zip(self.system.names, charge.transformation.changes, strict=True))
@@ -324,7 +325,9 @@ class Statements(Stating):
             },
             gauge=None if charge.gauge is None else self._as_written(charge.gauge),
             conserved=charge.conserved,
-            charge=self._by_terms(
+            charge=None
+            if not charge.complete
+            else self._by_terms(
                 self.derivation.energy.readable_function
                 if charge.source == "time"
                 else charge.charge,

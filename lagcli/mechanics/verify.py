@@ -6,7 +6,8 @@ put to the test at random states on the constraint surface, at 50 digits.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import random
+from collections.abc import Iterator, Sequence
 
 import mpmath
 from mpmath import mpf
@@ -16,7 +17,7 @@ from lagcli.algebra import is_zero
 from lagcli.algebra.numeric import Evaluator
 from lagcli.answers import Verification
 from lagcli.mechanics.constraints import Constraints
-from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates
+from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates, State, random_value
 from lagcli.record import record
 
 _STATES = 3
@@ -52,6 +53,16 @@ class Verifier:
         # a value that is not 0 at one state is a proof; 0 at a few states is none
         return Verdict(numeric, "50 digits" if numeric else "exact")
 
+    def identically_zero(self, expression: Expr) -> bool | None:
+        """Whether the expression is 0 for all values of its symbols, on the constraints or not."""
+        exact = is_zero(expression)
+        if exact is not None:
+            return exact
+        source = random.Random("identity")
+        symbols = sorted(expression.free_symbols, key=lambda s: s.name)
+        states = [{s: random_value(source, s, 0.3, 1.3) for s in symbols} for _ in range(_STATES)]
+        return self._vanishes_at([expression], iter(states))
+
     def all_zero(self, expressions: Sequence[Expr]) -> Verdict:
         """Whether all vanish; the weakest of the single verdicts."""
         how: Verification = "exact"
@@ -65,29 +76,47 @@ class Verifier:
 
     def vanishes_at_random_states(self, expressions: Sequence[Expr]) -> bool | None:
         """The numeric test; None where no state could be evaluated."""
+        return self._vanishes_at(expressions, self._states())
+
+    def _states(self) -> Iterator[State]:
+        for count in range(1, 4 * _STATES + 1):
+            try:
+                yield self.states.take(count)[-1]
+            except Contradiction:
+                return
+            except (ArithmeticError, ValueError):
+                continue
+
+    def _vanishes_at(self, expressions: Sequence[Expr], states: Iterator[State]) -> bool | None:
         terms = [Add.make_args(expression) for expression in expressions]
         evaluate = Evaluator([x for group in terms for x in group], DIGITS + 10)
         tested = 0
-        taken = 0
         with mpmath.workdps(DIGITS + 10):
-            while tested < _STATES and taken < 4 * _STATES:
-                taken += 1
+            for state in states:
                 try:
-                    values = evaluate(self.states.take(taken)[-1])
+                    values = evaluate(state)
                 except (ArithmeticError, ValueError):
                     continue
-                except Contradiction:
-                    break
                 if not all(mpmath.isfinite(v) for v in values):
                     continue
+                verdict = _vanish(terms, values)
+                if verdict is not True:
+                    return verdict
                 tested += 1
-                start = 0
-                for group in terms:
-                    part = values[start : start + len(group)]
-                    start += len(group)
-                    total, scale = abs(sum(part)), max(mpf(1), sum(map(abs, part)))
-                    if total > _NONZERO * scale:
-                        return False
-                    if total > _ZERO * scale:
-                        return None
+                if tested == _STATES:
+                    break
         return True if tested else None
+
+
+def _vanish(groups: Sequence[Sequence[Expr]], values: Sequence[mpf]) -> bool | None:
+    """Whether each sum is 0 beside its terms at one state; None where that is not certain."""
+    start = 0
+    for group in groups:
+        part = values[start : start + len(group)]
+        start += len(group)
+        total, scale = abs(sum(part)), max(mpf(1), sum(map(abs, part)))
+        if total > _NONZERO * scale:
+            return False
+        if total > _ZERO * scale:
+            return None
+    return True

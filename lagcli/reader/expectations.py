@@ -54,7 +54,7 @@ KEYS = (
 )  # fmt: skip
 
 #: An answer holds what is left when accelerations and multipliers have been eliminated.
-_ANSWER = Role(order=1, why="an answer is free of accelerations")
+_ANSWER = Role(order=1, why="an answer is free of accelerations", integrals=True)
 
 
 class ExpectReader:

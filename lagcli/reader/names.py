@@ -40,7 +40,7 @@ def name_mistakes(
             case Name():
                 yield from _name(node, scope, role, what, before)
             case Call():
-                yield from _call(node, scope, what)
+                yield from _call(node, scope, role, what)
             case PartialCall():
                 yield from _partial_call(node, scope)
             case Diff(operand=operand, variable=variable):
@@ -186,8 +186,11 @@ def _advice(name: str, scope: Scope, role: Role) -> str:
     return hint or "declare it under 'parameters'"
 
 
-def _call(node: Call, scope: Scope, what: str) -> Iterator[Diagnostic]:
+def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnostic]:
     name, count = node.function, len(node.arguments)
+    if name == "integral" and name not in scope.kinds:
+        yield from _integral(node, role, what)
+        return
     if name in FUNCTIONS:
         if node.primes:
             hint = f"write diff({name}(x), x)"
@@ -232,6 +235,17 @@ def _a(kind: str | None) -> str:
 def _wrong_count(name: str, arity: int, count: int, node: Expression) -> Diagnostic:
     plural = "argument" if arity == 1 else "arguments"
     return Diagnostic(f"'{name}' takes {arity} {plural}, not {count}", node.span)
+
+
+def _integral(node: Call, role: Role, what: str) -> Iterator[Diagnostic]:
+    """`integral(f, x, a, b)` of f by x from a to b."""
+    count = len(node.arguments)
+    if not role.integrals:
+        yield Diagnostic(f"an integral cannot stand in {what}", node.span, "only in an answer")
+    elif count != 4 or node.primes:
+        yield _wrong_count("integral", 4, count, node)
+    elif not isinstance(node.arguments[1], Name):
+        yield Diagnostic("an integral is taken by a name, such as x", node.arguments[1].span)
 
 
 def _partial_call(node: PartialCall, scope: Scope) -> Iterator[Diagnostic]:

@@ -37,6 +37,7 @@ class Role(NamedTuple):
     momenta: bool = False
     contact_forces: bool = False
     observables: bool = False
+    integrals: bool = False  # integral(f, x, a, b), as it may stand in an answer
 
 
 #: Terms of the Lagrangian, forces, definitions, constraints, transformations.

@@ -16,6 +16,7 @@ from sympy import Expr
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
+from lagcli.algebra.integral import written_arguments
 from lagcli.algebra.leaves import Translator
 from lagcli.algebra.ordering import Flat
 from lagcli.algebra.ring import Monomial, Poly
@@ -114,7 +115,7 @@ class Atoms:
     ) -> Call | PartialCall:
         """U'(d) with the shortest shape of d."""
         arguments = []
-        for given, argument in zip(tree.arguments, expression.args, strict=True):
+        for given, argument in zip(tree.arguments, written_arguments(expression), strict=True):
             try:
                 shaped = self.shape(self.field(argument))
             except ZeroDivisionError:
