@@ -127,7 +127,7 @@ class Relations:
             if number not in used or symbol in hidden or ring.degree(poly, number) != 1:
                 continue
             slope = ring.derivative(poly, number)
-            if not self._divides(field, slope):
+            if not self._divides(field, slope) or self._loses_a_branch(field, poly, number):
                 continue
             value = field.element(slope * ring.generator(number) - ring.lift(poly), slope)
             sign = int(symbol.is_positive is True and _negative(value))
@@ -136,6 +136,18 @@ class Relations:
             if best is None or cost < best[0]:
                 best = (cost, symbol, value)
         return None if best is None else (best[1], field.to_sympy(best[2]))
+
+    def _loses_a_branch(self, field: Field, poly: Poly, number: int) -> bool:
+        """Whether slope*x + rest has a factor without x: where that is 0, x is anything.
+
+        y*(x - 2*y) = 0 is solved by y = 0 as well as by x = 2*y.
+        """
+        ring = field.ring
+        slope = ring.derivative(poly, number)
+        rest = ring.lift(poly) - slope * ring.generator(number)
+        common = slope if rest == 0 else slope.gcd(rest)
+        factor = field.polynomial_to_sympy(common)
+        return bool(factor.free_symbols & self._moving) and factor.is_nonzero is not True
 
     def _divides(self, field: Field, slope: Poly) -> bool:
         """Whether a relation may be divided by this: it is 0 nowhere."""
@@ -161,7 +173,8 @@ class Relations:
             self._welcome, key=lambda s: sum(s in e.free_symbols for e in self.remaining)
         )
         symbols = {s for e in self.remaining for s in e.free_symbols} - {*welcome}
-        return Generic(self.remaining, [*welcome, *sorted(symbols, key=lambda s: s.name)])
+        order = [*welcome, *sorted(symbols, key=lambda s: s.name)]
+        return Generic(self.remaining, order, {*self._moving, *self._welcome})
 
     def reductions(self, field: Field, element: Element) -> list[Element]:
         """Equal elements on the relations: numerator and denominator modulo an ideal.
