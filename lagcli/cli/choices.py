@@ -14,7 +14,7 @@ SCHEMAS = ("problem", "answers")
 MANUAL_FORMATS = ("text", "markdown", "html", "man")
 
 #: What `plot` draws, and the endings of the files it writes.
-KINDS = ("series", "phase", "path", "potential", "drift", "error")
+KINDS = ("series", "phase", "path", "potential", "poincare", "drift", "error")
 PICTURES = ("svg", "pdf", "png")
 ANIMATIONS = ("html", "gif", "mp4")
 

@@ -16,7 +16,7 @@ Kind = Annotated[
         "--kind",
         "-k",
         metavar="NAME",
-        help="series, phase, path, potential, drift or error.  [default: series, or "
+        help="series, phase, path, potential, poincare, drift or error.  [default: series, or "
         "phase where there is no end]",
         autocompletion=complete_kind,
     ),
@@ -28,6 +28,21 @@ Samples = Annotated[
     ),
 ]
 Dark = Annotated[bool, typer.Option("--dark", help="Light lines on a dark page.")]
+Section = Annotated[
+    str | None,
+    typer.Option(
+        "--section",
+        metavar="X=VALUE",
+        help="Of poincare: where it is passed upwards, or --section t=T for every T.  "
+        "[default: the first coordinate = 0]",
+    ),
+]
+Orbits = Annotated[
+    int,
+    typer.Option(
+        "--orbits", metavar="N", min=1, max=200, help="Of poincare: motions of the same energy."
+    ),
+]
 Width = Annotated[
     int | None,
     typer.Option("--width", metavar="COLUMNS", min=40, max=400, help="Of a picture in characters."),
@@ -45,6 +60,8 @@ def plot(
     samples: Samples = 1001,
     settings: Set = None,
     state: State = None,
+    section: Section = None,
+    orbits: Orbits = 1,
     dark: Dark = False,
     width: Width = None,
     ascii_only: Ascii = False,
@@ -92,6 +109,8 @@ def plot(
     wish = PlotWish(
         run=run,
         kind=kind,
+        section=section,
+        orbits=orbits,
         dark=dark,
         width=width,
         ascii_only=ascii_only,

@@ -37,6 +37,8 @@ class PlotWish:
 
     run: Wish
     kind: str | None
+    section: str | None
+    orbits: int
     dark: bool
     width: int | None
     ascii_only: bool
@@ -57,7 +59,12 @@ def _draw(problem: Problem, asked: Asked, wish: PlotWish) -> Status:
     def work() -> tuple[bytes, str]:
         from lagcli.pictures.kinds import Request, picture_of
 
-        request = Request(kind=_kind(asked, wish), chosen=bool(wish.run.show))
+        request = Request(
+            kind=_kind(asked, wish),
+            chosen=bool(wish.run.show),
+            section=wish.section,
+            orbits=wish.orbits,
+        )
         with shared("integrating") as progress:
             picture, refusal = picture_of(problem, asked, request, progress)
         return _written(picture, wish), refusal

@@ -22,10 +22,14 @@ class Request:
         Its name.
     chosen
         Whether the columns are those that the user has named.
+    section, orbits
+        Of a Poincaré section: where it is, and of how many motions.
     """
 
     kind: str
     chosen: bool = False
+    section: str | None = None
+    orbits: int = 1
 
 
 def picture_of(
@@ -84,11 +88,18 @@ def _potential(problem: Problem, asked: Asked, _: Request, __: Progress | None) 
     return potential(problem, asked)
 
 
+def _poincare(problem: Problem, asked: Asked, request: Request, progress: Progress | None) -> Drawn:
+    from lagcli.pictures.section import section
+
+    return section(problem, asked, request.section, request.orbits, progress, chosen=request.chosen)
+
+
 _KINDS: dict[str, Callable[[Problem, Asked, Request, Progress | None], Drawn]] = {
     "series": _series,
     "phase": _phase,
     "path": _path,
     "potential": _potential,
+    "poincare": _poincare,
     "drift": _drift,
     "error": _error,
 }

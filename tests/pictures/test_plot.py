@@ -110,6 +110,8 @@ def test_the_end_of_the_certificate_is_drawn_and_nothing_beyond(plot, tmp_path):
         (["problems/hoop.yaml", "--kind", "path", "--until", "1"], "a path in space needs two"),
         ([PENDULUM, "--kind", "phase", "--show", "theta,theta',energy"], "and 3 are given"),
         ([KEPLER, "--kind", "phase"], "x, y are left"),
+        ([KEPLER, "--kind", "poincare", "--section", "z"], "unknown name 'z'"),
+        ([KEPLER, "--kind", "poincare", "--section", "x = "], "--section"),
         (["problems/pendulums/pendulum-with-rod.yaml", "--kind", "path", "--until", "1"], "points"),
     ],
 )  # fmt: skip

@@ -1,0 +1,298 @@
+"""Poincaré sections: the states in which a motion passes a surface, or at every period of a drive.
+
+Where the surface is passed is found in three runs of the same motion: sign changes between rows,
+the roots of polynomials through nine places around each, and the states at those roots, which are
+as certain as any other row.
+
+References
+----------
+Hénon, Heiles, "The applicability of the third integral of motion", Astron. J. 69 (1964) 73.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+
+from lagcli.expression import Expression, Name, Negative, Sum
+from lagcli.numerics.asked import Asked
+from lagcli.numerics.extrema import crossing
+from lagcli.numerics.known import numbers_of
+from lagcli.numerics.refusal import Refusal
+from lagcli.pictures.drawing import (
+    Axis,
+    CannotDraw,
+    Item,
+    Marks,
+    Panel,
+    Picture,
+    Point,
+    extent,
+)
+from lagcli.pictures.labels import Labels
+from lagcli.pictures.run import Run, run_with, short
+from lagcli.pictures.starts import other_starts
+from lagcli.problem import Problem
+from lagcli.reader.columns import Shown, read_along
+from lagcli.record import record
+
+Progress = Callable[[float], None]
+
+#: Rows between two passages at least, and rows at most.
+_BETWEEN, _MOST = 12, 200_000
+_PLACES = 9
+_SECTION = "the section"
+#: Fewer points do not show what the motion is like.
+_FEW = 20
+
+
+@record(kw_only=True)
+class Surface:
+    """Where the motion is cut: an expression that passes 0 upwards, or a period of the time."""
+
+    text: str
+    expression: Expression | None = None
+    period: float = 0.0
+
+
+def section(
+    problem: Problem,
+    asked: Asked,
+    where: str | None,
+    orbits: int = 1,
+    progress: Progress | None = None,
+    *,
+    chosen: bool = False,
+) -> tuple[Picture, str]:
+    """The section of a motion, and of others of the same energy.
+
+    Parameters
+    ----------
+    problem, asked
+        The motion; with `chosen` its two columns are the axes.
+    where
+        Such as `x`, `x = 1` or `t = 2*pi`; None for the first coordinate.
+    orbits
+        How many motions.
+
+    Raises
+    ------
+    CannotDraw
+        Where the surface is not passed, or there are not two columns.
+    """
+    surface = _surface(problem, where)
+    columns = _plane(problem, asked, surface, chosen=chosen)
+    labels = Labels(problem)
+    passages = [_passages(problem, asked, surface, columns, progress)]
+    points = [_points(passages[0][0], labels, columns)]
+    if orbits > 1:
+        for other in other_starts(problem, _plain(surface), points[0], columns, orbits - 1):
+            try:
+                passages.append(_passages(other, asked, surface, columns, progress))
+            except (CannotDraw, Refusal):
+                continue  # it does not come through the surface
+            points.append(_points(passages[-1][0], labels, columns))
+    refusal = passages[0][1].result.refusal
+    return _picture(
+        problem, labels, columns, surface, points, [run for _, run in passages]
+    ), refusal
+
+
+def _surface(problem: Problem, where: str | None) -> Surface:
+    if where is None:
+        name = problem.coordinates[0].name
+        if len(problem.coordinates) < 2:
+            raise CannotDraw(
+                "a motion of one coordinate is cut at the period of what drives it: "
+                "--section t=2*pi"
+            )
+        return Surface(text=f"{name} = 0", expression=Name(name))
+    left, equals, right = where.partition("=")
+    if equals and left.strip() == "t":
+        [(period,)] = numbers_of(problem, [read_along(problem, right, "--section")])
+        if not 0 < period < math.inf:
+            raise CannotDraw(f"--section {where}: the period must be a time after 0")
+        return Surface(text=f"t = 0, T, 2 T, … with T = {period:.6g}", period=period)
+    expression = read_along(problem, left, "--section")
+    if equals:
+        other = read_along(problem, right, "--section")
+        expression = Sum((expression, Negative(other)))
+    return Surface(text=where if equals else f"{where} = 0", expression=expression)
+
+
+def _plain(surface: Surface) -> str | None:
+    """The coordinate that is 0 in the section, where it is that simple."""
+    expression = surface.expression
+    return expression.name if isinstance(expression, Name) and not expression.primes else None
+
+
+def _plane(problem: Problem, asked: Asked, surface: Surface, *, chosen: bool) -> list[Shown]:
+    """The two columns of the picture: a coordinate that is not the section's, and its velocity."""
+    if chosen:
+        shown: list[Shown] = [(c.name, c.expression) for c in asked.columns[1:]]
+        if len(shown) != 2:
+            raise CannotDraw(f"a section has two axes, and {len(shown)} columns are given")
+        return shown
+    names = [c.name for c in problem.coordinates]
+    name = next((n for n in names if n != _plain(surface)), names[0])
+    return [(name, Name(name)), (f"{name}'", Name(name, 1))]
+
+
+# -- passages ------------------------------------------------------------------------------------
+
+
+def _passages(
+    problem: Problem,
+    asked: Asked,
+    surface: Surface,
+    columns: Sequence[Shown],
+    progress: Progress | None,
+) -> tuple[list[tuple[float | None, ...]], Run]:
+    """The rows in the section, and the run they are of."""
+    if surface.expression is None:
+        count = int(asked.until / surface.period * (1 + 1e-12))
+        times = [surface.period * k for k in range(count + 1)]
+    else:
+        times = _crossings(problem, asked, surface.expression, progress)
+    if not times:
+        raise CannotDraw(
+            f"the motion does not pass {surface.text} upwards until t = {asked.until:g}: "
+            "give another --section, or a longer --until"
+        )
+    run = _run_at(problem, asked, times, columns, progress)
+    wanted = set(times)
+    return [row for row in run.result.rows if row[0] in wanted], run
+
+
+def _run_at(
+    problem: Problem,
+    asked: Asked,
+    times: Sequence[float],
+    columns: Sequence[Shown],
+    progress: Progress | None,
+) -> Run:
+    """A run with rows at these times, the beginning and the end."""
+    every = tuple(sorted({0.0, *times, asked.until}))
+    return run_with(problem, asked, columns, progress, times=every, samples=len(every))
+
+
+def _crossings(
+    problem: Problem, asked: Asked, expression: Expression, progress: Progress | None
+) -> list[float]:
+    """The times at which the expression passes 0 upwards."""
+    column: list[Shown] = [(_SECTION, expression)]
+    intervals = _intervals(problem, asked, column, progress)
+    if not intervals:
+        return []
+    inside = [a + (b - a) * k / (_PLACES - 1) for a, b in intervals for k in range(_PLACES)]
+    fine = _run_at(problem, asked, inside, column, progress)
+    values = {row[0]: row[1] for row in fine.result.rows}
+    found = []
+    for place in range(0, len(inside), _PLACES):
+        times = inside[place : place + _PLACES]
+        heights = [values.get(t) for t in times]
+        known = [h for h in heights if h is not None]
+        if len(known) == _PLACES and known[0] < 0 <= known[-1]:
+            found.append(_root(times, known))
+    return found
+
+
+def _intervals(
+    problem: Problem, asked: Asked, column: list[Shown], progress: Progress | None
+) -> list[tuple[float, float]]:
+    """Neighbouring rows between which the sign changes from minus to plus."""
+    samples = max(asked.samples, 1001)
+    while True:
+        run = run_with(problem, asked, column, progress, samples=samples)
+        line = [(row[0] or 0.0, row[1]) for row in run.result.rows if row[1] is not None]
+        found = [(s, t) for (s, a), (t, b) in pairwise(line) if a < 0 <= b]
+        if samples >= min(_MOST, 2 * _BETWEEN * len(found)):
+            return found
+        samples = min(_MOST, 4 * samples)
+
+
+def _root(times: Sequence[float], heights: Sequence[float]) -> float:
+    """Where the polynomial through the places is 0."""
+    low, high = times[0], times[-1]
+
+    def below(t: float) -> float:
+        return -_interpolated(times, heights, t)
+
+    return crossing(below, low, high, -heights[0], -heights[-1] or -1e-300)
+
+
+def _interpolated(times: Sequence[float], heights: Sequence[float], t: float) -> float:
+    """Neville's scheme."""
+    values = list(heights)
+    for width in range(1, len(times)):
+        for k in range(len(times) - width):
+            a, b = times[k], times[k + width]
+            values[k] = ((b - t) * values[k] + (t - a) * values[k + 1]) / (b - a)
+    return values[0]
+
+
+# -- the picture ---------------------------------------------------------------------------------
+
+
+def _points(
+    rows: Sequence[tuple[float | None, ...]], labels: Labels, columns: Sequence[Shown]
+) -> list[Point]:
+    turns = [labels.is_angle(formula) for _, formula in columns]
+    found = []
+    for _, x, y in rows:
+        if x is not None and y is not None:
+            found.append((_within(x, turns[0]), _within(y, turns[1])))
+    return found
+
+
+def _within(value: float, turns: bool) -> float:
+    """An angle between -pi and pi."""
+    return math.remainder(value, 2 * math.pi) if turns else value
+
+
+def _picture(
+    problem: Problem,
+    labels: Labels,
+    columns: Sequence[Shown],
+    surface: Surface,
+    points: Sequence[list[Point]],
+    runs: Sequence[Run],
+) -> Picture:
+    axes = []
+    everything = [point for line in points for point in line]
+    if not everything:
+        raise CannotDraw("the columns have no values in the section")
+    for k, (name, formula) in enumerate(columns):
+        low, high = extent([point[k] for point in everything])
+        angle = labels.is_angle(formula)
+        axes.append(Axis(label=labels.axis(formula, name), low=low, high=high, angle=angle))
+    items: list[Item] = [
+        Marks(points=tuple(line), role="dots", colour=k) for k, line in enumerate(points)
+    ]
+    panel = Panel(x=axes[0], y=axes[1], items=tuple(items))
+    notes = (_told(surface, points, runs), *_certain(runs))
+    return Picture(title=problem.title, panels=(panel,), notes=notes)
+
+
+def _told(surface: Surface, points: Sequence[list[Point]], runs: Sequence[Run]) -> str:
+    count = sum(map(len, points))
+    upwards = "" if surface.expression is None else " upwards"
+    many = (
+        f"{len(runs)} motions of the same energy" if surface.expression else f"{len(runs)} motions"
+    )
+    who = "of one motion" if len(runs) == 1 else f"of {many}"
+    few = "; a longer --until has more" if count < _FEW * len(points) else ""
+    return f"{count} passages{upwards} through {surface.text} {who}{few}."
+
+
+def _certain(runs: Sequence[Run]) -> tuple[str, ...]:
+    cut = [run for run in runs if run.is_cut_short]
+    if len(runs) == 1:
+        return runs[0].notes()
+    accuracy = short(runs[0].result.certificate.accuracy)
+    if not cut:
+        return (f"All are certain to {accuracy} until t = {runs[0].asked.until:g}.",)
+    first = min(run.certain_until for run in cut)
+    many = f"{len(cut)} of them" if len(cut) < len(runs) else "All"
+    return (f"{many} end where the accuracy {accuracy} is lost, the first at t = {first:.4g}.",)
