@@ -23,6 +23,8 @@ LIMIT = 64 << 20  # bytes, of all entries together
 _SHELVES = "0123456789abcdef"  # an entry stands on the shelf of its first digit
 _HEAD = b"lagcli result 1\n"
 _NAME = re.compile(r"[0-9a-f]{64}|\.[0-9a-f]{64}\.\d+")  # an entry, one half written
+#: A pipe in the folder is not waited for.
+_READ = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)
 _ABANDONED = 3600.0  # seconds after which a half-written file is nobody's
 
 
@@ -56,7 +58,9 @@ class Cache:
         try:
             if not _ours(shelf):
                 return None
-            with open(path, "rb") as file:  # noqa: PTH123 - pathlib is not needed for this
+            with os.fdopen(os.open(path, _READ), "rb") as file:
+                if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                    return None
                 data = file.read()
         except OSError:
             return None
@@ -152,10 +156,21 @@ def _read(data: bytes, key: str) -> Entry | None:
     digest, _, body = data[len(_HEAD) :].partition(b"\n")
     if sha256(body).hexdigest().encode() != digest:
         return None
-    found = json.loads(body)
-    if found["key"] != key:  # another entry under this name
+    try:
+        found = json.loads(body)
+        entry = Entry(found["status"], found["text"], tuple(found["said"]))
+        its_key = found["key"]
+    except (ValueError, TypeError, LookupError, RecursionError):  # not of our making
         return None
-    return Entry(found["status"], found["text"], tuple(found["said"]))
+    return entry if its_key == key and _well_formed(entry) else None
+
+
+def _well_formed(entry: Entry) -> bool:
+    return (
+        entry.status in (0, 1, 2)
+        and isinstance(entry.text, str | None)
+        and all(isinstance(text, str) for text in entry.said)
+    )
 
 
 def _ours(shelf: str) -> bool:

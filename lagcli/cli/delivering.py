@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from os.path import realpath
+from pathlib import Path
+from stat import S_ISDIR
 from typing import TYPE_CHECKING
 
 from lagcli.cli.files import print_result, reason, write_output
 from lagcli.cli.telling import tell_line
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from lagcli.cli.printing import Printing
 
 
@@ -17,10 +18,18 @@ def has_place(output: Path | None) -> bool:
     """Whether there is a place for what comes out; asked before any work is done."""
     if output is None:
         return True
-    if output.is_dir():
-        tell_line(f"{output}: error: is a directory")
+    try:
+        found = output.stat()
+    except FileNotFoundError:
+        pass
+    except OSError as error:  # links in a circle, a name too long
+        tell_line(f"{output}: error: {reason(error)}")
         return False
-    if not output.resolve().parent.is_dir():
+    else:
+        if S_ISDIR(found.st_mode):
+            tell_line(f"{output}: error: is a directory")
+            return False
+    if not Path(realpath(output)).parent.is_dir():
         tell_line(f"{output}: error: there is no directory '{output.parent}'")
         return False
     return True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 import sys
@@ -22,6 +23,8 @@ def read_input(name: str) -> bytes:
         When there is nothing to read.
     """
     if name == STANDARD:
+        if sys.stdin is None:  # the caller has closed it
+            raise OSError(errno.EBADF, "standard input is closed")
         return sys.stdin.buffer.read()
     try:
         return Path(name).read_bytes()
@@ -57,7 +60,7 @@ def write_output(path: Path, data: bytes) -> None:
     OSError
         When it cannot be written; the old file is then unchanged.
     """
-    target = path.resolve()  # through a symbolic link, not in its place
+    target = Path(os.path.realpath(path))  # through a symbolic link, not in its place
     if target.exists() and not target.is_file():
         target.write_bytes(data)
         return

@@ -7,8 +7,10 @@ import os
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from pathlib import Path
 from typing import NoReturn
 
+from lagcli.cli.interrupts import end_at_once, interrupted, raise_exceptions
 from lagcli.cli.status import Status
 from lagcli.cli.streams import hush
 from lagcli.sparing import collect_rarely
@@ -17,9 +19,16 @@ from lagcli.sparing import collect_rarely
 def main() -> NoReturn:
     """Run the command of `sys.argv` and exit."""
     collect_rarely()
-    status = run(sys.argv[1:])
-    if status == Status.INTERRUPTED:
-        os._exit(status)  # what still computes in a thread need not be waited for
+    if sys.stderr is None:  # closed: what would be said there is not heard
+        sys.stderr = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115
+    try:
+        raise_exceptions()
+        status = run(sys.argv[1:])
+    except KeyboardInterrupt:
+        status = Status.INTERRUPTED
+    end_at_once()
+    if interrupted():
+        os._exit(Status.INTERRUPTED)  # what still computes in a thread need not be waited for
     leave(status)
 
 
@@ -64,6 +73,8 @@ def run(arguments: Sequence[str]) -> int:
         sys.stderr.write(f"{where}: error: {reason(error)}\n")
         return Status.USAGE
     except Exception as error:  # noqa: BLE001 - the last resort: no traceback reaches a user
+        if interrupted():
+            return Status.INTERRUPTED
         from lagcli.failures import describe
 
         sys.stderr.write(f"lagcli: error: {describe(error)}\n")

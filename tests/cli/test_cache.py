@@ -9,6 +9,7 @@ import stat
 import subprocess
 import sys
 import time
+from hashlib import sha256
 from pathlib import Path
 
 import pytest
@@ -155,6 +156,49 @@ def test_damaged_entries_are_replaced(solve, here):
         assert again == right
         assert "sympy" in loaded
         assert path.read_bytes() == data
+
+
+MALFORMED = {
+    "no text": b"\xff\xfe",
+    "no object": b"[]",
+    "too deep": b"[" * 100_000,
+    "no status": json.dumps({"key": KEY, "text": "x", "said": []}).encode(),
+    "no key": json.dumps({"status": 0, "text": "x", "said": []}).encode(),
+    "a status of no command": json.dumps(
+        {"key": KEY, "status": 7, "text": "x", "said": []}
+    ).encode(),
+    "a status that is a word": json.dumps(
+        {"key": KEY, "status": "0", "text": "x", "said": []}
+    ).encode(),
+    "a text that is a number": json.dumps(
+        {"key": KEY, "status": 0, "text": 1, "said": []}
+    ).encode(),
+    "sentences that are none": json.dumps(
+        {"key": KEY, "status": 0, "text": "x", "said": 5}
+    ).encode(),
+    "sentences that are numbers": json.dumps(
+        {"key": KEY, "status": 0, "text": "x", "said": [5]}
+    ).encode(),
+}
+
+
+@pytest.mark.parametrize("body", MALFORMED.values(), ids=MALFORMED)
+def test_an_entry_with_a_malformed_body_is_not_believed(tmp_path, body):
+    cache = Cache(str(tmp_path))
+    cache.keep(KEY, Entry(0, "x"))
+    digest = sha256(body).hexdigest().encode()
+    (tmp_path / "a" / KEY).write_bytes(b"lagcli result 1\n" + digest + b"\n" + body)
+    assert cache.find(KEY) is None
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names")
+def test_a_pipe_in_the_folder_is_not_waited_for(tmp_path):
+    cache = Cache(str(tmp_path))
+    cache.keep("a" + "1" * 63, Entry(0, "x"))
+    os.mkfifo(tmp_path / "a" / KEY)
+    assert cache.find(KEY) is None
+    cache.keep(KEY, Entry(0, "y"))
+    assert cache.find(KEY) == Entry(0, "y")
 
 
 def test_an_entry_under_a_wrong_name_is_not_believed(tmp_path):

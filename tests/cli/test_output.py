@@ -78,3 +78,20 @@ def test_a_link_stays_a_link(tmp_path):
 def test_what_is_no_file_is_written_as_it_is():
     write_output(Path(os.devnull), b"new")
     assert not Path(os.devnull).is_file()
+
+
+@pytest.mark.parametrize("command", [SOLVE, ["simulate", str(FILES / "pendulum.yaml")]])
+def test_links_in_a_circle_are_no_place_and_stay(tmp_path, capsys, command):
+    one, other = tmp_path / "one", tmp_path / "other"
+    one.symlink_to(other)
+    other.symlink_to(one)
+    numbers = [] if command is SOLVE else ["--until", "1", "--set", "m=1"]
+    assert run([*command, *numbers, "-o", str(one)]) == 2
+    assert capsys.readouterr().err.endswith("one: error: too many levels of symbolic links\n")
+    assert one.is_symlink()
+    assert other.is_symlink()
+
+
+def test_a_name_that_no_file_may_have_is_told(tmp_path, capsys):
+    assert run([*SOLVE, "-o", str(tmp_path / ("a" * 300))]) == 2
+    assert capsys.readouterr().err.endswith("a: error: file name too long\n")

@@ -89,6 +89,43 @@ def test_an_interrupt_ends_with_130_and_without_a_traceback(tmp_path):
     assert (running.returncode, told) == (130, b"")
 
 
+@pytest.mark.parametrize("module", ["lagcli.cli.run", "lagcli.cli.app", "yaml", "mpmath"])
+def test_an_interrupt_while_modules_are_loaded_ends_with_130_and_without_a_word(tmp_path, module):
+    """It comes in the middle of the import of a module, where a class is being made."""
+    (tmp_path / "sitecustomize.py").write_text(
+        "import os, signal, sys\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "class Named:\n"
+        "    def __set_name__(self, owner, name):\n"
+        "        os.kill(os.getpid(), signal.SIGINT)\n"
+        "class Finder:\n"
+        "    def find_spec(self, name, path=None, target=None):\n"
+        f"        if name == {module!r}:\n"
+        "            sys.meta_path.remove(self)\n"
+        "            type('Made', (), {'named': Named()})\n"
+        "sys.meta_path.insert(0, Finder())\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-m", "lagcli", "solve", "pendulum.yaml"],
+        env={**os.environ, "PYTHONPATH": str(tmp_path), "LAGCLI_NO_CACHE": "1"},
+        cwd=FILES,
+        capture_output=True,
+        timeout=60,
+        check=False,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (130, b"", b"")
+
+
+@pytest.mark.parametrize("closed", ["<&-", "2>&-"])
+def test_closed_streams_are_no_bug(closed):
+    line = shlex.join([sys.executable, "-m", "lagcli", "solve", "-"]) + " " + closed
+    done = subprocess.run(
+        ["sh", "-c", line], capture_output=True, input=b"coordinates: [x]", cwd=FILES, check=False
+    )
+    told = b"-: error: standard input is closed\n" if closed == "<&-" else b""
+    assert (done.returncode, done.stdout, done.stderr) == (2, b"", told)
+
+
 def test_text_is_ascii_where_the_terminal_is(lagcli):
     done = lagcli("solve", "pendulum.yaml", env={"PYTHONIOENCODING": "ascii"})
     assert done.returncode == 0
