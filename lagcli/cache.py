@@ -14,7 +14,7 @@ import os
 import re
 import stat
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from hashlib import sha256
 from typing import Any, NamedTuple
@@ -158,18 +158,20 @@ def _read(data: bytes, key: str) -> Entry | None:
         return None
     try:
         found = json.loads(body)
-        entry = Entry(found["status"], found["text"], tuple(found["said"]))
-        its_key = found["key"]
+        whole = (found["key"], found["status"], found["text"], tuple(found["said"]))
     except (ValueError, TypeError, LookupError, RecursionError):  # not of our making
         return None
-    return entry if its_key == key and _well_formed(entry) else None
+    return Entry(*whole[1:]) if _is_entry(*whole, sought=key) else None
 
 
-def _well_formed(entry: Entry) -> bool:
+def _is_entry(
+    key: object, status: object, text: object, said: Iterable[object], *, sought: str
+) -> bool:
     return (
-        entry.status in (0, 1, 2)
-        and isinstance(entry.text, str | None)
-        and all(isinstance(text, str) for text in entry.said)
+        key == sought
+        and status in (0, 1, 2)
+        and isinstance(text, str | None)
+        and all(isinstance(sentence, str) for sentence in said)
     )
 
 
