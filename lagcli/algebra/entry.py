@@ -90,6 +90,8 @@ class Field(FractionField):
             return self._product(node)
         if node.is_Pow:
             return self._power(node.base, node.exp)
+        if node is sympy.E:
+            return self.exponential.power(sympy.S.One)
         if node.is_Function and all(isinstance(a, Expr) for a in node.args):
             return self._function(node)
         if node in (sympy.zoo, sympy.nan, sympy.oo, -sympy.oo):
@@ -162,6 +164,8 @@ class Field(FractionField):
             return absolute(self, self(argument))
         if isinstance(node, sympy.sign):
             return sign(self, self(argument))
+        if isinstance(node, sympy.DiracDelta):  # SymPy's derivative of a sign: 0 where it is one
+            return self.rational(0)
         value = node.func(*[self.to_sympy(self(a)) for a in node.args])
         # SymPy may have evaluated the function of the normalized arguments
         return self.opaque(value) if value.func is node.func else self(value)

@@ -77,6 +77,8 @@ class Translator:
             return self._unspecified(node)
         if isinstance(node, DefiniteIntegral):
             return self._integral(node)
+        if isinstance(node, sympy.DiracDelta):  # of the derivative of a sign
+            return self.writer.number(Fraction(0))
         if node.is_Function:
             function = type(node).__name__
             return Call(_NAMES.get(function, function), tuple(self.tree(a) for a in node.args))

@@ -86,14 +86,16 @@ class EnergyFunction:
 
     @cached_property
     def rate(self) -> Expr | None:
-        """dh/dt on the motion, simplified; None where the multipliers were not found."""
+        """dh/dt on the motion, simplified; None where it was not found."""
+        if not self.dynamics.system.is_continuous:
+            return None
         total = sympy.Add(*(power.value for power in self.powers))
         on_motion = self.dynamics.rate_on_motion(total)
         return None if on_motion is None else self.dynamics.simplified(on_motion)
 
     @cached_property
     def _verdict(self) -> tuple[bool | None, Verification | None]:
-        if not self.powers:
+        if not self.powers and self.dynamics.system.is_continuous:
             return True, "exact"
         if self.rate is None:
             return None, None

@@ -30,6 +30,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.jumps import is_continuous
 from lagcli.answers import ChargeSource, Verification
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.energy import EnergyFunction
@@ -187,6 +188,9 @@ class Noether:
             -boundary,
         )
         rate, conserved, verified = self._rate(list(contributions.values()))
+        if conserved and not (system.is_continuous and is_continuous(charge)):
+            # constant only between the places where it jumps
+            rate, conserved, verified = None, None, None
         broken_by = "" if conserved is not False else self._broken_by(contributions)
         if gauge is None and exists is None and conserved is False:
             rate = conserved = verified = None

@@ -66,6 +66,12 @@ def answers(problem: Problem, sections: Sequence[str] | None = None) -> Answers:
     return Statements(Derivation(problem)).answers(sections)
 
 
+_JUMP = (
+    "L jumps where the argument of a sign is 0: the impulse there is not in the equations, "
+    "and no conserved quantity is stated"
+)
+
+
 class Statements(Stating):
     """The sections of one derivation."""
 
@@ -75,6 +81,8 @@ class Statements(Stating):
         self.system = derivation.system
         self.dynamics = derivation.dynamics
         self.readable = Readable(self.dynamics)
+        if not self.system.is_continuous:
+            self.warnings.append(_JUMP)
 
     @property
     def makers(self) -> Mapping[str, Callable[[], Section]]:

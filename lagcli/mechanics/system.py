@@ -12,6 +12,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra.build import TIME, Builder, symbol
+from lagcli.algebra.jumps import is_continuous
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.expression import Call, Expression
 from lagcli.problem import Point, Problem
@@ -189,6 +190,11 @@ class System:
             )
             for name, q in zip(self.names, self.q, strict=True)
         )
+
+    @cached_property
+    def is_continuous(self) -> bool:
+        """Whether L has no jump: there the equations of motion lack an impulse."""
+        return is_continuous(self.L)
 
     @cached_property
     def applied_forces(self) -> tuple[Expr, ...]:

@@ -51,6 +51,9 @@ class _Constant(NamedTuple):
 
 _NOTHING = _Constant()
 
+#: Digits before the point up to which a double holds a number.
+_DOUBLE = 300
+
 
 def check_constants(*expressions: Expression) -> None:
     """`Mistake` with every power too large, and division by 0, among constants."""
@@ -67,6 +70,14 @@ def rational_value(expression: Expression, known: Mapping[str, Fraction]) -> Fra
     wrong: list[Diagnostic] = []
     value = _follow(expression, known, wrong).value
     return None if wrong else value
+
+
+def magnitude(expression: Expression) -> float:
+    """The larger of numerator and denominator of the number that a formula contains as a factor."""
+    found = _follow(expression, {}, [])
+    if found.value is not None and found.digits < _DOUBLE:
+        return max(abs(found.value.numerator), found.value.denominator)
+    return 10**found.digits if found.digits < _DOUBLE else inf
 
 
 def _follow(

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lagcli.problem import Point, Problem
-from lagcli.reader.growth import exponential_levels
-from lagcli.reader.limits import EXPONENTIAL_LEVELS
+from lagcli.reader.growth import Growth, growth
+from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.names import depends_on_time, derivative_order
 from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence
 from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Role
@@ -77,8 +77,10 @@ def read_definitions(
         known = sections.scope.definitions[key.label]
         known.order = min(derivative_order(expression, sections.scope), STATE.order)
         known.time = depends_on_time(expression, sections.scope)
-        levels, _ = exponential_levels(expression, sections.scope)
-        known.exponentials = min(levels, EXPONENTIAL_LEVELS)
+        found, _ = growth(expression, sections.scope)
+        known.growth = Growth(
+            min(found.exponentials, EXPONENTIAL_LEVELS), min(found.degree, DEGREE)
+        )
     return definitions
 
 

@@ -1,46 +1,109 @@
-"""How many exponentials stand inside each other, through definitions too.
+"""How fast a formula grows, through definitions too: exponentials inside each other, its degree.
 
 exp(exp(exp(3))) has two hundred million digits before its point; one level more, and no
-arithmetic holds the exponent.
+arithmetic holds the exponent.  A polynomial of degree 10^400 has no arithmetic either.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.expression import Call, Expression, Name, Number, Power, children, postorder
-from lagcli.reader.limits import EXPONENTIAL_LEVELS
+from lagcli.expression import (
+    Call,
+    Expression,
+    Name,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    children,
+    postorder,
+)
+from lagcli.reader.constants import magnitude
+from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS, thousands
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from lagcli.reader.scope import Scope
 
 _GROWING = frozenset({"exp", "sinh", "cosh"})
 
 
-def exponential_levels(expression: Expression, scope: Scope) -> tuple[int, Diagnostic | None]:
-    """The levels of an expression with its definitions, and what is too many."""
-    levels: list[int] = []
+class Growth(NamedTuple):
+    """Levels of exponentials, and the degree in whatever has a name or is a call."""
+
+    exponentials: int = 0
+    degree: float = 0
+
+
+SMALL = Growth()
+
+
+def growth(expression: Expression, scope: Scope) -> tuple[Growth, Diagnostic | None]:
+    """The growth of an expression with its definitions, and what is too much."""
+    values: list[Growth] = []
     wrong = None
     for node in postorder(expression):
         count = len(children(node))
-        parts = levels[len(levels) - count :]
-        del levels[len(levels) - count :]
-        level = max(parts, default=0)
-        if isinstance(node, Name) and node.name in scope.definitions:
-            level = scope.definitions[node.name].exponentials
-        elif isinstance(node, Call) and node.function in _GROWING:
-            level += 1
-        elif isinstance(node, Power) and not isinstance(node.exponent, Number):
-            level = max(parts[0], parts[1] + _moves(node.exponent))
-        if level > EXPONENTIAL_LEVELS and wrong is None:
-            wrong = Diagnostic(
-                f"more than {EXPONENTIAL_LEVELS} exponentials inside each other",
-                node.span,
-                f"the limit is {EXPONENTIAL_LEVELS} levels",
-            )
-        levels.append(level)
-    return levels[0], wrong
+        parts = values[len(values) - count :]
+        del values[len(values) - count :]
+        found = Growth(_levels(node, parts, scope), _degree(node, parts, scope))
+        wrong = wrong or _excess(node, found)
+        values.append(found)
+    return values[0], wrong
+
+
+def _excess(node: Expression, found: Growth) -> Diagnostic | None:
+    if found.exponentials > EXPONENTIAL_LEVELS:
+        return Diagnostic(
+            f"more than {EXPONENTIAL_LEVELS} exponentials inside each other",
+            node.span,
+            f"the limit is {EXPONENTIAL_LEVELS} levels",
+        )
+    if found.degree > DEGREE:
+        bound = thousands(DEGREE)
+        return Diagnostic(
+            f"an expression of a degree beyond {bound}", node.span, f"the limit is {bound}"
+        )
+    return None
+
+
+def _levels(node: Expression, parts: Sequence[Growth], scope: Scope) -> int:
+    level = max((part.exponentials for part in parts), default=0)
+    if isinstance(node, Name) and node.name in scope.definitions:
+        return scope.definitions[node.name].growth.exponentials
+    if isinstance(node, Call) and node.function in _GROWING:
+        return level + 1
+    if isinstance(node, Power) and not isinstance(node.exponent, Number):
+        return max(parts[0].exponentials, parts[1].exponentials + _moves(node.exponent))
+    return level
+
+
+def _degree(node: Expression, parts: Sequence[Growth], scope: Scope) -> float:
+    match node:
+        case Name(name=name):
+            known = scope.definitions.get(name)
+            return 1 if known is None else max(1, known.growth.degree)
+        case Product() | Quotient():
+            return sum(part.degree for part in parts)
+        case Power(exponent=exponent):
+            return parts[0].degree * _factor(exponent) if parts[0].degree else 0
+        case Sum() | Negative():
+            return max(part.degree for part in parts)
+        case Number():
+            return 0
+        case _:
+            return max([1, *(part.degree for part in parts)])
+
+
+def _factor(exponent: Expression) -> float:
+    """By which the degree is multiplied: 1 for an exponent with names."""
+    size = magnitude(exponent)
+    return size if (size > 1 and not _moves(exponent)) or size > DEGREE else 1
 
 
 def _moves(exponent: Expression) -> bool:

@@ -27,6 +27,9 @@ CALL_LEVELS = 16
 #: Exponentials inside each other, and powers with names in the exponent.
 EXPONENTIAL_LEVELS = 3
 
+#: Degree of an expression with its definitions: powers of powers, products, quotients.
+DEGREE = 100_000
+
 #: Digits of one number, with its exponent written out.
 NUMBER_DIGITS = 1_000
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from lagcli.expression import FUNCTIONS, RESERVED
+from lagcli.reader.growth import SMALL, Growth
 from lagcli.reader.habits import name_meant
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ class Definition:
     place: int  # its rank in the file: earlier definitions may be used, later ones may not
     order: int = CONSTANT  # the highest time derivative of a coordinate in it
     time: bool = False  # whether t is in it
-    exponentials: int = 0  # inside each other
+    growth: Growth = SMALL
 
 
 @dataclass(slots=True, eq=False, repr=False)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeVar
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import ZERO, Equation, Expression, Name
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression
-from lagcli.reader.growth import exponential_levels
+from lagcli.reader.growth import growth
 from lagcli.reader.habits import key_meant, unit_behind
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.names import name_mistakes
@@ -58,7 +58,7 @@ class Sections:
         mistakes = name_mistakes(expression, self.scope, role, what, before)
         found = list(islice(mistakes, max(0, MISTAKES - len(self.diagnostics))))
         self.diagnostics += found
-        _, wrong = exponential_levels(expression, self.scope)
+        _, wrong = growth(expression, self.scope)
         if wrong is not None:
             self.diagnostics.append(wrong)
         return not found

@@ -36,6 +36,23 @@ BOMBS = {
     "factor": (HEAD + "(2*x)^(10^9)", "the limit is 10,000"),
     "negative power": (HEAD + "2^-1000000", "the limit is 10,000"),
     "product": (HEAD + "*".join(["10^9999"] * 100), "the limit is 10,000"),
+    "exponent of a name": (HEAD + "x^" + "1" * 400, "the limit is 100,000"),
+    "negative exponent of a name": (HEAD + "x^-" + "1" * 400, "the limit is 100,000"),
+    "exponent with a large denominator": (HEAD + "x^(1/10^10)", "the limit is 100,000"),
+    "exponent that is a power": (HEAD + "x^(10^400)", "the limit is 100,000"),
+    "exponent beyond a double": (HEAD + "x^(10^4000)", "the limit is 100,000"),
+    "exponent of a sum": (HEAD + "(x + x')^(10^400)", "the limit is 100,000"),
+    "exponent of a function": (HEAD + "sin(x)^(10^400)", "the limit is 100,000"),
+    "exponent with a name": (HEAD + "x^(10^400*x)", "the limit is 100,000"),
+    "power of powers": (HEAD + "((x^1000)^1000)^1000", "the limit is 100,000"),
+    "power of a definition": (
+        "coordinates: [x]\ndefinitions: {a: x^1000, b: a^1000}\nT: x'^2\nV: b",
+        "the limit is 100,000",
+    ),
+    "exponent in a symmetry": (
+        "coordinates: [x]\nT: x'^2\nsymmetries: {s: {x: x^(10^4400)}}",
+        "the limit is 100,000",
+    ),
     "unknown names": (HEAD + "+".join(f"name{i}" for i in range(9000)), "unknown name"),
     "cycle": (f"coordinates: [x]\nT: x'^2\nparameters:\n{CHAIN}  p10000: p0\n", "needs itself"),
     "aliases to one formula": (
