@@ -400,7 +400,8 @@ class Answers:
 
     `symbols` gives LaTeX for names whose file sets `symbol`; `multipliers` names those
     names that are multipliers (name -> constraint).  `complete` is False when an answer
-    was asked for and not found: exit status 1.
+    was asked for and not found: exit status 1.  `absent` names sections that were asked for
+    and could not be made at all.
     """
 
     title: str
@@ -412,3 +413,4 @@ class Answers:
     multipliers: Mapping[str, str] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
     complete: bool = True
+    absent: tuple[str, ...] = ()

@@ -15,6 +15,8 @@ def describe(error: BaseException) -> str:
             return "the memory did not suffice; --show matrix_form needs least"
         case RecursionError():
             return "the formulas are nested too deeply"
+        case TimeoutError():
+            return f"not found: {error}"
         case _:
             message = " ".join(str(error).split())
             return (

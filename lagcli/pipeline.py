@@ -6,11 +6,11 @@ imported when it is come to.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 from unicodedata import normalize
 
 from lagcli.diagnostics import NOWHERE, Diagnostic, ProblemError, Source
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 #: Off only where the cost of verification is measured.
 VERIFYING = True
+
+Made = TypeVar("Made")
 
 
 @record(kw_only=True)
@@ -126,12 +128,15 @@ def state(derivation: Derivation, request: Request) -> Answers:
     ProblemError
         When the derivation finds that the problem cannot be meant: contradictory
         constraints, a constraint that is not linear in the velocities.
+    TimeoutError
+        When the equations take more work than they are allowed.
     """
     from lagcli.verification import verified
 
-    answers = _statements(derivation).answers(request.sections)
+    answers = _ended(lambda: _statements(derivation)).answers(request.sections)
     if VERIFYING:
-        answers = verified(derivation.problem, answers)
+        unverified = answers
+        answers = _ended(lambda: verified(derivation.problem, unverified))
     if not request.numeric:
         return answers
     from lagcli.decimals import with_decimals
@@ -170,7 +175,25 @@ def explain(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
         return explanation_of_large(large)
     from lagcli.mechanics.explaining.explain import explanation
 
-    return explanation(derivation, also, {"model": _model})
+    return _ended(lambda: explanation(derivation, also, {"model": _model}))
+
+
+def _ended(work: Callable[[], Made]) -> Made:
+    """What the work makes, if that takes no more than it is allowed.
+
+    Raises
+    ------
+    TimeoutError
+        If it does.
+    """
+    from lagcli.algebra.effort import OutOfWork
+    from lagcli.algebra.limited import limited
+    from lagcli.mechanics.stating import SECONDS, TOO_MUCH, UNITS
+
+    try:
+        return limited(work, UNITS, SECONDS)
+    except OutOfWork:
+        raise TimeoutError(TOO_MUCH) from None
 
 
 def _statements(derivation: Derivation) -> Stating:

@@ -135,7 +135,7 @@ class FractionField:
     def element(self, numerator: Poly, denominator: Poly) -> Element:
         """The normal form of numerator / denominator."""
         ring = self.ring
-        EFFORT.done += 250 + len(numerator) * len(denominator) // 6
+        EFFORT.fraction(len(numerator), len(denominator))
         numerator, denominator = ring.reduce(numerator), ring.reduce(denominator)
         if denominator == 0:
             raise ZeroDivisionError

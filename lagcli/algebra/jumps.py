@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import sympy
-from sympy import Expr, Symbol
+from sympy import Expr, S
 
+from lagcli.algebra.entry import Field
 from lagcli.algebra.simplification import is_zero
 
 
@@ -25,21 +26,16 @@ def is_continuous(expression: Expr) -> bool:
 
 def _meets(expression: Expr, sign: Expr, argument: Expr) -> bool:
     """E with sign = 1 equals E with sign = -1 where the argument f is 0."""
-    step = expression.xreplace({sign: sympy.S.One}) - expression.xreplace(
-        {sign: sympy.S.NegativeOne}
-    )
-    if is_zero(step) is True:
-        return True
-    for symbol in sorted(argument.free_symbols, key=str):
-        root = _root(argument, symbol)
-        if root is not None:
-            return is_zero(step.xreplace({symbol: root})) is True
-    return False
+    one, minus = (expression.xreplace({sign: value}) for value in (S.One, S.NegativeOne))
+    step = (one - minus).xreplace({sympy.Abs(argument): S.Zero, argument: S.Zero})
+    return is_zero(step) is True or _has_factor(step, argument)
 
 
-def _root(argument: Expr, symbol: Symbol) -> Expr | None:
-    """Where a function that is linear in the symbol is 0."""
-    slope = argument.diff(symbol)
-    if slope.has(symbol) or slope.is_zero is not False:
-        return None
-    return -argument.xreplace({symbol: sympy.S.Zero}) / slope
+def _has_factor(step: Expr, argument: Expr) -> bool:
+    """Whether the numerator of the step is a multiple of that of the argument."""
+    field = Field([step, argument])
+    try:
+        whole, factor = field(step).numerator, field(argument).numerator
+    except ZeroDivisionError:
+        return False
+    return bool(field.ring.lift(whole) % field.ring.lift(factor) == 0)

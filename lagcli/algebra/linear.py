@@ -12,8 +12,10 @@ from dataclasses import dataclass
 from sympy import Expr
 
 from lagcli.algebra.build import as_expr
+from lagcli.algebra.effort import OutOfWork
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
+from lagcli.algebra.generic_rank import has_full_rank
 from lagcli.algebra.relations import Relations
 from lagcli.algebra.shapes import Shapes
 from lagcli.algebra.simplification import Readable
@@ -50,10 +52,6 @@ _COMPUTED = 8_000  # terms of an entry on the way
 _ADDED = 2_000_000  # products of terms of two fractions that are added
 
 
-class _TooLong(Exception):
-    pass
-
-
 def solve_linear(
     A: Matrix,
     b: Sequence[Expr] | Matrix,
@@ -85,7 +83,7 @@ def solve_linear(
     rows, field = _enter([[*row, *more] for row, more in zip(A, columns, strict=True)], relations)
     try:
         found = _eliminate(field, rows, n, None, budget)
-    except _TooLong:
+    except OutOfWork:
         return None
     if len(found.pivots) < n:
         return LinearSolution([], None, singular=True, rank=len(found.pivots))
@@ -114,6 +112,8 @@ def solve_linear(
 
 def rank(A: Matrix, relations: Relations | None = None) -> int:
     """The rank of A for generic values of the symbols."""
+    if not relations and has_full_rank([[as_expr(x) for x in row] for row in A]):
+        return len(A[0]) if A else 0
     rows, field = _enter(A, relations)
     width = len(A[0]) if A else 0
     return len(_eliminate(field, rows, width, relations).pivots)
@@ -121,6 +121,8 @@ def rank(A: Matrix, relations: Relations | None = None) -> int:
 
 def nullspace(A: Matrix, relations: Relations | None = None) -> list[list[Expr]]:
     """A basis of the vectors x with A x = 0."""
+    if not relations and A and has_full_rank([[as_expr(x) for x in row] for row in A]):
+        return []
     rows, field = _enter(A, relations)
     width = len(A[0]) if A else 0
     pivots = _eliminate(field, rows, width, relations).pivots
@@ -204,14 +206,14 @@ def _eliminate(
                     continue
                 budget -= factor.size() * x.size() + (row[j].size() if j in row else 0)
                 if budget < 0:
-                    raise _TooLong
+                    raise OutOfWork
                 y = factor * x
                 if j in row:
                     if row[j].size() * y.size() > _ADDED:
-                        raise _TooLong
+                        raise OutOfWork
                     y = row[j] + y
                 if y.size() > _COMPUTED:
-                    raise _TooLong
+                    raise OutOfWork
                 if _vanishes(field, y, relations):
                     row.pop(j, None)
                 else:

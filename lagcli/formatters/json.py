@@ -82,6 +82,8 @@ def to_object(answers: Answers) -> Object:
     for name in SECTIONS:
         if name in answers.sections:
             result |= _section(name, answers.sections[name])
+        elif name in answers.absent:
+            result[name] = None
     return result | {"warnings": answers.warnings}
 
 

@@ -100,6 +100,8 @@ def to_document(answers: Answers) -> Document:
         if name in answers.sections:
             blocks.append(Heading(_HEADINGS[name]))
             blocks.extend(section_blocks(answers.sections[name], answers))
+        elif name in answers.absent:
+            blocks += [Heading(_HEADINGS[name]), Paragraph(("Not found: see the warnings.",))]
     if answers.warnings:
         blocks.append(Heading("Warnings"))
         blocks.extend(Paragraph((warning,)) for warning in answers.warnings)

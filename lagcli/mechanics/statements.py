@@ -67,8 +67,8 @@ def answers(problem: Problem, sections: Sequence[str] | None = None) -> Answers:
 
 
 _JUMP = (
-    "L jumps where the argument of a sign is 0: the impulse there is not in the equations, "
-    "and no conserved quantity is stated"
+    "L is not known to be continuous where the argument of a sign is 0: the impulse of a jump "
+    "is not in the equations, and no conserved quantity is stated"
 )
 
 
@@ -77,12 +77,18 @@ class Statements(Stating):
 
     def __init__(self, derivation: Derivation) -> None:
         super().__init__(derivation.problem, "it is not stated for such a problem")
+        self._derive(derivation)
+        if not self.system.is_continuous:
+            self.warnings.append(_JUMP)
+
+    def _derive(self, derivation: Derivation) -> None:
         self.derivation = derivation
         self.system = derivation.system
         self.dynamics = derivation.dynamics
         self.readable = Readable(self.dynamics)
-        if not self.system.is_continuous:
-            self.warnings.append(_JUMP)
+
+    def _begin_again(self) -> None:
+        self._derive(Derivation(self.derivation.given))
 
     @property
     def makers(self) -> Mapping[str, Callable[[], Section]]:

@@ -5,8 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol, TypeVar
 
+from lagcli.algebra.effort import OutOfWork
+from lagcli.algebra.limited import limited
 from lagcli.answers import DEFAULT_SECTIONS, SECTIONS, Answers, DimensionsSection, Section
+from lagcli.diagnostics import ProblemError
+from lagcli.failures import describe
 from lagcli.problem import Problem
+
+#: Work that one section may take (see `lagcli.algebra.effort`), and processor time.
+UNITS = 30_000_000
+SECONDS = 45.0
+
+TOO_MUCH = "it takes more work than it is allowed"
 
 
 class HasMissing(Protocol):
@@ -39,6 +49,7 @@ class Stating:
         #: makers of sections that are none of mechanics
         self.others: dict[str, Callable[[], Section]] = {}
         self._why_missing = why_missing
+        self._share = 1.0  # of the work that a section may take
 
     @property
     def makers(self) -> Mapping[str, Callable[[], Section]]:
@@ -57,10 +68,9 @@ class Stating:
         asked = self._usual() if sections is None else sections
         made: dict[str, Section] = {}
         for name in SECTIONS:
-            if name in asked and name in makers:
-                made[name] = makers[name]()
-            elif name in asked:
-                self._missing(f"the section '{name}'")
+            section = self._made(name, makers) if name in asked else None
+            if section is not None:
+                made[name] = section
         quantities = (*problem.coordinates, *problem.parameters)
         return Answers(
             title=problem.title,
@@ -72,7 +82,29 @@ class Stating:
             multipliers={c.multiplier: c.name for c in problem.constraints},
             warnings=tuple(dict.fromkeys(self.warnings)),
             complete=self.complete,
+            absent=tuple(name for name in asked if name not in made),
         )
+
+    def _made(self, name: str, makers: Mapping[str, Callable[[], Section]]) -> Section | None:
+        """One section; None, with the reason in the warnings, where none could be made."""
+        if name not in makers:
+            self._missing(f"the section '{name}'")
+            return None
+        try:
+            return limited(makers[name], self._share * UNITS, self._share * SECONDS)
+        except ProblemError:
+            raise
+        except OutOfWork:
+            why = TOO_MUCH
+        except Exception as error:  # noqa: BLE001 - one section's failure is not the others'
+            why = describe(error)
+        self._missing(f"the section '{name}'", why)
+        self._share /= 2  # so that all together end, too
+        self._begin_again()
+        return None
+
+    def _begin_again(self) -> None:
+        """Forget what was derived: what was interrupted is in no certain state."""
 
     def _dimensions(self) -> DimensionsSection:
         from lagcli.mechanics.quantity_units import dimensions_section

@@ -18,6 +18,7 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.jumps import is_continuous
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery import point
 from lagcli.mechanics.discovery.ansatz import (
@@ -230,10 +231,14 @@ class Discovery:
     def _naming(self) -> Naming:
         return Naming(self.system.t, self.system.q, self.coordinate_kinds)
 
+    def _lasts(self, charge: NoetherCharge) -> bool:
+        """Whether it is constant also where the argument of a sign passes 0."""
+        return self.system.is_continuous and is_continuous(charge.charge)
+
     def _add(self, *charges: NoetherCharge) -> None:
         """Name them, and sort all point symmetries anew."""
         naming = self._naming
-        for charge in charges:
+        for charge in filter(self._lasts, charges):
             given = charge.transformation
             name = naming.of_point(given.changes, given.time)
             name = name or naming.of_relative(charge.charge, given.changes, self.system.qdot)
@@ -285,7 +290,7 @@ class Discovery:
         if freedom > 1 and rank_on_surface(self.dynamics, self._values()) == 2 * freedom:
             self.words.append("all others are functions of these")
         elif freedom > 1 and self.system.t not in self.equations_symbols:
-            found = search.quadratic(self.point_charges)
+            found = [c for c in search.quadratic(self.point_charges) if self._lasts(c)]
             names = distinct([*(c.name for c in self.point_charges), *("" for _ in found)])
             self.hidden_charges = tuple(
                 replace(c, name=name)
@@ -337,7 +342,7 @@ class Discovery:
     def _keep_hidden(self, integrals: QuadraticIntegrals) -> None:
         """Add what is found, with names."""
         naming = HiddenNames(self.system, self.equations, self.coordinate_kinds)
-        found = integrals.found(self.charges)
+        found = [each for each in integrals.found(self.charges) if self._lasts(each[1])]
         named = [(*naming.of(functions, charge), charge) for functions, charge in found]
         named.sort(key=lambda each: (not each[0], each[0]))
         known = [c.name for c in self.charges]

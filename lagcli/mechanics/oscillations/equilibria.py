@@ -169,7 +169,16 @@ class RestPoints:
         return [constraints[0].f, *(x for x in minors if is_zero(x) is not True)]
 
     def balanced(self, values: Mapping[Symbol, Expr]) -> bool:
-        """Whether a state of rest is an equilibrium, by substitution."""
+        """Whether a state of rest is an equilibrium, by substitution.
+
+        It is none where the equations have no value.
+        """
+        try:
+            return self._balanced(values)
+        except ZeroDivisionError:
+            return False
+
+    def _balanced(self, values: Mapping[Symbol, Expr]) -> bool:
         rounded = [q for q, value in values.items() if is_decimal(value)]
         if rounded and not self.dynamics.constraints.equations:
             return all(_nearly_vanishes(f, values, rounded) for f in self.forces_at_rest)

@@ -1,0 +1,143 @@
+"""Whatever the formulas of a file are, every section ends with an answer or with a sentence."""
+
+from __future__ import annotations
+
+import json
+import random
+
+import pytest
+
+from lagcli.algebra.effort import EFFORT
+from lagcli.answers import SECTIONS, Answers
+from lagcli.formatters import Options
+from lagcli.mechanics import stating
+from lagcli.mechanics.statements import Statements
+from lagcli.pipeline import Request, derive, read, render, state
+from lagcli.reader import parse_text
+
+HEAD = """
+coordinates: [x, y]
+parameters: {m: {assume: positive}, k: {assume: positive}, c: {assume: positive}}
+T: m*(x'^2 + y'^2)/2
+"""
+#: Everything but what searches, and what begins with the same search for equilibria.
+SLOW = {"discovered", "algebra", "modes", "steady_motions"}
+QUICK = [s for s in SECTIONS if s not in SLOW]
+
+
+def answers(text: str, sections: list[str]) -> Answers:
+    problem = read("test.yaml", text.encode()).problem
+    assert problem is not None
+    return state(derive(problem), Request(sections=tuple(sections)))
+
+
+def assert_sound(found: Answers) -> None:
+    """No section failed by a mistake of lagcli, and all that is printed can be read back."""
+    assert not [w for w in found.warnings if "bug" in w]
+    for name in ("text", "latex", "markdown", "html"):
+        assert "Dirac" not in render([found], name, Options())
+    printed = json.loads(render([found], "json", Options()))
+    for value in (printed.get("accelerations") or {}).values():
+        parse_text(value)
+    assert "Dirac" not in json.dumps(printed)
+
+
+def potential(source: random.Random) -> str:
+    """Terms with signs, absolute values, roots and e of one and two coordinates."""
+    argument = source.choice(["x", "y", "x - y", "x - c", "sin(x)", "x^2 - c^2"])
+    other = source.choice(["x", "y", "x + 2*y"])
+    shapes = [
+        "k*abs({a})",
+        "k*({a})^2*sign({a})",
+        "k*({a})*sign({a})",
+        "k*abs({a})^3",
+        "k*exp(1)*({a})^2",
+        "k*exp(abs({a}))",
+        "k*sqrt(c^2 + ({a})^2)",
+        "k*abs({a})*abs({b})",
+        "k*abs(abs({a}) - c)",
+        "k*sign({a})",
+        "k*sqrt(abs({a}))",
+    ]
+    return " + ".join(term.format(a=argument, b=other) for term in source.sample(shapes, 2))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_signs_and_absolute_values_in_the_potential_break_no_section(seed: int) -> None:
+    source = random.Random(f"signs {seed}")
+    assert_sound(answers(f"{HEAD}V: {potential(source)}\n", QUICK))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_signs_and_absolute_values_in_constraints_break_no_section(seed: int) -> None:
+    source = random.Random(f"wedges {seed}")
+    side = source.choice(["k*abs(x)", "k*x*sign(x)", "abs(x - c)", "sqrt(abs(x))", "abs(x)^3"])
+    text = f"{HEAD}V: m*c*y\nconstraints:\n  wedge: {source.choice(['y', '2*y'])} = {side}\n"
+    assert_sound(answers(text, QUICK))
+
+
+@pytest.mark.parametrize(
+    ("given", "held"), [("k*abs(x)", 1), ("k*x^2*sign(x)", 1), ("k*sign(x)", 0), ("k*y", 2)]
+)
+def test_what_jumps_on_the_motion_is_not_called_conserved(given: str, held: int) -> None:
+    """m x' + k t sign(x) is constant only until x = 0 is crossed; nothing is, past a step."""
+    text = f"{HEAD}V: {given}\nsymmetries: {{s: {{x: 1}}}}\n"
+    found = answers(text, ["charges", "discovered"]).sections
+    every = [*found["charges"].charges, *found["discovered"].charges]  # type: ignore[attr-defined]
+    conserved = [c for c in every if c.conserved]
+    assert len(conserved) >= held
+    assert not [c.name for c in conserved if "sign" in str(c.charge)]
+    assert held or not conserved
+
+
+@pytest.mark.parametrize("links", [4, 5])
+@pytest.mark.parametrize("cart", [False, True])
+def test_a_chain_too_long_for_closed_accelerations_says_so(links: int, cart: bool) -> None:
+    angles = [f"a{i}" for i in range(links)]
+    x = ["x"] if cart else []
+    lines = [f"coordinates: [{', '.join([*x, *angles])}]", "parameters: [m, l, g, M]", "points:"]
+    across, up = "x" if cart else "0", "0"
+    for i, angle in enumerate(angles):
+        across, up = f"{across} + l*sin({angle})", f"{up} - l*cos({angle})"
+        lines.append(f"  p{i}: {{position: ['{across}', '{up}'], mass: m}}")
+    if cart:
+        lines.append("  cart: {position: [x, 0], mass: M}")
+    lines.append("V: -m*g*l*(" + " + ".join(f"cos({a})" for a in angles) + ")")
+    found = answers("\n".join(lines), ["accelerations", "energy"])
+    section = found.sections["accelerations"]
+    assert section.regular  # type: ignore[attr-defined]
+    assert not section.degenerate  # type: ignore[attr-defined]
+    assert found.sections["energy"].conserved  # type: ignore[attr-defined]
+    if section.accelerations is None:  # type: ignore[attr-defined]
+        assert not found.complete
+        assert "not solved in closed form" in found.warnings[0]
+
+
+def test_a_section_that_is_broken_leaves_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(_self: Statements) -> None:
+        raise ZeroDivisionError("of a test")
+
+    monkeypatch.setattr(Statements, "_energy", broken)
+    found = answers(f"{HEAD}V: k*x^2/2\n", ["momenta", "energy", "charges"])
+    assert list(found.sections) == ["momenta", "charges"]
+    assert (found.absent, found.complete) == (("energy",), False)
+    assert len(found.warnings) == 1
+    assert found.warnings[0].startswith(
+        "the section 'energy' could not be found: this is a bug of lagcli (ZeroDivisionError: "
+    )
+    assert json.loads(render([found], "json", Options()))["energy"] is None
+    assert "Energy\n  Not found: see the warnings." in render([found], "text", Options())
+
+
+def test_a_section_that_takes_too_much_work_is_null(monkeypatch: pytest.MonkeyPatch) -> None:
+    def endless(_self: Statements) -> None:
+        while True:
+            EFFORT.fractions += 1
+
+    monkeypatch.setattr(Statements, "_equilibria", endless)
+    monkeypatch.setattr(stating, "UNITS", 100_000)
+    found = answers(f"{HEAD}V: k*x^2/2\n", ["momenta", "equilibria"])
+    assert (list(found.sections), found.absent) == (["momenta"], ("equilibria",))
+    assert found.warnings == (
+        "the section 'equilibria' could not be found: it takes more work than it is allowed",
+    )
