@@ -78,6 +78,12 @@ _SECTIONS: dict[str, Schema] = {
 }
 
 
+def _or_null(section: Schema) -> Schema:
+    """A section that could not be made is null."""
+    kinds = section["type"]
+    return section if isinstance(kinds, list) else {**section, "type": [kinds, "null"]}
+
+
 def answers_schema() -> Schema:
     """One object for one file, an array for several."""
     answer = _record(
@@ -88,7 +94,7 @@ def answers_schema() -> Schema:
             "coordinates": {"type": "array", "items": {"type": "string"}},
             "parameters": {"type": "array", "items": {"type": "string"}},
             "degrees_of_freedom": {"type": "integer", "minimum": 0},
-            **_SECTIONS,
+            **{name: _or_null(section) for name, section in _SECTIONS.items()},
             "where": _map(_FORMULA, null=False),
             "warnings": {"type": "array", "items": {"type": "string"}},
         },

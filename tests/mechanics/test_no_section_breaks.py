@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 import random
 
+import jsonschema
 import pytest
 
 from lagcli.algebra.effort import EFFORT
 from lagcli.answers import SECTIONS, Answers
 from lagcli.formatters import Options
+from lagcli.formatters.schema import answers_schema
 from lagcli.mechanics import stating
 from lagcli.mechanics.statements import Statements
 from lagcli.pipeline import Request, derive, read, render, state
@@ -125,7 +127,9 @@ def test_a_section_that_is_broken_leaves_the_others(monkeypatch: pytest.MonkeyPa
     assert found.warnings[0].startswith(
         "the section 'energy' could not be found: this is a bug of lagcli (ZeroDivisionError: "
     )
-    assert json.loads(render([found], "json", Options()))["energy"] is None
+    printed = json.loads(render([found], "json", Options()))
+    assert printed["energy"] is None
+    jsonschema.validate(printed, answers_schema())
     assert "Energy\n  Not found: see the warnings." in render([found], "text", Options())
 
 
