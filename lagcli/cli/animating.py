@@ -32,7 +32,7 @@ class AnimationWish:
 def animate_file(wish: AnimationWish) -> Status:
     """Compute, draw, and say how it ended."""
     run = wish.run
-    if not is_drawn_as(run.output, ANIMATIONS) or not has_place(run.output):
+    if not is_drawn_as(run.output, ANIMATIONS) or not has_place(run.output, run.file):
         return Status.USAGE
     if run.output is not None and ending(run.output) == "mp4" and shutil.which("ffmpeg") is None:
         instead = run.output.with_suffix(".html")

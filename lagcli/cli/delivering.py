@@ -7,17 +7,23 @@ from pathlib import Path
 from stat import S_ISDIR
 from typing import TYPE_CHECKING
 
-from lagcli.cli.files import print_result, reason, write_output
+from lagcli.cli.files import is_same_file, print_result, reason, write_output
 from lagcli.cli.telling import tell_line
 
 if TYPE_CHECKING:
     from lagcli.cli.printing import Printing
 
 
-def has_place(output: Path | None) -> bool:
-    """Whether there is a place for what comes out; asked before any work is done."""
+def has_place(output: Path | None, *inputs: str) -> bool:
+    """Whether there is a place for what comes out; asked before any work is done.
+
+    A file that is read is none, by whatever name or link.
+    """
     if output is None:
         return True
+    if any(is_same_file(output, name) for name in inputs):
+        tell_line(f"{output}: error: is the problem itself, which would be lost")
+        return False
     try:
         found = output.stat()
     except FileNotFoundError:

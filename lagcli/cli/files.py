@@ -34,6 +34,14 @@ def read_input(name: str) -> bytes:
         return find_problem(name).read_bytes()
 
 
+def is_same_file(path: Path, name: str) -> bool:
+    """Whether both lead to one regular file, through links of either kind."""
+    try:
+        return name != STANDARD and path.is_file() and path.samefile(name)
+    except OSError:
+        return False
+
+
 def reason(error: OSError) -> str:
     """Why a file could not be used: `no such file or directory`."""
     sentence = error.strerror or str(error)

@@ -48,7 +48,7 @@ def plot_file(wish: PlotWish) -> Status:
     """Compute, draw, and say how it ended."""
     output = wish.run.output
     good = wish.kind is None or is_known("--kind", wish.kind, KINDS)
-    if not (good & is_drawn_as(output, PICTURES)) or not has_place(output):
+    if not (good & is_drawn_as(output, PICTURES)) or not has_place(output, wish.run.file):
         return Status.USAGE
     run = wish.run
     found = understood(run.file, run.settings, run.state, lambda p: _asked(p, wish))

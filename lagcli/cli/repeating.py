@@ -38,7 +38,7 @@ def solve_or_repeat(
         return _solved(inputs, options, printing)[0]
     entry = cache.find(place)
     if entry is not None:
-        return _repeated(entry, printing)
+        return _repeated(entry, inputs, printing)
     status, outcome = _solved(inputs, options, printing)
     if outcome.repeatable:
         said = tuple(text for text in outcome.said if text)
@@ -84,8 +84,8 @@ def _key(inputs: Sequence[Input], options: Options, printing: Printing) -> str |
         return None
 
 
-def _repeated(entry: Entry, printing: Printing) -> Status:
-    possible = has_place(printing.output)
+def _repeated(entry: Entry, inputs: Sequence[Input], printing: Printing) -> Status:
+    possible = has_place(printing.output, *(name for name, _ in inputs))
     for text in entry.said:
         tell_text(text)
     if not possible:
@@ -113,7 +113,7 @@ def _solved(
     )
     for mistake in request.mistakes:
         tell_line(f"lagcli: error: {mistake}")
-    possible = has_place(printing.output) and not request.mistakes
+    possible = has_place(printing.output, *(name for name, _ in inputs)) and not request.mistakes
     outcome = with_deep_stack(
         lambda: solve_files(inputs, request, printing, work, only_read=not possible)
     )

@@ -60,7 +60,7 @@ def simulate_files(files: Sequence[str], wish: Wish) -> Status:
 
 
 def _simulate_one(wish: Wish) -> Status:
-    if not has_place(wish.output):
+    if not has_place(wish.output, wish.file):
         return Status.USAGE
     data, status = _table(wish)
     if data is not None and not place(data, wish.output):
@@ -87,7 +87,7 @@ def _simulate_together(files: Sequence[str], wish: Wish) -> Status:
             "-o FOLDER, which exists"
         )
         return Status.USAGE
-    if not has_place(wish.output):
+    if not has_place(wish.output, *files):
         return Status.USAGE
     made = [(file, *_table(replace(wish, file=file))) for file in files]
     tables = [(file, data.decode()) for file, data, _ in made if data is not None]

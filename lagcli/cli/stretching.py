@@ -34,7 +34,7 @@ class Wish:
 
 def stretch_file(wish: Wish) -> Status:
     """Try all cases, write, and say how it ended."""
-    good = is_known("--format", wish.format_name, STUDIES) & has_place(wish.output)
+    good = is_known("--format", wish.format_name, STUDIES) & has_place(wish.output, wish.file)
     found = understood(wish.file, wish.settings, wish.state, lambda p: _wanted(p, wish))
     return _study(*found, wish) if good and found is not None else Status.USAGE
 

@@ -46,7 +46,7 @@ def weigh_file(wish: Wish) -> Status:
     good = is_known("--format", wish.format_name, STUDIES) & is_known("--cost", wish.cost, COSTS)
     methods = _methods(wish.methods)
     good = good & (methods is not None) & _can_be_drawn(wish.plot)
-    good = good & has_place(wish.output) & has_place(wish.plot)
+    good = good & has_place(wish.output, wish.file) & has_place(wish.plot, wish.file)
     found = understood(wish.file, wish.settings, wish.state, lambda p: _end(p, wish))
     if found is None or not good or methods is None:
         return Status.USAGE

@@ -1,7 +1,7 @@
 r"""Text from a file in LaTeX: nothing in it can be a command, and all of it is ASCII.
 
 Accented letters become accents, Greek letters formulas, Cyrillic ones Latin; a letter for
-which pdfLaTeX has no type is shown by its code point.
+which pdfLaTeX has no type is shown by its name.
 """
 
 from __future__ import annotations
@@ -11,6 +11,36 @@ import unicodedata
 from lagcli.formatters.greek import CYRILLIC, LATEX, PUNCTUATION
 from lagcli.formatters.plain import harmless
 
+_SIGNS = {
+    "≤": r"\le",
+    "≥": r"\ge",
+    "≠": r"\ne",
+    "≈": r"\approx",
+    "±": r"\pm",
+    "×": r"\times",
+    "÷": r"\div",
+    "∞": r"\infty",
+    "√": r"\surd",
+    "∫": r"\int",
+    "∂": r"\partial",
+    "∇": r"\nabla",
+    "→": r"\to",
+    "←": r"\leftarrow",
+    "⇒": r"\Rightarrow",
+    "∈": r"\in",
+    "∝": r"\propto",
+    "⋅": r"\cdot",
+    "∙": r"\cdot",
+    "∗": r"\ast",
+    "°": r"{}^\circ",
+    "′": "'",
+    "″": "''",
+    "‴": "'''",
+    "…": r"\dots",
+    "•": r"\bullet",
+    "⟂": r"\perp",
+    "∥": r"\parallel",
+}
 _SPECIAL = {
     "\\": r"\textbackslash{}",
     "{": r"\{",
@@ -30,6 +60,11 @@ _SPECIAL = {
     "-": r"-{}",  # two of them are no dash
     "·": r"$\cdot$",
     "−": "$-$",
+    "‐": "-{}",
+    "‑": "-{}",
+    "∕": "/",
+    "⁄": "/",
+    **{sign: f"${macro}$" for sign, macro in _SIGNS.items()},
     "ß": r"\ss{}",
     "æ": r"\ae{}",
     "ø": r"\o{}",
@@ -83,6 +118,8 @@ def _character(character: str) -> str:
     if character.lower() in CYRILLIC:
         latin = CYRILLIC[character.lower()]
         return latin.capitalize() if character.isupper() else latin
+    if unicodedata.decomposition(character).startswith("<su"):
+        return _spelled_out(character)  # a superscript or a subscript
     plain, *marks = [*unicodedata.normalize("NFKD", character)]
     if all(mark in _ACCENTS for mark in marks) and (plain.isascii() or plain in LATEX):
         shown = _character(plain)
@@ -90,4 +127,18 @@ def _character(character: str) -> str:
             dotless = {"i": r"\i{}", "j": r"\j{}"}.get(shown, shown)
             shown = f"{_ACCENTS[mark]}{{{dotless}}}"
         return shown
-    return f"[U+{ord(character):04X}]"
+    return _spelled_out(character)
+
+
+def _spelled_out(character: str) -> str:
+    """½ as 1/2, ² raised; of a letter without a type its name, of what has none nothing."""
+    plain = unicodedata.normalize("NFKD", character)
+    kind = unicodedata.decomposition(character).partition(">")[0]
+    if plain != character and all(c.isascii() or c in _SPECIAL for c in plain):
+        shown = "".join(map(_character, plain))
+        raised = {"<super": "^", "<sub": "_"}.get(kind)
+        return rf"${raised}{{\text{{{shown}}}}}$" if raised else shown
+    if unicodedata.category(character) in {"Cf", "Mn"}:
+        return ""
+    name = unicodedata.name(character, "a sign without a name").lower()
+    return f"({name})"

@@ -8,14 +8,16 @@ A. Walther, *Evaluating Derivatives*, 2nd ed. (SIAM, 2008), chapters 2 and 3.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from fractions import Fraction
 from typing import Literal, NamedTuple
 
 from lagcli import expression as tree
 from lagcli.expression import Expression
+from lagcli.verification import integrals
 
-Kind = Literal["number", "symbol", "sum", "product", "power", "call", "unspecified"]
+Kind = Literal["number", "symbol", "sum", "product", "power", "call", "unspecified", "integral"]
 #: A name with its primes.
 Key = tuple[str, int]
 
@@ -132,6 +134,8 @@ class Program:
                 return self.product(self.of(above), self.power(self.of(below), Fraction(-1)))
             case tree.Power(base=base, exponent=exponent):
                 return self._power(self.of(base), self.of(exponent))
+            case tree.Call(function="integral") if "integral" not in self.functions:
+                return integrals.integral(self, node.arguments)
             case tree.Call(function=function, arguments=arguments, primes=primes):
                 parts = tuple(map(self.of, arguments))
                 if function in self.functions:
@@ -148,6 +152,16 @@ class Program:
     def define(self, name: str, place: int) -> None:
         """Let a name stand for a step."""
         self._named[name] = place
+
+    @contextmanager
+    def standing_for(self, name: str, place: int) -> Iterator[None]:
+        """Let a name stand for a step meanwhile: the variable of an integral."""
+        before = self._named.get(name)
+        self._named[name] = place
+        yield
+        del self._named[name]
+        if before is not None:
+            self._named[name] = before
 
     def _name(self, name: str, primes: int) -> int:
         if name in self._named:
@@ -221,8 +235,16 @@ class Program:
                 ]
             case "call":
                 return list(zip(parts, _SLOPES[str(what)](self, place, *parts), strict=True))
+            case "integral":
+                return integrals.slopes(self, place)
             case _:
                 return []
+
+    def seeds(self, root: int, symbol: int) -> dict[int, int]:
+        """1 for one symbol, 0 for the other ones that a step needs."""
+        places = self.order([root])
+        found = {p: self.zero for p in places if not self.steps[p].parts}
+        return {**found, symbol: self.one}
 
     def derivative(self, place: int, seeds: Mapping[int, int]) -> int:
         """The step of sum_s (d/ds) * seeds[s], the symbols s given by their steps."""

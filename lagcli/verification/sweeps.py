@@ -14,6 +14,7 @@ from typing import Protocol
 from flint import arb
 
 from lagcli.verification.functions import ELEMENTARY, Instance, ball, power
+from lagcli.verification.integrals import quadrature
 from lagcli.verification.program import Key, Program
 
 
@@ -22,6 +23,17 @@ class Environment(Protocol):
 
     def get(self, key: Key, /) -> arb | None:
         """The value; None where there is none."""
+
+
+class Inside:
+    """The symbols inside an integral: the variable has a value of its own."""
+
+    def __init__(self, outer: Environment, key: Key, value: arb) -> None:
+        self.outer, self.key, self.value = outer, key, value
+
+    def get(self, key: Key, /) -> arb | None:
+        """The value; None where there is none."""
+        return self.value if key == self.key else self.outer.get(key)
 
 
 class Unknown(Exception):
@@ -92,11 +104,23 @@ class Values:
         if kind == "power":
             assert isinstance(what, Fraction)
             return power(known[parts[0]], what)
+        if kind == "integral":
+            return self._integral(what, known[parts[0]], known[parts[1]])  # type: ignore[arg-type]
         arguments = [known[part] for part in parts]
         if kind == "call":
             return ELEMENTARY[str(what)](*arguments)
         name, by = what  # type: ignore[misc]
         return self.instances[name](arguments, by)  # type: ignore[has-type]
+
+    def _integral(self, what: tuple[int, int], start: arb, end: arb) -> arb:
+        inner, inside = what
+        key = self.program.steps[inner].what
+
+        def value(x: arb) -> arb:
+            given = Inside(self.environment, key, x)  # type: ignore[arg-type]
+            return Values(self.program, self.instances, given)(inside)
+
+        return quadrature(value, start, end)
 
     def _symbol(self, key: Key) -> arb:
         value = self.environment.get(key)

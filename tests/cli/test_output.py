@@ -95,3 +95,23 @@ def test_links_in_a_circle_are_no_place_and_stay(tmp_path, capsys, command):
 def test_a_name_that_no_file_may_have_is_told(tmp_path, capsys):
     assert run([*SOLVE, "-o", str(tmp_path / ("a" * 300))]) == 2
     assert capsys.readouterr().err.endswith("a: error: file name too long\n")
+
+
+@pytest.mark.parametrize("link", ["itself", "symbolic", "hard", "through a folder"])
+@pytest.mark.parametrize("command", ["solve", "explain", "simulate", "extremes", "tradeoff"])
+def test_the_problem_is_not_replaced_by_its_answer(command, link, tmp_path, capsysbinary):
+    problem = tmp_path / "problem.yaml"
+    problem.write_bytes((FILES / "pendulum.yaml").read_bytes())
+    output = tmp_path / "answer.csv"
+    if link == "itself":
+        output = problem
+    elif link == "symbolic":
+        output.symlink_to(problem)
+    elif link == "hard":
+        output.hardlink_to(problem)
+    else:
+        (tmp_path / "folder").mkdir()
+        output = tmp_path / "folder" / ".." / "problem.yaml"
+    assert run([command, str(problem), "-o", str(output)]) == 2
+    assert b"is the problem itself" in capsysbinary.readouterr().err
+    assert problem.read_bytes() == (FILES / "pendulum.yaml").read_bytes()

@@ -6,11 +6,13 @@ import cmath
 import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+import lagcli
 from lagcli.answers import Answers, LagrangianSection
 from lagcli.document import Equations, Row
 from lagcli.expression import Call, Diff, Name, Negative, PartialCall, Power, Quotient, Rate
@@ -223,3 +225,31 @@ def test_left_sides_are_broken_too():
     first, second = LatexDisplay(LatexPrinter()).equations(Equations(rows))
     assert first == ["x &= g"]
     assert all(line.startswith("&") for line in second)
+
+
+def test_every_character_that_the_program_or_the_library_uses_has_a_notation():
+    """A missing one came out as its code point in brackets: every string of the package."""
+    package = Path(lagcli.__file__).parent
+    texts = [path.read_text(encoding="utf-8") for path in package.rglob("*.py")]
+    texts += [
+        path.read_text(encoding="utf-8") for path in (package.parent / "problems").rglob("*.yaml")
+    ]
+    characters = sorted({c for text in texts for c in text if ord(c) > 127})
+    assert "≤" in characters
+    for character in characters:
+        shown = latex_text(character)
+        assert shown.isascii()
+        assert "[U+" not in shown
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("g ≤ R ω²", r"g $\le$ R $\omega$$^{\text{2}}$"),
+        ("½ m", "1/2 m"),
+        ("x₁ ≥ 0", r"x$_{\text{1}}$ $\ge$ 0"),
+        ("漢", "(cjk unified ideograph-6f22)"),
+    ],
+)
+def test_signs_and_letters_without_a_type(text, expected):
+    assert latex_text(text) == expected
