@@ -79,13 +79,13 @@ class Reductions:
         expected = self.derivation.problem.expect.equilibria
         if not expected:
             return
-        found = cast(EquilibriaSection, self.answers.sections["equilibria"]).equilibria
+        section = cast(EquilibriaSection, self.answers.sections["equilibria"])
         for place, each in enumerate(expected):
-            verdicts = [self._same_equilibrium(state, each) for state in found or ()]
-            verdict = True if True in verdicts else None if None in verdicts else False
+            verdicts = [self._same_equilibrium(state, each) for state in section.equilibria or ()]
+            open_ = None in verdicts or section.equilibria is None or not section.complete
+            verdict = True if True in verdicts else None if open_ else False
             path = ["equilibria", str(place)]
-            missing = "none that is the same"
-            yield path, None if found is None else verdict, f"state of rest {place + 1}", missing
+            yield path, verdict, f"state of rest {place + 1}", "none that is the same"
 
     def _same_equilibrium(self, found: Equilibrium, expected: ExpectEquilibrium) -> bool | None:
         verdicts: list[bool | None] = [
@@ -99,7 +99,7 @@ class Reductions:
                 given = _conditions(found.verdict)
                 verdicts.append(self._same_conditions(given, expected.stable))
         elif expected.stable is not None:
-            verdicts.append(found.verdict.stable is expected.stable)
+            verdicts.append(_same_stability(found.verdict.stable, expected.stable))
         return _conjunction(verdicts)
 
     def _same_family(self, found: Equilibrium, expected: Equation) -> bool | None:
@@ -146,7 +146,7 @@ class Reductions:
         if isinstance(expected.stable, tuple):
             verdicts.append(self._same_conditions(_conditions(found.verdict), expected.stable))
         elif expected.stable is not None:
-            verdicts.append(found.verdict.stable is expected.stable)
+            verdicts.append(_same_stability(found.verdict.stable, expected.stable))
         return _conjunction(verdicts)
 
     def _hamilton_jacobi(self) -> Iterator[Judged]:
@@ -213,6 +213,11 @@ def _positive(inequality: Inequality) -> tuple[Expression, Expression]:
     """(greater, less)."""
     pair = inequality.left, inequality.right
     return pair if inequality.comparison == ">" else (pair[1], pair[0])
+
+
+def _same_stability(found: bool | None, expected: bool) -> bool | None:
+    """Undecided where the stability is; a stability under conditions is neither."""
+    return None if found is None else found is expected
 
 
 def _conjunction(verdicts: Iterable[bool | None]) -> bool | None:

@@ -48,7 +48,7 @@ _CHECKED = {
 def charge_blocks(section: ChargesSection) -> Iterator[Block]:
     """Say what each symmetry changes, its gauge, its charge, and whether that is conserved."""
     if not section.charges:
-        yield Paragraph(("None.",))
+        yield Paragraph(("None." if section.sought else "Not found.",))
     for charge in section.charges:
         yield Heading(f"{charge.name} ({_SOURCES[charge.source]})", 2)
         rows = [

@@ -140,7 +140,7 @@ def _value(section: Section) -> Value:
         case BracketsSection() | TransformationsSection():
             return of_phase_space(section)
         case ChargesSection():
-            return [_charge(each) for each in section.charges]
+            return [_charge(each) for each in section.charges] if section.sought else None
         case AlgebraSection():
             return {
                 "ansatz": section.ansatz,

@@ -361,8 +361,11 @@ class Statements(Stating):
         from lagcli.mechanics.discovery.reality import real_where
 
         discovery = self.derivation.discovery
-        self.warnings.extend(discovery.stopped)
         listed = (*discovery.charges, *discovery.momentum_equations)
+        if discovery.stopped and not listed:
+            self._missing("the symmetries", "; ".join(discovery.stopped))
+            return ChargesSection(charges=(), sought=False)
+        self.warnings.extend(discovery.stopped)
         return ChargesSection(
             charges=tuple(
                 replace(self._charge(c), where=real_where(c, self.system)) for c in listed
@@ -396,6 +399,8 @@ class Statements(Stating):
         section = equilibria(self.dynamics)
         if section.equilibria is None:
             self._missing("the equilibria", section.reason)
+        elif not section.complete:
+            self.warnings.append("there may be equilibria that are not listed")
         return section
 
     def _modes(self) -> ModesSection:
