@@ -19,6 +19,7 @@ COMMANDS = {
     "animate": "Show a motion as a page to play, a GIF or an MP4.",
     "tradeoff": "Measure what accuracy costs: every method against a known reference.",
     "extremes": "Take a problem to its extremes and report where it breaks.",
+    "export": "Write the equations of motion as code in another language.",
     "check": "Check problems against their known answers and against the mathematics.",
     "new": "Write a first problem, to change into your own.",
     "list": "List the problems of the library that comes with lagcli.",

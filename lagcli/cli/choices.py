@@ -8,6 +8,8 @@ BINARY = ("npz", "parquet")
 #: The forms of a study of `tradeoff`, and what it weighs.
 STUDIES = ("text", "json", "csv")
 COSTS = ("total", "integration", "evaluations")
+#: What `lagcli export --to` writes.
+LANGUAGES = ("python", "c", "julia", "fortran", "matlab", "modelica", "sympy", "mathematica")
 #: What `lagcli schema` describes.
 SCHEMAS = ("problem", "answers")
 #: The formats of a page of the manual.
@@ -124,3 +126,8 @@ def complete_template(incomplete: str) -> list[str]:
 def complete_schema(incomplete: str) -> list[str]:
     """The schemas whose name begins so."""
     return [name for name in SCHEMAS if name.startswith(incomplete)]
+
+
+def complete_language(incomplete: str) -> list[str]:
+    """The languages that begin so."""
+    return [name for name in LANGUAGES if name.startswith(incomplete)]

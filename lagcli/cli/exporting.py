@@ -1,0 +1,57 @@
+"""One problem to one file of code."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from lagcli.cli.choices import LANGUAGES
+from lagcli.cli.delivering import has_place, place
+from lagcli.cli.files import read_input, reason
+from lagcli.cli.running import is_known
+from lagcli.cli.status import Status
+from lagcli.cli.telling import tell, tell_line
+from lagcli.diagnostics import ProblemError
+from lagcli.pipeline import Request, derive, read, state
+from lagcli.stack import with_deep_stack
+
+
+def export_file(name: str, language: str, output: Path | None, settings: tuple[str, ...]) -> Status:
+    """Derive, write, and say how it ended."""
+    if not is_known("--to", language, LANGUAGES) & has_place(output):
+        return Status.USAGE
+    try:
+        found = read(name, read_input(name), Request(settings=settings))
+    except OSError as error:
+        tell_line(f"{name}: error: {reason(error)}")
+        return Status.USAGE
+    tell(found.source, found.diagnostics)
+    if found.problem is None:
+        return Status.USAGE
+    problem = found.problem
+    return with_deep_stack(lambda: _export(problem, name, language, output))
+
+
+def _export(problem: object, name: str, language: str, output: Path | None) -> Status:
+    from lagcli.export import NoCode, code_of, render
+    from lagcli.export.routines import SECTIONS
+    from lagcli.problem import Problem
+
+    assert isinstance(problem, Problem)
+    try:
+        derivation = derive(problem)
+        answers = state(derivation, Request(sections=SECTIONS))
+        module = output.stem if output else Path(name).stem
+        code = code_of(derivation.problem, answers, module if name != "-" else "problem")
+        text = render(code, language)
+    except ProblemError as error:
+        tell(error.source, error.diagnostics)
+        return Status.USAGE
+    except NoCode as error:
+        tell_line(f"{name}: {error}")
+        return Status.NOT_FOUND
+    if not place(text.encode(), output):
+        return Status.USAGE
+    if code.missing:
+        tell_line(f"{name}: only the matrices were written: {code.missing}")
+        return Status.NOT_FOUND
+    return Status.WELL
