@@ -193,3 +193,36 @@ def operation_count(node: Expression) -> int:
             case _:
                 count += 1
     return count
+
+
+def has_nested_fraction(node: Expression) -> bool:
+    """Whether a fraction stands in a denominator, or in a sum over a sum, of a rational part.
+
+    What a function holds is a part of its own: 1/sqrt(1 - v^2/c^2) has none.
+    """
+    return any(isinstance(part, Quotient) and _is_nested(part) for part in walk(node))
+
+
+def _is_nested(node: Quotient) -> bool:
+    if _has_fraction(node.denominator):
+        return True
+    over_sum = any(isinstance(part, Sum) for part in _rational_parts(node.denominator))
+    return over_sum and any(
+        isinstance(part, Sum) and _has_fraction(part) for part in _rational_parts(node.numerator)
+    )
+
+
+def _has_fraction(node: Expression) -> bool:
+    return any(isinstance(part, Quotient) for part in _rational_parts(node))
+
+
+def _rational_parts(node: Expression) -> Iterator[Expression]:
+    """The node and its parts but for exponents and what functions hold."""
+    stack = [node]
+    while stack:
+        top = stack.pop()
+        yield top
+        if isinstance(top, Power):
+            stack.append(top.base)
+        elif not isinstance(top, (Call, PartialCall)):
+            stack.extend(children(top))

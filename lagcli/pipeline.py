@@ -131,16 +131,18 @@ def state(derivation: Derivation, request: Request) -> Answers:
     TimeoutError
         When the equations take more work than they are allowed.
     """
+    from lagcli.manners import Manner
+    from lagcli.rewriting import rewritten
     from lagcli.verification import verified
 
     answers = _ended(lambda: _statements(derivation)).answers(request.sections)
+    answers = replace(answers, sections=rewritten(answers.sections, Manner(derivation.given)))
     if VERIFYING and not derivation.no_lagrangian:
         unverified = answers
         answers = _ended(lambda: verified(derivation.problem, unverified))
     if not request.numeric:
         return answers
     from lagcli.decimals import with_decimals
-    from lagcli.rewriting import rewritten
 
     return replace(answers, sections=rewritten(answers.sections, with_decimals))
 
@@ -172,10 +174,11 @@ def explain(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
     if large is not None:
         from lagcli.mechanics.explaining.large import explanation_of_large
 
-        return explanation_of_large(large)
+        return _in_the_manner(derivation, explanation_of_large(large))
     from lagcli.mechanics.explaining.explain import explanation
 
-    return _ended(lambda: explanation(derivation, also, {"model": _model}))
+    told = _ended(lambda: explanation(derivation, also, {"model": _model}))
+    return _in_the_manner(derivation, told)
 
 
 def _ended(work: Callable[[], Made]) -> Made:
@@ -194,6 +197,14 @@ def _ended(work: Callable[[], Made]) -> Made:
         return limited(work, UNITS, SECONDS)
     except OutOfWork:
         raise TimeoutError(TOO_MUCH) from None
+
+
+def _in_the_manner(derivation: Derivation, told: Explanation) -> Explanation:
+    """The explanation with its formulas as the file writes its own."""
+    from lagcli.manners import Manner
+    from lagcli.rewriting import rewritten
+
+    return replace(told, steps=rewritten(told.steps, Manner(derivation.given)))
 
 
 def _statements(derivation: Derivation) -> Stating:

@@ -55,13 +55,14 @@ class Ordering:
             case Number(value=value):
                 return (0, value)
             case Name(name=name, primes=primes):
-                return (1, primes, self._index.get(name, len(self._index)), name)
+                return (1, primes, self._place(node), name)
             case Power(base=base, exponent=exponent):
                 return (*self._factor(base), *self._factor(exponent))
             case Call(function="sqrt"):
                 return (2, *self._parts(node))
-            case Sum() if self._is_constant(node):
-                return (Fraction(1, 2), *self._parts(node))  # (m1 + m2) g l
+            case Sum() if self._is_constant(node):  # (m1 + m2) g l, m g (R + h)
+                first = min((self._place(n) for n in walk(node) if isinstance(n, Name)), default=0)
+                return (1, 0, first, "~", *self._parts(node))
             case Sum():
                 return (3, *self._parts(node))
             case Call(function=function, primes=primes):
@@ -70,6 +71,9 @@ class Ordering:
                 return (4, function, len(indices), *indices, *self._parts(node))
             case _:
                 return (3, *self._parts(node))
+
+    def _place(self, node: Name) -> int:
+        return self._index.get(node.name, len(self._index))
 
     def _parts(self, node: Expression) -> Key:
         flat: list[object] = []
@@ -81,14 +85,16 @@ class Ordering:
         """Where a factor stands in a product."""
         return _flat(self._term(node))
 
-    def term(self, node: Expression) -> tuple[int, int, tuple[int, ...], Flat]:
-        """Accelerations first, then falling degree in the velocities, then by coordinate.
+    def term(self, node: Expression) -> tuple[int, int, int, tuple[int, ...], Flat]:
+        """Accelerations, a number, falling degree in the velocities, then by coordinate.
 
-        So x² + R² θ² + l²: coordinates in the order of the file, parameters alone at the end.
+        So 1 + x², and x² + R² θ² + l²: coordinates in the order of the file, parameters alone
+        at the end.
         """
         accelerations, velocities = _degrees(node)
         variables = tuple(sorted(self._variables(node))) or (len(self._index),)
-        return (-accelerations, -velocities, variables, self.rank(node))
+        number = _is_number(node)
+        return (-accelerations, not number, -velocities, variables, _flat(self._letters(node)))
 
     def _variables(self, node: Expression) -> Iterator[int]:
         """Positions of the coordinates among the factors, of those with the most primes."""
@@ -116,6 +122,18 @@ class Ordering:
             if isinstance(part, Name)
         )
 
+    def _letters(self, node: Expression) -> Key:
+        """The key of a term with its numbers last: m1 + 2 m2, not 2 m2 + m1."""
+        match node:
+            case Negative(operand=operand):
+                return self._letters(operand)
+            case Product(factors=(Number(value=value), *rest)):
+                return (*(k for each in rest for k in self.factor(each)), value)
+            case Quotient(numerator=numerator, denominator=denominator):
+                return (*self._letters(numerator), *self._letters(denominator))
+            case _:
+                return self._term(node)
+
     def _term(self, node: Expression) -> Key:
         match node:
             case Negative(operand=operand):
@@ -131,6 +149,16 @@ class Ordering:
                 return (9,)  # a constant term comes last
             case _:
                 return self.factor(node)
+
+
+def _is_number(node: Expression) -> bool:
+    match node:
+        case Negative(operand=inner):
+            return _is_number(inner)
+        case Quotient(numerator=above, denominator=below):
+            return isinstance(above, Number) and isinstance(below, Number)
+        case _:
+            return isinstance(node, Number)
 
 
 def _factor_names(node: Expression) -> Iterator[Name]:

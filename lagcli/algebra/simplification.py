@@ -18,7 +18,7 @@ from lagcli.algebra.ring import Monomial, Poly, factorization
 from lagcli.algebra.shaping.plan import OPERATION
 from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.writing import Writer
-from lagcli.expression import Expression, operation_count
+from lagcli.expression import Expression, has_nested_fraction, operation_count
 
 _LONG = 60  # terms of an element of which ...
 _OF_LONG = 2  # ... no more than these equal forms are shaped
@@ -72,7 +72,7 @@ def shaped(
     tree, shaper = Readable(field, writer, relations).shortest(element)
     if given is None:
         return shaper.to_sympy(tree), tree
-    if operation_count(given) < operation_count(tree):
+    if operation_count(given) < operation_count(tree) and not has_nested_fraction(given):
         return expression, given
     return shaper.to_sympy(tree), tree
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 
+import sympy
 from sympy import Expr
 
 from lagcli.algebra.entry import Field
@@ -18,6 +19,7 @@ from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.simplification import shape
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression, Negative, Product, Quotient, Sum, operation_count
+from lagcli.record import record
 
 #: A bracket is worth it from this share of the operations of the terms one by one.
 _WORTH_A_BRACKET = 0.72
@@ -54,12 +56,36 @@ def terms(
     split = _Splitter(field, Shaper(field, writer), leading).split(element)
     if split is None:
         return shape(expression, order)
-    result = writer.sum(split)
-    if as_given:
-        given = Translator(writer).tree(expression)
-        if operation_count(given) <= operation_count(result):
-            return given
-    return result
+    if not as_given:
+        return writer.sum([*split.moving, *split.static])
+    given = Translator(writer).tree(expression)
+    at_rest = _given_at_rest(expression, leading, writer)
+    static = writer.sum(split.static)
+    if at_rest is not None and operation_count(at_rest) <= operation_count(static):
+        static = at_rest
+    result = writer.sum([*split.moving, static])
+    return given if operation_count(given) <= operation_count(result) else result
+
+
+def _given_at_rest(expression: Expr, leading: Collection[str], writer: Writer) -> Expression | None:
+    """The terms without a leading quantity as they stand: the potential energy of the file.
+
+    None where other terms have parts without one too.
+    """
+    parts = expression.args if expression.is_Add else (expression,)
+    moving = {s: sympy.S.Zero for s in expression.free_symbols if s.name in leading}
+    static = [part for part in parts if not part.free_symbols & moving.keys()]
+    if any(p.xreplace(moving) != 0 for p in parts if p.free_symbols & moving.keys()):
+        return None
+    return writer.sum([Translator(writer).tree(part) for part in static])
+
+
+@record
+class _Split:
+    """The terms with leading quantities, and those without."""
+
+    moving: tuple[Expression, ...]
+    static: tuple[Expression, ...]
 
 
 class _Splitter:
@@ -68,7 +94,7 @@ class _Splitter:
         self.shaper = shaper
         self.leading = leading
 
-    def split(self, element: Element) -> list[Expression] | None:
+    def split(self, element: Element) -> _Split | None:
         """The terms; None where the element is no polynomial in the leading quantities."""
         ring = self.field.ring
         used = {*ring.used(element.numerator), *ring.used(element.denominator)}
@@ -85,12 +111,13 @@ class _Splitter:
             group = by_degree.setdefault(self._degree(fast), {})
             group.setdefault(fast, []).append((monomial, coefficient))
         found: list[Expression] = []
+        static: list[Expression] = []
         for degree, group in by_degree.items():
             if any(degree):
                 found.extend(self._bracketed(list(group.values()), element))
             else:
-                found.extend(self._without_leading(group[()], element))
-        return found
+                static.extend(self._without_leading(group[()], element))
+        return _Split(tuple(found), tuple(static))
 
     def _is_leading(self, index: int) -> bool:
         generator = self.field.generators[index]

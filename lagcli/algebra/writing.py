@@ -44,7 +44,8 @@ class Writer:
         if coefficient == 0:
             return ZERO
         coefficient, pairs = _flattened(coefficient, factors)
-        pairs = self._joined_exponentials(_tangents(_merged(pairs)))
+        coefficient, pairs = _single_angles(coefficient, _merged(pairs))
+        pairs = self._joined_exponentials(_tangents(pairs))
         coefficient, pairs = self._joined_roots(coefficient, _without_moduli(pairs))
         if coefficient < 0:
             coefficient, pairs = self._turned(coefficient, pairs)
@@ -247,6 +248,39 @@ def _without_moduli(pairs: list[Factor]) -> list[Factor]:
                 exponents[Quotient(above, factor)] = exponent
                 break
     return list(exponents.items())
+
+
+def _single_angles(coefficient: Fraction, pairs: list[Factor]) -> tuple[Fraction, list[Factor]]:
+    """sin(2x)/sin(x) as 2 cos(x), and sin(2x)/cos(x) as 2 sin(x)."""
+    exponents = dict(pairs)
+    for base, exponent in pairs:
+        if not isinstance(base, Call) or base.function not in ("sin", "cos") or exponent >= 0:
+            continue
+        sine = Call("sin", (_doubled(base.arguments[0]),))
+        power = exponents.get(sine, Fraction(0))
+        if power <= 0 or power.denominator != 1:
+            continue
+        for function in ("sin", "cos"):
+            half = Call(function, base.arguments)
+            exponents[half] = exponents.get(half, Fraction(0)) + power
+        del exponents[sine]
+        coefficient *= 2 ** int(power)
+    return coefficient, [pair for pair in exponents.items() if pair[1]]
+
+
+def _doubled(node: Expression) -> Expression:
+    """Twice an angle, as it is written: 2 a - 2 b."""
+    match node:
+        case Sum(terms=terms):
+            return Sum(tuple(map(_doubled, terms)))
+        case Negative(operand=operand):
+            return Negative(_doubled(operand))
+        case Product(factors=(Number(value=value), *rest)):
+            return Product((Number(2 * value), *rest))
+        case Product(factors=factors):
+            return Product((Number(Fraction(2)), *factors))
+        case _:
+            return Product((Number(Fraction(2)), node))
 
 
 _RATIOS = {"sin": ("cos", "tan"), "sinh": ("cosh", "tanh")}

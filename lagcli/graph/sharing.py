@@ -53,9 +53,9 @@ def with_shared_parts(
     stem = next(stem for stem in _stems() if not _collides(stem, taken))
     writer = GraphWriter(order)
     named: dict[str, Expression] = {}
-    repeated = _repeated(roots)
-    for node in _in_order_of_use(roots):
-        if node in repeated:
+    shared = repeated(roots)
+    for node in in_order_of_use(roots):
+        if node in shared:
             name = f"{stem}{len(named) + 1}"
             named[name] = writer.tree(node)
             writer.name(node, name)
@@ -70,7 +70,7 @@ def written_out(roots: Sequence[Node], order: Sequence[str]) -> tuple[Expression
 def operations(roots: Sequence[Node]) -> int:
     """The operations that the roots show when they are written out (`operation_count`)."""
     counts: dict[Node, int] = {}
-    for node in _in_order_of_use(roots):
+    for node in in_order_of_use(roots):
         inner = sum(counts[part] for part in node.parts)
         counts[node] = inner + _own_operations(node)
     return sum(counts[root] for root in roots)
@@ -97,7 +97,7 @@ def _collides(stem: str, taken: Iterable[str]) -> bool:
     return any(re.fullmatch(r"\d+", name.removeprefix(stem)) for name in taken)
 
 
-def _in_order_of_use(roots: Sequence[Node]) -> Iterator[Node]:
+def in_order_of_use(roots: Sequence[Node]) -> Iterator[Node]:
     """Every node once, after its parts, as the roots come to them."""
     seen: set[Node] = set()
     stack: list[tuple[Node, bool]] = [(root, False) for root in reversed(roots)]
@@ -111,10 +111,10 @@ def _in_order_of_use(roots: Sequence[Node]) -> Iterator[Node]:
             stack.extend((part, False) for part in reversed(node.parts))
 
 
-def _repeated(roots: Sequence[Node]) -> set[Node]:
+def repeated(roots: Sequence[Node]) -> set[Node]:
     """The nodes that are worth a name; a multiple -x is a use of x, not a part itself."""
     uses: dict[Node, int] = {}
-    for node in _in_order_of_use(roots):
+    for node in in_order_of_use(roots):
         if split(node)[1] is node:
             for part in dict.fromkeys(split(part)[1] for part in node.parts):
                 uses[part] = uses.get(part, 0) + 1

@@ -265,7 +265,7 @@ class MatrixForm:
         return tuple(
             graph.sum(
                 [
-                    self.expand_rates(gathered(graph, gradient.get(i, graph.zero), self._varying)),
+                    self.expand_rates(gathered(graph, gradient.get(i, graph.zero), self.varying)),
                     self._along(terms),
                 ]
             )
@@ -273,7 +273,8 @@ class MatrixForm:
         )
 
     @property
-    def _varying(self) -> int:
+    def varying(self) -> int:
+        """The mask of everything that is no parameter."""
         return _mask((self.t, *self.q, *self.qdot)) | _mask(tuple(self.read.rates))
 
     def _along(self, terms: list[tuple[Node, Node]]) -> Node:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from math import lcm
 
 from lagcli.algebra.shaping.atoms import Atoms, Coefficient, Exponent
 from lagcli.algebra.writing import Factor, Writer
@@ -14,8 +15,9 @@ OPERATION = 6
 _HALF = Fraction(1, 2)
 #: A fraction inside brackets is worth that many bracketed operations.
 _FRACTION = 3
-#: One inside a denominator more than an operation: a/(b + c/d) is a*d/(b*d + c).
-_FRACTION_BELOW = 9
+#: A fraction in a denominator, or in a sum over a sum, is written only where nothing else is
+#: possible: a/(b + c/d) is a*d/(b*d + c).
+_NESTED = 10_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,20 +32,18 @@ class Product:
     parts: tuple[tuple[int | Sum, Exponent], ...]
     cost: int
     strain: int
+    #: Whether a fraction occurs that no function holds.
+    fractional: bool = False
 
     @property
     def score(self) -> int:
         """What is to be least: a short formula, but not at the price of nested brackets."""
         return OPERATION * self.cost + self.strain
 
-    def has_denominator(self) -> bool:
-        """Whether it is written as a quotient."""
-        return self.coefficient.denominator != 1 or any(e < 0 for _, e in self.parts)
-
     def negated(self) -> Product:
         """The product with the other sign."""
         cost = self.cost + (1 if self.coefficient.numerator > 0 else -1)
-        return Product(-self.coefficient, self.parts, cost, self.strain)
+        return Product(-self.coefficient, self.parts, cost, self.strain, self.fractional)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +53,7 @@ class Sum:
     terms: tuple[Product, ...]
     cost: int
     strain: int
+    fractional: bool = False
 
     @property
     def score(self) -> int:
@@ -92,16 +93,19 @@ def product(
         assert isinstance(part, Sum)
         signed[best] = (part.negated(), exponent)
         coefficient = -coefficient
-    if coefficient.denominator != 1:
+    over_sum = any(e < 0 and isinstance(p, Sum) for p, e in signed)
+    if coefficient.denominator != 1 and not over_sum:
         coefficient = _halved(atoms, coefficient, signed)
     above = below = cost = strain = 0
+    fractional = coefficient.denominator != 1
     for part, exponent in signed:
         size = abs(exponent)
         if isinstance(part, Sum):
             cost += part.cost
             strain += part.cost + part.strain
-            if any(t.has_denominator() for t in part.terms):
-                strain += _FRACTION if exponent > 0 else _FRACTION_BELOW
+            fractional = fractional or part.fractional
+            if part.fractional:
+                strain += _NESTED if over_sum else _FRACTION
         else:
             cost += atoms.costs[part]
         if size != 1:
@@ -110,10 +114,11 @@ def product(
             above += 1
         else:
             below += 1
+            fractional = True
     above += abs(coefficient.numerator) != 1 or not above
     below += coefficient.denominator != 1
     cost += above - 1 + below + (coefficient.numerator < 0)
-    return Product(coefficient, tuple(signed), cost, strain)
+    return Product(coefficient, tuple(signed), cost, strain, fractional)
 
 
 def _halved(
@@ -138,7 +143,31 @@ def _halved(
 def total(terms: list[Product]) -> Sum:
     """The sum of two or more products."""
     cost = sum(t.cost for t in terms) + len(terms) - 1
-    return Sum(tuple(terms), cost, sum(t.strain for t in terms))
+    fractional = any(t.fractional for t in terms)
+    return Sum(tuple(terms), cost, sum(t.strain for t in terms), fractional)
+
+
+def cleared(atoms: Atoms, plan: Sum) -> tuple[Fraction, Sum]:
+    """(c, S) with c S the sum, no numbers below in S: 1/2 and cos(2x) - 3 of cos(2x)/2 - 3/2."""
+    if not plan.fractional:
+        return Fraction(1), plan
+    pairs = [_cleared_parts(atoms, term) for term in plan.terms]
+    common = lcm(*(number.denominator for number, _ in pairs))
+    terms = [product(atoms, number * common, parts) for number, parts in pairs]
+    return Fraction(1, common), total(terms)
+
+
+def _cleared_parts(
+    atoms: Atoms, term: Product
+) -> tuple[Fraction, list[tuple[int | Sum, Exponent]]]:
+    """The number before a term and its parts, every bracket in it cleared."""
+    number, parts = Fraction(term.coefficient), []
+    for part, exponent in term.parts:
+        if isinstance(part, Sum) and isinstance(exponent, int):
+            factor, part = cleared(atoms, part)
+            number *= factor**exponent
+        parts.append((part, exponent))
+    return number, parts
 
 
 def write(plan: Product | Sum, atoms: Atoms, writer: Writer) -> Expression:

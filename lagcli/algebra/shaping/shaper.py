@@ -14,12 +14,14 @@ from lagcli.algebra.ring import Monomial, Poly, factorization
 from lagcli.algebra.shaping.atoms import Atoms, Exponent, Terms, multiply
 from lagcli.algebra.shaping.expansions import LONG, Expansions
 from lagcli.algebra.shaping.grouping import Grouper, with_squares
-from lagcli.algebra.shaping.plan import Product, Sum, product, total, write
+from lagcli.algebra.shaping.plan import OPERATION, Product, Sum, cleared, product, total, write
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression
 
 _MAX_FACTORED = 1500  # terms
-_MAX_DIVIDED = 8  # terms of a denominator that is divided through
+#: How many times as long N/D may be and still be kept together, where Q + R/D is another way
+#: and all of N has a factor in common: (M + m) g sin²α/(M + m sin²α), not g − M g cos²α/(…).
+_TOGETHER = 1.35
 _FEW = 3  # terms that are also shown without factoring: c² - v²
 
 _CIRCULAR = ("cos", "sin")
@@ -75,28 +77,15 @@ class Shaper:
         below = self._factors(element.denominator)
         best: Product | Sum = self._joined(above, below)
         by_roots = self._by_roots(element) if divide else ()
-        through = self._divided_through(above, element.denominator)
-        for candidate in (*self._spread(element, below), *by_roots, *through):
+        for candidate in (*self._spread(element, below), *by_roots):
             if candidate.score < best.score:
                 best = candidate
+        homogeneous = not element.numerator.term_content().is_constant()
         for candidate, shorter in self._divided(element) if divide else ():
-            if candidate.score < best.score and (shorter or candidate.cost < best.cost):
+            least = candidate.cost * (_TOGETHER if homogeneous else 1)
+            if candidate.score < best.score and (shorter or least < best.cost):
                 best = candidate
         return best
-
-    def _divided_through(self, above: Product, denominator: Poly) -> Iterator[Product]:
-        """g*R²/(m*R² + I) as g/(m + I/R²)."""
-        if not 2 <= len(denominator) <= _MAX_DIVIDED:
-            return
-        for position, (atom, exponent) in enumerate(above.parts):
-            if not isinstance(atom, int) or exponent < 1 or not self.atoms.divides(atom):
-                continue
-            for terms in self.expansions.of(denominator):
-                quotient = {multiply(t, ((atom, -exponent),)): v for t, v in terms.items()}
-                plan = self.grouper.group(quotient, spread=True)
-                rest = [*above.parts[:position], *above.parts[position + 1 :]]
-                inverse = product(self.atoms, above.coefficient, rest)
-                yield self._joined(inverse, _as_product(self.atoms, plan))
 
     def _by_roots(self, element: Element) -> Iterator[Sum]:
         """A/r_1^3 + B/r_2^3: the parts of the numerator with different roots apart.
@@ -174,38 +163,38 @@ class Shaper:
 
     def _joined(self, above: Product, below: Product) -> Product:
         inverse = [(p, -e) for p, e in below.parts]
+        over_sum = any(isinstance(p, Sum) for p, _ in below.parts)
+        number = Fraction(above.coefficient) / below.coefficient
         exponents: dict[int, Exponent] = {}
         sums: list[tuple[int | Sum, Exponent]] = []
         for part, exponent in [*above.parts, *inverse]:
             if isinstance(part, int):
                 exponents[part] = exponents.get(part, 0) + exponent
-            else:
-                sums.append((part, exponent))
+                continue
+            if over_sum and isinstance(exponent, int):
+                factor, part = cleared(self.atoms, part)
+                number *= factor**exponent
+            sums.append((part, exponent))
         parts: list[tuple[int | Sum, Exponent]] = [
             *((a, e) for a, e in sorted(exponents.items()) if e), *sums
         ]  # fmt: skip
-        return product(self.atoms, Fraction(above.coefficient) / below.coefficient, parts)
+        return product(self.atoms, number, parts)
 
     def _spread(self, element: Element, below: Product) -> Iterator[Product | Sum]:
-        """Terms with denominators of their own, as far as these are products of atoms."""
+        """Terms with denominators of their own, where these are products of atoms."""
         divisors = [(p, -e) for p, e in below.parts if isinstance(p, int)]
-        if not divisors or not 2 <= len(element.numerator) <= LONG:
+        if (
+            len(divisors) < len(below.parts)
+            or not divisors
+            or not 2 <= len(element.numerator) <= LONG
+        ):
             return
-        sums: list[tuple[int | Sum, Exponent]] = [
-            (p, -e) for p, e in below.parts if isinstance(p, Sum)
-        ]
         divisor = tuple(sorted(divisors))
         for terms in self.expansions.of(element.numerator):
             divided: Terms = {}
             for term, value in terms.items():
                 divided[multiply(term, divisor)] = Fraction(value) / below.coefficient
-            plan = self.grouper.group(divided, spread=True)
-            if not sums:
-                yield plan
-            elif isinstance(plan, Product):
-                yield product(self.atoms, plan.coefficient, [*plan.parts, *sums])
-            else:
-                yield product(self.atoms, Fraction(1), [(plan, 1), *sums])
+            yield self.grouper.group(divided, spread=True)
 
     # -- polynomials ----------------------------------------------------------------------
 
@@ -346,8 +335,8 @@ class Shaper:
                 score = min(plan.score, turned.score)
                 if turned.score < plan.score:
                     plan = Product(Fraction(-1), ((turned, 1),), turned.cost + 1, turned.cost)
-            else:
-                score = plan.score
+            else:  # its sign goes to the whole product, as that of a sum does
+                score = plan.score - OPERATION * (plan.coefficient < 0)
             if best is None or score < lowest:
                 best, lowest = plan, score
         assert best is not None
