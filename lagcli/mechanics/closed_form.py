@@ -117,7 +117,8 @@ class ClosedForm:
         From the entries of M, which are short where angles are combined, with L_0 = L(q, 0, t)
         and no terms of first degree in the velocities:
 
-            F_i = Q_i + dL_0/dq_i - sum_jk (dM_ij/dq_k - dM_jk/dq_i / 2) q_j' q_k' - sum_j dM_ij/dt q_j'
+            F_i = Q_i + dL_0/dq_i - sum_jk (dM_ij/dq_k - dM_jk/dq_i / 2) q_j' q_k'
+                  - sum_j dM_ij/dt q_j'
         """
         form = self.form
         if not self._is_quadratic or any(b is not self.graph.zero for b in self._first_degree):
