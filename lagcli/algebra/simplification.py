@@ -23,6 +23,7 @@ from lagcli.expression import Expression, has_nested_fraction, operation_count
 _LONG = 60  # terms of an element of which ...
 _OF_LONG = 2  # ... no more than these equal forms are shaped
 _EQUAL = 3  # numerators that are shaped
+_FLAT = 1.3  # times as long as nested fractions are a formula without any may be
 _MAX_SHAPED = 1500  # terms; beyond, a formula is written as it was found
 
 
@@ -72,7 +73,10 @@ def shaped(
     tree, shaper = Readable(field, writer, relations).shortest(element)
     if given is None:
         return shaper.to_sympy(tree), tree
-    if operation_count(given) < operation_count(tree) and not has_nested_fraction(given):
+    before, after = operation_count(given), operation_count(tree)
+    if has_nested_fraction(given):
+        before = int(_FLAT * before)
+    if before < after:
         return expression, given
     return shaper.to_sympy(tree), tree
 

@@ -137,11 +137,14 @@ class _Splitter:
         """What has no leading quantity in it, apart by the functions of the coordinates."""
         groups: dict[Monomial, list[Term]] = {}
         for monomial, coefficient in static:
-            functions = tuple(
-                (i, e) for i, e in monomial if self.field.generators[i].kind != "symbol"
-            )
+            functions = tuple((i, e) for i, e in monomial if self._tells_apart(i, e))
             groups.setdefault(functions, []).append((monomial, coefficient))
         return list(groups.values())
+
+    def _tells_apart(self, index: int, exponent: int) -> bool:
+        """Whether it is a function; an even power of a sine may meet a constant, 1 - cos²."""
+        kind = self.field.generators[index].kind
+        return kind != "symbol" and not (kind in ("cos", "sin") and exponent % 2 == 0)
 
     def _bracketed(self, groups: list[list[Term]], whole: Element) -> list[Expression]:
         """One expression for each group, or one bracket where that is flat and much shorter."""
@@ -150,7 +153,7 @@ class _Splitter:
             return single
         together = self._shape([term for group in groups for term in group], whole)
         apart = sum(map(operation_count, single)) + len(single) - 1
-        if _is_flat(together) and operation_count(together) <= _WORTH_A_BRACKET * apart:
+        if is_flat(together) and operation_count(together) <= _WORTH_A_BRACKET * apart:
             return [together]
         return single
 
@@ -169,11 +172,11 @@ class _Splitter:
         return self.shaper.shape(self.field.element(numerator, whole.denominator))
 
 
-def _is_flat(node: Expression) -> bool:
-    """Whether there is no bracket within a bracket."""
+def is_flat(node: Expression) -> bool:
+    """Whether there is no bracket within a bracket, and one at most in a product."""
     match node:
         case Negative(operand=inner) | Quotient(numerator=inner):
-            return _is_flat(inner)
+            return is_flat(inner)
         case Product(factors=factors):
             return sum(isinstance(f, Sum) for f in factors) < 2 and all(
                 _no_sum_below(term) for f in factors if isinstance(f, Sum) for term in f.terms

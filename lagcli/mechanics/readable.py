@@ -5,7 +5,8 @@ from __future__ import annotations
 from sympy import Expr
 
 from lagcli.algebra import shape, terms
-from lagcli.expression import Expression
+from lagcli.algebra.terms import is_flat
+from lagcli.expression import Expression, operation_count
 from lagcli.mechanics.dynamics import Dynamics
 
 
@@ -25,6 +26,15 @@ class Readable:
     def by_terms(self, expression: Expr, *, as_given: bool = False) -> Expression:
         """Term by term in velocities, accelerations, multipliers, as L and h are read."""
         return terms(expression, self.system.order, self._leading, as_given=as_given)
+
+    def momentum(self, expression: Expr) -> Expression:
+        """Term by term, or with the factor that all terms share before a bracket."""
+        by_terms, short = self.by_terms(expression), self.as_written(expression)
+        return (
+            short
+            if is_flat(short) and operation_count(short) < operation_count(by_terms)
+            else by_terms
+        )
 
     def on_surface(self, expression: Expr) -> Expression:
         """The shortest shape, with the constraints used."""

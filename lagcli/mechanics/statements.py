@@ -271,7 +271,7 @@ class Statements(Stating):
         noether = self.derivation.noether
         return MomentaSection(
             momenta={
-                name: self._by_terms(p)
+                name: self.readable.momentum(p)
                 for name, p in zip(self.system.names, self.dynamics.lagrange.momenta, strict=True)
             },
             cyclic=tuple(self.system.names[j] for j in noether.cyclic),

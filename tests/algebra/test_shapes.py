@@ -55,7 +55,7 @@ TEXTBOOK: list[tuple[Expr, str]] = [
     (unspecified("F", 2, (1, 2))(x, t), "diff(F, 1, 2)(x, t)"),
     ((x + y) ** 3, "(x + y)^3"),
     # a bracket that stands in several terms: double Atwood machine, Thornton and Marion, ch. 7
-    (g / ((m1 + M) * (m2 + m) + 4 * m2 * m), "g/(4*m*m2 + (M + m1)*(m + m2))"),
+    (g / ((m1 + M) * (m2 + m) + 4 * m2 * m), "g/((M + m1)*(m + m2) + 4*m*m2)"),
     # the distance from a point that moves along a circle, as it was given
     (
         (x - R * cos(t)) * sqrt(NEAR) / sp.expand(NEAR**2),
@@ -73,7 +73,7 @@ TEXTBOOK: list[tuple[Expr, str]] = [
     # N/D = Q + R/D with as many terms: bead in a groove, Goldstein, sect. 2.4
     (
         2 * k * (dx**2 - 2 * g * k * x**2) / (4 * k**2 * x**2 + 1),
-        "(2*k*x'^2 + g)/(4*k^2*x^2 + 1) - g",
+        "(2*k*x'^2 + g)/(1 + 4*k^2*x^2) - g",
     ),
     # signs: each holds at x = 0 too, where sign(x)^2 is 0
     (sp.sign(x) * sp.Abs(x), "x"),

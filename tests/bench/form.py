@@ -89,9 +89,10 @@ def nested_fractions(node: Expression) -> Iterator[Expression]:
 
 
 def ends_with_number(node: Expression) -> Iterator[Expression]:
-    """Sums whose last term is a number."""
+    """Sums whose last term is a number, but for exponents: r^(n - 2)."""
+    exponents = {id(p) for q in walk(node) if isinstance(q, Power) for p in walk(q.exponent)}
     for part in walk(node):
-        if isinstance(part, Sum):
+        if isinstance(part, Sum) and id(part) not in exponents:
             last = part.terms[-1]
             last = last.operand if isinstance(last, Negative) else last
             if not any(isinstance(p, Name) for p in walk(last)):
@@ -335,7 +336,8 @@ def exchanged(node: Expression, pairs: Mapping[str, str]) -> Expression:
 
 def symmetric_under(problem: Problem, lagrangian: Expression, pairs: Mapping[str, str]) -> bool:
     """Whether L, the forces and the constraints are the same after the exchange."""
-    if problem.constraints or problem.forces or problem.dissipation is not None:
+    acted_on = any(point.force is not None for point in problem.points)
+    if problem.constraints or problem.forces or problem.dissipation is not None or acted_on:
         return False
     try:
         return is_zero(_built(Sum((lagrangian, Negative(exchanged(lagrangian, pairs)))))) is True

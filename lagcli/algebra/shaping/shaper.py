@@ -20,7 +20,7 @@ from lagcli.expression import Expression
 
 _MAX_FACTORED = 1500  # terms
 #: How many times as long N/D may be and still be kept together, where Q + R/D is another way
-#: and all of N has a factor in common: (M + m) g sin²α/(M + m sin²α), not g − M g cos²α/(…).
+#: and both have a factor in common: (M + m) g sin²α/(M + m sin²α), not g − M g cos²α/(…).
 _TOGETHER = 1.35
 _FEW = 3  # terms that are also shown without factoring: c² - v²
 
@@ -80,12 +80,18 @@ class Shaper:
         for candidate in (*self._spread(element, below), *by_roots):
             if candidate.score < best.score:
                 best = candidate
-        homogeneous = not element.numerator.term_content().is_constant()
         for candidate, shorter in self._divided(element) if divide else ():
-            least = candidate.cost * (_TOGETHER if homogeneous else 1)
-            if candidate.score < best.score and (shorter or least < best.cost):
+            worth = shorter or candidate.cost < best.cost
+            if candidate.score < best.score and worth and not self._alike(candidate, best):
                 best = candidate
         return best
+
+    @staticmethod
+    def _alike(candidate: Product | Sum, whole: Product | Sum) -> bool:
+        """Whether Q and R/D share a factor, and N/D is not much longer."""
+        if not isinstance(candidate, Sum) or candidate.cost * _TOGETHER < whole.cost:
+            return False
+        return bool(set.intersection(*({p for p, _ in term.parts} for term in candidate.terms)))
 
     def _by_roots(self, element: Element) -> Iterator[Sum]:
         """A/r_1^3 + B/r_2^3: the parts of the numerator with different roots apart.
