@@ -405,7 +405,8 @@ class Answers:
     `symbols` gives LaTeX for names whose file sets `symbol`; `multipliers` names those
     names that are multipliers (name -> constraint).  `complete` is False when an answer
     was asked for and not found: exit status 1.  `absent` names sections that were asked for
-    and could not be made at all.
+    and could not be made at all.  `where` holds the abbreviations that formulas use, in an
+    order in which each uses only earlier ones.
     """
 
     title: str
@@ -415,6 +416,7 @@ class Answers:
     sections: Mapping[str, Section]
     symbols: Mapping[str, str] = field(default_factory=dict)
     multipliers: Mapping[str, str] = field(default_factory=dict)
+    where: Mapping[str, Expression] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
     complete: bool = True
     absent: tuple[str, ...] = ()

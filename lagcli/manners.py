@@ -127,6 +127,8 @@ class Manner:
                 return negative_of(inner)
             case Negative(operand=Product() | Quotient() as inner):
                 return self._signed(node, inside=inside) if _sums(inner) else node
+            case Sum(terms=(one, other)) if angle := _difference_of_angles(one, other):
+                return angle
             case Sum():
                 return _ordered(node)
             case Call(function="sqrt", arguments=(Quotient(numerator=above) as inner,)):
@@ -235,6 +237,27 @@ def _ordered(node: Sum) -> Sum:
         place = next((k for k, t in enumerate(terms) if not isinstance(t, Negative)), 0)
         terms.insert(0, terms.pop(place))
     return node if tuple(terms) == node.terms else Sum(tuple(terms))
+
+
+def _difference_of_angles(one: Expression, other: Expression) -> Expression | None:
+    """cos a cos b + sin a sin b = cos(a - b), sin a cos b - cos a sin b = sin(a - b)."""
+    match (one, other):
+        case (
+            Product(factors=(Call(function="sin", arguments=(a,)), Call(arguments=(b,)) as second)),
+            Product(factors=(Call(function="cos", arguments=(c,)), Call(arguments=(d,)) as fourth)),
+        ) if (a, b) == (c, d) and second.function == "sin" and fourth.function == "cos":
+            return Call("cos", (Sum((a, Negative(b))),))
+        case (
+            Product(factors=(Call(function="sin", arguments=(a,)), Call(arguments=(b,)) as second)),
+            Negative(
+                operand=Product(
+                    factors=(Call(function="sin", arguments=(c,)), Call(arguments=(d,)) as fourth)
+                )
+            ),
+        ) if (a, b) == (d, c) and second.function == fourth.function == "cos":
+            return Call("sin", (Sum((a, Negative(b))),))
+        case _:
+            return None
 
 
 def _accelerates(node: Expression) -> bool:

@@ -46,12 +46,15 @@ class Request:
         Each `x=value` or `x'=value`: what is put in for the state at t = 0.
     numeric : bool
         Put in the values of the file as well, and give decimal numbers.
+    expand : bool
+        Write the abbreviations of long answers out.
     """
 
     sections: tuple[str, ...] | None = None
     settings: tuple[str, ...] = ()
     state: tuple[str, ...] = ()
     numeric: bool = False
+    expand: bool = False
 
 
 @record
@@ -136,7 +139,16 @@ def state(derivation: Derivation, request: Request) -> Answers:
     from lagcli.verification import verified
 
     answers = _ended(lambda: _statements(derivation)).answers(request.sections)
-    answers = replace(answers, sections=rewritten(answers.sections, Manner(derivation.given)))
+    if request.expand:
+        from lagcli.abbreviations import written_out
+
+        answers = written_out(answers)
+    manner = Manner(derivation.given)
+    answers = replace(
+        answers,
+        sections=rewritten(answers.sections, manner),
+        where=rewritten(answers.where, manner),
+    )
     if VERIFYING and not derivation.no_lagrangian:
         unverified = answers
         answers = _ended(lambda: verified(derivation.problem, unverified))
@@ -144,7 +156,11 @@ def state(derivation: Derivation, request: Request) -> Answers:
         return answers
     from lagcli.decimals import with_decimals
 
-    return replace(answers, sections=rewritten(answers.sections, with_decimals))
+    return replace(
+        answers,
+        sections=rewritten(answers.sections, with_decimals),
+        where=rewritten(answers.where, with_decimals),
+    )
 
 
 def with_lagrangian(problem: Problem) -> Problem:

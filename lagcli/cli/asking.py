@@ -23,13 +23,14 @@ def asked(
     settings: Sequence[str],
     *,
     numeric: bool,
+    expand: bool = False,
     mistakes: list[str],
     option: str = "--show",
     known: Sequence[str] = SECTIONS,
 ) -> Asked:
     """Read the options; a mistake in one hides none in another, nor those already found."""
     sections = _sections(show, mistakes, option, known)
-    request = Request(sections=sections, settings=tuple(settings), numeric=numeric)
+    request = Request(sections=sections, settings=tuple(settings), numeric=numeric, expand=expand)
     return Asked(request, tuple(mistakes))
 
 

@@ -25,6 +25,7 @@ class Options(NamedTuple):
     settings: tuple[str, ...]
     numeric: bool
     command: str = "solve"
+    expand: bool = False
 
 
 def solve_or_repeat(
@@ -107,6 +108,7 @@ def _solved(
         options.show,
         options.settings,
         numeric=options.numeric,
+        expand=options.expand,
         mistakes=mistakes,
         option=work.option,
         known=work.sections,

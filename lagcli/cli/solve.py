@@ -49,6 +49,9 @@ Set = Annotated[
 Numeric = Annotated[
     bool, typer.Option("--numeric", help="Put in the file's values and give decimal numbers.")
 ]
+Expand = Annotated[
+    bool, typer.Option("--expand", help="Write out the abbreviations of long formulas.")
+]
 Standalone = Annotated[
     bool, typer.Option("--standalone", help="A whole LaTeX or HTML document, not a fragment.")
 ]
@@ -69,6 +72,7 @@ def solve(
     show: Show = None,
     settings: Set = None,
     numeric: Numeric = False,
+    expand: Expand = False,
     standalone: Standalone = False,
     width: Width = None,
     no_cache: NoCache = False,
@@ -90,5 +94,5 @@ def solve(
 
     form = format_of(format_name, output, PAGES, "text")
     printing = Printing(form, output, standalone, width)
-    options = Options(tuple(show or ()), tuple(settings or ()), numeric)
+    options = Options(tuple(show or ()), tuple(settings or ()), numeric, expand=expand)
     return solve_or_repeat(files, options, printing, cached=not no_cache)

@@ -84,6 +84,8 @@ def to_object(answers: Answers) -> Object:
             result |= _section(name, answers.sections[name])
         elif name in answers.absent:
             result[name] = None
+    if answers.where:
+        result["where"] = _by_name(answers.where)
     return result | {"warnings": answers.warnings}
 
 

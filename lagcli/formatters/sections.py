@@ -38,7 +38,7 @@ from lagcli.document import (
     Paragraph,
     Row,
 )
-from lagcli.expression import Expression, Name
+from lagcli.expression import Expression, Name, walk
 from lagcli.forces import ForcesSection
 from lagcli.formatters.canonical import bracket_blocks, transformation_blocks
 from lagcli.formatters.dimensions import dimension_blocks
@@ -59,6 +59,7 @@ from lagcli.phase_space import (
     TransformationsSection,
 )
 from lagcli.questions import FindSection
+from lagcli.rewriting import rewritten
 
 _HEADINGS = {
     "lagrangian": "Lagrangian",
@@ -96,8 +97,12 @@ _CHECKED = {
 def to_document(answers: Answers) -> Document:
     """Word the answers to one file, section by section."""
     blocks: list[Block] = [_system(answers)]
+    first = _first_abbreviated(answers)
     for name in SECTIONS:
         if name in answers.sections:
+            if name == first:
+                blocks.append(Heading("Abbreviations"))
+                blocks.append(_by_name(answers.where))
             blocks.append(Heading(_HEADINGS[name]))
             blocks.extend(section_blocks(answers.sections[name], answers))
         elif name in answers.absent:
@@ -106,6 +111,24 @@ def to_document(answers: Answers) -> Document:
         blocks.append(Heading("Warnings"))
         blocks.extend(Paragraph((warning,)) for warning in answers.warnings)
     return Document(answers.title, tuple(blocks), answers.coordinates, answers.symbols)
+
+
+def _first_abbreviated(answers: Answers) -> str:
+    """The first section whose formulas use an abbreviation: they are listed before it."""
+    if not answers.where:
+        return ""
+    found: list[bool] = []
+
+    def look(node: Expression) -> Expression:
+        found.append(any(isinstance(p, Name) and p.name in answers.where for p in walk(node)))
+        return node
+
+    for name in SECTIONS:
+        if name in answers.sections:
+            rewritten(answers.sections[name], look)
+            if any(found):
+                return name
+    return ""
 
 
 def section_blocks(section: Section, answers: Answers) -> Iterable[Block]:

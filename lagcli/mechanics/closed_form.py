@@ -59,10 +59,10 @@ class Solution:
 
 
 @record(kw_only=True)
-class Function:
-    """One tree, and the abbreviations that it uses in order."""
+class Written:
+    """Trees, and the abbreviations that they use in order."""
 
-    value: Expression
+    values: tuple[Expression, ...]
     where: Mapping[str, Expression]
 
 
@@ -75,14 +75,26 @@ class ClosedForm:
         The matrix form of the system.
     taken
         Names that the file gives a meaning.
+    matrix, forcing
+        Shorter trees for the entries of M and of the forcing, where they are known: the
+        structure alone does not see that sin² + cos² is 1.
     """
 
-    def __init__(self, form: MatrixForm, taken: Collection[str]) -> None:
+    def __init__(
+        self,
+        form: MatrixForm,
+        taken: Collection[str],
+        matrix: Sequence[Sequence[Expression]] = (),
+        forcing: Sequence[Expression] = (),
+    ) -> None:
         self.form = form
+        self._given_matrix, self._given_forcing = matrix, forcing
         self.graph = form.graph
         self.taken = frozenset(taken)
         names = (*form.problem.parameters, *form.problem.coordinates)
         self.order = tuple(quantity.name for quantity in names)
+        self._wide = len(form.q) + len(form.constraints) > 9
+        self._labels: _Labels | None = None
 
     @cached_property
     def motion(self) -> Solution | None:
@@ -90,24 +102,54 @@ class ClosedForm:
         form = self.form
         if len(form.independent) < len(form.constraints):
             return None
-        matrix = self._matrix
+        matrix = self._bordered(self._mass_matrix)
         bias = [self.graph.scaled(row.bias, -1) for row in form.constraints]
-        steps = _Elimination(self.graph, matrix, [*self._forcing, *bias], _Names(self.taken))
-        if not self._holds(steps, matrix, [*form.forcing, *bias]):
+        names = _Names(self.taken, wide=self._wide)
+        steps = _Elimination(self.graph, matrix, [*self._forcing, *bias], names)
+        if not self._holds(steps, self._bordered(form.mass_matrix), [*form.forcing, *bias]):
             return None
+        self._steps = steps
         n = len(form.q)
-        values = [*steps.solution[:n], *(self.graph.scaled(x, -1) for x in steps.solution[n:])]
-        written = _written(steps.named, values, self.order, self.taken)
+        values = [*steps.solution[:n], *self._multipliers(steps)]
+        written = self._written(steps.named, values)
         if written is None:
             return None
-        trees, where = written
-        return Solution(accelerations=trees[:n], multipliers=trees[n:], where=where)
+        trees = written.values
+        return Solution(accelerations=trees[:n], multipliers=trees[n:], where=written.where)
+
+    def _multipliers(self, steps: _Elimination) -> list[Node]:
+        return [self.graph.scaled(x, -1) for x in steps.solution[len(self.form.q) :]]
 
     @cached_property
-    def _matrix(self) -> list[list[Node]]:
-        form, zero = self.form, self.graph.zero
-        rows = form.constraints
-        above = [[*line, *(row.row[i] for row in rows)] for i, line in enumerate(form.mass_matrix)]
+    def constraint_forces(self) -> Written | None:
+        """lambda_k df_k/dq_j, constraint by constraint, then their total; None as the motion."""
+        if self.motion is None:
+            return None
+        graph, rows = self.graph, self.form.constraints
+        single = [
+            [graph.product(entry, multiplier) for entry in row.row]
+            for row, multiplier in zip(rows, self._multipliers(self._steps), strict=True)
+        ]
+        total = [graph.sum(along) for along in zip(*single, strict=True)]
+        return self._written(self._steps.named, [*(f for row in single for f in row), *total])
+
+    def _written(self, named: Mapping[Symbol, Node], values: Sequence[Node]) -> Written | None:
+        """The trees, parts named as they were named before."""
+        if self._labels is None:
+            self._labels = _Labels(self.taken)
+        momenta = tuple(f"p_{q.name}" for q in self.form.q)
+        return _written(named, values, (*self.order, *momenta), self._labels)
+
+    @cached_property
+    def _mass_matrix(self) -> Sequence[Sequence[Node]]:
+        if not self._given_matrix:
+            return self.form.mass_matrix
+        return [[self.form.read(entry) for entry in row] for row in self._given_matrix]
+
+    def _bordered(self, mass_matrix: Sequence[Sequence[Node]]) -> list[list[Node]]:
+        """K."""
+        zero, rows = self.graph.zero, self.form.constraints
+        above = [[*line, *(row.row[i] for row in rows)] for i, line in enumerate(mass_matrix)]
         return [*above, *([*row.row, *([zero] * len(rows))] for row in rows)]
 
     @cached_property
@@ -121,13 +163,15 @@ class ClosedForm:
                   - sum_j dM_ij/dt q_j'
         """
         form = self.form
-        if not self._is_quadratic or any(b is not self.graph.zero for b in self._first_degree):
-            return form.forcing
-        found = [self._force(i) for i in range(len(form.q))]
-        return found if operations(found) < operations(form.forcing) else form.forcing
+        choices = [form.forcing]
+        if self._given_forcing:
+            choices.append(tuple(map(form.read, self._given_forcing)))
+        if self._is_quadratic and all(b is self.graph.zero for b in self._first_degree):
+            choices.append(tuple(self._force(i) for i in range(len(form.q))))
+        return min(choices, key=operations)
 
     def _force(self, i: int) -> Node:
-        form, graph, M = self.form, self.graph, self.form.mass_matrix
+        form, graph, M = self.form, self.graph, self._mass_matrix
         by = [partial(graph, q) for q in form.q]
         pairs = list(combinations_with_replacement(range(len(form.q)), 2))
         terms = [form.applied_forces[i], gathered(graph, by[i](self._at_rest), form.varying)]
@@ -171,16 +215,16 @@ class ClosedForm:
     # -- the Hamiltonian ---------------------------------------------------------------------
 
     @cached_property
-    def hamiltonian(self) -> Function | None:
+    def hamiltonian(self) -> Written | None:
         """H = sum z_i²/(2 u_ii) - L(q, 0, t) for L of second degree in the velocities."""
         form, graph = self.form, self.graph
         if not self._is_quadratic:
             return None
         momenta = [graph.symbol(f"p_{q.name}") for q in form.q]
         right = [graph.difference(p, b) for p, b in zip(momenta, self._first_degree, strict=True)]
-        matrix = [list(row) for row in form.mass_matrix]
-        steps = _Elimination(graph, matrix, right, _Names(self.taken, values="z"))
-        if not self._holds(steps, matrix, right):
+        matrix = [list(row) for row in self._mass_matrix]
+        steps = _Elimination(graph, matrix, right, _Names(self.taken, "z", wide=self._wide))
+        if not self._holds(steps, [list(row) for row in form.mass_matrix], right):
             return None
         square = [
             (graph.quotient(graph.monomial([(z, Fraction(2))]), u), Fraction(1, 2))
@@ -188,9 +232,7 @@ class ClosedForm:
             if z is not graph.zero
         ]
         whole = graph.combination([*square, (self._at_rest, -_UNIT)])
-        order = (*self.order, *(p.name for p in momenta))
-        written = _written(steps.forward, [whole], order, self.taken)
-        return None if written is None else Function(value=written[0][0], where=written[1])
+        return self._written(steps.forward, [whole])
 
     # -- the check ------------------------------------------------------------------------------
 
@@ -246,7 +288,8 @@ class _State(dict[str, object]):
 class _Names:
     """Letters for the steps that no name of the file has."""
 
-    def __init__(self, taken: Collection[str], values: str = "y") -> None:
+    def __init__(self, taken: Collection[str], values: str = "y", *, wide: bool) -> None:
+        self.between = "_" if wide else ""
         self.matrix = free_stem(("u", "U", "w"), taken)
         self.right = free_stem((values, "Y", "v"), taken)
         self.solution = free_stem(("a", "x", "b"), taken)
@@ -278,7 +321,6 @@ class _Elimination:
         self.named: dict[Symbol, Node] = {}
         self._names = names
         size = len(right)
-        self._between = "" if size < 10 else "_"
         self._rows: list[list[Node]] = []
         self.values: list[Node] = []
         for i in range(size):
@@ -297,7 +339,7 @@ class _Elimination:
         if j < i:
             return self.graph.zero
         parts = ((row[i], row[j], row[k]) for k, row in enumerate(self._rows))
-        name = f"{self._names.matrix}{i + 1}{self._between}{j + 1}"
+        name = f"{self._names.matrix}{i + 1}{self._names.between}{j + 1}"
         return self._name(name, self._less(matrix[i][j], parts))
 
     def _less(self, start: Node, parts: Iterable[tuple[Node, Node, Node]]) -> Node:
@@ -343,21 +385,18 @@ class _Elimination:
 
 
 def _written(
-    named: Mapping[Symbol, Node],
-    values: Sequence[Node],
-    order: Sequence[str],
-    taken: Collection[str],
-) -> tuple[tuple[Expression, ...], dict[str, Expression]] | None:
+    named: Mapping[Symbol, Node], values: Sequence[Node], order: Sequence[str], labels: _Labels
+) -> Written | None:
     """The values and the abbreviations that they use, in order; None for more than a page."""
     needed = _needed(named, values)
     roots = [*needed.values(), *values]
-    writer, where = GraphWriter(order), {}
-    shared = repeated(roots)
-    labels = _Labels({*taken, *(s.name for s in named)})
+    where: dict[str, Expression] = {}
+    writer, shared = GraphWriter(order), repeated(roots) | labels.known
+    labels.take(symbol.name for symbol in named)
     definitions = [(symbol.name, node) for symbol, node in needed.items()]
     for name, root in [*definitions, *(("", value) for value in values)]:
         for node in in_order_of_use([root]):
-            if node in shared and node not in writer.names and node is not root:
+            if node in shared and node not in writer.names and not (name and node is root):
                 label = labels(node)
                 where[label] = writer.tree(node)
                 writer.name(node, label)
@@ -367,7 +406,7 @@ def _written(
     count = sum(map(operation_count, (*where.values(), *trees)))
     if len(where) > MOST_NAMES or count > MOST_OPERATIONS:
         return None
-    return trees, where
+    return Written(values=trees, where=where)
 
 
 def _needed(named: Mapping[Symbol, Node], values: Sequence[Node]) -> dict[Symbol, Node]:
@@ -384,15 +423,33 @@ def _needed(named: Mapping[Symbol, Node], values: Sequence[Node]) -> dict[Symbol
 
 
 class _Labels:
-    """Names by what is named: s12 = sin(θ1 − θ2), m23 = m2 + m3, else k1, k2, …"""
+    """Names by what is named: s12 = sin(θ1 − θ2), m23 = m2 + m3, else k1, k2, …
+
+    A part that was named keeps its name.
+    """
 
     def __init__(self, taken: Collection[str]) -> None:
         self._taken = set(taken)
         self._stem = free_stem(("k", "h", "shared"), taken)
+        self._of: dict[Node, str] = {}
         self._count = 0
 
+    @property
+    def known(self) -> set[Node]:
+        """What has a name."""
+        return set(self._of)
+
+    def take(self, names: Iterable[str]) -> None:
+        """Give no part one of these names."""
+        self._taken.update(names)
+
     def __call__(self, node: Node) -> str:
-        wanted = _label(node)
+        known = self._of.get(node)
+        if known is None:
+            known = self._of[node] = self._new(_label(node))
+        return known
+
+    def _new(self, wanted: str) -> str:
         if not wanted or wanted in self._taken:
             self._count += 1
             wanted = f"{self._stem}{self._count}"

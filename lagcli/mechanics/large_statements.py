@@ -14,6 +14,7 @@ from lagcli.answers import (
     Charge,
     ChargesSection,
     ConstraintForcesSection,
+    ConstraintKind,
     EnergySection,
     EquationsSection,
     EquilibriaSection,
@@ -138,6 +139,7 @@ class LargeStatements(Stating):
     def _matrix_form(self) -> MatrixFormSection:
         form, n, m = self.form, len(self.form.q), len(self.form.constraints)
         found = with_shared_parts(form.entries, self.order, self._taken)
+        self._reserved |= found.named.keys()
         entries = iter(found.roots)
 
         def rows(count: int, width: int) -> tuple[tuple[Expression, ...], ...]:
@@ -153,18 +155,8 @@ class LargeStatements(Stating):
             shared=found.named,
         )
 
-    @property
-    def _taken(self) -> set[str]:
-        """Every name that the file gives a meaning."""
-        problem = self.problem
-        return {
-            *self.order,
-            *problem.definitions,
-            *problem.functions,
-            *(c.multiplier for c in problem.constraints),
-            *(point.name for point in problem.points),
-            *(f"p_{q.name}" for q in problem.coordinates),
-        }
+    def _matrix_form_of_problem(self) -> MatrixForm:
+        return self.form
 
     def _momenta(self) -> MomentaSection:
         names = [q.name for q in self.form.q]
@@ -212,10 +204,18 @@ class LargeStatements(Stating):
     # -- what is not found ----------------------------------------------------------------------
 
     def _accelerations(self) -> AccelerationsSection:
-        self._unsolved(_WHY)
-        return AccelerationsSection(accelerations=None)
+        found = self._abbreviated_accelerations()
+        if found is None:
+            self._unsolved(_WHY)
+        return found or AccelerationsSection(accelerations=None)
 
     def _multipliers(self) -> MultipliersSection:
+        kinds: list[ConstraintKind | None] = [
+            "holonomic" if row.holonomic else None for row in self.form.constraints
+        ]
+        solved = self._abbreviated_multipliers(kinds)
+        if solved is not None:
+            return solved
         self._unsolved(_WHY)
         form, kept = self.form, set(self.form.independent)
         constraints = self.problem.constraints
@@ -233,12 +233,18 @@ class LargeStatements(Stating):
 
     def _constraint_forces(self) -> ConstraintForcesSection:
         if self.problem.constraints:
+            found = self._abbreviated_forces()
+            if found is not None:
+                return found
             self._unsolved(_WHY)
         return ConstraintForcesSection(
             forces={c.name: None for c in self.problem.constraints}, total=None
         )
 
     def _hamiltonian(self) -> HamiltonianSection:
+        found = self._abbreviated_hamiltonian()
+        if found is not None:
+            return found
         self._missing("the Hamiltonian")
         return HamiltonianSection(hamiltonian=None, reason=_WHY)
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import sympy
 from sympy import Expr
@@ -33,6 +35,7 @@ from lagcli.answers import (
 )
 from lagcli.expression import ZERO, Expression
 from lagcli.forces import ForcesSection
+from lagcli.manners import Manner
 from lagcli.mechanics.constraint_force import forces_on_points
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.impacts import between_impacts
@@ -44,6 +47,9 @@ from lagcli.phase_space import BracketsSection, TransformationsSection
 from lagcli.problem import Problem
 from lagcli.questions import FindSection
 from lagcli.record import replace
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.closed_form import ClosedForm
 
 NUMERIC_CHECK = "50 digits"
 
@@ -123,6 +129,19 @@ class Statements(Stating):
         """Coordinates less the rank of all constraints on the velocities."""
         return self.dynamics.degrees_of_freedom
 
+    @cached_property
+    def _closed_form(self) -> ClosedForm:
+        """The motion by elimination, from simplified entries."""
+        from lagcli.mechanics.closed_form import ClosedForm
+
+        lagrange, write = self.dynamics.lagrange, Manner(self.problem)
+        return ClosedForm(
+            self._matrix_form_of_problem(),
+            self._taken,
+            [[write(self._as_written(entry)) for entry in row] for row in lagrange.mass_matrix],
+            [write(self._by_terms(force)) for force in lagrange.forcing],
+        )
+
     # -- shapes ---------------------------------------------------------------------------
 
     def _as_written(self, expression: Expr) -> Expression:
@@ -187,6 +206,9 @@ class Statements(Stating):
     def _accelerations(self) -> AccelerationsSection:
         motion = self.dynamics.motion
         if motion is None:
+            abbreviated = self._abbreviated_accelerations()
+            if abbreviated is not None:
+                return abbreviated
             self._unsolved()
             degenerate = tuple(self.system.names[i] for i in self.dynamics.degenerate)
             return AccelerationsSection(
@@ -219,6 +241,10 @@ class Statements(Stating):
         dynamics = self.dynamics
         motion = dynamics.motion
         if motion is None:
+            kinds = [dynamics.constraints.kinds[e.name] for e in dynamics.constraints.equations]
+            solved = self._abbreviated_multipliers(kinds)
+            if solved is not None:
+                return solved
             self._unsolved()
         equations = dynamics.constraints.equations
         values = (None,) * len(equations) if motion is None else motion.multipliers
@@ -240,6 +266,9 @@ class Statements(Stating):
     def _constraint_forces(self) -> ConstraintForcesSection:
         dynamics = self.dynamics
         if dynamics.motion is None and dynamics.constraints.equations:
+            found = self._abbreviated_forces()
+            if found is not None:
+                return found
             self._unsolved()
         total = dynamics.total_constraint_force
         return ConstraintForcesSection(
@@ -288,8 +317,14 @@ class Statements(Stating):
 
     def _hamiltonian(self) -> HamiltonianSection:
         hamiltonian = self.derivation.hamiltonian
-        function = hamiltonian.function
+        try:
+            function = hamiltonian.function
+        except ArithmeticError:  # the inverse of M grew too long
+            function = None
         if function is None:
+            abbreviated = self._abbreviated_hamiltonian()
+            if abbreviated is not None:
+                return abbreviated
             self._missing("the Hamiltonian", hamiltonian.reason)
         return HamiltonianSection(
             hamiltonian=None if function is None else self._as_written(function),

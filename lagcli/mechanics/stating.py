@@ -3,14 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Protocol, TypeVar
+from functools import cached_property
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from lagcli.algebra.effort import OutOfWork
 from lagcli.algebra.limited import limited
-from lagcli.answers import DEFAULT_SECTIONS, SECTIONS, Answers, DimensionsSection, Section
+from lagcli.answers import (
+    DEFAULT_SECTIONS,
+    SECTIONS,
+    AccelerationsSection,
+    Answers,
+    ConstraintForcesSection,
+    ConstraintKind,
+    DimensionsSection,
+    HamiltonianSection,
+    Multiplier,
+    MultipliersSection,
+    Section,
+)
 from lagcli.diagnostics import ProblemError
+from lagcli.expression import Expression
 from lagcli.failures import describe
 from lagcli.problem import Problem
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.closed_form import ClosedForm
+    from lagcli.mechanics.matrix_form import MatrixForm
 
 #: Work that one section may take (see `lagcli.algebra.effort`), and processor time.
 UNITS = 30_000_000
@@ -19,12 +37,22 @@ SECONDS = 45.0
 TOO_MUCH = "it takes more work than it is allowed"
 
 
+class HasWhere(Protocol):
+    """What is written with abbreviations."""
+
+    @property
+    def where(self) -> Mapping[str, Expression]:
+        """The abbreviations in order of use."""
+        ...
+
+
 class HasMissing(Protocol):
     """What gathers (what, why) while it makes a section."""
 
     missing: list[tuple[str, str]]
 
 
+Kept = TypeVar("Kept", bound=HasWhere)
 Phase = TypeVar("Phase", bound=HasMissing)
 Stated = TypeVar("Stated")
 
@@ -48,6 +76,9 @@ class Stating:
         self.complete = True
         #: makers of sections that are none of mechanics
         self.others: dict[str, Callable[[], Section]] = {}
+        #: the abbreviations of the formulas, in order of use
+        self.where: dict[str, Expression] = {}
+        self._reserved: set[str] = set()  # names of parts of the matrix form
         self._why_missing = why_missing
         self._share = 1.0  # of the work that a section may take
 
@@ -80,6 +111,7 @@ class Stating:
             sections=made,
             symbols={q.name: q.symbol for q in quantities if q.symbol is not None},
             multipliers={c.multiplier: c.name for c in problem.constraints},
+            where=dict(self.where),
             warnings=tuple(dict.fromkeys(self.warnings)),
             complete=self.complete,
             absent=tuple(name for name in asked if name not in made),
@@ -105,6 +137,94 @@ class Stating:
 
     def _begin_again(self) -> None:
         """Forget what was derived: what was interrupted is in no certain state."""
+
+    # -- with abbreviations -----------------------------------------------------------------
+
+    def _matrix_form_of_problem(self) -> MatrixForm:
+        from lagcli.mechanics.matrix_form import MatrixForm
+
+        return MatrixForm(self.problem)
+
+    @cached_property
+    def _closed_form(self) -> ClosedForm:
+        """The motion by elimination, for what is too long to be written out."""
+        from lagcli.mechanics.closed_form import ClosedForm
+
+        return ClosedForm(self._matrix_form_of_problem(), self._taken)
+
+    @property
+    def _taken(self) -> set[str]:
+        """Every name that the file gives a meaning."""
+        problem = self.problem
+        return {
+            *(q.name for q in (*problem.parameters, *problem.coordinates)),
+            *(f"p_{q.name}" for q in problem.coordinates),
+            *problem.definitions,
+            *problem.functions,
+            *(c.multiplier for c in problem.constraints),
+            *(point.name for point in problem.points),
+            *self._reserved,
+            "t",
+            "pi",
+        }
+
+    def _abbreviated(self, find: Callable[[ClosedForm], Kept | None]) -> Kept | None:
+        """A closed form with its abbreviations noted; None where there is none."""
+        from lagcli.mechanics.matrix_form import NotStructural
+
+        try:
+            found = find(self._closed_form)
+        except (NotStructural, ArithmeticError, ValueError):
+            return None
+        for name, node in ({} if found is None else found.where).items():
+            self.where.setdefault(name, node)  # what came first uses only what came before it
+        return found
+
+    def _abbreviated_accelerations(self) -> AccelerationsSection | None:
+        found = self._abbreviated(lambda form: form.motion)
+        if found is None:
+            return None
+        names = (q.name for q in self.problem.coordinates)
+        return AccelerationsSection(
+            accelerations=dict(zip(names, found.accelerations, strict=True)),
+            verified="50 digits",
+        )
+
+    def _abbreviated_multipliers(
+        self, kinds: Sequence[ConstraintKind | None]
+    ) -> MultipliersSection | None:
+        found = self._abbreviated(lambda form: form.motion)
+        if found is None:
+            return None
+        rows = zip(self.problem.constraints, found.multipliers, kinds, strict=True)
+        return MultipliersSection(
+            multipliers={
+                c.name: Multiplier(
+                    symbol=c.multiplier, value=value, kind=kind, verified="50 digits"
+                )
+                for c, value, kind in rows
+            }
+        )
+
+    def _abbreviated_forces(self) -> ConstraintForcesSection | None:
+        found = self._abbreviated(lambda form: form.constraint_forces)
+        if found is None:
+            return None
+        names = [q.name for q in self.problem.coordinates]
+        count = len(names)
+        rows = [
+            dict(zip(names, found.values[k : k + count], strict=True))
+            for k in range(0, len(found.values), count)
+        ]
+        *single, total = rows
+        return ConstraintForcesSection(
+            forces=dict(zip((c.name for c in self.problem.constraints), single, strict=True)),
+            total=total,
+        )
+
+    def _abbreviated_hamiltonian(self) -> HamiltonianSection | None:
+        found = self._abbreviated(lambda form: form.hamiltonian)
+        return None if found is None else HamiltonianSection(hamiltonian=found.values[0])
 
     def _dimensions(self) -> DimensionsSection:
         from lagcli.mechanics.quantity_units import dimensions_section

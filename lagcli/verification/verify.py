@@ -60,6 +60,7 @@ def verified(problem: Problem, answers: Answers) -> Answers:
         return answers
     examination = Examination(problem)
     with ctx.workprec(PRECISIONS[0]):
+        examination.define("the abbreviations", answers.where)
         sections = {
             name: _examined(examination, name, section)
             for name, section in answers.sections.items()
