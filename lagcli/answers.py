@@ -252,6 +252,7 @@ class Equilibrium:
 
     With `free` coordinates, or an equation `on`, a family, stable up to displacements along it.
     The contacts `touching` are closed; with `sticking` dry friction holds it.
+    The `indeterminate` coordinates have no value there, as the azimuth at a pole.
     """
 
     at: Mapping[str, Expression]
@@ -261,6 +262,7 @@ class Equilibrium:
     free: tuple[str, ...] = ()
     touching: tuple[str, ...] = ()
     sticking: bool = False
+    indeterminate: tuple[str, ...] = ()
 
 
 @record(kw_only=True)

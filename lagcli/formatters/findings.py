@@ -136,6 +136,9 @@ def _ranges(unknown: str, ranges: Sequence[Range]) -> tuple[str | Formula, ...]:
     return (*parts, ".")
 
 
+_NO_VALUE = " Without a value there: "
+
+
 def equilibrium_blocks(section: EquilibriaSection) -> Iterator[Block]:
     """Word each equilibrium with its stability."""
     if section.equilibria is None:
@@ -175,11 +178,10 @@ def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:
         parts += ["It exists where ", *conditions(equilibrium.where), ". "]
     parts += [holding(equilibrium.touching, sticking=equilibrium.sticking)]
     parts += stability(equilibrium.verdict, equilibrium.free, equilibrium.on)
-    if equilibrium.free:
-        parts.append(" Free: ")
-        for position, name in enumerate(equilibrium.free):
-            parts += [", " if position else "", Name(name)]
-        parts.append(".")
+    for lead, names in ((" Free: ", equilibrium.free), (_NO_VALUE, equilibrium.indeterminate)):
+        for position, name in enumerate(names):
+            parts += [", " if position else lead, Name(name)]
+        parts += ["."] if names else []
     return tuple(parts)
 
 

@@ -272,6 +272,8 @@ def _equilibrium(equilibrium: Equilibrium) -> Object:
         result["free"] = equilibrium.free
     if equilibrium.touching:
         result["touching"] = equilibrium.touching
+    if equilibrium.indeterminate:
+        result["indeterminate"] = equilibrium.indeterminate
     if equilibrium.sticking:
         result["sticking"] = True
     return result

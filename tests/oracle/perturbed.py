@@ -17,7 +17,7 @@ from sympy import Expr, Symbol
 
 from lagcli.answers import Equilibrium
 from lagcli.diagnostics import ProblemError
-from lagcli.expression import Expression, Name, Negative, Number
+from lagcli.expression import Expression, Name, Negative, Number, Power, Sum
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
 from lagcli.mechanics.parameter_values import parameter_values, random_value
@@ -37,10 +37,12 @@ BESIDE = 1e-5
 STAYS = 300.0
 #: … and what is called unstable is left by more than this one, at the latest at the last time.
 LEAVES = 150.0
-TIMES = (25.0, 400.0)
+TIMES = (25.0, 200.0)
 #: A condition is taken to hold, or to fail, where it does so by this part of its sides.
 MARGIN = 0.05
 TRIES = 40
+#: Beyond this distance the state is left, and the run ends.
+FAR = 0.25
 
 
 @dataclass(frozen=True)
@@ -70,7 +72,9 @@ class Numbers:
         symbol = self.system.symbol_of(name)
         if symbol not in self.values:
             sign = 1 if symbol.is_positive else self.source.choice((1, -1))
-            self.values[symbol] = self.system.build(_number(sign * self.source.uniform(0.6, 1.6)))
+            self.values[symbol] = self.system.build(
+                _number(sign * self.source.uniform(0.6, 1.6) * self.source.choice((1, 1, 3, 5)))
+            )
 
     def __call__(self, expression: Expression) -> float | None:
         value = self.system.build(expression).subs(self.values).evalf(30)
@@ -187,7 +191,14 @@ def _farthest(claim: Claim, until: float, source: random.Random) -> float | None
         },
     )
     columns = tuple(Column(*each) for each in usual_columns(problem))
-    asked = Asked(until=until, accuracy=1e-7, samples=201, columns=columns, project=True)
+    asked = Asked(
+        until=until,
+        accuracy=1e-7,
+        samples=201,
+        columns=columns,
+        project=True,
+        stop_when=_left(claim),
+    )
     try:
         result = simulate(problem, asked)
     except (Refusal, ProblemError):
@@ -197,6 +208,16 @@ def _farthest(claim: Claim, until: float, source: random.Random) -> float | None
     ]
     first = max(BESIDE, *(abs(result.rows[0][j] - v) for _, j, v in watched))
     return max(abs(row[j] - v) for row in result.rows for _, j, v in watched) / first
+
+
+def _left(claim: Claim) -> Expression:
+    """What changes its sign at the distance FAR from the state: the run may end there."""
+    parts: list[Expression] = [Negative(_number(FAR**2))]
+    for name, value in claim.state.items():
+        if name not in claim.drifting:
+            here = Name(name.rstrip("'"), 1 if name.endswith("'") else 0)
+            parts.append(Power(Sum((here, _number(-value))), Number(Fraction(2))))
+    return Sum(tuple(parts))
 
 
 def _number(value: float) -> Expression:

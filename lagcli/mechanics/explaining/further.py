@@ -83,6 +83,9 @@ def _equilibria(teller: Teller, section: Section) -> Iterator[Block]:
         yield _state(each.at, each.on)
         if each.free:
             yield says(names(each.free), " is free." if len(each.free) == 1 else " are free.")
+        if each.indeterminate:
+            plural = "has no value" if len(each.indeterminate) == 1 else "have no values"
+            yield says(names(each.indeterminate), f" {plural} there.")
         if each.where:
             yield says("It exists for ", *inequalities(each.where), ".")
         firm = holding(each.touching, sticking=each.sticking)

@@ -82,7 +82,9 @@ class RestPoints:
             if not found:
                 self.reason = "the equations of rest have no closed solution"
                 return None
-        return tuple(found)
+        from lagcli.mechanics.oscillations.singular import survives
+
+        return tuple(point for point in found if survives(self, point))
 
     def _found(self, equations: list[Expr]) -> tuple[list[RestPoint], bool]:
         """The solutions that balance; whether a family was lost of which some members may."""
@@ -93,7 +95,7 @@ class RestPoints:
             point = self._point(solution)
             if point is not None and self.balanced(point.values):
                 found.append(point)
-            elif len(solution.values) < len(self.system.q):
+            elif len(solution.values) < len(self.system.q) and self._may_be_real(solution):
                 lost = True
         return found, lost or not (found or solved.complete)
 
@@ -109,10 +111,35 @@ class RestPoints:
             if known is None:
                 self.complete = False
                 return None
+            if known.root.has(sympy.I):
+                if self._real_points(known):
+                    self.complete = False
+                return None
             branch = {known.unknown: known.root}
             values = {**{s: v.xreplace(branch) for s, v in values.items()}, **branch}
         free = tuple(s for s in q if s not in values)
         return RestPoint(values, free, positive, known)
+
+    def _may_be_real(self, solution: SystemSolution) -> bool:
+        """Whether a family has real members: x^2 - x y + y^2 = 0 has one point only."""
+        if solution.relation is None:
+            return True
+        known = family(solution.relation, solution.values, self.system.q)
+        return known is None or not known.root.has(sympy.I) or self._real_points(known)
+
+    def _real_points(self, known: Family) -> bool:
+        """Whether a relation whose roots are not real may hold at equilibria, where they are."""
+        _, imaginary = known.root.as_real_imag()
+        solved = solve_system([imaginary], self.system.q)
+        for each in solved.solutions:
+            values = {**known.given, **each.values}
+            values[known.unknown] = known.root.xreplace(dict(each.values))
+            try:
+                if self.balanced(values):
+                    return True
+            except ZeroDivisionError:
+                continue
+        return not solved.complete
 
     @cached_property
     def depends_on_time(self) -> bool:

@@ -47,7 +47,9 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
     modes: list[NormalMode] = []
     unknown = 0
     for roots, multiplicity, degree in factors:
-        if roots is None or not all(_is_root(characteristic, r, values) for r in roots):
+        if roots is None or not all(
+            _is_root(characteristic, r, values) and not r.has(sympy.I) for r in roots
+        ):
             unknown += multiplicity * degree
             continue
         pair = _beats(roots, values)

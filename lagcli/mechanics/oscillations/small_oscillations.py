@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra.equations import written
 from lagcli.answers import EquilibriaSection, Equilibrium, Mode, ModesSection
@@ -28,8 +28,9 @@ from lagcli.mechanics.oscillations.family_statement import relation_sides, shown
 from lagcli.mechanics.oscillations.held import Held, held
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
+from lagcli.mechanics.oscillations.singular import OnMeridians, is_singular
 from lagcli.mechanics.reduction.readable import conditions
-from lagcli.mechanics.stability.judge import GRAZES, Stability, judge, undecided
+from lagcli.mechanics.stability.judge import GRAZES, Stability, judge, judge_on_meridians, undecided
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.record import replace
 
@@ -98,8 +99,21 @@ class Place:
             return undecided(GRAZES)
         if self.held.firmly and not self.linear.M:
             return Stability(stable=True, reason=_STICKS if self.held.sticking else _PRESSED)
+        if is_singular(self.linear):
+            return judge_on_meridians(OnMeridians(self.linear))
         found = judge(self.linear, self.characteristic)
         return replace(found, asymptotic=False) if self.held.firmly else found
+
+    @property
+    def indeterminate(self) -> frozenset[Symbol]:
+        """Coordinates that have no value there, as the azimuth at a pole."""
+        try:
+            if not is_singular(self.linear):
+                return frozenset()
+        except ZeroDivisionError:
+            return frozenset()
+        gone = OnMeridians(self.linear).indeterminate
+        return frozenset(self.linear.system.q[j] for j in gone)
 
     @cached_property
     def modes(self) -> list[NormalMode]:
@@ -137,6 +151,7 @@ class SmallOscillations:
     def equilibrium(self, place: Place) -> Equilibrium:
         """One equilibrium as a statement."""
         linear, order = place.linear, self.system.order
+        free, gone = untied(place.point, self.system.q), place.indeterminate
         return Equilibrium(
             at=self._at(place.point),
             on=relation_sides(place.point, self.system.q, order),
@@ -148,7 +163,8 @@ class SmallOscillations:
                 gyroscopic=held_by_gyroscopic_terms(linear),
             ),
             where=conditions(place.point.positive, order),
-            free=tuple(q.name for q in untied(place.point, self.system.q)),
+            free=tuple(q.name for q in free if q not in gone),
+            indeterminate=tuple(q.name for q in free if q in gone),
             touching=place.held.touching,
             sticking=place.held.sticking,
         )

@@ -205,7 +205,8 @@ class SteadyMotions:
     def _by_momenta(self) -> list[Steady]:
         """The equilibria of the reduced system at given momenta."""
         points = self.rest.points
-        regular = [point for point in points or () if self._regular(point.values)]
+        real = [p for p in points or () if not any(x.has(sympy.I) for x in p.values.values())]
+        regular = [point for point in real if self._regular(point.values)]
         self._singular = bool(points) and not regular
         # under velocity constraints others turn at rates that are no momenta's
         kinds = self.dynamics.constraints.kinds.values()
@@ -370,6 +371,8 @@ class SteadyMotions:
                 self.complete = False
                 return []
             rates = self._rates(whole)
+            if any(x.has(sympy.I) for x in (*whole.values(), *rates.values())):
+                return []
             for j, rate in rates.items():
                 given = values.get(self.full.qdot[j])
                 if given is not None and is_zero(rate - given) is True:

@@ -25,6 +25,7 @@ from sympy import Expr, Float, I, count_ops, im
 from lagcli.algebra import simplify
 from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.oscillations.singular import OnMeridians
 from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
 from lagcli.mechanics.stability.near import Near, contradictory
 from lagcli.mechanics.stability.signs import is_positive, sign_of, weak_sign
@@ -110,6 +111,25 @@ def judge(linear: Linearization, characteristic: Characteristic | None = None) -
         return by_a_growing_root(near) or _judged(near)
     except ZeroDivisionError:
         return undecided("the equations of motion are singular there")
+
+
+def judge_on_meridians(linear: OnMeridians) -> Stability:
+    """The stability where only the coordinates are singular, by the potential alone."""
+    near = Near(linear)
+    try:
+        if not (near.has_energy and near.smooth and linear.regular):
+            return undecided("the coordinates are singular there")
+        if not near.inertia_is_definite:
+            return undecided(NOT_DEFINITE)
+        turning = linear.turns
+        if _falls(near) and not turning:
+            return unstable("{V} has no minimum there")
+        found = by_minimum(near)
+    except ZeroDivisionError:
+        return undecided("the equations of motion are singular there")
+    if found is None:
+        return undecided("the coordinates are singular there")
+    return replace(found, reverses=not turning, asymptotic=False)
 
 
 def _not_to_be_judged(near: Near) -> str:

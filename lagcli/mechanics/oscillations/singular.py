@@ -1,0 +1,138 @@
+"""Equilibria where the mass matrix is singular: of the coordinates, or of the body.
+
+At a pole of a sphere only the coordinates fail.  There, with regular ones, the force is a
+vector F, and a state is an equilibrium where its square F^T M^-1 F vanishes, a number that
+no choice of coordinates changes: it must go to 0 with the distance to the place, from every side.
+(With constraints, the square a^T M a of the acceleration from rest.)
+
+What V is near such a place is seen along the displacements that M does not annihilate, at every
+value of the coordinates that have none: the meridians through the pole.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+
+import mpmath
+from mpmath import mpf
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import is_zero, nullspace
+from lagcli.algebra.numeric import Evaluator
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
+from lagcli.mechanics.parameter_values import admissible_values
+
+_DIGITS = 60
+_NEAR, _NEARER = mpf(10) ** -3, mpf(10) ** -9
+#: Between these distances a square that vanishes falls by 1e-12, one that does not by nothing.
+_FALLS = mpf(10) ** -6
+_DIRECTIONS = 3
+_TRIES = 12
+
+
+class OnMeridians(Linearization):
+    """The linearised motion along the displacements that the mass matrix does not annihilate."""
+
+    def __init__(self, whole: Linearization) -> None:
+        super().__init__(whole.rest, whole.point)
+        self.basis = _complement(whole.basis, nullspace(whole.M))
+
+    @cached_property
+    def indeterminate(self) -> tuple[int, ...]:
+        """The coordinates that have no value there: displaced alone, nothing moves."""
+        still = dict.fromkeys(self.system.qdot, S.Zero)
+        return tuple(
+            j
+            for j, row in enumerate(self.dynamics.lagrange.mass_matrix)
+            if all(is_zero(at(entry.xreplace(still), self.point.values)) is True for entry in row)
+        )
+
+    @cached_property
+    def turns(self) -> bool:
+        """Whether L has terms linear in the velocities: these may turn the meridians."""
+        still = dict.fromkeys(self.system.qdot, S.Zero)
+        momenta = (p.xreplace(still) for p in self.dynamics.lagrange.momenta)
+        return any(is_zero(p) is not True for p in momenta)
+
+
+def _complement(basis: Matrix, null: Matrix) -> Matrix:
+    """The columns of the basis without those that the null vectors express by the others."""
+    gone = set()
+    for vector in null:
+        places = [k for k, x in enumerate(vector) if x != 0 and k not in gone]
+        gone.add(places[-1])
+    return [column for k, column in enumerate(basis) if k not in gone]
+
+
+def is_singular(linear: Linearization) -> bool:
+    """Whether the mass matrix has null vectors there."""
+    return bool(linear.M) and not linear.regular
+
+
+def survives(rest: RestPoints, point: RestPoint) -> bool:
+    """Whether it is an equilibrium in regular coordinates; True where M is regular."""
+    if point.family is not None:
+        return True
+    try:
+        if not is_singular(Linearization(rest, point)):
+            return True
+    except ZeroDivisionError:
+        return True
+    source = random.Random("meridians")
+    squares = _Square(rest)
+    for values in admissible_values(rest.system, _TRIES)[:_TRIES]:
+        found = [squares.falls(point, values, source) for _ in range(_DIRECTIONS)]
+        if None not in found:
+            return all(found)
+    return True
+
+
+class _Square:
+    """a^T M a of the acceleration from rest, near a place."""
+
+    def __init__(self, rest: RestPoints) -> None:
+        self.rest, lagrange = rest, rest.dynamics.lagrange
+        self.system = rest.system
+        still = dict.fromkeys(self.system.qdot, S.Zero)
+        kept = rest.dynamics.independent_constraints
+        rows = [rest.dynamics.constraints.equations[k].row for k in kept]
+        self.n, self.m = len(self.system.q), len(rows)
+        mass = [x.xreplace(still) for row in lagrange.mass_matrix for x in row]
+        everything: list[Expr] = [*rest.forces_at_rest, *mass, *(x for row in rows for x in row)]
+        self.evaluate = Evaluator(everything, _DIGITS)
+
+    def falls(
+        self, point: RestPoint, values: Mapping[Symbol, mpf], source: random.Random
+    ) -> bool | None:
+        """Whether it goes to 0 on a straight line to the place; None where it has no value."""
+        direction = [mpf(source.uniform(-1, 1)) for _ in self.system.q]
+        given = dict(values)
+        for q in self.system.q:
+            given.setdefault(q, mpf(source.uniform(0.3, 1.2)))
+        try:
+            with mpmath.workdps(_DIGITS):
+                far, near = (self._at(point, given, direction, d) for d in (_NEAR, _NEARER))
+                return bool(near <= _FALLS * far) or near == 0
+        except (ArithmeticError, ValueError, KeyError, TypeError):
+            return None
+
+    def _at(
+        self, point: RestPoint, given: Mapping[Symbol, mpf], direction: Sequence[mpf], distance: mpf
+    ) -> mpf:
+        places = Evaluator([point.values.get(q, q) for q in self.system.q], _DIGITS)(given)
+        pairs = zip(self.system.q, places, direction, strict=True)
+        values = {**given, **{q: x + distance * d for q, x, d in pairs}}
+        n, m = self.n, self.m
+        flat = self.evaluate(values)
+        F, M, A = flat[:n], flat[n : n + n * n], flat[n + n * n :]
+        K = mpmath.zeros(n + m)
+        for i in range(n):
+            for j in range(n):
+                K[i, j] = M[i * n + j]
+            for k in range(m):
+                K[i, n + k], K[n + k, i] = -A[k * n + i], A[k * n + i]
+        a = mpmath.lu_solve(K, mpmath.matrix([*F, *([0] * m)]))
+        return mpf(sum(a[i] * M[i * n + j] * a[j] for i in range(n) for j in range(n)))

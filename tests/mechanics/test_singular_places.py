@@ -1,0 +1,74 @@
+"""Equilibria at the poles of coordinates: those of the body are kept, those of the chart are not."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.oscillations.small_oscillations import equilibria
+
+from .derived import derive
+
+
+def found(text: str):
+    states = equilibria(derive(text.replace("POSITIVE", "{assume: positive}")).dynamics).equilibria
+    assert states is not None
+    return {(*map(to_grammar, e.at.values()),): e for e in states}
+
+
+SPHERE = """
+coordinates: [theta, phi]
+T: (theta'^2 + sin(theta)^2*phi'^2)/2
+V: POTENTIAL
+"""
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_poles_of_a_sphere(seed):
+    """V = a cos + b cos^2: the poles are equilibria, stable where V'' > 0 along the meridians."""
+    source = random.Random(seed)
+    a, b = source.choice([-3, -2, -1, 1, 2, 3]), source.choice([-5, -4, 0, 0, 4, 5])
+    states = found(SPHERE.replace("POTENTIAL", f"{a}*cos(theta) + ({b})*cos(theta)^2"))
+    assert states[("0",)].verdict.stable is (-a - 2 * b > 0)
+    assert states[("pi",)].verdict.stable is (a - 2 * b > 0)
+    assert states[("0",)].indeterminate == ("phi",)
+    assert states[("0",)].free == ()
+
+
+@pytest.mark.parametrize("potential", ["sin(theta)*cos(phi)", "2*sin(theta)*sin(phi)"])
+def test_a_pole_is_no_equilibrium_where_a_force_acts(potential):
+    """At theta = 0 both derivatives vanish for some phi; the force along the sphere does not."""
+    places = set(found(SPHERE.replace("POTENTIAL", potential)))
+    assert not any(place[0] in {"0", "pi"} for place in places)
+
+
+def test_the_origin_of_polar_coordinates():
+    states = found("""
+coordinates: {r: {assume: nonnegative}, phi: {}}
+parameters: {k: POSITIVE}
+T: (r'^2 + r^2*phi'^2)/2
+V: k*r^2/2
+""")
+    assert states[("0",)].verdict.stable is True
+
+
+def test_a_ball_that_rolls_has_no_equilibria_in_the_singularities_of_its_angles():
+    states = found("""
+coordinates: [x, alpha, beta, gamma]
+parameters: {g: POSITIVE}
+T: x'^2/2 + (beta'^2 + alpha'^2 + gamma'^2 + 2*alpha'*gamma'*cos(beta))/5
+V: -g*x
+constraints: {rolling: x' = beta'*cos(alpha) + gamma'*sin(beta)*sin(alpha)}
+""")
+    assert not states
+
+
+def test_a_family_that_is_real_in_a_point_only_is_none():
+    """Calogero and Moser: x^2 + y^2 - x y = 0 where all three meet."""
+    assert not found("""
+coordinates: [x, y]
+T: x'^2/2 + y'^2/2
+V: 1/x^2 + 1/y^2 + 1/(x - y)^2
+""")
