@@ -235,7 +235,12 @@ class SpecialValue:
 
 @record(kw_only=True)
 class AlgebraSection:
-    """The Lie algebra of the discovered symmetries; None: no brackets to find it by."""
+    """The Lie algebra of the discovered symmetries; None: no brackets to find it by.
+
+    `dimension` counts generators: all `number` of them, or those of the point symmetries.
+    `closed`: every bracket is a combination of all of them and of constants.  `integrable` is
+    True or None; `separates` where the Hamilton-Jacobi equation shows it, not the charges.
+    """
 
     ansatz: str
     dimension: int
@@ -243,6 +248,9 @@ class AlgebraSection:
     independent: int
     in_involution: int | None
     integrable: bool | None
+    number: int = 0
+    closed: bool = False
+    separates: bool = False
     special: tuple[SpecialValue, ...] = ()
 
 

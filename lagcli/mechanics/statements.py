@@ -420,7 +420,16 @@ class Statements(Stating):
             )
             for case in discovery.special
         )
-        return replace(algebra_section(discovery), special=special)
+        section = algebra_section(discovery, self._separates)
+        return replace(section, special=special)
+
+    def _separates(self) -> bool:
+        """Whether a complete integral of the Hamilton-Jacobi equation was found."""
+        from lagcli.mechanics.reduction.separation import Separation
+
+        separation = Separation(self.derivation)
+        found = separation.separated
+        return found is not None and len(found.constants) == len(separation.system.q)
 
     def _find(self) -> FindSection:
         from lagcli.mechanics.finding.find import answer_questions

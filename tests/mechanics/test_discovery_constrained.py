@@ -42,8 +42,8 @@ KNOWN = {
     "classics/spherical-pendulum-cartesian": ("energy L_z", "", "R^2", True),
     "classics/particle-in-paraboloid": ("energy L_z", "", None, None),
     "driven/bead-on-wire-turning-horizontally": ("charge_1 charge_2 charge_4", "", "sch(1)", True),
-    "chains/cartesian-double-pendulum": ("energy", "", "R", False),
-    "driven/bead-on-wire-turning-in-vertical-plane": ("", "", None, False),
+    "chains/cartesian-double-pendulum": ("energy", "", "R", None),
+    "driven/bead-on-wire-turning-in-vertical-plane": ("", "", None, None),
 }  # fmt: skip
 
 

@@ -9,12 +9,14 @@ import pytest
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.reduction.statement import reduction
+from lagcli.mechanics.statements import Statements
 from lagcli.pipeline import explain
 
 from .derived import derive
 from .test_explanation import words
 
 SEEDS = range(6)
+ALGEBRA = "The algebra of the symmetries"
 
 
 def said(text, title, *also):
@@ -196,3 +198,93 @@ def test_turning_points_are_real_just_between_the_energies_named(seed):
     values = [V({a: at["a"], th: k / 100})[0] for k in range(629)]
     assert float(min(values)) == pytest.approx(bounds[0], abs=1e-3)
     assert float(max(values)) == pytest.approx(bounds[1], abs=1e-3)
+
+
+# -- algebras and integrability -------------------------------------------------------------------
+
+LINE = "coordinates: [x]\nparameters: {m: {}, k: {assume: positive}}\n"
+PLANE = "coordinates: [x, y]\nparameters: {m: {assume: positive}, k: {assume: positive}, g: {}}\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "generators", "with_constants"),
+    [
+        # Niederer 1972: sl(2,R) with h(1) has dimension 6, with h(2) and so(2) 9
+        ("coordinates: [x]\nparameters: {m: {assume: positive}}\nT: m*x'^2/2", 5, 6),
+        (LINE + "T: m*x'^2/2\nV: m*k^2*x^2/2", 5, 6),
+        (PLANE + "T: m*(x'^2 + y'^2)/2", 8, 9),
+        # Levy-Leblond 1971: {p, boost} = m extends Galilei in one dimension to four
+        (PLANE + "functions: {U: [d]}\nT: m*(x'^2 + y'^2)/2\nV: U(x - y)", 3, 4),
+    ],
+)  # fmt: skip
+def test_constants_among_the_brackets_belong_to_the_algebra(text, generators, with_constants):
+    [found] = Statements(derive(text)).answers(["algebra"]).sections.values()
+    assert found.dimension == generators
+    assert found.name.endswith(", modulo constants")
+    sentences = said(text, ALGEBRA, "algebra")
+    assert f"dimension {generators} modulo constants and {with_constants} with them" in sentences
+
+
+def test_an_algebra_without_constants_is_not_extended():
+    text = PLANE + "T: m*(x'^2 + y'^2)/2\nV: -k/sqrt(x^2 + y^2)"
+    assert "constants" not in said(text, ALGEBRA, "algebra").partition("functionally")[0]
+
+
+SEPARATING = (
+    # quartic in x + y and x - y: no symmetry but the energy in the plane of x and y
+    ("x", "y", "k*(x^4 + x^3) + g*y^4"),
+    ("r", "phi", "k*r^3 + g*(2 + cos(phi))/r^2"),
+    ("u", "v", "k*u^6 + exp(v)*g"),
+)
+
+
+@pytest.mark.parametrize(("one", "two", "potential"), SEPARATING)
+def test_what_separates_is_integrable(one, two, potential):
+    """n constants of a complete integral are in involution (Arnold, section 47)."""
+    inertia = f"{one}'^2 + {one}^2*{two}'^2" if one == "r" else f"{one}'^2 + {two}'^2"
+    text = (
+        f"coordinates: {{{one}: {{assume: positive}}, {two}: {{}}}}\n"
+        f"parameters: {{m: {{assume: positive}}, k: {{}}, g: {{}}}}\nT: m*({inertia})/2\n"
+        f"V: {potential}"
+    )
+    [found] = Statements(derive(text)).answers(["algebra"]).sections.values()
+    assert found.integrable is True
+    assert "it is integrable" in (sentences := said(text, ALGEBRA, "algebra")) or (
+        "the motion is integrable by quadratures (Liouville)." in sentences
+    )
+
+
+def test_a_cubic_charge_of_the_file_counts():
+    """Holt 1982: V = 3 x^(4/3)/4 + ... has a cubic one; here Toda's three particles, Hénon 1974."""
+    text = (
+        "coordinates: [x, y, z]\nT: (x'^2 + y'^2 + z'^2)/2\n"
+        "V: exp(x - y) + exp(y - z) + exp(z - x)\n"
+    )
+    cubic = (
+        "symmetries:\n  henon: {x: y'*z' - exp(y - z), y: x'*z' - exp(z - x), "
+        "z: x'*y' - exp(x - y)}\n"
+    )
+    [without] = Statements(derive(text)).answers(["algebra"]).sections.values()
+    assert without.integrable is None
+    derivation = derive(text + cubic)
+    assert derivation.noether.charges[0].conserved is True
+    [found] = Statements(derivation).answers(["algebra"]).sections.values()
+    assert found.in_involution == 3
+    assert found.integrable is True
+
+
+def test_henon_and_heiles_at_a_general_value_is_not_decided():
+    text = PLANE + "T: m*(x'^2 + y'^2)/2\nV: k*(x^2 + y^2)/2 + x^2*y - y^3/3"
+    assert "which does not decide it." in said(text, ALGEBRA, "algebra")
+
+
+def test_special_values_are_symmetric_in_three_frequencies():
+    text = (
+        "coordinates: [x, y, z]\nparameters: {m: {assume: positive}, a: {assume: positive}, "
+        "b: {assume: positive}, c: {assume: positive}}\nT: m*(x'^2 + y'^2 + z'^2)/2\n"
+        "V: a*x^2/2 + b*y^2/2 + c*z^2/2\n"
+    )
+    special = derive(text).discovery.special
+    assert {frozenset((case.parameter.name, str(case.value))) for case in special} >= {
+        frozenset("ab"), frozenset("ac"), frozenset("bc"),
+    }  # fmt: skip

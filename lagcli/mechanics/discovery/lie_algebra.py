@@ -1,7 +1,9 @@
 """The name of a Lie algebra of small dimension from its structure constants.
 
-Told apart by the dimension, the centre, the derived algebra and the signature of the
-Killing form kappa_ab = sum C_ac^d C_bd^c.
+The dimension, the centre, the derived algebra and the signature of the Killing form
+kappa_ab = sum C_ac^d C_bd^c decide.  Where brackets of the generators are constants that no
+shift Q -> Q + const removes, the algebra is a central extension: the generators span it only
+modulo constants, and with the constant 1 its dimension is one more.  The name says so.
 
 References
 ----------
@@ -20,6 +22,10 @@ from mpmath import mpf
 from lagcli.mechanics.discovery.brackets import Structure, Vector, rank
 
 _SMALL = mpf(10) ** -12
+#: What stands after the name of an algebra that contains the constants beside its generators.
+MODULO_CONSTANTS = ", modulo constants"
+#: Algebras with a centre that the constants make up: dimensions 2 d + 1 of h(d), and so on.
+_EXTENDED = ("Heisenberg", "Galilei", "oscillator algebra")
 _SEMISIMPLE = {
     (3, 0, 3): "so(3)",
     (3, 2, 1): "sl(2,R)",
@@ -35,7 +41,7 @@ def name_of(structure: Structure) -> str | None:
     """The name of the algebra, None where it is none of the known ones."""
     with mpmath.workdps(30):
         if structure.by_energy is None:
-            return _name(structure.constants, structure.central)
+            return _with_centre(_name(structure.constants, structure.central))
         names = [_name(_at_energy(structure, E), structure.central) for E in (-1, 0, 1)]
         where = ("where the energy is negative", "where it is 0", "where it is positive")
         if names[0] is None:
@@ -43,6 +49,13 @@ def name_of(structure: Structure) -> str | None:
         if len(set(names)) == 1:
             return names[0]
         return ", ".join(f"{name} {at}" for name, at in zip(names, where, strict=True) if name)
+
+
+def _with_centre(name: str | None) -> str | None:
+    """The name, with a note where the constants belong to the algebra."""
+    if name is None or not any(word in name for word in _EXTENDED):
+        return name
+    return f"{name}{MODULO_CONSTANTS}"
 
 
 def _at_energy(structure: Structure, value: int) -> list[list[Vector]]:

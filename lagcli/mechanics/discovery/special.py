@@ -34,7 +34,6 @@ from lagcli.problem import Expect, Problem
 from lagcli.record import replace
 from lagcli.values import with_values_of
 
-_MOST = 8
 _RATIOS = (1, 2, 3)
 
 Value = tuple[Symbol, Expr]
@@ -53,12 +52,12 @@ class SpecialCase:
 def candidates(
     system: System, factors: Sequence[Expr], exponents: Sequence[Exponent]
 ) -> list[Value]:
-    """At most a few, each once: roots of the factors, and frequencies that are commensurate."""
+    """Each once: roots of the factors, and frequencies that are commensurate."""
     found: dict[Value, None] = {}
     for factor in factors:
         found |= dict.fromkeys(_solved(factor, system.parameters))
     found |= dict.fromkeys(_commensurate(system.parameters, exponents))
-    return list(found)[:_MOST]
+    return list(found)
 
 
 def problem_at(problem: Problem, parameter: Symbol, value: Expr) -> Problem | None:

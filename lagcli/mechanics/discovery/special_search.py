@@ -28,9 +28,10 @@ if TYPE_CHECKING:
     from lagcli.mechanics.discovery.discovery import Discovery
 
 _MOST_COORDINATES = 4
-_UNITS = 10_000_000
+_UNITS = 40_000_000  # nine values for three frequencies take 34 million
 _FOR_PIVOTS = 0.4  # of these
 _MOST_UNKNOWNS = 150
+_MOST_VALUES = 12
 _MOST_OPERATIONS = 20
 _NOT_TRIED = "not all special values of the parameters were tried"
 _NOT_ALL = "not all special values of the parameters were sought"
@@ -47,7 +48,10 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
     try:
         factors, complete = _factors(discovery, allowed)
         exponents = () if complete else _exponents(discovery)
-        for parameter, value in candidates(system, factors, exponents):
+        values = candidates(system, factors, exponents)
+        if len(values) > _MOST_VALUES:
+            discovery.words.append(_NOT_TRIED)
+        for parameter, value in values[:_MOST_VALUES]:
             if sympy.count_ops(value) > _MOST_OPERATIONS:
                 discovery.words.append(_NOT_TRIED)
                 continue

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import combinations
 
 import sympy
 from sympy import Expr
 
+from lagcli.algebra import is_zero
 from lagcli.answers import AlgebraSection
 from lagcli.mechanics.discovery.brackets import Brackets, NoState
 from lagcli.mechanics.discovery.constrained import rank_on_surface
@@ -27,18 +29,32 @@ class Summary:
     in_involution: int | None
     integrable: bool | None
     notes: tuple[str, ...] = ()
+    closed: bool = False  # all brackets are combinations of the charges and of constants
 
 
-def algebra_section(discovery: Discovery) -> AlgebraSection:
-    """The statement of it."""
+def algebra_section(discovery: Discovery, separates: Callable[[], bool]) -> AlgebraSection:
+    """The statement of it.
+
+    A complete integral of the Hamilton-Jacobi equation, which `separates` looks for where the
+    charges do not suffice, has n constants: functions of q and p, independent and in involution.
+
+    References
+    ----------
+    Liouville, J. Math. Pures Appl. 20 (1855) 137 (n integrals in involution: quadratures).
+    Arnold, *Mathematical Methods of Classical Mechanics*, 2nd ed., sections 47 and 49.
+    """
     found = summary(discovery)
+    separable = found.integrable is not True and discovery.canonical and separates()
     return AlgebraSection(
         ansatz="; ".join((discovery.ansatz, *found.notes)),
         dimension=found.dimension,
         name=found.name,
         independent=found.independent,
         in_involution=found.in_involution,
-        integrable=found.integrable,
+        integrable=True if separable else found.integrable,
+        separates=separable,
+        number=len(discovery.charges),
+        closed=found.closed,
     )
 
 
@@ -63,9 +79,9 @@ def _free(discovery: Discovery) -> Summary:
     charges = [c.charge for c in discovery.charges]
     count = len(charges)
     if not count:
-        return Summary(0, None, 0, 0, False)
-    triples = _squares(discovery)
-    brackets = Brackets([*charges, *triples], discovery.dynamics, discovery.allowed)
+        return Summary(0, None, 0, 0, None)
+    more = [*_squares(discovery), *_of_the_file(discovery)]
+    brackets = Brackets([*charges, *more], discovery.dynamics, discovery.allowed)
     everything = list(range(count))
     if not discovery.canonical:
         # with other forces than those of L the motion is no canonical flow
@@ -78,6 +94,7 @@ def _free(discovery: Discovery) -> Summary:
         everything = everything[:points]
     energy = next((k for k, c in enumerate(discovery.charges) if c.name == "energy"), None)
     structure = brackets.structure(everything)
+    closed = structure is not None and len(everything) == count
     if structure is not None:
         dimension, name = len(everything), name_of(structure)
     elif len(everything) > points:
@@ -87,7 +104,7 @@ def _free(discovery: Discovery) -> Summary:
     t = discovery.system.t
     autonomous = t not in discovery.system.L.free_symbols
     fixed = [
-        k for k, c in enumerate([*charges, *triples])
+        k for k, c in enumerate([*charges, *more])
         if not autonomous or t not in c.free_symbols
     ]  # fmt: skip
     timed = [k for k in range(count) if k not in fixed]
@@ -100,8 +117,9 @@ def _free(discovery: Discovery) -> Summary:
         name,
         independent,
         involution,
-        involution == discovery.dynamics.degrees_of_freedom,
+        involution == discovery.dynamics.degrees_of_freedom or None,
         tuple(notes),
+        closed,
     )
 
 
@@ -132,6 +150,14 @@ def _squares(discovery: Discovery) -> list[Expr]:
         if structure is not None and name_of(structure) == "so(3)":
             found.append(sympy.Add(*(linear[k] ** 2 for k in triple)))
     return found
+
+
+def _of_the_file(discovery: Discovery) -> list[Expr]:
+    """The conserved charges of its candidates, of any degree, for involution."""
+    return [
+        c.charge for c in discovery.noether.charges
+        if c.source == "candidate" and c.conserved and is_zero(c.charge) is not True
+    ]  # fmt: skip
 
 
 def _nonholonomic(discovery: Discovery) -> Summary:

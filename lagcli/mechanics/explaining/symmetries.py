@@ -14,6 +14,7 @@ from lagcli.answers import AlgebraSection, Charge, ChargesSection, Section
 from lagcli.document import Block, Bracket, Equations, Heading, Label, Row
 from lagcli.expression import ZERO, Expression, Name, walk
 from lagcli.mechanics.canonical.poisson import poisson
+from lagcli.mechanics.discovery.lie_algebra import MODULO_CONSTANTS
 from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.teller import Teller
@@ -107,39 +108,62 @@ def algebra(teller: Teller, section: Section) -> Iterator[Block]:
     if not charges:
         yield says(f"No symmetry was found, so there is no algebra. Searched: {found.ansatz}.")
         return
-    yield from _brackets(teller)
-    if found.name:
-        yield says(f"The algebra of dimension {found.dimension} is {found.name}.")
-    elif found.in_involution is not None:
-        yield says(f"The algebra has dimension {found.dimension}; it is none of those that have "
-                   "a name here.")  # fmt: skip
-    n = teller.dynamics.degrees_of_freedom
-    number = found.independent
-    yield says(f"Of the charges found, {number} {'is' if number == 1 else 'are'} independent: so "
-               "many of their gradients in phase space are.")  # fmt: skip
+    yield from _brackets(teller, closed=found.closed)
+    yield from _dimension(found)
+    number, n = found.independent, teller.dynamics.degrees_of_freedom
+    yield says(f"{number} of them {'is' if number == 1 else 'are'} functionally "
+               f"independent: the rank "
+               f"of their gradients in phase space is {number}.")  # fmt: skip
     if found.in_involution is not None:
-        count = found.in_involution
-        yield says(
-            "By Liouville's theorem the motion is integrable when there are as many independent "
-            "constants, all of whose brackets with each other vanish, as degrees of freedom. "
-            f"There are {count}, and {n} degree{'s' * (n != 1)} of freedom: "
-            + (
-                "it is integrable."
-                if found.integrable
-                else "the charges found do not make it integrable."
-            )
-        )
+        yield says(*_integrability(found, n))
+    if any("special values" in note for note in teller.derivation.discovery.words):
+        yield says("Not all special values of the parameters were tried.")
     for case in found.special:
-        yield Heading("More charges for one value of", 2, Name(case.parameter))
-        yield says("The linear equations lose rank, and have more solutions, where")
+        yield Heading("More symmetries for one value of", 2, Name(case.parameter))
+        yield says("The linear equations have a smaller rank, and more solutions, for")
         yield shows(Name(case.parameter), case.value)
         new = len(case.charges)
-        yield says(f"There are {case.number} charges in all there, "
-                   f"{'this one' if new == 1 else 'these'} new:")  # fmt: skip
+        yield says(f"The number of symmetries is then {case.number}, with "
+                   f"{'this' if new == 1 else 'these'} in addition:")  # fmt: skip
         yield Equations(tuple(Row(Name(name), value) for name, value in case.charges.items()))
 
 
-def _brackets(teller: Teller) -> Iterator[Block]:
+def _dimension(found: AlgebraSection) -> Iterator[Block]:
+    """What the dimension counts, and the name of the algebra."""
+    which = "the symmetries" if found.dimension == found.number else "the point symmetries"
+    if not found.name:
+        if found.in_involution is not None:
+            yield says(
+                f"The dimension of {which} is {found.dimension}. Their algebra is not one of those "
+                "with a name here."
+            )
+        return
+    name = found.name.removesuffix(MODULO_CONSTANTS)
+    if name == found.name:
+        yield says(f"The algebra of {which} has dimension {found.dimension}: {name}.")
+    else:
+        yield says(
+            f"Constants occur among the brackets. The algebra of {which} has dimension "
+            f"{found.dimension} modulo constants and {found.dimension + 1} with them: {name}."
+        )
+
+
+def _integrability(found: AlgebraSection, n: int) -> list[Part]:
+    """Liouville: n independent integrals in involution reduce the motion to quadratures."""
+    count = found.in_involution
+    if found.separates:
+        why = f"The Hamilton-Jacobi equation separates with {n} independent constants in involution"
+        return [f"{why}: the motion is integrable by quadratures (Liouville)."]
+    law = (
+        "By Liouville's theorem the motion is integrable by quadratures with as many independent "
+        "constants, whose brackets with each other vanish, as degrees of freedom. "
+    )
+    here = f"Here their number is {count}, with {n} degree{'s' * (n != 1)} of freedom"
+    verdict = ": it is integrable." if found.integrable else ", which does not decide it."
+    return [law, here + verdict]
+
+
+def _brackets(teller: Teller, *, closed: bool) -> Iterator[Block]:
     """{A, B} by multiples of the charges, where the Legendre transform is to be had."""
     discovery, hamiltonian = teller.derivation.discovery, teller.derivation.hamiltonian
     charges = discovery.charges
@@ -147,8 +171,12 @@ def _brackets(teller: Teller) -> Iterator[Block]:
     if not free or len(charges) < 2 or hamiltonian.velocities is None:
         return
     if len(charges) > _MOST:
-        yield says(f"The Poisson brackets of the {len(charges)} charges, taken two at a time, are "
-                   "sums of multiples of them.")  # fmt: skip
+        if closed:
+            yield says(
+                f"The Poisson brackets of the {len(charges)} conserved quantities with each "
+                f"other are "
+                "linear combinations of them and of constants."
+            )
         return
     known = {each.name: hamiltonian.in_phase_space(each.charge) for each in charges}
     rows, commuting, other = [], 0, 0
@@ -167,15 +195,16 @@ def _brackets(teller: Teller) -> Iterator[Block]:
         order = (*teller.system.order, *known)
         rows.append(Row(Bracket(Name(one), Name(two)), shape(multiple, order)))
     if not rows and not other:
-        yield says("The Poisson bracket of the two charges vanishes." if commuting == 1 else
-                   "The Poisson brackets of the charges with each other all vanish.")  # fmt: skip
+        two = "The Poisson bracket of the two conserved quantities vanishes."
+        all_ = "All Poisson brackets of the conserved quantities with each other vanish."
+        yield says(two if commuting == 1 else all_)
         return
     if rows:
-        yield says("The charges as functions of coordinates and momenta have the Poisson brackets")
+        yield says("The conserved quantities have the Poisson brackets")
         yield Equations(tuple(rows))
     if other:
-        yield says(f"{other} {'brackets are' if other > 1 else 'bracket is'} not 0 and no multiple "
-                   "of one charge.")  # fmt: skip
+        yield says(f"{other} other {'brackets are' if other > 1 else 'bracket is'} neither 0 nor a "
+                   "multiple of one of them.")  # fmt: skip
     if commuting:
         yield says("All others are 0.")
 
