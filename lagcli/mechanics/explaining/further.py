@@ -7,20 +7,18 @@ from fractions import Fraction
 from functools import partial
 from typing import cast
 
-from sympy import Expr
-
-from lagcli.algebra import is_zero
-from lagcli.answers import EquilibriaSection, ModesSection, Section
-from lagcli.document import Block, Equations, Heading, Label, Matrix, Row
+from lagcli.answers import EquilibriaSection, Section
+from lagcli.document import Block, Equations, Heading, Row
 from lagcli.explanation import Step
-from lagcli.expression import ZERO, Expression, Name, Number, Power
+from lagcli.expression import ZERO, Expression, Number
 from lagcli.mechanics.explaining import phase_space, quantities, symmetries
+from lagcli.mechanics.explaining.oscillations import oscillations
 from lagcli.mechanics.explaining.questions import questions
 from lagcli.mechanics.explaining.real_forces import real_forces
 from lagcli.mechanics.explaining.reduction import reduction
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.transformations import transformations
-from lagcli.mechanics.explaining.words import Part, names, says, shows
+from lagcli.mechanics.explaining.words import names, says
 from lagcli.mechanics.statements import Statements
 from lagcli.mechanics.stating import Stating
 from lagcli.wording import conditions as inequalities
@@ -100,84 +98,10 @@ def _state(
     return Equations(place_rows(at, on))
 
 
-def _oscillations(teller: Teller, section: Section) -> Iterator[Block]:
-    from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
-
-    known = cast(ModesSection, section)
-    found = known.modes
-    if not found:
-        yield says(f"There are none: {known.reason}.")
-        return
-    oscillations = SmallOscillations(teller.dynamics)
-    for at, on in {
-        (tuple(mode.at.items()), mode.on): (mode.at, mode.on) for mode in found
-    }.values():
-        places = [
-            p
-            for p in oscillations.places or ()
-            if (oscillations.equilibrium(p).at, oscillations.equilibrium(p).on) == (at, on)
-        ]
-        yield says("To first order in the displacements from the equilibrium")
-        yield _state(at, on)
-        yield from _linear(teller, *places[0].matrices)
-        for mode in found:
-            if (mode.at, mode.on) != (at, on):
-                continue
-            square = Power(Name("omega"), _SQUARE)
-            value = mode.frequency if mode.frequency is not None else mode.frequency_squared
-            if value is not None:
-                left: Expression = Name("omega") if mode.frequency is not None else square
-                yield shows(left, value)
-            shapes = [] if mode.shape is None else [mode.shape, *mode.more_shapes]
-            for number, shape in enumerate(shapes if len(mode.shape or ()) > 1 else ()):
-                yield says(
-                    "and independently of these, as the root is multiple,"
-                    if number
-                    else "with the amplitudes in the ratio"
-                )
-                yield Equations(tuple(Row(Label("a", (q,)), part) for q, part in shape.items()))
-
-
-def _linear(
-    teller: Teller,
-    mass: Sequence[Sequence[Expr]],
-    velocity: Sequence[Sequence[Expr]],
-    stiffness: Sequence[Sequence[Expr]],
-) -> Iterator[Block]:
-    """M x'' + C x' + K x = 0, and the condition for a frequency."""
-    moving = any(is_zero(entry) is not True for row in velocity for entry in row)
-    M, C, K = (Label(letter, matrix=True) for letter in "MCK")
-    parts: list[Part] = ["the equations of motion are ", M, " · accelerations + "]
-    parts += [C, " · velocities + "] if moving else []
-    yield says(*parts, K, " · displacements = 0 with")
-    tags = tuple(str(n) for n in range(1, len(mass) + 1))
-    for letter, entries in (("M", mass), ("C", velocity), ("K", stiffness)):
-        if letter == "C" and not moving:
-            continue
-        trees = tuple(tuple(map(teller.readable.as_written, row)) for row in entries)
-        if len(trees) == 1:
-            yield shows(Label(letter, matrix=True), trees[0][0])
-        else:
-            yield Matrix(Label(letter, matrix=True), trees, tags, tags)
-    if teller.dynamics.constraints.equations:
-        yield says("restricted to the displacements that the constraints allow.")
-    omega, s = Name("omega"), Name("s")
-    form: list[Part] = [K, " − ", Power(omega, _SQUARE), " ", M]
-    if moving:
-        form = [K, " + ", s, " ", C, " + ", Power(s, _SQUARE), " ", M, " with ", s, " = i ", omega]
-    yield says(
-        "An oscillation with the angular frequency ",
-        omega,
-        " needs the determinant of ",
-        form,
-        " to vanish. So",
-    )
-
-
 _STEPS: Mapping[str, tuple[str, Callable[[Teller, Section], Iterator[Block]]]] = {
     "find": ("Questions", questions),
     "equilibria": ("Equilibria", _equilibria),
-    "modes": ("Small oscillations", _oscillations),
+    "modes": ("Small oscillations", oscillations),
     "reduction": ("The reduction", reduction),
     "steady_motions": ("Steady motions", phase_space.steady),
     "canonical_equations": ("Canonical equations", phase_space.canonical_equations),

@@ -1,0 +1,168 @@
+"""The step on small oscillations: the matrices, the determinant, frequencies and amplitudes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING, cast
+
+from sympy import Expr, Symbol
+
+from lagcli.algebra import is_zero, simplify, terms
+from lagcli.algebra.signs import sign
+from lagcli.answers import Mode, ModesSection, Section
+from lagcli.document import Block, Equations, Label, Matrix, Row
+from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, operation_count
+from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.words import Part, difference, says, shows
+from lagcli.wording import place_rows
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.oscillations.small_oscillations import Place
+
+_SQUARE = Number(Fraction(2))
+#: A characteristic polynomial of more operations is not printed.
+_LONG = 120
+
+
+def oscillations(teller: Teller, section: Section) -> Iterator[Block]:
+    """One equilibrium after another."""
+    from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
+
+    known = cast(ModesSection, section)
+    found = known.modes
+    if not found:
+        yield says(f"There are none: {known.reason}.")
+        return
+    small = SmallOscillations(teller.dynamics)
+    by_place = {(tuple(mode.at.items()), mode.on): (mode.at, mode.on) for mode in found}
+    for at, on in by_place.values():
+        place = next(
+            p
+            for p in small.places or ()
+            if (small.equilibrium(p).at, small.equilibrium(p).on) == (at, on)
+        )
+        yield says("To first order in the displacements from the equilibrium")
+        yield Equations(place_rows(at, on))
+        yield from _linear(teller, *place.matrices)
+        here = [mode for mode in found if (mode.at, mode.on) == (at, on)]
+        if place.characteristic.in_square is None:
+            yield from _damped(teller, place)
+        else:
+            yield from _undamped(teller, here, gyroscopic=_moving(place.matrices[1]))
+
+
+def _moving(velocity: Sequence[Sequence[Expr]]) -> bool:
+    return any(is_zero(entry) is not True for row in velocity for entry in row)
+
+
+def _linear(
+    teller: Teller,
+    mass: Sequence[Sequence[Expr]],
+    velocity: Sequence[Sequence[Expr]],
+    stiffness: Sequence[Sequence[Expr]],
+) -> Iterator[Block]:
+    """M x'' + C x' + K x = 0."""
+    moving = _moving(velocity)
+    M, C, K = (Label(letter, matrix=True) for letter in "MCK")
+    parts: list[Part] = ["the equations of motion are ", M, " · accelerations + "]
+    parts += [C, " · velocities + "] if moving else []
+    yield says(*parts, K, " · displacements = 0 with")
+    tags = tuple(str(n) for n in range(1, len(mass) + 1))
+    for letter, entries in (("M", mass), ("C", velocity), ("K", stiffness)):
+        if letter == "C" and not moving:
+            continue
+        trees = tuple(tuple(map(teller.readable.as_written, row)) for row in entries)
+        if len(trees) == 1:
+            yield shows(Label(letter, matrix=True), trees[0][0])
+        else:
+            yield Matrix(Label(letter, matrix=True), trees, tags, tags)
+    if teller.dynamics.constraints.equations:
+        yield says("restricted to the displacements that the constraints allow.")
+
+
+# -- without damping -----------------------------------------------------------------------------
+
+
+def _undamped(teller: Teller, modes: Sequence[Mode], *, gyroscopic: bool) -> Iterator[Block]:
+    """det(K - omega^2 M) = 0, or det(K + s C + s^2 M) = 0 in s^2 = -omega^2 alone."""
+    omega, s = teller.letters.free("omega"), teller.letters.free("s")
+    M, C, K = (Label(letter, matrix=True) for letter in "MCK")
+    form: list[Part] = [K, " − ", Power(omega, _SQUARE), " ", M]
+    if gyroscopic:
+        form = [K, " + ", s, " ", C, " + ", Power(s, _SQUARE), " ", M, " with ", s, " = i ", omega]
+    if all(mode.frequency is None and mode.frequency_squared is None for mode in modes):
+        yield says("The squared frequencies are the roots of the determinant of ", form,
+                   ", for which no closed form was found.")  # fmt: skip
+        return
+    yield says("An oscillation with the angular frequency ", omega,
+               " needs the determinant of ", form, " to vanish. The roots are")  # fmt: skip
+    for mode in modes:
+        yield from _mode(mode, omega)
+
+
+def _mode(mode: Mode, omega: Name) -> Iterator[Block]:
+    value = mode.frequency if mode.frequency is not None else mode.frequency_squared
+    if value is None:
+        count = mode.multiplicity
+        roots = "one root" if count == 1 else f"{count} roots"
+        yield says(f"and {roots} without a closed form.")
+        return
+    yield shows(omega if mode.frequency is not None else Power(omega, _SQUARE), value)
+    shapes = [] if mode.shape is None else [mode.shape, *mode.more_shapes]
+    for number, shape in enumerate(shapes if len(mode.shape or ()) > 1 else ()):
+        again = "and independently of these, as the root is multiple,"
+        yield says(again if number else "with the amplitudes in the ratio")
+        yield _amplitudes(shape)
+    if value == ZERO:
+        yield says("This is not an oscillation but a uniform drift.")
+
+
+def _amplitudes(shape: Mapping[str, Expression]) -> Equations:
+    return Equations(tuple(Row(Label("a", (q,)), part) for q, part in shape.items()))
+
+
+# -- with damping --------------------------------------------------------------------------------
+
+
+def _damped(teller: Teller, place: Place) -> Iterator[Block]:
+    """det(K + s C + s^2 M) = 0 with odd powers of s."""
+    s = teller.letters.free("s")
+    M, C, K = (Label(letter, matrix=True) for letter in "MCK")
+    form: list[Part] = [K, " + ", s, " ", C, " + ", Power(s, _SQUARE), " ", M]
+    yield says("A motion proportional to exp(", s, " t) needs the determinant of ", form,
+               " to vanish.")  # fmt: skip
+    if len(place.linear.M) == 1:
+        yield from _one(teller, *(matrix[0][0] for matrix in place.matrices))
+        return
+    powers = place.characteristic.in_s
+    if powers is None:
+        return
+    symbol = Symbol(s.name, real=True)
+    polynomial = sum((c * symbol**k for k, c in enumerate(powers)), powers[0] * 0)
+    written = terms(polynomial, (*teller.system.order, s.name), {s.name})
+    if operation_count(written) <= _LONG:
+        yield says("This gives")
+        yield shows(ZERO, written)
+
+
+def _one(teller: Teller, M: Expr, C: Expr, K: Expr) -> Iterator[Block]:
+    """s = -delta +- i sqrt(K/M - delta^2) with delta = C/(2 M), and its three cases."""
+    free, write = teller.letters.free, teller.readable.as_written
+    s, omega, delta = free("s"), free("omega"), free("delta")
+    rate, square = simplify(C / (2 * M)), simplify(K / M)
+    yield says("Its roots are ", s, " = −", delta, " ± i ", omega, " with")
+    yield Equations(
+        (
+            Row(delta, write(rate)),
+            Row(omega, Call("sqrt", (difference(write(square), write(rate**2)),))),
+        )
+    )
+    if [sign(x) for x in (M, C, K)] != [1, 1, 1]:
+        return
+    weak, critical = write(C**2), write(4 * M * K)
+    yield says("For ", weak, " < ", critical, " the displacement oscillates with the frequency ",
+               omega, " and decays as exp(−", delta, " t) (weak damping). For ", weak, " = ",
+               critical, " it is exp(−", delta, " t) times a linear function of t (critical "
+               "damping). For ", weak, " > ", critical, " it is a sum of two decaying exponentials "
+               "(strong damping).")  # fmt: skip
