@@ -33,10 +33,10 @@ from lagcli.problem import Problem
 #: States at which it is seen whether L depends on a coordinate, and what counts as 0 there.
 _STATES, _ZERO = 6, 1e-9
 
-_GIVEN = "the constraint {} gives it; a column with its multiplier keeps both"
+_GIVEN = "the constraint {} determines it; a run that outputs its multiplier keeps both"
 _INITIAL = "only the initial state depends on it"
-_OWN_STEPS = "a long one gives what moves apart steps of its own, where these are fewer"
-_IGNORABLE = "its momentum is conserved; its velocity is needed, so to reduce it spares nothing"
+_OWN_STEPS = "a long run gives each independent subsystem its own steps"
+_IGNORABLE = "its momentum is conserved, but its velocity is needed, so it is integrated"
 
 
 def model_section(problem: Problem) -> ModelSection:
@@ -84,11 +84,11 @@ class _Model:
     def _barrier(self) -> str:
         """Why nothing at all is eliminated."""
         if any(c.holds_while is not None for c in self.equations.problem.constraints):
-            return "a contact that may open keeps the model whole"
+            return "nothing is eliminated from a model with a contact that may open"
         if self.equations.kinks:
-            return "abs or sign in the equations keeps the model whole"
+            return "nothing is eliminated from equations with abs or sign"
         if len(self.equations.q) > MOST:
-            return f"of more than {MOST} coordinates none is eliminated: all would be coupled"
+            return f"nothing is eliminated from more than {MOST} coordinates"
         return ""
 
     def _is_cut(self, given: frozenset[int]) -> bool:
@@ -147,12 +147,12 @@ class _Model:
             if self.barrier:
                 why = self.barrier
             elif e.constraints[k].position is None:
-                why = "it is on the velocities"
+                why = "it contains velocities"
             elif k in possible:
-                why = "solved for a coordinate it would spare nothing"
+                why = "eliminating a coordinate with it would save no work"
             else:
-                why = "no coordinate stands in it by itself with a constant factor"
-            yield declared.name, f"held by its multiplier: {why}"
+                why = "it is not linear with a constant coefficient in any coordinate"
+            yield declared.name, f"kept with its multiplier: {why}"
 
     def _subsystems(self) -> Iterator[tuple[str, str]]:
         """The coordinates that move without some of the others."""
@@ -172,7 +172,7 @@ class _Model:
                 depends = f"on {', '.join(others)} only" if others else "on no other coordinate"
                 yield (
                     name,
-                    f"its motion depends {depends}; a run that shows less leaves out the rest{own}",
+                    f"its motion depends {depends}; a run that outputs less omits the others{own}",
                 )
 
     def _is_ignorable(self, j: int) -> bool:
