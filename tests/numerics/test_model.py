@@ -79,7 +79,7 @@ def test_a_coefficient_of_restitution_has_influence():
 
 def test_constraints_that_stay_say_why():
     reason = model_section(load("problems/chains/slider-crank.yaml")).reason
-    assert "constant factor" in reason["height"]
+    assert "constant coefficient" in reason["height"]
     assert "stroke" in reason["x"]
     reason = model_section(load("problems/contact/mass-sliding-off-sphere.yaml")).reason
     assert "contact" in reason["surface"]

@@ -33,6 +33,7 @@ def discovered(teller: Teller, section: Section) -> Iterator[Block]:
     discovery = teller.derivation.discovery
     letters = teller.letters
     constrained = bool(teller.dynamics.constraints.equations)
+    forced = "" if discovery.canonical else " plus the work of the applied forces"
     yield says(
         "A symmetry is a change of the coordinates and the time under which the action "
         "changes only "
@@ -42,6 +43,7 @@ def discovered(teller: Teller, section: Section) -> Iterator[Block]:
     yield says(
         "For a point transformation the Euler-Lagrange expression of the change of ",
         letters.L,
+        forced,
         " must vanish identically" + (" on the constraints" if constrained else "") + ", "
         "which holds "
         "for total time derivatives and only for them. For a constant of the motion the time "
@@ -57,8 +59,9 @@ def discovered(teller: Teller, section: Section) -> Iterator[Block]:
         timed = any("t" in each.transformation for each in charges)
         gauge = any(each.gauge not in {None, ZERO} for each in charges)
         law = noether_words(teller, with_gauge=gauge, with_time=timed)[:-1]
-        boundary: list[Part] = [", where the total time derivative of ", letters.G,
-                                " is the change of the action"] if gauge else []  # fmt: skip
+        G, L = letters.G, letters.L
+        rate: list[Part] = [", where the total time derivative of ", G, " is the change of ", L]
+        boundary = [*rate, forced] if gauge else []
         yield says(*law, *boundary, ".")
         levels = {each.verified for each in charges if each.verified}
         how = f"; this was checked {_CHECKED[levels.pop()]}" if len(levels) == 1 else ""
