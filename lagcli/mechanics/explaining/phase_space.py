@@ -51,7 +51,10 @@ def steady(_: Teller, section: Section) -> Iterator[Block]:
         yield from _steady_states(found)
         return
     if found.motions and not any(motion.momenta for motion in found.motions):
-        yield says("No coordinate is cyclic, so the steady motions are the equilibria:")
+        yield says(
+            "No momentum of a cyclic coordinate is constant, so the steady motions "
+            "are the equilibria:"
+        )
         yield from _steady_states(found)
         return
     yield says(

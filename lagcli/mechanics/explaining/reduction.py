@@ -8,7 +8,7 @@ from typing import cast
 
 from lagcli.answers import ReductionSection, Section
 from lagcli.document import Block, Equations, Label, Row
-from lagcli.expression import ZERO, Expression, Name, Number, Power, Product
+from lagcli.expression import ZERO, Expression, Name, Number, Power, Product, walk
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says, shows
 from lagcli.motions import OneFreedom, PeriodSeries
@@ -27,7 +27,8 @@ def reduction(teller: Teller, section: Section) -> Iterator[Block]:
         return
     if reduced.reconstruction:
         yield from _routhian(teller, reduced, reduced.routhian)
-    if reduced.effective_potential is not None:
+    tied = bool(reduced.constraints) and not reduced.momenta
+    if reduced.effective_potential is not None and not tied and not _timed(reduced):
         whole = teller.letters.free("R") if reduced.momenta else teller.letters.L
         yield says("The terms of ", whole,
                    " without velocities, with the opposite sign, are the effective "
@@ -38,6 +39,12 @@ def reduction(teller: Teller, section: Section) -> Iterator[Block]:
         yield Equations(tuple(Row(each.left, each.right) for each in reduced.equations))
     if reduced.one_freedom is not None:
         yield from _one_freedom(reduced.one_freedom)
+
+
+def _timed(reduced: ReductionSection) -> bool:
+    """Whether the terms linear in the velocities depend on t, so that they give more forces."""
+    parts = (node for g in reduced.gyroscopic.values() for node in walk(g))
+    return any(node == Name("t") for node in parts)
 
 
 def _cyclic(teller: Teller, reduced: ReductionSection) -> Iterator[Block]:

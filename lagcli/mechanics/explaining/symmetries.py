@@ -65,9 +65,10 @@ def discovered(teller: Teller, section: Section) -> Iterator[Block]:
         yield says(*law, *boundary, ".")
         levels = {each.verified for each in charges if each.verified}
         how = f"; this was checked {_CHECKED[levels.pop()]}" if len(levels) == 1 else ""
-        yield says(f"The time derivative of each of them on the motion is 0{how}. Nothing "
-                   f"outside of "
-                   "the ansatz was searched.")  # fmt: skip
+        yield says(
+            "The time derivative of each ", letters.Q, f" below is 0 on the motion{how}. Nothing "
+            "outside of the ansatz was searched.",
+        )  # fmt: skip
     for charge in found:
         yield from _charge(teller, charge)
 
@@ -77,16 +78,19 @@ def _charge(teller: Teller, charge: Charge) -> Iterator[Block]:
     yield Heading(charge.name, 2)
     moves = charge.source == "momentum equation"
     rows = [Row(Label(name, change=True), by) for name, by in charge.transformation.items()]
-    if charge.gauge is not None and charge.gauge != ZERO:
+    of_constraint = not charge.transformation and not moves
+    if charge.gauge is not None and charge.gauge != ZERO and not of_constraint:
         rows.append(Row(letters.G, charge.gauge))
     energy = charge.name == "energy" and set(charge.transformation) == {"t"}
     if charge.charge is not None:
-        rows.append(Row(letters.h if energy else letters.Q, charge.charge))
+        rows.append(Row(letters.Q, charge.charge))
     if moves and charge.rate is not None:
         rows.append(Row(Name(letters.Q.name, 1), charge.rate))
     yield Equations(tuple(rows))
+    if of_constraint:
+        yield says("It is the integral of velocity constraints, not of a symmetry.")
     if energy:
-        yield says("This is the energy function, with the opposite sign of ", letters.Q, ".")
+        yield says("It is listed with the sign of the energy, opposite to that of the theorem.")
     if moves:
         yield says("The constraints allow this displacement, but it depends on the configuration: "
                    "the momentum is not constant, and has this rate.")  # fmt: skip
@@ -114,9 +118,11 @@ def algebra(teller: Teller, section: Section) -> Iterator[Block]:
     yield from _brackets(teller, closed=found.closed)
     yield from _dimension(found)
     number, n = found.independent, teller.dynamics.degrees_of_freedom
-    yield says(f"{number} of them {'is' if number == 1 else 'are'} functionally "
-               f"independent: the rank "
-               f"of their gradients in phase space is {number}.")  # fmt: skip
+    if found.number > 1:
+        yield says(
+            f"Of the {found.number} conserved quantities {number} {'is' if number == 1 else 'are'} "
+            f"functionally independent: the rank of their gradients in phase space is {number}."
+        )
     if found.in_involution is not None:
         yield says(*_integrability(found, n))
     if any("special values" in note for note in teller.derivation.discovery.words):

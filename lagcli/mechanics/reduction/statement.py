@@ -76,7 +76,8 @@ class _Statement:
                 for q, g in zip(reduced.system.q, routh.gyroscopic, strict=True)
                 if g != 0
             }
-            lines = self._by_parts(lines)
+            if not any(g.has(routh.system.t) for g in routh.gyroscopic):
+                lines = self._by_parts(lines)
         return (
             ReductionSection(
                 momenta=momenta,
