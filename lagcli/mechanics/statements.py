@@ -428,7 +428,7 @@ class Statements(Stating):
         from lagcli.mechanics.reduction.separation import Separation
 
         separation = Separation(self.derivation)
-        found = separation.separated
+        found = separation.driven or separation.separated
         return found is not None and len(found.constants) == len(separation.system.q)
 
     def _find(self) -> FindSection:

@@ -77,7 +77,9 @@ def test_the_brackets_of_the_charges_of_kepler():
         ("runge_lenz_x", "runge_lenz_y"): formula("-2*m*energy*L_z"),
     }
     assert "All others are 0." in words(told, ALGEBRA)
-    assert "There are 2, and 2 degrees of freedom: it is integrable." in words(told, ALGEBRA)
+    assert "Here their number is 2, with 2 degrees of freedom: it is integrable." in words(
+        told, ALGEBRA
+    )
     assert "Nothing outside of the ansatz was searched." in words(told, DISCOVERED)
 
 

@@ -128,9 +128,9 @@ class Discovery:
             except TooMuchWork:
                 self.stopped.append(f"stopped before all {what} were found: too much work")
             except NoPoint:
-                self.stopped.append(f"{what}: no sample point was found, the search has a gap")
+                self.stopped.append(f"{what}: no sample point, so the search is incomplete")
             except ZeroDivisionError:
-                self.stopped.append(f"{what}: a formula has no finite form, the search has a gap")
+                self.stopped.append(f"{what}: a formula is infinite, so the search is incomplete")
 
     @cached_property
     def equations(self) -> Equations:

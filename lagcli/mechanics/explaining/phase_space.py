@@ -287,6 +287,9 @@ def hamilton_jacobi(_: Teller, section: Section) -> Iterator[Block]:
 def _by_forces_of_time(found: HamiltonJacobiSection, rate: Expression) -> Iterator[Block]:
     assert found.hamiltonian is not None
     assert found.derivatives is not None
+    if not found.constants:
+        yield says("The constraints leave no coordinate, so there is nothing to separate.")
+        return
     S, f, H = Label("S"), Label("f"), Label("H")
     yield says(
         *(

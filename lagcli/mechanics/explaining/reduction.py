@@ -11,6 +11,7 @@ from lagcli.document import Block, Equations, Label, Row
 from lagcli.expression import ZERO, Expression, Name, Number, Power, Product, walk
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says, shows
+from lagcli.mechanics.reduction.routh import ALL_CYCLIC
 from lagcli.motions import OneFreedom, PeriodSeries
 from lagcli.wording import POTENTIAL, conditions, irreducible, place_rows
 
@@ -22,7 +23,9 @@ def reduction(teller: Teller, section: Section) -> Iterator[Block]:
     reduced = cast(ReductionSection, section)
     yield from _cyclic(teller, reduced)
     if reduced.routhian is None:
-        if reduced.momenta:
+        if reduced.reason == ALL_CYCLIC:
+            yield says("No other coordinate is left.")
+        elif reduced.momenta:
             yield says(f"The reduction was not found: {reduced.reason}.")
         return
     if reduced.reconstruction:

@@ -119,7 +119,7 @@ class Passing:
             if any(times):
                 kept.append(passage)
             elif times and len(self._draws) > 1:
-                self.notes.append(f"no motion was found that comes to {_text(passage)}")
+                self.notes.append(f"the root {_text(passage)} is not reached for the values tried")
             if any(times) and not (all(times) and draws == list(range(len(draws)))):
                 first = draws[times.index(True)]
                 partly.append((passage, self._example(first, passage, angle=angle)))

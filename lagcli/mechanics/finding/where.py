@@ -116,7 +116,7 @@ class Where:
     def _departing(self, roots: list[Expr], equation: Expr, square: Expr) -> list[Expr]:
         """From rest at an equilibrium: mirror images are told once."""
         u = self.unknown
-        self.notes.append("the initial state is an equilibrium: departure from it either way")
+        self.notes.append("the initial state is an equilibrium: both departures from it count")
         if is_zero(self.along.initially(u)) is not True:
             return roots
         mirrored = {u: -u}

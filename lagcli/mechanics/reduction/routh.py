@@ -32,6 +32,9 @@ from lagcli.mechanics.reduction.minimal import minimal, with_lagrangian
 from lagcli.mechanics.system import System
 from lagcli.problem import Constraint, Parameter
 
+#: Why there is no reduced system where the momenta are all that there is.
+ALL_CYCLIC = "every coordinate is cyclic"
+
 
 class Routh:
     """The reduction of a system by all of its cyclic coordinates at once.
@@ -138,7 +141,7 @@ class Routh:
         if R is None or self.velocities is None:
             return None
         if not self.kept:
-            self.reason = "every coordinate is cyclic"
+            self.reason = ALL_CYCLIC
             return None
         put_in = self._back
         forces = [self.system.applied_forces[j].xreplace(put_in) for j in self.kept]
