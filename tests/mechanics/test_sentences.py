@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import math
 import random
 
 import pytest
+import sympy
 
 from lagcli.algebra.numeric import Evaluator
+from lagcli.document import Paragraph
+from lagcli.expression import Name
+from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.impacts import between_impacts
+from lagcli.mechanics.reduction.averaged import averaged
 from lagcli.mechanics.reduction.statement import reduction
 from lagcli.mechanics.statements import Statements
 from lagcli.pipeline import explain
 
 from .derived import derive
-from .test_explanation import words
+from .test_explanation import rows, words
 
 SEEDS = range(6)
 ALGEBRA = "The algebra of the symmetries"
@@ -288,3 +294,154 @@ def test_special_values_are_symmetric_in_three_frequencies():
     assert {frozenset((case.parameter.name, str(case.value))) for case in special} >= {
         frozenset("ab"), frozenset("ac"), frozenset("bc"),
     }  # fmt: skip
+
+
+# -- what a textbook adds ---------------------------------------------------------------------------
+
+
+def runge_kutta(acceleration, x, v, until, steps):
+    h = until / steps
+    for k in range(steps):
+        t = k * h
+        a1 = acceleration(x, t)
+        a2 = acceleration(x + h * v / 2, t + h / 2)
+        a3 = acceleration(x + h * v / 2 + h * h * a1 / 4, t + h / 2)
+        a4 = acceleration(x + h * v + h * h * a2 / 2, t + h)
+        x, v = x + h * v + h * h * (a1 + a2 + a3) / 6, v + h * (a1 + 2 * a2 + 2 * a3 + a4) / 6
+    return x, v
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_averaged_potential_moves_the_average(seed):
+    """Landau and Lifshitz, section 30: X = q - F1 cos(w t)/(M w^2) follows V_eff."""
+    source = random.Random(seed)
+    shape = source.choice(["x^3/3", "sin(x)", "x^2/2", "cos(x)"])
+    strength = source.choice([30, 40])
+    text = (
+        "coordinates: [x]\nparameters: {w: {assume: positive}}\n"
+        f"T: x'^2/2\nV: x^4/4 - {strength}*({shape})*cos(w*t)\n"
+    )
+    dynamics = derive(text).dynamics
+    found = averaged(dynamics)
+    x = dynamics.system.q[0]
+    w = 60.0
+    fixed = dict.fromkeys(dynamics.system.parameters, w)
+    slow = sympy.lambdify(x, -found.potential.diff(x).subs(fixed), "math")
+    force = sympy.lambdify((x, dynamics.system.t), dynamics.lagrange.forcing[0].subs(fixed), "math")
+    start = 0.7
+    until = 30 * 2 * math.pi / w
+    shake = force(start, 0.0) - force(start, math.pi / (2 * w))
+    moved, _ = runge_kutta(force, start - shake / w**2, 0.0, until, 6000)
+    shake = force(moved, 0.0) - force(moved, math.pi / (2 * w))
+    expected, _ = runge_kutta(lambda q, _: slow(q), start, 0.0, until, 2000)
+    without, _ = runge_kutta(lambda q, _: -(q**3), start, 0.0, until, 2000)
+    assert abs(moved + shake / w**2 - expected) < 0.15 * max(abs(without - expected), 0.02)
+
+
+@pytest.mark.parametrize(
+    "potential", ["-x*cos(w*t)*cos(2*w*t)", "k*x'*x*t", "-x*cos(w*t + x)", "k*x^2*t"]
+)
+def test_no_average_is_claimed_of_other_forces(potential):
+    text = f"coordinates: [x]\nparameters: {{w: {{assume: positive}}, k: {{}}}}\nT: x'^2/2\nV: {potential}"
+    assert averaged(derive(text).dynamics) is None
+
+
+def test_a_body_slips_before_it_leaves():
+    """F = m g sin(theta)/3 and N = m (g cos(theta) - (R + a) theta'^2): |F|/N has no bound."""
+    text = (
+        "coordinates: {r: {assume: positive}, theta: {}, psi: {}}\n"
+        "parameters: {m: {assume: positive, value: 1}, g: {assume: positive, value: 10},\n"
+        "  R: {assume: positive, value: 1}, a: {assume: positive, value: 0.3}}\n"
+        "points:\n  axis: {position: [r*sin(theta), r*cos(theta)]}\n"
+        "T: m*(r'^2 + r^2*theta'^2)/2 + m*a^2*psi'^2/4\nV: m*g*r*cos(theta)\nconstraints:\n"
+        "  contact: {equation: r = R + a, multiplier: N, holds_while: N >= 0}\n"
+        "  rolling: {equation: (R + a)*theta = a*psi, acts_as: friction}\n"
+    )
+    assert "slipping begins before the contact is lost" in said(text, "Forces", "forces")
+
+
+def test_a_string_pulls_and_a_rod_pushes_too():
+    text = (
+        "coordinates: {{x: {{}}, y: {{}}}}\nparameters: {{m: {{assume: positive}}, g: {{}}, "
+        "l: {{assume: positive}}}}\npoints: {{bob: {{position: [x, y], mass: m}}}}\nV: m*g*y\n"
+        "constraints:\n  s: {{equation: x^2 + y^2 = l^2, acts_as: tension{}}}\n"
+    )
+    rod = said(text.format(""), "Forces", "forces")
+    string = said(text.format(", holds_while: lambda_s <= 0"), "Forces", "forces")
+    assert "a push where it is negative" in rod
+    assert "push" not in string
+    assert "It can only pull: it is taut while" in string
+
+
+@pytest.mark.parametrize(
+    ("unit", "kind"), [("m", "force"), ("rad", "torque"), (None, "generalized")]
+)
+def test_a_multiplier_is_called_force_or_torque_by_its_coordinate(unit, kind):
+    attribute = "{}" if unit is None else f"{{unit: {unit}}}"
+    text = (
+        f"coordinates: {{u: {attribute}, v: {{}}}}\nparameters: [m]\nT: m*(u'^2 + v'^2)/2\n"
+        "constraints: {hold: u = 0}"
+    )
+    assert f"equals this {kind}" in said(text, "What the multipliers mean")
+
+
+def test_regular_precession_needs_a_large_enough_spin():
+    """Goldstein, section 5.7: p_psi^2 >= 4 I1 m g l cos(theta)."""
+    text = (
+        "coordinates: {phi: {}, theta: {}, psi: {}}\nparameters: {A: {assume: positive}, "
+        "C: {assume: positive}, k: {assume: positive}}\n"
+        "T: A*(theta'^2 + phi'^2*sin(theta)^2)/2 + C*(psi' + phi'*cos(theta))^2/2\n"
+        "V: k*cos(theta)\n"
+    )
+    explanation = explain(derive(text), ["steady_motions"])
+    [parts] = [
+        block.parts
+        for step in explanation.steps
+        for block in step.blocks
+        if isinstance(block, Paragraph) and Name("p_psi") in block.parts
+        and any("quadratic equation" in str(part) for part in block.parts)
+    ]  # fmt: skip
+    shown = [to_grammar(part) for part in parts if not isinstance(part, str)]
+    assert shown == ["p_psi", "phi'", "p_psi^2", "4*A*k*cos(theta)"]
+
+
+@pytest.mark.parametrize("c", ["1/2", "2", "5"])
+def test_the_roots_of_a_damped_oscillator(c):
+    """s = -c/2m +- i sqrt(k/m - c^2/4m^2) put into m s^2 + c s + k."""
+    text = (
+        f"coordinates: [x]\nparameters: {{m: {{assume: positive}}, k: {{assume: positive}}, "
+        f"c: {{assume: positive}}}}\nT: m*x'^2/2\nV: k*x^2/2\ndissipation: ({c})*c*x'^2/2\n"
+    )
+    shown = {row.left: row.right for row in rows(explain(derive(text), ["modes"]))}
+    at = {"m": 1.3, "k": 0.9, "c": 0.4}
+    build = derive(text).system.build
+    delta, omega = (
+        complex(x.subs({s: at[s.name] for s in x.free_symbols}))
+        for x in (build(shown[Name("delta")]), build(shown[Name("omega")]))
+    )
+    s = -delta + 1j * omega
+    damping = float(sympy.Rational(c)) * at["c"]
+    assert abs(at["m"] * s * s + damping * s + at["k"]) < 1e-12
+    assert "critical damping" in said(text, "Small oscillations", "modes")
+
+
+def test_several_damped_coordinates_have_their_polynomial():
+    text = (
+        "coordinates: [x, y]\nparameters: {m: {assume: positive}, k: {assume: positive}, "
+        "c: {assume: positive}}\nT: m*(x'^2 + y'^2)/2\nV: k*(x^2 + (x - y)^2)/2\n"
+        "dissipation: c*y'^2/2\n"
+    )
+    explanation = explain(derive(text), ["modes"])
+    last = rows(explanation, "Small oscillations")[-1]
+    build = derive(text).system.build
+    build.names["s"] = sympy.Symbol("s")
+    shown = build(last.right)
+    m, k, c = (derive(text).system.symbol_of(n) for n in "mkc")
+    s = sympy.Symbol("s")
+    determinant = sympy.Matrix([[m * s**2 + 2 * k, -k], [-k, m * s**2 + c * s + k]]).det()
+    assert sympy.expand(shown - determinant) == 0
+
+
+def test_a_frequency_0_is_a_drift():
+    text = PLANE + "T: m*(x'^2 + y'^2)/2\nV: k*(x - y)^2/2"
+    assert "not an oscillation but a uniform drift" in said(text, "Small oscillations", "modes")

@@ -18,6 +18,7 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Diff, Expression, Name, Negative, Number, Power, Product
+from lagcli.mechanics.explaining.given_momenta import two_rates
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, listed, names, says, shows
 from lagcli.motions import HamiltonJacobiSection, SteadyMotion, SteadySection
@@ -37,7 +38,7 @@ _BALANCED = {
 # -- steady motions ------------------------------------------------------------------------------
 
 
-def steady(_: Teller, section: Section) -> Iterator[Block]:
+def steady(teller: Teller, section: Section) -> Iterator[Block]:
     """The relative equilibria: cyclic velocities constant, the other coordinates at rest."""
     found = cast(SteadySection, section)
     if found.eliminated:
@@ -48,14 +49,14 @@ def steady(_: Teller, section: Section) -> Iterator[Block]:
             "other coordinates depend on few of the coordinates. In a steady motion these few are "
             "constant and so are the velocities, and the accelerations vanish:",
         )
-        yield from _steady_states(found)
+        yield from _steady_states(teller, found)
         return
     if found.motions and not any(motion.momenta for motion in found.motions):
         yield says(
             "No momentum of a cyclic coordinate is constant, so the steady motions "
             "are the equilibria:"
         )
-        yield from _steady_states(found)
+        yield from _steady_states(teller, found)
         return
     yield says(
         "In a steady motion the coordinates that are not cyclic are constant, and the cyclic ones "
@@ -65,10 +66,10 @@ def steady(_: Teller, section: Section) -> Iterator[Block]:
         POTENTIAL,
         f" {_BALANCED[found.acting]}, with the momenta of the cyclic coordinates as constants:",
     )
-    yield from _steady_states(found)
+    yield from _steady_states(teller, found)
 
 
-def _steady_states(found: SteadySection) -> Iterator[Block]:
+def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
     wanted = dict.fromkeys(found.conditions.values())
     yield Equations(tuple(Row(ZERO, each) for each in wanted if each != ZERO or len(wanted) == 1))
     if found.motions is None:
@@ -78,12 +79,12 @@ def _steady_states(found: SteadySection) -> Iterator[Block]:
         yield says("These have no solution: there is no steady motion.")
     for number, motion in enumerate(found.motions, 1):
         yield Heading(f"Steady motion {number}", 2)
-        yield from _motion(motion)
+        yield from _motion(teller, motion)
     if not found.complete:
         yield says("There may be others.")
 
 
-def _motion(motion: SteadyMotion) -> Iterator[Block]:
+def _motion(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
     if motion.rolling:
         yield from _rolling(motion)
         return
@@ -99,6 +100,9 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
     if momenta:
         yield says("and the momenta are" if rates else "The momenta are")
         yield Equations(tuple(Row(Name(f"p_{name}"), p) for name, p in momenta.items()))
+        yield from two_rates(teller, motion)
+    if motion.mirrored:
+        yield says("The same holds with the opposite signs of all these.")
     if motion.where:
         yield says("It is possible for ", conditions(motion.where), ".")
     if motion.mass:

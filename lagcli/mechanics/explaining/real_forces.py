@@ -7,7 +7,7 @@ from typing import cast
 
 from lagcli.answers import Section
 from lagcli.document import Block, Equations, Heading, Label, Row
-from lagcli.expression import Name
+from lagcli.expression import Name, walk
 from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.mechanics.constraint_force import on_points
 from lagcli.mechanics.explaining.teller import Teller
@@ -60,7 +60,7 @@ def real_forces(teller: Teller, section: Section) -> Iterator[Block]:
             yield says("Along an angle on which no point depends it acts as a torque:")
             yield Equations(tuple(Row(Label("Q", (q,)), value) for q, value in torques.items()))
     for needed in found.friction_needed:
-        yield from _friction(needed)
+        yield from _friction(teller, needed)
 
 
 def _magnitude(force: PointForce, multiplier: Name) -> Iterator[Block]:
@@ -93,7 +93,7 @@ def _magnitude(force: PointForce, multiplier: Name) -> Iterator[Block]:
         yield says("It is a pull where this is positive, a push where it is negative.")
 
 
-def _friction(needed: FrictionNeeded) -> Iterator[Block]:
+def _friction(teller: Teller, needed: FrictionNeeded) -> Iterator[Block]:
     frictions = " and ".join(needed.frictions)
     yield Heading(f"The coefficient of friction of {frictions}", 2)
     if needed.coefficient is None:
@@ -112,3 +112,14 @@ def _friction(needed: FrictionNeeded) -> Iterator[Block]:
         parts += [" and " if position else "This form holds where ", positive, " > 0"]
     if parts:
         yield says(*parts, ".")
+    if _leaves(teller, needed):
+        yield says(f"Where {needed.normal} vanishes and {frictions} does not, it is infinite: the "
+                   "slipping begins before the contact is lost.")  # fmt: skip
+
+
+def _leaves(teller: Teller, needed: FrictionNeeded) -> bool:
+    """Whether the normal force is one-sided and |F|/N depends on the state."""
+    one_sided = any(c.name == needed.normal and c.holds_while for c in teller.problem.constraints)
+    assert needed.coefficient is not None
+    state = {node.name for node in walk(needed.coefficient) if isinstance(node, Name)}
+    return one_sided and not state.isdisjoint(teller.system.names)

@@ -11,6 +11,8 @@ from lagcli.document import Block, Equations, Label, Row
 from lagcli.expression import ZERO, Expression, Name, Number, Power, Product, walk
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says, shows
+from lagcli.mechanics.reduction.averaged import averaged
+from lagcli.mechanics.reduction.minimal import minimal
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC
 from lagcli.motions import OneFreedom, PeriodSeries
 from lagcli.wording import POTENTIAL, conditions, irreducible, place_rows
@@ -42,6 +44,7 @@ def reduction(teller: Teller, section: Section) -> Iterator[Block]:
         yield Equations(tuple(Row(each.left, each.right) for each in reduced.equations))
     if reduced.one_freedom is not None:
         yield from _one_freedom(reduced.one_freedom)
+    yield from _averaged(teller)
 
 
 def _timed(reduced: ReductionSection) -> bool:
@@ -81,6 +84,18 @@ def _routhian(teller: Teller, reduced: ReductionSection, routhian: Expression) -
     yield says("With these, the Routhian ", R, " = ", L, *terms,
                " is the Lagrangian of the other coordinates:")  # fmt: skip
     yield shows(R, routhian)
+
+
+def _averaged(teller: Teller) -> Iterator[Block]:
+    found = averaged(minimal(teller.derivation).dynamics)
+    if found is None:
+        return
+    write = teller.readable.as_written
+    yield says(
+        *("For ", write(found.frequency), " large against the frequencies without the drive, the "),
+        "motion averaged over its period has the potential (Landau and Lifshitz, section 30)",
+    )
+    yield shows(Label("V", ("eff",)), write(found.potential))
 
 
 def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
