@@ -138,7 +138,7 @@ class LargeCharges:
             self.energy_conserved,
             rate,
             "50 digits" if self.energy_conserved is not None else None,
-            "" if self.energy_conserved is not False else ", ".join(self.powers),
+            "" if self.energy_conserved is not False else " and ".join(self.powers),
         )
         return (*candidates, *cyclic, energy)
 
@@ -208,6 +208,6 @@ class LargeCharges:
             rate = graph.sum(causes[cause] for cause in breaking)
             conserved = None if rate.mask & form.acceleration_mask else False
             rate = rate if conserved is False else None
-        broken_by = ", ".join(breaking) if conserved is False else ""
+        broken_by = " and ".join(breaking) if conserved is False else ""
         how: Verification | None = None if conserved is None else "50 digits"
         return LargeCharge(name, source, changes, gauge, charge, conserved, rate, how, broken_by)

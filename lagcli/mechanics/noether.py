@@ -41,6 +41,7 @@ from lagcli.record import record, replace
 from lagcli.wording import CHANGE_OF_L
 
 _NO_GAUGE_KNOWN = "no gauge was found, and whether there is one was not decided"
+_AND = " and "
 _OTHER_GAUGE = "the gauge given (left out, the right one is found)"
 
 
@@ -129,9 +130,9 @@ class Noether:
             found = self._gauge(change, transformation)
             return self._judged(name, source, transformation, found.term, change, found.exists)
         judged = self._judged(name, source, transformation, gauge, change)
-        causes = judged.broken_by.split(", ")
+        causes = judged.broken_by.split(_AND)
         if CHANGE_OF_L in causes and self._gauge(change, transformation).exists:
-            broken_by = ", ".join(_OTHER_GAUGE if c == CHANGE_OF_L else c for c in causes)
+            broken_by = _AND.join(_OTHER_GAUGE if c == CHANGE_OF_L else c for c in causes)
             return replace(judged, broken_by=broken_by)
         return judged
 
@@ -247,7 +248,7 @@ class Noether:
             on_motion = self.dynamics.rate_on_motion(part)
             if on_motion is None or self.dynamics.verifier.is_zero(on_motion).holds is not True:
                 causes.append(cause)
-        return ", ".join(causes)
+        return _AND.join(causes)
 
     # -- evident symmetries ---------------------------------------------------------------
 
@@ -278,7 +279,7 @@ class Noether:
             energy.conserved,
             sympy.S.Zero if energy.conserved else energy.rate,
             energy.verified,
-            "" if energy.conserved is not False else ", ".join(p.cause for p in energy.powers),
+            "" if energy.conserved is not False else _AND.join(p.cause for p in energy.powers),
         )
 
     def _same_charge(self, evident: NoetherCharge, candidate: NoetherCharge) -> bool:

@@ -81,7 +81,7 @@ def _rate(teller: Teller) -> Iterator[Block]:
         return
     changes: list[Part] = []
     for power in function.powers:
-        changes += ["; "] if changes else []
+        changes += [" and "] if changes else []
         changes += [letters.L, " ", power.deed] if power.of_lagrangian else [power.deed]
     total = sympy.Add(*(power.value for power in function.powers))
     yield says("It can change because ", changes, ". Its rate is")
