@@ -52,7 +52,7 @@ def error(
     items: list[Item] = list(run.over_time())
     largest = FLOOR
     for place in range(1, min(len(run.names), _MOST + 1)):
-        pieces = largest_so_far(_errors(run, reference, place, held.scales[place]))
+        pieces = largest_so_far(_errors(run, reference, place, held.scales[place] or 1.0))
         largest = max([largest, *(y for piece in pieces for _, y in piece)])
         label = run.labels.of(run.columns[place - 1].expression, run.names[place])
         items.append(Curve(pieces=pieces, role="series", colour=place - 1, label=label))

@@ -1,7 +1,8 @@
 """The one degree of freedom of a phase portrait: its energy as a function of numbers.
 
 Cyclic coordinates go by Routh's reduction, constraints by being solved; what is left is
-E(q, q') with the momenta at their values at t = 0.  U_eff(q) = E(q, 0).
+E(q, q') with the momenta at their values at t = 0.  U_eff(q) = E(q, 0).  Contacts that may be open
+are left out.
 """
 
 from __future__ import annotations
@@ -18,7 +19,6 @@ from lagcli.mechanics.reduction.one_freedom import OneFreedom as Reduced
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.numerics.arithmetic import Doubles
 from lagcli.numerics.constants import constants_of
-from lagcli.numerics.contact import with_contacts
 from lagcli.numerics.equations import Equations
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.start import initial_state
@@ -26,6 +26,10 @@ from lagcli.numerics.straight_line import straight_line
 from lagcli.pictures.contours import quiet
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.problem import Coordinate, Problem
+
+
+class EnergyNotConserved(CannotDraw):
+    """One degree of freedom without an energy to draw levels of."""
 
 
 class OneFreedom:
@@ -55,7 +59,7 @@ class OneFreedom:
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
-        self._equations = Equations(with_contacts(problem))
+        self._equations = Equations(problem)
         name, energy, momenta = self._reduced()
         self.coordinate: Coordinate = next(c for c in problem.coordinates if c.name == name)
         self._prepare(energy, momenta)
@@ -74,7 +78,7 @@ class OneFreedom:
             raise CannotDraw(_too_many(left))
         motion = Reduced(routh)
         if motion.why_not_conserved:
-            raise CannotDraw(_not_conserved(left[0], motion.why_not_conserved))
+            raise EnergyNotConserved(_not_conserved(left[0], motion.why_not_conserved))
         if not routh.quadratic:
             raise CannotDraw("the reduced Lagrangian is not quadratic in the velocity")
         formula = terms(motion.energy, reduced.system.order, frozenset())

@@ -1,7 +1,8 @@
 """The phase portrait of one degree of freedom: energy levels, separatrix, equilibria, motion.
 
-The levels are E(q, q') = const; a separatrix is the level of an unstable equilibrium.  With
-`--show` it is the motion in the plane of any two columns, without levels.
+The levels are E(q, q') = const; a separatrix is the level of an unstable equilibrium.  Where the
+energy is not conserved, `flow` draws motions instead.  With `--show`
+it is the motion in the plane of any two columns, without levels.
 """
 
 from __future__ import annotations
@@ -23,14 +24,14 @@ from lagcli.pictures.drawing import (
     Marks,
     Panel,
     Picture,
-    Piece,
-    Point,
     extent,
     words,
 )
+from lagcli.pictures.flow import flow
 from lagcli.pictures.labels import Labels
-from lagcli.pictures.one_freedom import OneFreedom
+from lagcli.pictures.one_freedom import EnergyNotConserved, OneFreedom
 from lagcli.pictures.run import Run, run_with
+from lagcli.pictures.turning import wrapped
 from lagcli.pictures.window import Window
 from lagcli.problem import Problem
 
@@ -51,9 +52,12 @@ def portrait(
     Raises
     ------
     CannotDraw
-        Where more than one degree of freedom is left, or the energy is not conserved.
+        Where more than one degree of freedom is left, or the equations depend on the time.
     """
-    freedom = OneFreedom(problem)
+    try:
+        freedom = OneFreedom(problem)
+    except EnergyNotConserved:
+        return flow(problem, asked, progress)
     labels = Labels(problem)
     run = run_with(problem, asked, freedom.columns, progress) if asked.until > 0 else None
     seen = tuple(run.values(1)) if run is not None else ()
@@ -76,11 +80,15 @@ def portrait(
 
 
 def constants(freedom: OneFreedom) -> tuple[str, ...]:
-    """The momenta that the picture is for."""
-    if not freedom.momenta:
-        return ()
-    shown = ", ".join(f"{unicode_name(n)} = {x:.6g}" for n, x in freedom.momenta.items())
-    return (f"For the constant momenta of the initial state: {shown}.",)
+    """The momenta that the picture is for, and what it leaves out."""
+    notes = []
+    if freedom.momenta:
+        shown = ", ".join(f"{unicode_name(n)} = {x:.6g}" for n, x in freedom.momenta.items())
+        notes.append(f"For the constant momenta of the initial state: {shown}.")
+    if freedom.problem.contacts:
+        names = ", ".join(contact.name for contact in freedom.problem.contacts)
+        notes.append(f"Energies are those without contact: {names}.")
+    return tuple(notes)
 
 
 def _levels(freedom: OneFreedom, window: Window) -> list[Item]:
@@ -131,26 +139,11 @@ def _motion(run: Run, window: Window) -> list[Item]:
     if not pieces:
         return []
     if window.turns:
-        pieces = tuple(part for piece in pieces for part in _wrapped(piece))
+        pieces = tuple(part for piece in pieces for part in wrapped(piece))
     return [
         Curve(pieces=pieces, role="motion", colour=_MOTION, label=words("motion")),
         Marks(points=pieces[0][:1], role="start", colour=_MOTION, label=words("start")),
     ]
-
-
-def _wrapped(piece: Piece) -> list[Piece]:
-    """An angle within one turn: the line goes on at the other side."""
-    found: list[list[Point]] = []
-    last: int | None = None
-    for angle, rate in piece:
-        turn = math.floor((angle + math.pi) / (2 * math.pi))
-        if turn != last:
-            if found and last is not None:  # up to the edge
-                found[-1].append((angle - 2 * math.pi * last, rate))
-            found.append([])
-            last = turn
-        found[-1].append((angle - 2 * math.pi * turn, rate))
-    return [tuple(part) for part in found]
 
 
 # -- any two columns -----------------------------------------------------------------------------

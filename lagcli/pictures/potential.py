@@ -53,7 +53,7 @@ def potential(problem: Problem, asked: Asked) -> tuple[Picture, str]:
     ]  # fmt: skip
     turning = tuple((x, energy) for x in window.turning_points if low <= x <= high)
     if turning:
-        shown = ", ".join(f"{x:.6g}" for x, _ in turning)
+        shown = ", ".join(f"{_rounded(x, high - low):.6g}" for x, _ in turning)
         shown = shown.replace("-", "\N{MINUS SIGN}")
         text = words(f"turning points: {shown}" if len(turning) <= 4 else "turning points")
         items.append(Marks(points=turning, role="turning", colour=1, label=text))
@@ -69,6 +69,11 @@ def potential(problem: Problem, asked: Asked) -> tuple[Picture, str]:
         items=tuple(items),
     )
     return Picture(title=problem.title, panels=(panel,), notes=constants(freedom)), ""
+
+
+def _rounded(x: float, width: float) -> float:
+    """0 for what rounding has left of it."""
+    return 0.0 if abs(x) < 1e-12 * width else x
 
 
 def _value(energy: float) -> Label:

@@ -12,10 +12,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from fractions import Fraction
 from itertools import islice
 
-from lagcli.expression import Expression, Name, Negative, Number
+from lagcli.expression import Name
 from lagcli.numerics.arithmetic import Doubles
 from lagcli.numerics.constants import constants_of
 from lagcli.numerics.contact import with_contacts
@@ -25,6 +24,7 @@ from lagcli.numerics.start import initial_state
 from lagcli.numerics.straight_line import straight_line
 from lagcli.pictures.contours import quiet
 from lagcli.pictures.drawing import CannotDraw, Point
+from lagcli.pictures.flow import exact
 from lagcli.problem import Problem
 from lagcli.reader.columns import Shown
 from lagcli.record import replace
@@ -89,7 +89,7 @@ def other_starts(
     spans = _spans(points, None if cut is None else start)
     starts = (start(x, y) for x, y in _filling(spans))
     for values in islice((values for values in starts if values is not None), count):
-        yield replace(problem, initial={name: _exact(x) for name, x in values.items()})
+        yield replace(problem, initial={name: exact(x) for name, x in values.items()})
 
 
 def _spans(
@@ -112,12 +112,6 @@ def _spans(
             ends.append(place[k] if start is not None else middle[k] + side * _WIDER * half[k])
         spans.append((ends[0], ends[1]))
     return spans
-
-
-def _exact(value: float) -> Expression:
-    """A double as a formula; its numbers are not negative."""
-    number = Number(Fraction(abs(value)))
-    return Negative(number) if value < 0 else number
 
 
 def _filling(spans: Sequence[tuple[float, float]]) -> Iterator[Point]:

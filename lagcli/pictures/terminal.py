@@ -76,6 +76,15 @@ class _Writer:
         """A label in the letters that there are."""
         return label.plain if self.terminal.unicode else label.ascii
 
+    def cut(self, text: str, width: int) -> str:
+        """The text, or as much of it as fits."""
+        if display_width(text) <= width:
+            return text
+        dots = ("…", "...")[self.form]
+        while display_width(text + dots) > width:
+            text = text[:-1]
+        return text + dots
+
     def panel(self, panel: Panel, height: int) -> list[str]:
         """Axes, what is in them, and the key."""
         if panel.equal or any(isinstance(i, Curve) and i.role == "level" for i in panel.items):
@@ -97,7 +106,7 @@ class _Writer:
         )
         for item in _fewer_levels(panel.items):
             self._draw(canvas, panel, item)
-        lines = [f"{'':{margin}}{self.name(panel.y.label)}"]
+        lines = [" " * margin + self.cut(self.name(panel.y.label), width)]
         lines += self._framed(canvas, panel.y, down, margin)
         lines += self._bottom(panel.x, across, margin, width)
         return [*lines, *self._key(panel)]
@@ -154,7 +163,7 @@ class _Writer:
             below[start : start + len(shown)] = shown
             taken = start + len(shown)
         pad = " " * margin
-        name = self.name(axis.label)
+        name = self.cut(self.name(axis.label), width)
         corner = ("└", "+")[self.form]
         middle = max(0, (width - display_width(name)) // 2)
         return [
@@ -165,24 +174,21 @@ class _Writer:
 
     def _key(self, panel: Panel) -> list[str]:
         """What the curves and signs are, as many in a line as fit."""
-        entries = [
-            (self._sample(item), self.name(item.label))
-            for item in drawn_by(panel)
-            if item.label is not None
-        ]
         lines: list[str] = []
         width = 0
-        for sample, name in entries:
-            needed = 2 + 4 + display_width(name)
-            if lines and width + needed <= self.terminal.width:
-                lines[-1] += f"  {sample} {name}"
-                width += needed
-            else:
-                lines.append(f"  {sample} {name}")
-                width = needed
+        for item in drawn_by(panel):
+            assert item.label is not None
+            cells = self._sample(item)
+            name = self.cut(self.name(item.label), self.terminal.width - 3 - len(cells))
+            needed = 3 + len(cells) + display_width(name)
+            if not lines or width + needed > self.terminal.width:
+                lines.append("")
+                width = 0
+            lines[-1] += f"  {self._text(cells)} {name}"
+            width += needed
         return lines
 
-    def _sample(self, item: Curve | Marks | Rule) -> str:
+    def _sample(self, item: Curve | Marks | Rule) -> list[Cell]:
         match item:
             case Curve(role=role, colour=colour):
                 canvas = Canvas(
@@ -194,14 +200,14 @@ class _Writer:
                     dashed=not self.terminal.colour,
                 )
                 canvas.line([(0.0, 0.5), (1.0, 0.5)], colour, thin=role in {"level", "surface"})
-                return self._text(next(canvas.rows()))
+                return next(canvas.rows())
             case Marks(role=role, colour=colour):
-                return self._text([(_SIGNS[role][self.form], colour)])
+                return [(_SIGNS[role][self.form], colour)]
             case Rule(of="x", role=role, colour=colour):
-                return self._text([(_UPRIGHT.get(role, _UPRIGHT["event"])[self.form], colour)])
+                return [(_UPRIGHT.get(role, _UPRIGHT["event"])[self.form], colour)]
             case Rule(role=role, colour=colour):
                 sign = _LEVEL.get(role, _LEVEL["bound"])[self.form]
-                return self._text([(sign * 3, colour)])
+                return [(sign, colour)] * 3
 
     def _text(self, cells: Iterable[Cell]) -> str:
         """Cells with the escapes of their colours."""

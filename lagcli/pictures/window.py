@@ -101,7 +101,7 @@ class Window:
         near = [x for x in self.turning_points if abs(x) <= 2 * _NEAR * self.scale]
         shown = [*self.equilibria, *near, *self._motion]
         low, high = min(shown), max(shown)
-        width = (high - low) or self.scale
+        width = high - low if high - low > _SAME * self.scale else self.scale
         room = _ROOM * width
         low, high = low - room, high + room
         return (max(low, 0.002 * width) if self.positive else low), high

@@ -122,7 +122,6 @@ initial: {theta: 1}
     ("problem", "sentence"),
     [
         ("coordinates: [x, y]\nT: x'^2 + y'^2\nV: x^2*y^2 + x", "x, y are left"),
-        ("coordinates: [x]\nT: x'^2\nV: x^2\ndissipation: x'^2", "the energy is not conserved"),
         ("coordinates: [x]\nT: x'^2\nV: x^2*cos(t)", "the energy is not conserved"),
         ("coordinates: [x, y]\nT: x'^2 + y'^2", "every coordinate is cyclic"),
     ],

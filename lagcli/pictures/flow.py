@@ -1,0 +1,282 @@
+"""The phase portrait of one degree of freedom whose energy is not conserved: motions.
+
+Through the edges of the window motions enter; from each saddle its unstable manifold runs out, and
+its stable one is the unstable one of the motion with time reversed, t -> -t: L(q, -q'),
+Q(q, -q'), and -D(q, -q').  All are runs with their certificates.
+
+References
+----------
+Strogatz, *Nonlinear Dynamics and Chaos*, 2nd ed., section 6.4.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+
+from lagcli.expression import Expression, Name, Negative, Number
+from lagcli.numerics.arithmetic import Doubles
+from lagcli.numerics.asked import Asked
+from lagcli.numerics.constants import constants_of
+from lagcli.numerics.contact import with_contacts
+from lagcli.numerics.equations import Equations
+from lagcli.numerics.motion import Motion
+from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.start import initial_state
+from lagcli.pictures.contours import grid, quiet, roots
+from lagcli.pictures.drawing import (
+    Axis,
+    CannotDraw,
+    Curve,
+    Item,
+    MarkRole,
+    Marks,
+    Panel,
+    Picture,
+    words,
+)
+from lagcli.pictures.labels import Labels
+from lagcli.pictures.run import Run, run_with
+from lagcli.pictures.turning import wrapped
+from lagcli.problem import Expect, Problem
+from lagcli.reader.columns import Shown
+from lagcli.record import record, replace
+from lagcli.rewriting import rebuilt, rewritten
+
+Progress = Callable[[float], None]
+
+#: Motions that enter through each edge, their accuracy and their rows.
+_EDGE, _ACCURACY, _ROWS = 6, 1e-6, 301
+#: A motion is followed for so many times of the quickest equilibrium.
+_LONG = 12.0
+#: How near to a saddle its manifolds begin, in widths of the window.
+_NEAR = 1e-4
+_ROOM, _FASTEST = 0.6, 0.85
+_STEP = 1e-5
+_PLACES = 1201
+
+
+@record(kw_only=True)
+class Rest:
+    """An equilibrium q with the eigenvalues l of l^2 = a_q + a_v l, None where complex."""
+
+    q: float
+    stable: bool
+    eigenvalues: tuple[float, float] | None
+
+    @property
+    def saddle(self) -> bool:
+        """Whether one eigenvalue is positive and the other negative."""
+        return self.eigenvalues is not None and self.eigenvalues[0] < 0 < self.eigenvalues[1]
+
+
+class Flow:
+    """q'' = a(q, q') with its window and its equilibria.
+
+    Raises
+    ------
+    CannotDraw
+        Where there is more than one coordinate, or the time is in the equations.
+    """
+
+    def __init__(self, problem: Problem, labels: Labels) -> None:
+        self.problem, self.labels = problem, labels
+        e, arithmetic = Equations(with_contacts(problem)), Doubles()
+        name = e.q[0].name
+        mask = 0
+        for node in (*(x for row in e.mass for x in row), *e.forcing):
+            mask |= node.mask
+        if len(e.q) != 1 or e.rows or mask & e.t.mask:
+            raise CannotDraw(
+                "the energy is not conserved, and the equations are not those of one coordinate "
+                f"without the time: --kind phase --show {name} draws the motion by itself, --kind "
+                "poincare cuts it"
+            )
+        initial = [e.form.read(value) for value in problem.initial.values()]
+        nodes = [*(x for row in e.mass for x in row), *e.forcing, *initial]
+        motion = Motion(e, constants_of(e, nodes, arithmetic), arithmetic)
+        self.acceleration = quiet(lambda q, v: float(motion.accelerations(0.0, q, v)[0]))
+        q, _ = initial_state(motion)
+        self.start = float(q[0])
+        self.name = Name(name)
+        self.turns = labels.is_angle(self.name) and self._is_periodic()
+
+    def _is_periodic(self) -> bool:
+        a = self.acceleration
+        pairs = [(a(x, 0.0), a(x + 2 * math.pi, 0.0)) for x in (0.3, 1.1, 2.7)]
+        return all(abs(x - y) <= 1e-9 * (1 + abs(x)) for x, y in pairs)
+
+    def rests(self) -> list[Rest]:
+        """The equilibria near the motion."""
+        far = 20 * (abs(self.start) or 1.0)
+        places = (
+            grid(-1.01 * math.pi, 1.01 * math.pi, _PLACES) if self.turns
+            else grid(-far, far, _PLACES - 1)
+        )  # fmt: skip
+        found = [self._rest(x) for x in roots(lambda x: self.acceleration(x, 0.0), places)]
+        return [rest for rest in found if self.turns or abs(rest.q) <= far / 2]
+
+    def _rest(self, q: float) -> Rest:
+        a, h = self.acceleration, _STEP
+        by_q = (a(q + h, 0.0) - a(q - h, 0.0)) / (2 * h)
+        by_v = (a(q, h) - a(q, -h)) / (2 * h)
+        square = by_v * by_v / 4 + by_q
+        pair = None
+        if square >= 0:
+            root = math.sqrt(square)
+            pair = (by_v / 2 - root, by_v / 2 + root)
+        return Rest(q=q, stable=by_q < 0 and by_v <= h, eigenvalues=pair)
+
+
+def flow(problem: Problem, asked: Asked, progress: Progress | None = None) -> tuple[Picture, str]:
+    """The portrait, with the motion of the file where that has an end."""
+    labels = Labels(problem)
+    made = Flow(problem, labels)
+    rests = made.rests()
+    columns: list[Shown] = [
+        (made.name.name, made.name),
+        (f"{made.name.name}'", Name(made.name.name, 1)),
+    ]
+    run = run_with(problem, asked, columns, progress) if asked.until > 0 else None
+    (low, high), fastest, time = _window(made, rests, run)
+    items: list[Item] = []
+    label = words("motions")
+    for line in _entering(made, (low, high), fastest, time, columns):
+        items.append(Curve(pieces=line, role="level", label=label if not items else None))
+    for rest in rests:
+        if rest.saddle:
+            items += _manifolds(made, rest, high - low, time, columns)
+    if run is not None:
+        pieces = _shown(run, made)
+        items.append(Curve(pieces=pieces, role="motion", colour=0, label=words("motion")))
+        items.append(Marks(points=pieces[0][:1], role="start", colour=0, label=words("start")))
+    items += _marked(rests, low, high)
+    (name, q), (rate, v) = columns
+    panel = Panel(
+        x=Axis(label=labels.axis(q, name), low=low, high=high, angle=labels.is_angle(q)),
+        y=Axis(label=labels.axis(v, rate), low=-fastest, high=fastest),
+        items=tuple(items),
+    )
+    notes = run.notes() if run is not None else ()
+    picture = Picture(title=problem.title, panels=(panel,), notes=notes)
+    return picture, run.result.refusal if run is not None else ""
+
+
+def _marked(rests: list[Rest], low: float, high: float) -> list[Item]:
+    """The equilibria in the window, those that are stable and the others."""
+    kinds: tuple[tuple[MarkRole, bool, int], ...] = (("stable", True, 2), ("unstable", False, 1))
+    items: list[Item] = []
+    for role, stable, colour in kinds:
+        kept = [rest.q for rest in rests if rest.stable == stable]
+        points = tuple((q, 0.0) for q in kept if low - 0.02 <= q <= high + 0.02)
+        if points:
+            label = words(f"{role} equilibrium")
+            items.append(Marks(points=points, role=role, colour=colour, label=label))
+    return items
+
+
+def _window(
+    made: Flow, rests: list[Rest], run: Run | None
+) -> tuple[tuple[float, float], float, float]:
+    """The range of q, the largest q' and how long a motion is followed."""
+    seen = [] if run is None else run.values(1)
+    a = made.acceleration
+    if made.turns:
+        low, high = -math.pi, math.pi
+    else:
+        shown = [*(rest.q for rest in rests), *seen, made.start]
+        width = (max(shown) - min(shown)) or abs(made.start) or 1.0
+        low, high = min(shown) - _ROOM * width, max(shown) + _ROOM * width
+    slopes = [abs(a(rest.q + _STEP, 0.0) - a(rest.q - _STEP, 0.0)) / (2 * _STEP) for rest in rests]
+    frequency = math.sqrt(max([*slopes, 0.0])) or 1.0
+    fastest = _FASTEST * frequency * (high - low) / 2
+    if run is not None:
+        fastest = max(fastest, 1.1 * max(map(abs, run.values(2)), default=0.0))
+    return (low, high), fastest, _LONG / frequency
+
+
+def _entering(
+    made: Flow, span: tuple[float, float], fastest: float, time: float, columns: list[Shown]
+) -> Iterator[tuple[tuple[tuple[float, float], ...], ...]]:
+    """Motions from the edges of the window into it."""
+    low, high = span
+    for k in range(_EDGE):
+        part = (k + 0.5) / _EDGE
+        starts = [(low, part * fastest), (high, -part * fastest)]
+        starts += [(low + part * (high - low), side * fastest) for side in (-1, 1)]
+        for q, v in starts:
+            inward = made.acceleration(q, v) * v < 0 or abs(v) < fastest
+            line = _line(made.problem, made, (q, v), time, columns) if inward else ()
+            if line:
+                yield line
+
+
+def _manifolds(
+    made: Flow, rest: Rest, width: float, time: float, columns: list[Shown]
+) -> Iterator[Item]:
+    """What leaves a saddle, and what comes to it: the same with the time reversed."""
+    assert rest.eigenvalues is not None
+    back, out = rest.eigenvalues
+    label = words("to and from the saddle")
+    for problem, rate, sign in (
+        (made.problem, out, 1),
+        (reversed_in_time(made.problem), -back, -1),
+    ):
+        long = time + math.log(1 / _NEAR) / rate
+        for side in (-1, 1):
+            step = side * _NEAR * width
+            line = _line(problem, made, (rest.q + step, step * rate), long, columns, sign)
+            if line:
+                yield Curve(pieces=line, role="separatrix", colour=1, label=label)
+
+
+def _line(
+    problem: Problem,
+    made: Flow,
+    start: tuple[float, float],
+    time: float,
+    columns: list[Shown],
+    sign: int = 1,
+) -> tuple[tuple[tuple[float, float], ...], ...]:
+    """A motion from a state; none where it cannot be run."""
+    q, v = start
+    initial = {made.name: exact(q), Name(made.name.name, 1): exact(v)}
+    asked = Asked(until=time, accuracy=_ACCURACY, samples=_ROWS, columns=())
+    try:
+        run = run_with(replace(problem, initial=initial), asked, columns)
+    except Refusal:
+        return ()
+    lines = _shown(run, made)
+    return tuple(tuple((x, sign * y) for x, y in line) for line in lines)
+
+
+def _shown(run: Run, made: Flow) -> tuple[tuple[tuple[float, float], ...], ...]:
+    pieces = run.curve(1, 2)
+    if made.turns:
+        return tuple(part for piece in pieces for part in wrapped(piece))
+    return pieces
+
+
+def exact(value: float) -> Expression:
+    """A double as a formula; its numbers are not negative."""
+    number = Number(Fraction(abs(value)))
+    return Negative(number) if value < 0 else number
+
+
+def reversed_in_time(problem: Problem) -> Problem:
+    """The problem whose motions are those of another, backwards: q(-t)."""
+    bare = replace(
+        problem, expect=Expect(), find=(), symmetries=(), observables={}, brackets=(),
+        canonical_transformations=(), initial={},
+    )  # fmt: skip
+
+    def turned(node: Expression) -> Expression:
+        if isinstance(node, Name) and node.primes % 2:
+            return Negative(node)
+        return rebuilt(node, turned)
+
+    found = rewritten(bare, turned)
+    if found.dissipation is None:
+        return found
+    return replace(found, dissipation=Negative(found.dissipation))

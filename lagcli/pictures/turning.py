@@ -1,0 +1,29 @@
+"""Angles within one turn."""
+
+from __future__ import annotations
+
+import math
+
+from lagcli.pictures.drawing import Piece, Point
+
+
+def wrapped(piece: Piece) -> list[Piece]:
+    """A line over an angle between -pi and pi: it goes on at the other side.
+
+    Two points of a piece may lie beyond, where it is cut off.
+    """
+    found: list[list[Point]] = []
+    last: int | None = None
+    before = piece[0]
+    for angle, rate in piece:
+        turn = math.floor((angle + math.pi) / (2 * math.pi))
+        if turn != last:
+            begin = []
+            if last is not None:  # to the edge, and from the edge
+                found[-1].append((angle - 2 * math.pi * last, rate))
+                begin = [(before[0] - 2 * math.pi * turn, before[1])]
+            found.append(begin)
+            last = turn
+        before = (angle, rate)
+        found[-1].append((angle - 2 * math.pi * turn, rate))
+    return [tuple(part) for part in found]
