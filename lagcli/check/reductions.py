@@ -85,7 +85,7 @@ class Reductions:
             open_ = None in verdicts or section.equilibria is None or not section.complete
             verdict = True if True in verdicts else None if open_ else False
             path = ["equilibria", str(place)]
-            yield path, verdict, f"state of rest {place + 1}", "none that is the same"
+            yield path, verdict, f"equilibrium {place + 1}", "none that is the same"
 
     def _same_equilibrium(self, found: Equilibrium, expected: ExpectEquilibrium) -> bool | None:
         verdicts: list[bool | None] = [

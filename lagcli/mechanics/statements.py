@@ -226,7 +226,7 @@ class Statements(Stating):
             return
         self.complete = False
         self.warnings.append(
-            "the Lagrangian is singular: the Hessian of L by the velocities has no inverse "
+            "the Lagrangian is singular: the Hessian of L in the velocities has no inverse "
             f"along {', '.join(degenerate)}, so the equations do not determine the accelerations"
             + ("; they have no solution" if self.dynamics.contradiction is not None else "")
         )

@@ -316,7 +316,9 @@ class Discovery:
         if len(self.system.q) < 2 or not self.quadratic_mass or not self.canonical:
             return
         if len(self.system.q) > _MOST_FOR_TENSORS:
-            self.words.append("no integrals of second degree, for so many coordinates")
+            self.words.append(
+                "no integrals of second degree, because there are too many coordinates"
+            )
             return
         if self.system.t not in self.equations_symbols:
             self.words.append(

@@ -94,7 +94,7 @@ def _rate(teller: Teller) -> Iterator[Block]:
     else:
         rate = function.rate
         if rate is not None and not total.free_symbols.isdisjoint(teller.system.multipliers):
-            yield says("With the multipliers put in it is")
+            yield says("With the values of the multipliers it is")
             yield shows(Name(h.name, 1), teller.readable.on_surface(rate))
         yield says("This is not 0 on every motion: ", h, " is not conserved.")
 
@@ -174,7 +174,7 @@ def _cyclic(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
     else:
         rate = charge.rate
         if rate is not None and not right.free_symbols.isdisjoint(teller.system.multipliers):
-            yield says("and with the multipliers put in")
+            yield says("and with the values of the multipliers")
             yield shows(Name(p.name, 1), teller.readable.on_surface(rate))
         yield says("so it is not conserved:")
     yield shows(p, teller.readable.by_terms(charge.charge), _stays(charge))

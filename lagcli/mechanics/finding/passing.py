@@ -109,7 +109,9 @@ class Passing:
             times: list[bool] = []
             for index in draws:
                 if self.along.work.over:
-                    self.along.why_not = "what the motion comes to was not decided: too much work"
+                    self.along.why_not = (
+                        "which roots the motion reaches was not decided: too much work"
+                    )
                     return None
                 times.append(self._passes(index, passage, angle=angle))
                 if len(times) >= _ENOUGH and any(times):
@@ -133,7 +135,7 @@ class Passing:
                 self.along.why_not = "no parameters were found for which the motion comes there"
                 return None
             tested = "values of the file" if len(self._draws) == 1 else "tested parameters"
-            self.notes.append(f"with the {tested} the motion comes to no root of the equation")
+            self.notes.append(f"with the {tested} the motion reaches no root of the equation")
         return kept
 
     def _informative(self, passage: Passage) -> list[int]:

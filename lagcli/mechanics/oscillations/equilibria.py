@@ -80,7 +80,7 @@ class RestPoints:
             known = {tuple(p.values.get(q, q) for q in self.system.q) for p in found}
             found += [p for p in self._evident() if tuple(p.values.values()) not in known]
             if not found:
-                self.reason = "the equations of rest have no closed solution"
+                self.reason = "the conditions of equilibrium have no closed solution"
                 return None
         from lagcli.mechanics.oscillations.singular import survives
 
