@@ -445,3 +445,17 @@ def test_several_damped_coordinates_have_their_polynomial():
 def test_a_frequency_0_is_a_drift():
     text = PLANE + "T: m*(x'^2 + y'^2)/2\nV: k*(x - y)^2/2"
     assert "not an oscillation but a uniform drift" in said(text, "Small oscillations", "modes")
+
+
+def test_a_period_has_no_correction_that_is_0_on_its_branch():
+    """The isotropic oscillator in polar coordinates: T = pi/w for every amplitude."""
+    text = (
+        "coordinates: {r: {assume: positive}, phi: {}}\n"
+        "parameters: {m: {assume: positive}, w: {assume: positive}}\n"
+        "T: m*(r'^2 + r^2*phi'^2)/2\nV: m*w^2*r^2/2\n"
+    )
+    section, _ = reduction(derive(text))
+    periods = section.one_freedom.periods
+    assert len(periods) == 2
+    assert {to_grammar(each.period) for each in periods} == {"pi/w"}
+    assert all(each.amplitude == "" for each in periods)

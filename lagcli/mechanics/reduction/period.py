@@ -124,10 +124,10 @@ class Periods:
             simplify(2 * s / (sympy.factorial(k + 2) * curvature)) for k, s in enumerate(slopes)
         ]
         beta = [simplify(m / (sympy.factorial(k) * masses[0])) for k, m in enumerate(masses)]
-        coefficients = _readable(alpha, beta)
-        root = _root(masses[0], curvature)
+        coefficients = [_on_branch(c, point.positive) for c in _readable(alpha, beta)]
+        root = _on_branch(_root(masses[0], curvature), point.positive)
         where = (*point.positive, *(() if known == 1 else (curvature,)))
-        series = PeriodSeries(point, root, coefficients, where)
+        series = PeriodSeries(point, root, tuple(coefficients), where)
         agrees = self._agrees(series)
         if agrees:
             return series
@@ -196,6 +196,13 @@ def _root(mass: Expr, curvature: Expr) -> Expr:
     first = simplify(sympy.sqrt(simplify(mass / curvature)))
     second = 1 / simplify(sympy.sqrt(simplify(curvature / mass)))
     return second if sympy.count_ops(second) < sympy.count_ops(first) else first
+
+
+def _on_branch(expression: Expr, positive: Sequence[Expr]) -> Expr:
+    """|x| as x or -x, where the conditions of an equilibrium decide its sign."""
+    signs = {m: sign(m.args[0], positive) for m in expression.atoms(sympy.Abs)}
+    known: dict[Expr, Expr] = {m: s * m.args[0] for m, s in signs.items() if s in (1, -1)}
+    return simplify(expression.xreplace(known)) if known else expression
 
 
 def _readable(alpha: Sequence[Expr], beta: Sequence[Expr]) -> tuple[Expr, ...]:
