@@ -225,7 +225,9 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
         )
     elif is_zero(gauge) is True and same:
         yield says("Under it the action does not change: it is a symmetry of ", letters.L, ".")
-    elif is_zero(gauge) is True and not same and not charge.conserved:
+    elif is_zero(gauge) is True and charge.conserved:
+        yield says("Under it the action does not change on the motion.")
+    elif is_zero(gauge) is True:
         yield says("Under it the action changes by more than a boundary term.")
     elif gauge is not None:
         on_motion = "" if same else " on the motion" if charge.conserved else " and something more"
@@ -240,7 +242,8 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
     yield shows(letters.Q, teller.readable.by_terms(charge.charge), _stays(charge)
                 if charge.conserved is not None else "")  # fmt: skip
     if charge.conserved is None:
-        yield says("Whether it is conserved was not decided.")
+        why = f": {charge.broken_by}" if charge.broken_by else ""
+        yield says(f"Whether it is conserved was not decided{why}.")
     elif charge.conserved:
         acting = _acting(teller)
         if acting:

@@ -65,9 +65,12 @@ def _kind(teller: Teller, equation: ConstraintEquation) -> list[Part]:
         parts.append("contains no velocity, it is holonomic: it restricts the positions.")
     elif kind == "integrable":
         together = "together with the other velocity constraints " if several else ""
+        t = teller.system.t
+        moving = any(e.drift != 0 or any(a.has(t) for a in e.row) for e in constraints.equations)
+        timed = " and the time" if moving else ""
         parts.append(
             f"is written with velocities, yet {together}it can be integrated to a relation "
-            "between the coordinates (and the time): it restricts the positions as a holonomic "
+            f"between the coordinates{timed}: it restricts the positions as a holonomic "
             "constraint does."
         )
     else:

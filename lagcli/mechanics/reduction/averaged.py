@@ -53,6 +53,8 @@ def averaged(dynamics: Dynamics) -> Averaged | None:
     F0 = sympy.expand(force - F1 * cosine - F2 * sine)
     if not all(free_of(f, (t,)) for f in (F0, F1, F2, w)) or is_zero(w) is not False:
         return None
+    if free_of(F1, [q]) and free_of(F2, [q]):  # it shakes the body, and no more
+        return None
     slow = antiderivative(simplify(F0), q) if F0 != 0 else sympy.S.Zero
     if slow is None:
         return None

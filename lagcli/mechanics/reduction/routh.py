@@ -81,12 +81,15 @@ class Routh:
     def _why_kept(self, j: int) -> str:
         """What `cyclic` demands and coordinate j does not meet."""
         q, forces = self.system.q[j], self.system.applied_forces
-        for equation in self.full.dynamics.constraints.equations:
-            if not self._untouched(equation, j):
-                acts = is_zero(equation.row[j]) is not True
-                return f"the constraint '{equation.name}' {'acts along' if acts else 'contains'} it"
+        equations = self.full.dynamics.constraints.equations
+        for equation in equations:
+            if is_zero(equation.row[j]) is not True:
+                return f"the constraint '{equation.name}' acts along it"
         if is_zero(forces[j]) is not True:
             return "a force without a potential acts along it"
+        for equation in equations:
+            if not self._untouched(equation, j):
+                return f"the constraint '{equation.name}' contains it"
         assert not all(_independent(f, q) for f in forces)
         return "a force without a potential depends on it"
 
