@@ -17,6 +17,7 @@ COMMANDS = {
     "simulate": "Compute the motion to a stated accuracy, with a certificate.",
     "plot": "Draw a motion over time, in space or in phase space.",
     "animate": "Show a motion as a page to play, a GIF or an MP4.",
+    "sweep": "Compute an ensemble of motions over parameters and initial states.",
     "tradeoff": "Measure what accuracy costs: every method against a known reference.",
     "extremes": "Take a problem to its extremes and report where it breaks.",
     "export": "Write the equations of motion as code in another language.",

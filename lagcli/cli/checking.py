@@ -36,7 +36,7 @@ def check_paths(paths: Sequence[str], form: str, jobs: int | None, limit: float)
             worst = max(worst, _status(report))
             yield report
 
-    with closing(check_all(files, jobs or _cores(), limit)) as reports:
+    with closing(check_all(files, jobs or cores(), limit)) as reports:
         for piece in FORMS[form](_with_progress(noted(reports), len(files))):
             print_result(piece.encode("utf-8", "replace"))
     return worst
@@ -48,7 +48,7 @@ def _status(report: Report) -> Status:
     return Status.USAGE if report.outcome is Outcome.INVALID else Status.NOT_FOUND
 
 
-def _cores() -> int:
+def cores() -> int:
     """The cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))

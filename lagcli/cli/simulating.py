@@ -50,7 +50,7 @@ class Wish:
 def simulate_files(files: Sequence[str], wish: Wish) -> Status:
     """Run each file, write the tables, and say how it ended; the worst is the exit status."""
     known = is_known("--format", wish.format_name, TABLES)
-    if not (known and _can_be_written(wish)):
+    if not (known and can_be_written(wish)):
         return Status.USAGE
     if len(files) == 1:
         return _simulate_one(wish)
@@ -122,7 +122,7 @@ def _run(problem: Problem, asked: Asked, wish: Wish) -> tuple[bytes | None, Stat
     return WRITERS[wish.format_name](result), (Status.NOT_FOUND if result.refusal else Status.WELL)
 
 
-def _can_be_written(wish: Wish) -> bool:
+def can_be_written(wish: Wish) -> bool:
     """Whether there is what writes the format, and a place that takes bytes."""
     if wish.format_name == "parquet" and not _is_installed("pyarrow"):
         tell_line(

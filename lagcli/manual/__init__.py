@@ -18,9 +18,10 @@ _HEAD = re.compile(r"# (?P<title>.+)\n\n(?P<topics>(?:`[^`]+` ?)+): (?P<summary>
 
 #: The pages in reading order.
 ORDER = (
-    "tour", "problem-format", "solve", "explain", "simulate", "plot", "animate", "tradeoff",
-    "extremes", "check", "export", "symmetries", "find", "forces", "equilibria", "reduction",
-    "phase-space", "units", "python", "conventions", "extending", "architecture", "glossary",
+    "tour", "problem-format", "solve", "explain", "simulate", "plot", "animate", "sweep",
+    "tradeoff", "extremes", "check", "export", "symmetries", "find", "forces", "equilibria",
+    "reduction", "phase-space", "units", "python", "conventions", "extending", "architecture",
+    "glossary",
 )  # fmt: skip
 
 

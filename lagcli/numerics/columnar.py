@@ -21,6 +21,9 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 from lagcli.numerics.asked import Result
 from lagcli.numerics.writing import document_of, to_text
 
+Columns = Sequence[str]
+Rows = Sequence[Sequence[float | None]]
+
 _ALIGNED = 64
 #: A ZIP's earliest date: the same result gives the same bytes.
 _NO_DATE = (1980, 1, 1, 0, 0, 0)
@@ -32,11 +35,16 @@ class NoParquet(Exception):
 
 def to_npz(result: Result) -> bytes:
     """What `numpy.load` reads: data["theta'"] is a column."""
+    return table_as_npz(result.columns, result.rows, "certificate.json", _certificate(result))
+
+
+def table_as_npz(columns: Columns, rows: Rows, name: str, attached: str) -> bytes:
+    """A table of doubles as NPZ, with a text under the name of a further member."""
     file = io.BytesIO()
     with ZipFile(file, "w") as archive:
-        for j, name in enumerate(result.columns):
-            _add(archive, f"{name}.npy", _npy([row[j] for row in result.rows]))
-        _add(archive, "certificate.json", _certificate(result).encode())
+        for j, column in enumerate(columns):
+            _add(archive, f"{column}.npy", _npy([row[j] for row in rows]))
+        _add(archive, name, attached.encode())
     return file.getvalue()
 
 
@@ -60,7 +68,18 @@ def _npy(values: Sequence[float | None]) -> bytes:
 
 
 def to_parquet(result: Result) -> bytes:
-    """A table of doubles.
+    """The result as Parquet, with its certificate.
+
+    Raises
+    ------
+    NoParquet
+        Without pyarrow.
+    """
+    return table_as_parquet(result.columns, result.rows, _certificate(result))
+
+
+def table_as_parquet(columns: Columns, rows: Rows, attached: str) -> bytes:
+    """A table of doubles as Parquet, with a text under the key `lagcli` of its metadata.
 
     Raises
     ------
@@ -72,11 +91,10 @@ def to_parquet(result: Result) -> bytes:
         from pyarrow import parquet
     except ImportError:
         raise NoParquet from None
-    columns = {
-        name: pa.array([row[j] for row in result.rows], pa.float64())
-        for j, name in enumerate(result.columns)
+    arrays = {
+        name: pa.array([row[j] for row in rows], pa.float64()) for j, name in enumerate(columns)
     }
-    table = pa.table(columns).replace_schema_metadata({"lagcli": _certificate(result)})
+    table = pa.table(arrays).replace_schema_metadata({"lagcli": attached})
     sink = io.BytesIO()
     parquet.write_table(table, sink)
     return sink.getvalue()

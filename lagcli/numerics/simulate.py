@@ -100,6 +100,13 @@ class Simulation:
             raise Refusal(f"a column is not defined: {error}") from None
         #: the rows asked for are those at multiples of this
         self.every = max(1, -(-_COMPARED // (asked.samples - 1)))
+        self.notes: list[str] = []
+        #: what the model was cut by
+        self.cut: Cut | None = None
+        self._begin()
+
+    def _begin(self) -> None:
+        """Nothing has been run."""
         self.times = self._times()
         #: so many of the times are those asked for, and what lies between them
         self.regular = len(self.times)
@@ -110,9 +117,20 @@ class Simulation:
         self.most_steps: int | None = None
         #: what is said beside the reason for the method
         self.remark = ""
-        self.notes: list[str] = []
-        #: what the model was cut by
-        self.cut: Cut | None = None
+
+    def restart(self, problem: Problem, modes: Modes) -> None:
+        """Take another initial state of the same problem, without constraints or contacts.
+
+        Raises
+        ------
+        Refusal
+            When there is no motion from it.
+        """
+        self.problem = self.whole = self.equations.problem = problem
+        self._begin()
+        motion = modes.first.motion
+        self.start = initial_state(motion, project=self.asked.project)
+        self._check_start(motion, *self.start)
 
     def _column(self, column: Column) -> Node:
         if column.expression is None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from lagcli.numerics.asked import Result
@@ -84,9 +84,14 @@ def _event(event: Event) -> dict[str, Any]:
 
 def to_csv(result: Result) -> str:
     """A header and the rows, every digit of a double; what is not defined is empty."""
-    lines = [",".join(map(_quoted, result.columns))]
-    lines += [",".join("" if x is None else repr(x) for x in row) for row in result.rows]
-    return "".join(f"{line}\n" for line in lines)
+    return "".join(csv_lines(result.columns, result.rows))
+
+
+def csv_lines(columns: Sequence[str], rows: Sequence[Sequence[float | None]]) -> Iterator[str]:
+    """A header and rows, each with its line break."""
+    yield ",".join(map(_quoted, columns)) + "\n"
+    for row in rows:
+        yield ",".join("" if x is None else repr(x) for x in row) + "\n"
 
 
 def _quoted(name: str) -> str:

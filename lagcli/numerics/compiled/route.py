@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 from lagcli.numerics.beside import elsewhere, fast, moved_state
 from lagcli.numerics.compiled.apart import Apart, MakeMachine, apart
@@ -56,12 +57,18 @@ class RoundingAddsUp(NotPossible):
         super().__init__(f"over more than {LONG:,} steps the rounding of doubles adds up")
 
 
+#: The machines of motions that are still there: an ensemble runs one motion many times.
+_MACHINES: WeakKeyDictionary[Motion, Machine | str] = WeakKeyDictionary()
+
+
 def double_machine(motion: Motion) -> Machine | str:
     """The machine for a motion, or why there is none."""
-    try:
-        return Machine(motion, DOUBLE)
-    except (NoCompiler, NotCompiled) as reason:
-        return str(reason)
+    if motion not in _MACHINES:
+        try:
+            _MACHINES[motion] = Machine(motion, DOUBLE)
+        except (NoCompiler, NotCompiled) as reason:
+            _MACHINES[motion] = str(reason)
+    return _MACHINES[motion]
 
 
 def _machine(motion: Motion, independent: Sequence[int] | None) -> Machine | str:

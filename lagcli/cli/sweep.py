@@ -1,0 +1,90 @@
+"""`lagcli sweep`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from lagcli.cli.options import Output, State
+from lagcli.cli.simulate import Accuracy, File, Format, Method, Set, Show, Until
+
+Vary = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--vary",
+        metavar="NAME=RANGE",
+        help="A parameter, coordinate or velocity: 0:3.14:200 (first, last, count), "
+        "1e-3:1:50:log, or 1,2,4.  Several make all combinations.",
+    ),
+]
+Random = Annotated[
+    int | None,
+    typer.Option("--random", metavar="N", min=1, help="N draws between FIRST:LAST instead."),
+]
+Seed = Annotated[int, typer.Option("--seed", metavar="N", help="Of the draws.")]
+Samples = Annotated[
+    int,
+    typer.Option("--samples", metavar="N", min=2, max=1_000_000, help="With --along: rows."),
+]
+Along = Annotated[bool, typer.Option("--along", help="Every row of each motion, not its end.")]
+Jobs = Annotated[
+    int | None,
+    typer.Option("--jobs", "-j", metavar="N", min=1, help="Processes.  [default: one per core]"),
+]
+
+
+def sweep(
+    file: File,
+    vary: Vary = None,
+    random: Random = None,
+    seed: Seed = 0,
+    until: Until = None,
+    accuracy: Accuracy = None,
+    show: Show = None,
+    along: Along = False,
+    samples: Samples = 101,
+    settings: Set = None,
+    state: State = None,
+    method: Method = "auto",
+    format_name: Format = None,
+    output: Output = None,
+    jobs: Jobs = None,
+) -> int:
+    """Compute an ensemble of motions over parameters and initial states.
+
+    Each row has the values that were varied, the columns at the end of its motion (with
+    --along at every sample), and its certificate: `reached` (1 or 0), `holds_until` and
+    `error`, the bound on the global error.  The rows are in the order of the ranges, the
+    last parameter or state varying fastest; `theta(0)` is an initial value.
+
+    With -o, finished parts are kept beside the output: a sweep that was killed goes on
+    where it ended when the same command is given again.
+
+    \b
+    Examples:
+      lagcli sweep plane-pendulum --vary theta=0.1:3:30 --until 10 --show theta,energy
+      lagcli sweep plane-pendulum --vary l=0.5,1,2 --vary theta=0.1:3:300 -o swings.parquet
+      lagcli sweep kepler --random 1000 --seed 7 --vary "y'=0.5:1.2" -o orbits.csv
+    """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.endings import TABLES, format_of
+    from lagcli.cli.simulating import Wish
+    from lagcli.cli.sweeping import sweep_file
+
+    wish = Wish(
+        file=file,
+        until=until,
+        accuracy=accuracy,
+        samples=samples if along else 2,
+        settings=tuple(settings or ()),
+        state=tuple(state or ()),
+        show=tuple(show or ()),
+        format_name=format_of(format_name, output, TABLES, "table"),
+        output=output,
+        project=False,
+        precision=None,
+        method=method,
+        stop_when=None,
+        whole=False,
+    )
+    return sweep_file(wish, tuple(vary or ()), random, seed, along=along, jobs=jobs)

@@ -1,0 +1,76 @@
+"""One ensemble to one table; what is finished is kept on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from hashlib import sha256
+
+from lagcli.cli.checking import cores
+from lagcli.cli.choices import TABLES
+from lagcli.cli.delivering import has_place, place
+from lagcli.cli.running import counted, is_known, understood
+from lagcli.cli.simulating import Wish, asked_of, can_be_written
+from lagcli.cli.status import Status
+from lagcli.cli.telling import tell_line
+from lagcli.numerics.asked import Asked
+from lagcli.problem import Problem
+from lagcli.sweep import WRITERS, Plan, WrongPlan, plan_of, sweep
+from lagcli.sweep.journal import Journal
+
+
+def sweep_file(
+    wish: Wish, vary: Sequence[str], random: int | None, seed: int, *, along: bool, jobs: int | None
+) -> Status:
+    """Run, write, and say how it ended."""
+    known = is_known("--format", wish.format_name, TABLES)
+    if not (known and can_be_written(wish)) & has_place(wish.output):
+        return Status.USAGE
+    found = understood(
+        wish.file,
+        wish.settings,
+        wish.state,
+        lambda problem: _options(problem, wish, vary, random, seed),
+    )
+    if found is None:
+        return Status.USAGE
+    problem, (asked, plan) = found
+    digest = _digest(wish, problem, plan, along=along)
+    with Journal(wish.output, digest) as journal:
+        if journal.done:
+            tell_line(f"{wish.output}: going on after {len(journal.done)} finished parts")
+        with counted("sweeping") as progress:
+            table = sweep(
+                problem, asked, plan, journal,
+                along=along, jobs=jobs or cores(), progress=progress,
+            )  # fmt: skip
+        if not place(WRITERS[wish.format_name](table), wish.output):
+            return Status.USAGE
+        journal.remove()
+    if not table.complete:
+        missed = sum(row[table.columns.index("reached")] != 1.0 for row in table.rows)
+        tell_line(f"{wish.file}: {missed} of {len(table.rows)} rows do not reach the accuracy")
+        return Status.NOT_FOUND
+    return Status.WELL
+
+
+def _options(
+    problem: Problem, wish: Wish, vary: Sequence[str], random: int | None, seed: int
+) -> tuple[Asked, Plan] | None:
+    plan = None
+    try:
+        plan = plan_of(problem, vary, random, seed)
+    except WrongPlan as error:
+        for line in error.lines:
+            tell_line(f"lagcli: error: {line}")
+    asked = asked_of(problem, wish)
+    return None if plan is None or asked is None else (asked, plan)
+
+
+def _digest(wish: Wish, problem: Problem, plan: Plan, *, along: bool) -> str:
+    """Names the sweep by all that its rows depend on, the program included."""
+    from lagcli.cache import key
+
+    options = [repr(plan), wish.until, wish.accuracy, wish.samples, wish.settings, wish.state,
+               wish.show, wish.method, along]  # fmt: skip
+    text = key({"sweep": repr(options)}, [(wish.file, problem.source.text.encode())])
+    return sha256(str(text).encode()).hexdigest()
