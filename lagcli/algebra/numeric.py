@@ -48,6 +48,7 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
 }
 
 
+_SAMPLES = 12
 #: Binary digits before the point beyond which a function takes all memory: of the exponent of
 #: exp(x), of the multiples of pi in x.
 _LARGEST = dict.fromkeys(("exp", "sinh", "cosh", "tanh", "coth"), 64)
@@ -220,6 +221,33 @@ def _constant(node: Expr) -> Any:
     if node.is_Float:
         return mpf(str(node))
     raise ZeroDivisionError(f"no finite value for {node!r}")
+
+
+def vanishes_at_random(expression: Expr) -> bool:
+    """Whether an expression is 0 at random values of its symbols at which it is real.
+
+    To 25 digits beside its terms, or to 9 where it has a rounded number in it.
+    """
+    source = random.Random("values")
+    symbols = sorted(expression.free_symbols, key=lambda s: s.name)
+    evaluator = Evaluator(sympy.Add.make_args(expression), 50)
+    decimals = any(len(str(r.q)) > 7 for r in expression.atoms(sympy.Rational))
+    found: list[bool] = []
+    for _ in range(_SAMPLES):
+        values = {s: mpf(source.randint(100, 3000)) / 1009 for s in symbols}
+        values = {s: -v if s.is_negative else v for s, v in values.items()}
+        try:
+            parts = evaluator(values)
+        except (ArithmeticError, ValueError, TypeError):
+            continue
+        if not all(isinstance(part, mpf) and mpmath.isfinite(part) for part in parts):
+            continue
+        with mpmath.workdps(50):
+            scale = max(mpf(1), *map(abs, parts))
+            found.append(abs(sum(parts)) < scale * mpf(10) ** (-9 if decimals else -25))
+        if not found[-1] or len(found) == (2 if symbols else 1):
+            break
+    return bool(found) and all(found)
 
 
 def evaluate(

@@ -5,7 +5,7 @@
 - n equations that are linear in the inverses of n square roots are solved for these: the
   forces of two centres give the two distances.  Where the determinant vanishes is a branch
   of its own.
-- |f| is f or -f.
+- |f| is f, -f or 0, and the sign of f is 1, -1 or 0.
 """
 
 from __future__ import annotations
@@ -40,14 +40,17 @@ def opened(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Opened
 
 
 def _without_moduli(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Opened]:
-    moduli = {m for e in equations for m in e.atoms(sympy.Abs) if not free_of(m, unknowns)}
-    if not moduli:
+    jumps = {m for e in equations for m in e.atoms(sympy.Abs, sympy.sign)}
+    jumps = {m for m in jumps if not free_of(m, unknowns)}
+    if not jumps:
         return []
-    modulus = min(moduli, key=sympy.default_sort_key)
-    return [
-        Opened(tuple(e.xreplace({modulus: inner}) for e in equations), (inner,))
-        for inner in (modulus.args[0], -modulus.args[0])
-    ]
+    inner = min((m.args[0] for m in jumps), key=sympy.default_sort_key)
+    branches = []
+    for value in (1, -1, 0):
+        images = {sympy.Abs(inner): value * inner, sympy.sign(inner): sympy.Integer(value)}
+        put_in = tuple(e.xreplace(images) for e in equations)
+        branches.append(Opened(put_in, (value * inner,)) if value else Opened((inner, *put_in)))
+    return branches
 
 
 def _lowered(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Opened]:

@@ -16,7 +16,9 @@ from sympy import Expr, Symbol
 from lagcli.algebra.effort import Work
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients, solve_for
+from lagcli.algebra.numeric import vanishes_at_random
 from lagcli.algebra.opening import by_distances, opened
+from lagcli.algebra.resultants import without
 from lagcli.algebra.ring import factorization
 from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import is_zero, simplify
@@ -164,7 +166,28 @@ class _Solver:
         branches = opened(products, self.unknowns)
         for each in branches:
             self.branch(list(each.equations), values, (*positive, *each.positive))
-        return bool(branches)
+        return bool(branches) or self._by_resultant(products, values, positive)
+
+    def _by_resultant(
+        self, equations: list[Expr], values: dict[Symbol, Expr], positive: tuple[Expr, ...]
+    ) -> bool:
+        """Two equations in two unknowns: the roots of their resultant, each put into both."""
+        present = [u for u in self.unknowns if any(u in e.free_symbols for e in equations)]
+        if len(equations) != 2 or len(present) != 2:
+            return False
+        for kept, gone in (present, present[::-1]):
+            pairs = _pairs(equations, kept, gone)
+            if pairs is not None:
+                break
+        else:
+            return False
+        for pair in pairs:
+            own = [self._conditions(root, unknown) for unknown, root in pair.items()]
+            if None not in own:
+                wanted = [c for conditions in own for c in conditions or ()]
+                shown = {s: v.subs(list(pair.items())) for s, v in values.items()}
+                self._keep({**shown, **pair}, tuple(dict.fromkeys((*positive, *wanted))))
+        return True
 
     def _cost(self, factors: Sequence[Expr]) -> tuple[int, int]:
         most = max(len(self._in(factor)) for factor in factors)
@@ -181,6 +204,8 @@ class _Solver:
         except ZeroDivisionError:
             return []
         if element.is_zero():
+            return None
+        if not self._in(equation) and vanishes_at_random(equation):
             return None
         factors = [
             field.polynomial_to_sympy(factor)
@@ -295,6 +320,48 @@ class _Solver:
         self.found.solutions.append(
             SystemSolution(ordered, tuple(dict.fromkeys(conditions)), relation)
         )
+
+
+def _pairs(
+    equations: Sequence[Expr], kept: Symbol, gone: Symbol
+) -> list[dict[Symbol, Expr]] | None:
+    """The pairs of values that fulfil both equations; None where not all are found."""
+    conditions = without(equations, kept, gone)
+    if conditions is None:
+        return None
+    pairs = []
+    for condition in conditions:
+        roots = solve_for(condition, kept)
+        if roots is None:
+            return None
+        for root in map(simplify, roots.values):
+            if not _may_be_real(root):
+                continue
+            there = [_substituted(e, kept, root) for e in equations]
+            open_ = [e for e in there if not vanishes_at_random(e)]
+            if not open_:
+                return None  # a line of solutions
+            others = solve_for(open_[0], gone)
+            if others is None:
+                return None
+            candidates = [{kept: root, gone: simplify(other)} for other in others.values]
+            pairs += [
+                pair
+                for pair in candidates
+                if _may_be_real(pair[gone])
+                and all(vanishes_at_random(_at(e, pair)) for e in equations)
+            ]
+    return pairs
+
+
+def _at(expression: Expr, pair: Mapping[Symbol, Expr]) -> Expr:
+    return expression.subs(list(pair.items()), simultaneous=True)
+
+
+def _may_be_real(root: Expr) -> bool:
+    if root.free_symbols:
+        return True
+    return bool(abs(sympy.im(root.evalf(30))) < sympy.Float("1e-15"))
 
 
 def _without_repeats(left: list[list[Expr]]) -> list[list[Expr]]:

@@ -24,6 +24,7 @@ from lagcli.algebra import Field, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import is_decimal, rounded
 from lagcli.algebra.field import common_denominator
+from lagcli.algebra.numeric import vanishes_at_random
 from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.family import Family, exists_where, family
@@ -301,8 +302,8 @@ def _nearly_vanishes(force: Expr, values: Mapping[Symbol, Expr], rounded: list[S
 
 
 def _vanishes(expression: Expr) -> bool:
-    """A number that is 0 to 40 digits, which a singular point of the potential is not."""
+    """Whether it is 0 to many digits, which a singular point of the potential is not."""
     if not expression.is_number:
-        return False
+        return vanishes_at_random(expression)
     value = expression.evalf(50)
     return value is not sympy.nan and bool(abs(value) < sympy.Float("1e-40"))

@@ -1,0 +1,72 @@
+"""Two equations in two unknowns: what one of the unknowns must satisfy alone.
+
+An unknown that occurs in sines and cosines only is taken by t = tan(angle/2), in which both are
+polynomials; where t is infinite, at pi, is a case of its own.
+
+References
+----------
+Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, 4th ed., section 3.6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra.entry import Field
+from lagcli.algebra.half_angles import degree_in_angle, from_half_angle, to_half_angle
+from lagcli.algebra.ring import Poly, factorization
+
+_MOST_TERMS = 120
+_HIGHEST = 16
+
+
+def without(equations: Sequence[Expr], kept: Symbol, gone: Symbol) -> list[Expr] | None:
+    """Equations in one unknown alone of which each solution of both fulfils one.
+
+    None where there is no resultant, or where it vanishes: both have a factor in common.
+    """
+    field = Field(equations)
+    polys = [field(e).numerator for e in equations]
+    slots = {u: _slot(field, polys, u) for u in (kept, gone)}
+    if None in slots.values() or any(len(p) > _MOST_TERMS for p in polys) or field.has_roots:
+        return None
+    polys = [field.ring.lift(p) for p in polys]
+    angles = [g for g in slots.values() if g is not None and field.generators[g].kind == "cos"]
+    for g in angles:
+        polys = [to_half_angle(field, p, g, degree_in_angle(field, p, g)) for p in polys]
+    places = {u: g + (g in angles) for u, g in slots.items() if g is not None}
+    ring = field.ring
+    if any(ring.degree(p, g) > _HIGHEST for p in polys for g in places.values()):
+        return None
+    resultant = polys[0].resultant(polys[1], ring.capacity - 1 - places[gone])
+    if resultant == 0:
+        return None
+    found = []
+    for factor, _ in factorization(resultant)[1]:
+        degree = ring.degree(factor, places[kept])
+        if degree == 0:
+            continue
+        if slots[kept] in angles:
+            factor = from_half_angle(field, factor, slots[kept], (degree + 1) // 2)
+        found.append(field.polynomial_to_sympy(factor))
+    if slots[kept] in angles:
+        found.append(kept - sympy.pi)  # where t is infinite
+    return found
+
+
+def _slot(field: Field, polys: Sequence[Poly], unknown: Symbol) -> int | None:
+    """The generator of an unknown, or the cosine of it; None where it stands elsewhere as well."""
+    used = {g for p in polys for g in field.ring.used(p)}
+    within = {g for g in used if unknown in field.generators[g].expression.free_symbols}
+    if within == {field.number_of(unknown)}:
+        return next(iter(within))
+    cosines = {
+        g if field.generators[g].kind == "cos" else field.generators[g].partner
+        for g in within
+        if field.generators[g].kind in ("cos", "sin") and field.generators[g].argument == unknown
+    }
+    known = {g + k for g in cosines for k in (0, 1)}
+    return next(iter(cosines)) if len(cosines) == 1 and within <= known else None
