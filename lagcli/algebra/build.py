@@ -154,7 +154,7 @@ class Builder:
             case PartialCall(function=function, indices=indices, arguments=arguments):
                 return self._call(function, [self(a) for a in arguments], tuple(sorted(indices)))
             case Diff(operand=operand, variable=variable):
-                return self(operand).diff(self._name(variable.name, variable.primes))
+                return without_jumps(self(operand).diff(self._name(variable.name, variable.primes)))
         raise TypeError(f"not an expression: {node!r}")
 
     def _real(self, node: Expression, value: Expr) -> Expr:
@@ -177,6 +177,13 @@ class Builder:
         if function in self.functions:
             return unspecified(function, self.functions[function], indices)(*arguments)
         return _SYMPY_FUNCTIONS[function](*arguments)
+
+
+def without_jumps(expression: Expr) -> Expr:
+    """Beside the places where a sign changes: its derivative is 0 there."""
+    if not expression.has(sympy.DiracDelta):
+        return expression
+    return expression.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero)
 
 
 def free_of(expression: Expr, symbols: Iterable[Symbol]) -> bool:

@@ -45,14 +45,18 @@ def without(equations: Sequence[Expr], kept: Symbol, gone: Symbol) -> list[Expr]
     if resultant == 0:
         return None
     found = []
+    angle = slots[kept] if slots[kept] in angles else None
     for factor, _ in factorization(resultant)[1]:
         degree = ring.degree(factor, places[kept])
         if degree == 0:
             continue
-        if slots[kept] in angles:
-            factor = from_half_angle(field, factor, slots[kept], (degree + 1) // 2)
-        found.append(field.polynomial_to_sympy(factor))
-    if slots[kept] in angles:
+        alone = (
+            factor
+            if angle is None
+            else from_half_angle(field, factor, angle, degree // 2 + degree % 2)
+        )
+        found.append(field.polynomial_to_sympy(alone))
+    if angle is not None:
         found.append(kept - sympy.pi)  # where t is infinite
     return found
 

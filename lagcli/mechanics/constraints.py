@@ -23,9 +23,10 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import Relations, is_zero, nullspace, rank, simplify
-from lagcli.algebra.build import free_of
+from lagcli.algebra.build import free_of, without_jumps
 from lagcli.answers import ConstraintKind
 from lagcli.diagnostics import Diagnostic, ProblemError
+from lagcli.mechanics.branches import restricting, vanishing_factors
 from lagcli.mechanics.system import System
 from lagcli.problem import Constraint
 from lagcli.record import record
@@ -70,8 +71,8 @@ class Constraints:
         velocities = set(system.qdot)
         holonomic = free_of(f, velocities)
         if holonomic:
-            row = tuple(f.diff(q) for q in system.q)
-            drift = f.diff(system.t)
+            row = tuple(without_jumps(f.diff(q)) for q in system.q)
+            drift = without_jumps(f.diff(system.t))
         else:
             row = tuple(f.diff(v) for v in system.qdot)
             curved = [
@@ -109,6 +110,21 @@ class Constraints:
         bias = system.total_derivative(velocity_form).xreplace(still)
         return ConstraintEquation(constraint.name, multiplier, f, holonomic, row, drift, bias)
 
+    @cached_property
+    def branches(self) -> dict[str, tuple[Expr, ...]]:
+        """Of each constraint that several factors fulfil: the factors, each 0 somewhere.
+
+        y (x - 2 y) = 0 is the union of two surfaces; y (x' + x y') = 0 restricts nothing at y = 0.
+        """
+        forms = {e.name: e.f if e.holonomic else self._velocity_form(e) for e in self.equations}
+        moving = {*self.system.q, *self.system.qdot}
+        found = {name: vanishing_factors(form, moving) for name, form in forms.items()}
+        return {name: factors for name, factors in found.items() if len(factors) > 1}
+
+    def _velocity_form(self, equation: ConstraintEquation) -> Expr:
+        terms = (a * v for a, v in zip(equation.row, self.system.qdot, strict=True))
+        return sympy.Add(*terms, equation.drift)
+
     # -- matrices ---------------------------------------------------------------------
 
     @property
@@ -119,10 +135,7 @@ class Constraints:
     @property
     def velocity_forms(self) -> tuple[Expr, ...]:
         """A q' + b, which vanish on the motion."""
-        return tuple(
-            sympy.Add(*(a * v for a, v in zip(e.row, self.system.qdot, strict=True)), e.drift)
-            for e in self.equations
-        )
+        return tuple(map(self._velocity_form, self.equations))
 
     @cached_property
     def relations(self) -> Relations | None:
@@ -130,8 +143,14 @@ class Constraints:
         if not self.equations:
             return None
         positions = [e.f for e in self.equations if e.holonomic]
+        velocities = [
+            form
+            if e.holonomic
+            else restricting(self.branches.get(e.name, (form,)), self.system.qdot)
+            for e, form in zip(self.equations, self.velocity_forms, strict=True)
+        ]
         moving = (*self.system.q, *self.system.qdot, self.system.t)
-        return Relations([*positions, *self.velocity_forms], moving=moving)
+        return Relations([*positions, *velocities], moving=moving)
 
     # -- integrability ----------------------------------------------------------------
 

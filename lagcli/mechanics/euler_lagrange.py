@@ -19,8 +19,8 @@ from functools import cached_property
 import sympy
 from sympy import Expr
 
-from lagcli.algebra.build import free_of
-from lagcli.mechanics.system import System, without_jumps
+from lagcli.algebra.build import free_of, without_jumps
+from lagcli.mechanics.system import System
 
 
 class EulerLagrange:
@@ -32,12 +32,12 @@ class EulerLagrange:
     @cached_property
     def momenta(self) -> tuple[Expr, ...]:
         """p_j = dL/dq_j'."""
-        return tuple(self.system.L.diff(v) for v in self.system.qdot)
+        return tuple(without_jumps(self.system.L.diff(v)) for v in self.system.qdot)
 
     @cached_property
     def lagrangian_forces(self) -> tuple[Expr, ...]:
         """dL/dq_j."""
-        return tuple(self.system.L.diff(q) for q in self.system.q)
+        return tuple(without_jumps(self.system.L.diff(q)) for q in self.system.q)
 
     @cached_property
     def mass_matrix(self) -> tuple[tuple[Expr, ...], ...]:
@@ -129,7 +129,7 @@ class EulerLagrange:
         potential = system.V
         return tuple(
             applied
-            - potential.diff(q)
+            - without_jumps(potential.diff(q))
             - sympy.Add(*(m * row[i] * c for m, row, c in self._jacobians if row[i] and c))
             for i, (applied, q) in enumerate(zip(system.applied_forces, system.q, strict=True))
         )

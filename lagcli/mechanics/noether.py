@@ -30,6 +30,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import without_jumps
 from lagcli.algebra.jumps import is_continuous
 from lagcli.answers import ChargeSource, Verification
 from lagcli.mechanics.dynamics import Dynamics
@@ -90,9 +91,15 @@ class Noether:
         evident = [
             charge
             for charge in (*self._cyclic_charges(), self._energy_charge())
-            if not any(self._same_charge(charge, candidate) for candidate in candidates)
+            if not self.is_trivial(charge.charge)
+            and not any(self._same_charge(charge, candidate) for candidate in candidates)
         ]
         return (*candidates, *evident)
+
+    def is_trivial(self, quantity: Expr) -> bool:
+        """Whether a quantity is constant by the constraints alone, whatever the motion is."""
+        on_surface = self.dynamics.simplified(quantity)
+        return not on_surface.free_symbols & {*self.system.q, *self.system.qdot, self.system.t}
 
     @cached_property
     def cyclic(self) -> tuple[int, ...]:
@@ -151,7 +158,7 @@ class Noether:
                     strict=True,
                 )
             ),
-            system.L.diff(system.t) * transformation.time,
+            without_jumps(system.L.diff(system.t)) * transformation.time,
             system.L * stretch,
         )
 

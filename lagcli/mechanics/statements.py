@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -36,6 +36,7 @@ from lagcli.answers import (
 from lagcli.expression import ZERO, Expression
 from lagcli.forces import ForcesSection
 from lagcli.manners import Manner
+from lagcli.mechanics.branches import sentence
 from lagcli.mechanics.constraint_force import forces_on_points
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.impacts import between_impacts
@@ -236,6 +237,19 @@ class Statements(Stating):
             self.warnings.append(
                 f"{what} were verified at 50 digits at random states, not decided exactly"
             )
+
+    def answers(self, sections: Sequence[str] | None) -> Answers:
+        """The asked sections; where a constraint has several factors, that they hold on each."""
+        found = super().answers(sections)
+        return replace(found, warnings=(*self._on_branches(), *found.warnings))
+
+    def _on_branches(self) -> Iterator[str]:
+        constraints = self.dynamics.constraints
+        for equation in constraints.equations:
+            factors = constraints.branches.get(equation.name)
+            if factors is not None:
+                qdot = self.system.qdot
+                yield sentence(equation.name, factors, qdot, holonomic=equation.holonomic)
 
     def _multipliers(self) -> MultipliersSection:
         dynamics = self.dynamics

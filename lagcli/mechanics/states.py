@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Sequence
+from itertools import count, islice, product
 
 import mpmath
 from mpmath import mpf
-from sympy import Symbol
+from sympy import Expr, Symbol
 
+from lagcli.algebra.build import without_jumps
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.system import System
@@ -24,6 +26,7 @@ _GUARD = 15  # digits beyond those that are claimed
 _TOLERANCE = mpf(10) ** -(DIGITS + 5)
 _ATTEMPTS = 60
 _NEWTON_STEPS = 60
+_SURFACES = 8  # at most
 
 State = dict[Symbol, mpf]
 
@@ -82,8 +85,8 @@ class RandomStates:
         self.system = system
         self.constraints = constraints
         self._positions = [e for e in constraints.equations if e.holonomic]
-        self._f = Evaluator([e.f for e in self._positions], DIGITS + _GUARD)
-        self._f_rows = Evaluator([a for e in self._positions for a in e.row], DIGITS + _GUARD)
+        self._surfaces = [self._surface(forms) for forms in self._branches()]
+        self._f, self._f_rows = self._surfaces[0]
         self._a_rows = Evaluator(
             [x for e in constraints.equations for x in (*e.row, e.drift)], DIGITS + _GUARD
         )
@@ -92,17 +95,33 @@ class RandomStates:
         self._generator = self._generate()
         self.elimination: Elimination | None = None
 
-    def take(self, count: int) -> list[State]:
-        """The first `count` states.
+    @property
+    def surfaces(self) -> int:
+        """The number of surfaces that the factors of the constraints make; all are visited."""
+        return len(self._surfaces)
+
+    def _branches(self) -> list[list[Expr]]:
+        """The forms f of the holonomic constraints, one factor of each."""
+        branches = self.constraints.branches
+        choices = [branches.get(e.name, (e.f,)) for e in self._positions]
+        return [list(forms) for forms in islice(product(*choices), _SURFACES)]
+
+    def _surface(self, forms: Sequence[Expr]) -> tuple[Evaluator, Evaluator]:
+        """The forms, and their gradients."""
+        rows = [without_jumps(f.diff(q)) for f in forms for q in self.system.q]
+        return Evaluator(forms, DIGITS + _GUARD), Evaluator(rows, DIGITS + _GUARD)
+
+    def take(self, number: int) -> list[State]:
+        """The first `number` states.
 
         Raises
         ------
         Contradiction
             When no state was found that satisfies all constraints.
         """
-        while len(self._kept) < count:
+        while len(self._kept) < number:
             self._kept.append(next(self._generator))
-        return self._kept[:count]
+        return self._kept[:number]
 
     def placed(self, state: State) -> bool:
         """Move a state onto the constraints, its parameters as they are; whether it worked."""
@@ -128,8 +147,9 @@ class RandomStates:
             source = random.Random("lagcli")
         failures: dict[int, int] = {}
         attempts = 0
-        while True:
+        for draw in count():
             attempts += 1
+            self._f, self._f_rows = self._surfaces[draw % self.surfaces]
             scale = 1.0 if attempts % 3 else 0.1
             with mpmath.workdps(DIGITS + _GUARD):
                 state = self._draw(source, scale)

@@ -11,7 +11,7 @@ from functools import cached_property
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra.build import TIME, Builder, symbol
+from lagcli.algebra.build import TIME, Builder, symbol, without_jumps
 from lagcli.algebra.jumps import is_continuous
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.expression import Call, Expression
@@ -182,7 +182,7 @@ class System:
             self._optional(self.problem.forces.get(name))
             + sympy.Add(
                 *(
-                    component * x.diff(q)
+                    component * without_jumps(x.diff(q))
                     for particle in self.particles
                     if particle.force is not None
                     for component, x in zip(particle.force, particle.position, strict=True)
@@ -200,12 +200,6 @@ class System:
     def applied_forces(self) -> tuple[Expr, ...]:
         """Everything that no potential gives: Q_j - dD/dq_j'."""
         return tuple(
-            force - self.D.diff(v) for force, v in zip(self.forces, self.qdot, strict=True)
+            force - without_jumps(self.D.diff(v))
+            for force, v in zip(self.forces, self.qdot, strict=True)
         )
-
-
-def without_jumps(expression: Expr) -> Expr:
-    """Beside the places where a sign changes: its derivative is 0 there."""
-    if not expression.has(sympy.DiracDelta):
-        return expression
-    return expression.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero)

@@ -24,9 +24,9 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.antiderivative import antiderivative
-from lagcli.algebra.build import TIME, free_of
+from lagcli.algebra.build import TIME, free_of, without_jumps
 from lagcli.algebra.integral import integral
-from lagcli.mechanics.system import System, without_jumps
+from lagcli.mechanics.system import System
 
 Pair = tuple[Symbol, Symbol]  # the rate of a variable, and the variable
 

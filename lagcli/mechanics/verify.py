@@ -76,10 +76,11 @@ class Verifier:
 
     def vanishes_at_random_states(self, expressions: Sequence[Expr]) -> bool | None:
         """The numeric test; None where no state could be evaluated."""
-        return self._vanishes_at(expressions, self._states())
+        wanted = max(_STATES, 2 * self.states.surfaces)
+        return self._vanishes_at(expressions, self._states(4 * wanted), wanted)
 
-    def _states(self) -> Iterator[State]:
-        for count in range(1, 4 * _STATES + 1):
+    def _states(self, most: int) -> Iterator[State]:
+        for count in range(1, most + 1):
             try:
                 yield self.states.take(count)[-1]
             except Contradiction:
@@ -87,7 +88,9 @@ class Verifier:
             except (ArithmeticError, ValueError):
                 continue
 
-    def _vanishes_at(self, expressions: Sequence[Expr], states: Iterator[State]) -> bool | None:
+    def _vanishes_at(
+        self, expressions: Sequence[Expr], states: Iterator[State], wanted: int = _STATES
+    ) -> bool | None:
         terms = [Add.make_args(expression) for expression in expressions]
         evaluate = Evaluator([x for group in terms for x in group], DIGITS + 10)
         tested = 0
@@ -103,7 +106,7 @@ class Verifier:
                 if verdict is not True:
                     return verdict
                 tested += 1
-                if tested == _STATES:
+                if tested == wanted:
                     break
         return True if tested else None
 

@@ -1,0 +1,48 @@
+"""Constraints that several factors fulfil: y (x - 2 y) = 0 is two surfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra.build import free_of
+from lagcli.algebra.factors import factors_of
+from lagcli.algebra.signs import sign
+
+_LONGEST = 400  # operations of a form that is factored
+
+
+def vanishing_factors(form: Expr, moving: Collection[Symbol]) -> tuple[Expr, ...]:
+    """The irreducible factors that depend on the state and are 0 somewhere."""
+    if form.has(sympy.Abs, sympy.sign) or sympy.count_ops(form) > _LONGEST:
+        return ()
+    try:
+        found = [f for f, power in factors_of(form) if power > 0 and not free_of(f, moving)]
+    except ZeroDivisionError:
+        return ()
+    return tuple(f for f in found if f.is_nonzero is not True and sign(f) not in {1, -1})
+
+
+def restricting(factors: Sequence[Expr], velocities: Collection[Symbol]) -> Expr:
+    """The factor of a velocity constraint that has the velocities in it."""
+    return next((f for f in factors if not free_of(f, velocities)), factors[-1])
+
+
+def sentence(
+    name: str, factors: Sequence[Expr], velocities: Collection[Symbol], *, holonomic: bool
+) -> str:
+    """What the factors of a constraint mean for the answers."""
+    if holonomic:
+        either = " or where ".join(f"{_written(f)} = 0" for f in factors)
+        return f"constraint '{name}' holds where {either}: the answers hold on each"
+    where = " or ".join(f"{_written(f)} = 0" for f in factors if free_of(f, velocities))
+    return (
+        f"constraint '{name}' does not restrict the velocities where {where}: "
+        "the answers hold elsewhere"
+    )
+
+
+def _written(factor: Expr) -> str:
+    return str(factor).replace("**", "^")

@@ -1,0 +1,70 @@
+"""Constraints with a common factor, and charges that a constraint alone makes constant."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from lagcli.algebra import is_zero
+from lagcli.mechanics.statements import Statements
+
+from .derived import derive, printed
+
+FREE = "coordinates: [x, y]\nparameters: {m: {assume: positive}, k: {assume: positive}}\n"
+FACTORS = ("y", "x", "sin(x)", "(x - y)", "x*y", "y^2*x", "(1 + y)", "cos(y)", "x*(y - 1)")
+SLOPES = ("x", "y", "2", "x*y", "cos(x)", "(1 + x^2)", "exp(y)")
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_a_factor_of_a_velocity_constraint_changes_only_the_multiplier(seed):
+    """f (x' + g y') = 0 is x' + g y' = 0 where f is not 0: the same motion, lambda divided by f."""
+    source = random.Random(seed)
+    f, g = source.choice(FACTORS), source.choice(SLOPES)
+    text = FREE + "T: m*(x'^2 + y'^2)/2\nV: k*x\nconstraints:\n  c: "
+    with_factor = derive(f"{text}{f}*(x' + {g}*y') = 0")
+    without = derive(f"{text}x' + {g}*y' = 0")
+    relations = without.dynamics.constraints.relations
+    motions = with_factor.dynamics.motion, without.dynamics.motion
+    assert None not in motions
+    for one, other in zip(motions[0].accelerations, motions[1].accelerations, strict=True):
+        assert is_zero(one - other, relations) is True
+    verdicts = [{c.name: c.conserved for c in d.noether.charges} for d in (with_factor, without)]
+    assert verdicts[0] == verdicts[1]
+    assert verdicts[0]["p_y"] is False
+    warnings = Statements(with_factor).answers(["charges"]).warnings
+    assert any("does not restrict the velocities where" in each for each in warnings)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_what_holds_on_one_branch_only_is_not_claimed(seed):
+    """y (x - a y) = 0: p_y is constant on y = 0 and has the rate -k a/(1 + a^2) on x = a y."""
+    source = random.Random(seed)
+    a = source.choice(("2", "-3", "1/2", "5"))
+    order = source.choice((f"y*(x - {a}*y)", f"(x - {a}*y)*y", f"y^2*{a} - x*y"))
+    d = derive(FREE + f"T: m*(x'^2 + y'^2)/2\nV: k*x\nconstraints: {{c: \"{order} = 0\"}}")
+    conserved = {c.name: c.conserved for c in d.noether.charges}
+    assert conserved["p_y"] is False
+    assert conserved["energy"] is True
+    warnings = Statements(d).answers(["charges"]).warnings
+    assert any("the answers hold on each" in each for each in warnings)
+
+
+@pytest.mark.parametrize("constraint", ["x = k", "x' = 0", "2*x - k = k^2", "x = k + t - t"])
+def test_a_momentum_that_a_constraint_alone_makes_constant_is_no_result(constraint):
+    d = derive(FREE + f"T: m*(x'^2 + y'^2)/2\nconstraints: {{c: \"{constraint}\"}}")
+    assert [c.name for c in d.noether.charges] == ["p_y", "energy"]
+
+
+@pytest.mark.parametrize(
+    "V",
+    ["x^2*sign(x)", "abs(x)*x*sign(y)", "sign(sin(x))*x^2", "abs(x^2 - 1)*sign(x)", "sign(x)*y"],
+)
+def test_no_answer_has_a_jump_that_the_grammar_cannot_say(V):
+    d = derive(
+        FREE + f"T: m*(x'^2 + y'^2)/2\nV: {V}\nforces: {{x: -sign(x')}}\ndissipation: abs(x')^3"
+    )
+    lagrange = d.dynamics.lagrange
+    formulas = [*lagrange.left_sides, *lagrange.forcing, *d.dynamics.motion.accelerations]
+    formulas += [c.rate for c in d.noether.charges if c.rate is not None]
+    assert not any("irac" in printed(d, formula) for formula in formulas)
