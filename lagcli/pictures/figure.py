@@ -112,9 +112,13 @@ def drawn(picture: Picture, style: Style) -> Any:
     count = len(picture.panels)
     rows, columns = (1, count) if picture.beside else (count, 1)
     figure: Any = Figure(figsize=_size(picture), layout="constrained")
+    heights = [1.0] * rows
+    if not picture.beside and any(panel.equal for panel in picture.panels):
+        heights = [_ratio(panel) for panel in picture.panels]
     axes: Any = figure.subplots(
-        rows, columns, squeeze=False, sharex=not picture.beside and count > 1
-    )
+        rows, columns, squeeze=False, sharex=not picture.beside and count > 1,
+        gridspec_kw={"height_ratios": heights},
+    )  # fmt: skip
     for place, (panel, ax) in enumerate(zip(picture.panels, axes.flat, strict=True)):
         last = picture.beside or place == count - 1
         _Panel(ax, style).draw(panel, with_x=last)
@@ -131,17 +135,21 @@ def _size(picture: Picture) -> tuple[float, float]:
     count = len(picture.panels)
     if picture.beside:
         return min(3.4 * count, 10.0) if count > 1 else _WIDTH, _ALONE + 0.4
-    if count == 1 and picture.panels[0].equal:
-        return _WIDTH, _fitted(picture.panels[0]) + _REST
+    if any(panel.equal for panel in picture.panels):
+        return _WIDTH, min(sum(map(_fitted, picture.panels)), 1.6 * _TALLEST) + _REST
     if count == 1:
         return _WIDTH, _ALONE + _REST
     return _WIDTH, _BELOW * count + _REST
 
 
+def _ratio(panel: Panel) -> float:
+    """Height by width of what is shown."""
+    return (panel.y.high - panel.y.low) / (panel.x.high - panel.x.low)
+
+
 def _fitted(panel: Panel) -> float:
     """The height of a panel with equal lengths along both axes."""
-    ratio = (panel.y.high - panel.y.low) / (panel.x.high - panel.x.low)
-    return min(max(0.8 * _WIDTH * ratio, 1.6), _TALLEST) + 0.5
+    return min(max(0.8 * _WIDTH * _ratio(panel), 1.6), _TALLEST) + 0.5
 
 
 class _Panel:
@@ -210,8 +218,10 @@ class _Panel:
             case Rule(at=at):
                 ax.axhline(at, **self._rule(item))
             case Band(low=low, high=high):
-                ax.axvspan(low, high, color=style.grey, linewidth=0, zorder=0.5, hatch="///",
-                           edgecolor=style.faint)  # fmt: skip
+                ax.axvspan(
+                    low, high, facecolor=style.grey, edgecolor=style.faint, linewidth=0,
+                    zorder=0.5, hatch="///",
+                )  # fmt: skip
             case _:
                 pass
 

@@ -26,7 +26,8 @@ from lagcli.problem import Problem
 
 #: A view is at least so wide beside its length.
 _LEAST = 0.25
-_VIEWS = (("x", "y"), ("x", "z"))
+#: From the side, and below that from above, as in a technical drawing.
+_VIEWS = (("x", "z"), ("x", "y"))
 
 
 def path(
@@ -48,28 +49,36 @@ def path(
         )
     run = run_with(problem, asked, components(found), progress)
     views = [tuple(used[:2])] if len(used) == 2 else list(_VIEWS)
-    panels = tuple(_view(run, found, *view) for view in views)
-    picture = Picture(title=problem.title, panels=panels, beside=len(panels) > 1, notes=run.notes())
+    panels = tuple(_view(run, found, *view, named=not k) for k, view in enumerate(views))
+    picture = Picture(title=problem.title, panels=panels, notes=run.notes())
     return picture, run.result.refusal
 
 
-def _view(run: Run, found: tuple[Track, ...], across: str, up: str) -> Panel:
+def _view(run: Run, found: tuple[Track, ...], across: str, up: str, *, named: bool) -> Panel:
     items: list[Item] = []
     everything: list[Point] = []
     shown = [track for track in found if {across, up} <= set(track.axes)]
     for colour, track in enumerate(shown):
         x, y = (run.names.index(column_name(track, axis)) for axis in (across, up))
         pieces = run.curve(x, y)
-        label = words(track.name) if len(shown) > 1 else None
+        label = words(track.name) if named and len(shown) > 1 else None
         items.append(Curve(pieces=pieces, role="motion", colour=colour, label=label))
         first = Marks(
-            points=pieces[0][:1], role="start", colour=colour, label=_once("start", colour)
+            points=pieces[0][:1],
+            role="start",
+            colour=colour,
+            label=_once("start", colour, named=named),
         )
         items.append(first)
         jumps = tuple(piece[0] for piece in pieces[1:])
         if jumps:
             items.append(
-                Marks(points=jumps, role="impact", colour=colour, label=_once("event", colour))
+                Marks(
+                    points=jumps,
+                    role="impact",
+                    colour=colour,
+                    label=_once("event", colour, named=named),
+                )
             )
         everything += [point for piece in pieces for point in piece]
     if not everything:
@@ -85,9 +94,9 @@ def _view(run: Run, found: tuple[Track, ...], across: str, up: str) -> Panel:
     )
 
 
-def _once(text: str, colour: int) -> Label | None:
+def _once(text: str, colour: int, *, named: bool) -> Label | None:
     """The key names the signs of the first path only."""
-    return words(text) if colour == 0 else None
+    return words(text) if named and colour == 0 else None
 
 
 def _axes(points: list[Point]) -> tuple[tuple[float, float], tuple[float, float]]:

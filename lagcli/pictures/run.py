@@ -15,13 +15,16 @@ from lagcli.numerics.asked import Asked, Result
 from lagcli.numerics.columns import Column
 from lagcli.numerics.events import Event
 from lagcli.numerics.simulate import simulate
-from lagcli.pictures.drawing import Axis, Band, Item, Piece, Rule, words
+from lagcli.pictures.drawing import Axis, Band, Item, Piece, Rule, extent, words
 from lagcli.pictures.labels import Labels
 from lagcli.problem import Problem
 from lagcli.record import replace
 
 Values = tuple[float | None, ...]
 Progress = Callable[[float], None]
+
+#: Beside 95 % of the values; what is cut short is rarely so large for another reason.
+WITHOUT_BOUND = 20.0
 
 
 class Run:
@@ -69,6 +72,15 @@ class Run:
     def values(self, column: int) -> list[float]:
         """All values of a column that are defined."""
         return [x for piece in self.pieces for row in piece if (x := row[column]) is not None]
+
+    def shown(self, columns: Sequence[int]) -> tuple[float, float]:
+        """The extent of columns; of what grows without bound as much as leaves the rest visible."""
+        values = [value for column in columns for value in self.values(column)]
+        sizes = sorted(map(abs, values))
+        usual = sizes[int(0.95 * (len(sizes) - 1))]
+        if self.is_cut_short and sizes[-1] > WITHOUT_BOUND * usual > 0:
+            values = [value for value in values if abs(value) <= 3 * usual]
+        return extent(values)
 
     @property
     def certain_until(self) -> float:
@@ -137,7 +149,7 @@ def event_rules(events: Sequence[Event], *, named: bool) -> list[Rule]:
     kinds: dict[str, int] = {}
     found = []
     for event in events:
-        if event.what in {"singularity", "grazes"}:
+        if event.name in {"singularity", "grazes"}:  # where the certificate ends
             continue
         kind = f"{event.name}: {event.what}" if event.name != event.what else event.name
         colour = kinds.setdefault(kind, len(kinds))

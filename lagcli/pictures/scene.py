@@ -17,7 +17,7 @@ from lagcli.numerics.columns import Column
 from lagcli.pictures.drawing import Piece
 from lagcli.pictures.forces import Arrow, arrows
 from lagcli.pictures.points import AXES, mass_of, tracks
-from lagcli.pictures.run import Run
+from lagcli.pictures.run import WITHOUT_BOUND, Run
 from lagcli.pictures.surfaces import one_sided, surfaces
 from lagcli.problem import Problem
 from lagcli.record import record, replace
@@ -188,6 +188,8 @@ class _Maker:
         if any(ORIGIN in (link.first, link.second) for link in links):
             fixed[ORIGIN] = ((0.0,) * len(self.axes),) * len(self.rows)
         corners = [p for many in (*places.values(), *fixed.values()) for p in many]
+        if self.run.is_cut_short:
+            corners = _without_flight(corners)
         low, high = _corners(corners)
         labels = self.run.labels
         unit = labels.unit(None)
@@ -291,6 +293,15 @@ def _is_rigid(first: Sequence[Place], second: Sequence[Place]) -> bool:
         return False
     start = lines[0]
     return any(math.dist(line, start) > _TURNS * length for line in lines)
+
+
+def _without_flight(places: Sequence[Place]) -> list[Place]:
+    """Without what is so far away that the rest would not be seen beside it."""
+    sizes = sorted(math.hypot(*place) for place in places)
+    usual = sizes[int(0.95 * (len(sizes) - 1))]
+    if not sizes[-1] > WITHOUT_BOUND * usual > 0:
+        return list(places)
+    return [place for place in places if math.hypot(*place) <= 3 * usual]
 
 
 def _corners(places: Iterable[Place]) -> tuple[Place, Place]:

@@ -12,7 +12,6 @@ from lagcli.pictures.drawing import (
     Label,
     Panel,
     Picture,
-    extent,
 )
 from lagcli.pictures.labels import Labels, with_unit
 from lagcli.pictures.run import Run
@@ -67,7 +66,7 @@ def _panel(run: Run, places: list[int], *, named: bool) -> Panel:
     for colour, (place, label) in enumerate(zip(places, labels, strict=True)):
         shown = label if len(places) > 1 else None
         items.append(Curve(pieces=run.curve(0, place), role="series", colour=colour, label=shown))
-    low, high = extent([value for place in places for value in run.values(place)])
+    low, high = run.shown(places)
     label = with_unit(_together(labels), run.labels.unit(columns[0].expression))
     angle = all(run.labels.is_angle(column.expression) for column in columns)
     y = Axis(label=label, low=low, high=high, angle=angle)

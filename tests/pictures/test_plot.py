@@ -94,6 +94,11 @@ def test_the_end_of_the_certificate_is_drawn_and_nothing_beyond(plot, tmp_path):
     status, shown, said = plot(tmp_path / "fall.yaml", "--until", 10)
     assert status == 1
     assert "┃ end of the certificate" in shown
+    assert "singularity" not in shown
+    assert "-1e" not in shown.replace("\N{MINUS SIGN}", "-")  # 3e8 at the end would hide the rest
+    status, _, said = plot(tmp_path / "fall.yaml", "--until", 10, "-o", tmp_path / "a.svg")
+    assert status == 1
+    assert said.count("\n") == 1  # no warning beside the reason
     assert "░" in shown
     assert "grows without bound" in said
 
