@@ -10,6 +10,7 @@ from sympy import Expr
 from lagcli.algebra.entry import Field
 from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.roots import substitute_square
+from lagcli.algebra.squares import sign_by_squares
 
 
 def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
@@ -51,6 +52,22 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
     return result
 
 
+def sign_beside_zero(expression: Expr) -> int | None:
+    """1 or -1 where squares show that the expression has no other sign, though it may be 0."""
+    field = Field([expression])
+    try:
+        element = field(expression)
+    except ZeroDivisionError:
+        return None
+    if element.denominator != 1:
+        return None
+    for equal in (element.numerator, *_with_squares_swapped(field, element.numerator)):
+        found = sign_by_squares(field, equal)
+        if found is not None:
+            return found[0]
+    return None
+
+
 def _is_nonzero(field: Field, factor: Poly) -> bool:
     return field.polynomial_to_sympy(factor).is_nonzero is True
 
@@ -85,6 +102,9 @@ def _of_factor(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | No
         by_terms = _by_terms(field, equal)
         if by_terms is not None:
             return by_terms
+        by_squares = sign_by_squares(field, equal)
+        if by_squares is not None and by_squares[1]:
+            return by_squares[0]
     for known in positive:
         if factor == field.ring.lift(known):
             return 1

@@ -62,12 +62,19 @@ def _candidates(by_t: Expr, by_q: Sequence[Expr], t: Symbol, q: Sequence[Symbol]
         if term in seen:
             continue
         seen.add(term)
+        if _divides_by(term, t):  # no derivative of it brings one back
+            continue
         left += _functions(sympy.expand(term.diff(t)), t, q)
         if not term.has(*_OF_TIME) or free_of(term, [t]):
             seen.add(t * term)
     found.update(dict.fromkeys(sorted(seen, key=sympy.default_sort_key)))
     found.pop(sympy.S.One, None)
     return list(found)
+
+
+def _divides_by(term: Expr, t: Symbol) -> bool:
+    """Whether the time stands in a denominator, as in 1/(x + a t²)."""
+    return any(p.exp.is_negative and p.base.has(t) for p in term.atoms(sympy.Pow))
 
 
 def _functions(expression: Expr, t: Symbol, q: Iterable[Symbol]) -> list[Expr]:

@@ -15,7 +15,7 @@ from lagcli.algebra import is_zero, shape, simplify, terms
 from lagcli.algebra.build import free_of
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.leaves import Translator
-from lagcli.algebra.signs import sign, sign_of_circle
+from lagcli.algebra.signs import sign, sign_beside_zero, sign_of_circle
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression, operation_count
 from lagcli.motions import Above
@@ -150,7 +150,7 @@ def _beside_zero(factor: Expr) -> int | None:
     """The sign of what has only one beside 0: roots, moduli, cos - 1 and cos + 1."""
     if isinstance(factor, sympy.Abs) or (factor.is_Pow and factor.exp == S.Half):
         return 1
-    return sign_of_circle(factor)
+    return sign_of_circle(factor) or sign_beside_zero(factor)
 
 
 def conditions(

@@ -17,10 +17,10 @@ from lagcli.mechanics.oscillations.characteristic import (
     determinant_in,
 )
 from lagcli.mechanics.oscillations.equilibria import at
-from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
+from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.stability.evenness import even
 from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
-from lagcli.mechanics.stability.signs import is_positive, sign_of
+from lagcli.mechanics.stability.signs import is_positive, sign_of, weak_sign
 from lagcli.mechanics.stability.spectrum import real_and_distinct
 
 _CORNERS = (sympy.sign, sympy.Abs)
@@ -31,8 +31,27 @@ class Near:
 
     def __init__(self, linear: Linearization, characteristic: Characteristic | None = None) -> None:
         self.linear = linear
-        self.positive = linear.point.positive
         self.characteristic = characteristic or Characteristic(linear)
+
+    @cached_property
+    def positive(self) -> tuple[Expr, ...]:
+        """What is positive there: by the conditions of existence, and the minors of M."""
+        if not self._definite_where_regular:
+            return tuple(self.linear.point.positive)
+        M = self.linear.M
+        minors = (determinant([row[:k] for row in M[:k]]) for k in range(1, len(M) + 1))
+        open_ = [m for m in minors if m is not None and sign_of(m, ()) is None]
+        return (*self.linear.point.positive, *open_)
+
+    @cached_property
+    def _definite_where_regular(self) -> bool:
+        """Whether M is regular there, and its leading minors are positive nearly everywhere.
+
+        Then M is nowhere less than semidefinite, and definite where it is regular, along
+        constraints and for a Routhian, too.
+        """
+        everywhere = self.linear.dynamics.lagrange.mass_matrix
+        return self.linear.regular and positive_definite(everywhere, (), beside_zeros=True)
 
     def signs(self, expressions: Sequence[Expr]) -> list[int | None]:
         """The sign of each; None where it depends on values."""
@@ -111,8 +130,9 @@ class Near:
 
     @cached_property
     def inertia_is_definite(self) -> bool:
-        """Sylvester: all leading minors of the mass matrix are positive."""
-        return positive_definite(self.restoring.M, self.positive)
+        """Sylvester: all leading minors of M are positive, there or nearly everywhere."""
+        there = positive_definite(self.restoring.M, self.positive)
+        return there or self._definite_where_regular
 
     @cached_property
     def curvatures(self) -> list[list[Expr]]:
@@ -269,11 +289,17 @@ def _steps(force: Expr, node: Expr, state: Sequence[Symbol]) -> list[Expr]:
     return [left - right, *((left - right).diff(x) for x in state)]
 
 
-def positive_definite(matrix: Matrix, positive: Sequence[Expr]) -> bool:
-    """Sylvester: all leading minors are positive."""
+def positive_definite(
+    matrix: Sequence[Sequence[Expr]], positive: Sequence[Expr], *, beside_zeros: bool = False
+) -> bool:
+    """Sylvester: all leading minors are positive, or are so wherever they are not 0."""
     for k in range(1, len(matrix) + 1):
-        minor = determinant([row[:k] for row in matrix[:k]])
-        if minor is None or not is_positive(minor, positive):
+        minor = determinant([list(row[:k]) for row in matrix[:k]])
+        if minor is None or minor == 0:
+            return False
+        if not is_positive(minor, positive) and not (
+            beside_zeros and weak_sign(minor, positive) == 1
+        ):
             return False
     return True
 
