@@ -19,9 +19,13 @@ class Solutions:
 
 @record(kw_only=True)
 class Rewritten:
-    """The answer to `value ... in_terms_of ...`; None: not found."""
+    """The answer to `value ... in_terms_of ...`; None: not found.
+
+    `values` holds both where it is determined up to its sign only; `value` is None then.
+    """
 
     value: Expression | None
+    values: tuple[Expression, ...] = ()
     subject: Expression | None = None
     note: str = ""
 
@@ -71,4 +75,4 @@ def _found(answer: Answer) -> object:
         case Ranges():
             return answer.ranges
         case Rewritten():
-            return answer.value
+            return answer.value or answer.values or None

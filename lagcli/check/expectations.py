@@ -272,6 +272,9 @@ class Expectations:
                     continue
                 verdict = self.comparison.same_set(answer.solutions, expected)
                 yield self._judge(path, verdict, _listed(expected), _listed(answer.solutions))
+            elif isinstance(answer, Rewritten) and answer.values:
+                verdict = self.comparison.same_set(answer.values, expected)
+                yield self._judge(path, verdict, _listed(expected), _listed(answer.values))
             else:
                 value = answer.value if isinstance(answer, Rewritten) else None
                 yield self._compare(path, value, expected[0])

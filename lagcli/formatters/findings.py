@@ -87,8 +87,13 @@ def find_blocks(section: FindSection) -> Iterator[Block]:
     for name, answer in section.answers.items():
         yield Heading(name, 2)
         match answer:
-            case Solutions(solutions=None) | Rewritten(value=None) | Ranges(ranges=None):
+            case Solutions(solutions=None) | Ranges(ranges=None):
                 yield Paragraph(("Not found.",))
+            case Rewritten(value=None, values=()):
+                yield Paragraph(("Not found.",))
+            case Rewritten(values=tuple(values), subject=subject) if values:
+                left = Label(name) if subject is None else subject
+                yield Equations(tuple(Row(left, value) for value in values))
             case Solutions(solutions=()):
                 yield Paragraph(("There is no solution that the motion can reach.",))
             case Solutions(unknown=unknown, solutions=tuple(solutions)):

@@ -248,7 +248,8 @@ def _answer(answer: Answer) -> Object:
         case Ranges(unknown=unknown, ranges=ranges):
             return {"ranges": _unless_none(ranges, lambda each: [_range(unknown, r) for r in each])}
         case Rewritten(value=value):
-            return {"value": _string(value)}
+            both = {"values": _strings(answer.values)} if answer.values else {}
+            return {"value": _string(value), **both}
 
 
 def _range(unknown: str, range_: Range) -> list[str]:

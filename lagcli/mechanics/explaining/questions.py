@@ -98,6 +98,10 @@ def _difference(sides: tuple[Expression, ...]) -> Expression:
 
 def _answer(answer: Answer, *, is_open: bool) -> Iterator[Block]:
     match answer:
+        case Rewritten(values=tuple(values), subject=subject) if values:
+            yield says("Its square is determined. It is one of")
+            left = Name("value") if subject is None else subject
+            yield Equations(tuple(Row(left, value) for value in values))
         case Solutions(solutions=None) | Rewritten(value=None) | Ranges(ranges=None):
             yield says(f"This was not found: {answer.note or 'there is no closed form'}.")
             return

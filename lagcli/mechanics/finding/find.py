@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from sympy import Symbol
+from collections.abc import Sequence
 
+from sympy import Expr, Symbol, sqrt
+
+from lagcli.algebra import simplify
 from lagcli.algebra.effort import Work
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.finding.along_the_motion import UNITS, AlongTheMotion
@@ -42,8 +45,20 @@ def _rewritten(along: AlongTheMotion, question: Rewrite) -> Rewritten:
     subject = system.build(question.value)
     keep = [system.symbol_of(str(name)) for name in question.in_terms_of]
     value = along.rewritten(subject, keep, with_time=True)
+    if value is None:
+        return _up_to_sign(along, subject, keep)
+    tree, shown = along.tree(value), along.tree(subject)
+    return Rewritten(value=tree, subject=shown, note="; ".join(along.notes))
+
+
+def _up_to_sign(along: AlongTheMotion, subject: Expr, keep: Sequence[Symbol]) -> Rewritten:
+    """Both roots of its square, where that is determined; not found otherwise."""
+    why_not, shown = along.why_not, along.tree(subject)
+    square = along.rewritten(subject**2, keep)
+    if square is None:
+        return Rewritten(value=None, subject=shown, note=why_not)
+    root = simplify(sqrt(square))
+    note = "; ".join(["determined up to its sign", *along.notes])
     return Rewritten(
-        value=None if value is None else along.tree(value),
-        subject=along.tree(subject),
-        note=along.why_not if value is None else "; ".join(along.notes),
+        value=None, values=(along.tree(root), along.tree(-root)), subject=shown, note=note
     )
