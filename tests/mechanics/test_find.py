@@ -118,12 +118,13 @@ def test_the_values_of_the_file_decide_what_is_reached(speed, leaves, turns):
     assert len(roots(text, "turns") or []) == turns
 
 
-def test_a_velocity_whose_sign_nothing_tells_is_not_given():
+def test_a_velocity_whose_sign_nothing_tells_is_given_by_both_roots():
     text = LOOP.replace("SPEED", "POSITIVE").replace("START", "0")
     found = answers(text)
     assert isinstance(found["rate"], Rewritten)
     assert found["rate"].value is None
-    assert "do not determine" in found["rate"].note
+    assert len(found["rate"].values) == 2
+    assert "determined up to its sign" in found["rate"].note
     assert value(text, "square") == formula("(2*g*R*(cos(theta) - 1) + v0^2)/R^2")
 
 

@@ -27,6 +27,7 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.finding.level_set import LevelSet
+from lagcli.mechanics.finding.roots_on_surface import roots_on_surface, with_roots, without_roots
 from lagcli.mechanics.initial import InitialState, initial_state
 from lagcli.mechanics.noether import Noether
 from lagcli.mechanics.parameter_values import parameter_values
@@ -59,6 +60,11 @@ class AlongTheMotion:
     def level_set(self) -> LevelSet:
         """The states that share the conserved quantities of the initial one."""
         return LevelSet(self.dynamics, self.noether, self.initial)
+
+    @cached_property
+    def roots(self) -> dict[Expr, Expr]:
+        """Square roots whose value a constraint gives, by their radicands."""
+        return roots_on_surface(self.level_set.constraints, self.system.q)
 
     @cached_property
     def states(self) -> list[State]:
@@ -100,7 +106,8 @@ class AlongTheMotion:
             return None
         if not self._define(keep):
             return None
-        named = [s - formula for s, formula in self._named.items()]
+        subject = with_roots(subject, self.roots)
+        named = [with_roots(s - formula, self.roots) for s, formula in self._named.items()]
         for relations, remove in self.attempts(keep, with_time=with_time):
             found = self.eliminated(subject, (*named, *relations), remove)
             if not found.complete:
@@ -140,7 +147,10 @@ class AlongTheMotion:
         system = self.system
         remove = [s for s in (*system.qdot[::-1], *system.q[::-1]) if s not in keep]
         timeless = remove if system.t in keep else [*remove, system.t]
-        constraints, laws = self.level_set.constraints, self.level_set.laws
+        constraints, laws = (
+            tuple(without_roots(each, self.roots) for each in relations)
+            for relations in (self.level_set.constraints, self.level_set.laws)
+        )
         still = tuple(law for law in laws if system.t not in law.free_symbols)
         plans = [(constraints, timeless)]
         if still:
