@@ -12,6 +12,8 @@ from lagcli.record import record
 #: of 128 bits have some 110 left), and none is expected between the two at a random state.
 _ZERO = 2.0**-60
 _CLEAR = 2.0**-36
+#: Of the largest entry: smaller ones in a row or column by themselves are rounding, not units.
+_NOISE = 2.0**-90
 
 
 class Unclear(Exception):
@@ -66,19 +68,20 @@ def solve(rows: Sequence[Sequence[arb]], right: Sequence[arb], columns: int) -> 
 
 def _equilibrated(work: list[list[arb]], columns: int) -> list[arb]:
     """Divide rows and columns by powers of 2 near their largest entries; x = scale * unknown."""
+    rounding = _NOISE * max((size(x) for row in work for x in row[:columns]), default=0.0)
     for row in work:
-        factor = _near(row[:columns])
+        factor = _near(row[:columns], rounding)
         row[:] = [x * factor for x in row]
-    scales = [_near([row[j] for row in work]) for j in range(columns)]
+    scales = [_near([row[j] for row in work], _NOISE) for j in range(columns)]
     for row in work:
         row[:columns] = [x * s for x, s in zip(row, scales, strict=False)]
     return scales
 
 
-def _near(entries: Sequence[arb]) -> arb:
+def _near(entries: Sequence[arb], rounding: float) -> arb:
     """The inverse of the largest entry, 1 where all are 0 but for rounding."""
     largest = max(map(size, entries), default=0.0)
-    return arb(1 / largest) if 1e-250 < largest < float("inf") else arb(1)
+    return arb(1 / largest) if rounding < largest < float("inf") else arb(1)
 
 
 def _eliminate(work: list[list[arb]], step: int, j: int) -> None:

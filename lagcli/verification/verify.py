@@ -15,19 +15,23 @@ from lagcli.answers import (
     ConstraintForcesSection,
     EnergySection,
     EquationsSection,
+    EquilibriaSection,
     HamiltonianSection,
     LagrangianSection,
     MatrixFormSection,
+    ModesSection,
     MomentaSection,
     MultipliersSection,
     Section,
 )
 from lagcli.forces import ForcesSection
+from lagcli.motions import SteadySection
 from lagcli.problem import Problem
 from lagcli.record import replace
-from lagcli.verification.claims import charges, energies, forces, motion
+from lagcli.verification.claims import charges, energies, equilibria, forces, motion
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear
+from lagcli.verification.sweeps import Unknown
 
 #: What examines each kind of section; a kind that is not here is not verified in numbers.
 _CLAIMS: dict[type, Callable[[Examination, Any], Section]] = {
@@ -43,6 +47,9 @@ _CLAIMS: dict[type, Callable[[Examination, Any], Section]] = {
     HamiltonianSection: energies.hamiltonian,
     CanonicalSection: energies.canonical_equations,
     ChargesSection: charges.charges,
+    EquilibriaSection: equilibria.equilibria,
+    ModesSection: equilibria.modes,
+    SteadySection: equilibria.steady_motions,
 }
 
 
@@ -82,6 +89,6 @@ def _examined(examination: Examination, name: str, section: Section) -> Section:
         return section
     try:
         return examine(examination, section)
-    except (ArithmeticError, ValueError, Unclear):  # numbers beyond what balls can hold
+    except (ArithmeticError, ValueError, Unclear, Unknown):  # or a name of another kind
         examination.unchecked.append(f"the section '{name}'")
         return section

@@ -8,7 +8,9 @@ import pytest
 
 from lagcli.formatters.json import to_object
 from lagcli.formatters.options import Options
+from lagcli.motions import Verdict
 from lagcli.pipeline import render
+from lagcli.record import replace
 from lagcli.verification import verified
 
 from .sheets import derived, each_spoiled
@@ -47,3 +49,39 @@ def test_every_formula_is_examined(name: str) -> None:
             for format_name in ("json", "text", "latex"):
                 assert render([found], format_name, Options())
             json.dumps(to_object(found))
+
+
+PLACES = {
+    "chains/coupled-pendulums": ("equilibria", "modes"),
+    "classics/spherical-pendulum": ("steady_motions",),
+}
+
+
+@pytest.mark.parametrize("name", PLACES)
+def test_places_frequencies_and_shapes_are_examined(name: str) -> None:
+    problem, answers = derived(name, PLACES[name])
+    assert verified(problem, answers) is answers
+    for section in answers.sections:
+        noticed = [
+            not verified(problem, each).complete for _, each in each_spoiled(answers, section)
+        ]
+        assert sum(noticed) >= 0.3 * len(noticed), section
+
+
+@pytest.mark.parametrize("name", ["chains/coupled-pendulums", "classics/spherical-pendulum"])
+def test_a_verdict_of_stability_turned_round_is_withheld(name: str) -> None:
+    problem, answers = derived(name, ("equilibria", "steady_motions"))
+    for section in ("equilibria", "steady_motions"):
+        listed = getattr(answers.sections[section], "equilibria", None) or getattr(
+            answers.sections[section], "motions", ()
+        )
+        for each in listed:
+            if each.verdict.stable is None or getattr(each, "rates", each) is None:
+                continue
+            other = replace(each, verdict=Verdict(stable=not each.verdict.stable))
+            key = "equilibria" if section == "equilibria" else "motions"
+            wrong = replace(answers.sections[section], **{key: (other,)})
+            found = verified(problem, replace(answers, sections={section: wrong}))
+            [left] = getattr(found.sections[section], key)
+            assert left.verdict.stable is None
+            assert not found.complete

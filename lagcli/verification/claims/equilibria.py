@@ -1,0 +1,221 @@
+"""Equilibria with their stability, normal modes, and steady motions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import isqrt
+
+from flint import arb, arb_mat, ctx
+
+from lagcli.answers import EquilibriaSection, Mode, ModesSection
+from lagcli.expression import Expression
+from lagcli.formatters.grammar import to_grammar
+from lagcli.motions import SteadyMotion, SteadySection, Verdict
+from lagcli.record import replace
+from lagcli.verification.claims.rest import BITS, NOTHING, Near, Place, eigenvalues
+from lagcli.verification.claims.stability import refutes
+from lagcli.verification.examination import Examination
+
+#: Relative differences of eigenvalues: those of multiplicity 2 are right to 1e-19.
+_AGREE = 1e-9
+
+_WHY = "the verdict was not confirmed at random states"
+
+
+def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
+    """Each is a state of rest, and its stability that of the linear motion near it."""
+    if section.equilibria is None:
+        return section
+    found = []
+    with ctx.workprec(BITS):
+        for each in section.equilibria:
+            what = f"the equilibrium {_named(each.at, each.on)}"
+            place = Place(x, what, each.at, {}, each.on, each.where)
+            verdict = _stays(x, what, place, each.verdict, cyclic=0)
+            if verdict is None:
+                return replace(section, equilibria=None, reason=_not_confirmed("an equilibrium"))
+            found.append(each if verdict is each.verdict else replace(each, verdict=verdict))
+    return replace(section, equilibria=tuple(found))
+
+
+def modes(x: Examination, section: ModesSection) -> ModesSection:
+    """Each frequency is one of the linear motion near its equilibrium, with its shapes."""
+    if section.modes is None:
+        return section
+    with ctx.workprec(BITS):
+        for each in section.modes:
+            if not _is_mode(x, each):
+                return replace(section, modes=None, reason=_not_confirmed("a normal mode"))
+    return section
+
+
+def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
+    """Each stays as it is, and its stability is that of the linear motion near it."""
+    if section.motions is None:
+        return section
+    found = []
+    with ctx.workprec(BITS):
+        for each in section.motions:
+            what = f"the steady motion {_named(each.at, each.on)}"
+            if each.rates is None:
+                found.append(each)
+                continue
+            place = Place(x, what, each.at, each.rates, each.on, each.where, section.eliminated)
+            verdict = _stays(x, what, place, each.verdict, cyclic=len(each.rates))
+            if verdict is None or not _with_momenta(x, what, place, each):
+                return replace(section, motions=None, reason=_not_confirmed("a steady motion"))
+            found.append(each if verdict is each.verdict else replace(each, verdict=verdict))
+    return replace(section, motions=tuple(found))
+
+
+def _not_confirmed(what: str) -> str:
+    return f"{what} that was derived does not hold at random states"
+
+
+def _named(at: Mapping[str, Expression], on: tuple[Expression, Expression] | None) -> str:
+    parts = [f"{name} = {to_grammar(value)}" for name, value in at.items()]
+    if on is not None:
+        parts.append(" = ".join(map(to_grammar, on)))
+    return ", ".join(parts) or "everywhere"
+
+
+def _stays(
+    x: Examination, what: str, place: Place, verdict: Verdict, *, cyclic: int
+) -> Verdict | None:
+    """The verdict, an undecided one where it is refuted; None where the state does not stay."""
+    tried = 0
+    for near in place.states() if place.readable else ():
+        if not near.defined:
+            continue
+        tried += 1
+        stays = near.residual < NOTHING if not cyclic else _constant(near, place.eliminated)
+        if not stays:
+            x.refute(what, "the equations of motion do not let it stay there")
+            return None
+        why = "" if place.eliminated else refutes(x, what, near, verdict, cyclic)
+        if why:
+            x.refute(f"the stability of {what}", why)
+            return Verdict(stable=None, reason=_WHY)
+    if not place.readable:
+        return None
+    if not tried:
+        x.unchecked.append(what)
+    return verdict
+
+
+def _constant(near: Near, eliminated: Sequence[str]) -> bool:
+    """Whether q'' is 0 but for what the constraints eliminate: velocities are constant."""
+    if not near.regular:
+        return True
+    scale = 1 + max(float(abs(v).mid()) for v in near.laws.velocities) ** 2
+    pairs = zip(near.x.reference.names, near.laws.accelerations, strict=True)
+    kept = [a for name, a in pairs if name not in eliminated]
+    return all(float(abs(a).mid()) < NOTHING * scale for a in kept)
+
+
+def _with_momenta(x: Examination, what: str, place: Place, motion: SteadyMotion) -> bool:
+    """The momenta, and the squared frequencies, are those of the motion."""
+    names = x.reference.names
+    momenta = x.places(what, list(motion.momenta.values()))
+    squares = x.places(what, list(motion.frequencies_squared))
+    matrices = [x.places(what, [e for row in m for e in row]) for m in _matrices(motion)]
+    if momenta is None or squares is None or None in matrices:
+        return False
+    for near in place.states():
+        true = [near.laws.momenta[names.index(name)] for name in motion.momenta]
+        printed = [near.at(p) for p in momenta]
+        if not all(_close(a, b) for a, b in zip(printed, true, strict=True) if a.is_finite()):
+            x.refute(what, "the momenta are not those of its rates")
+            return False
+        known = near.regular and not place.eliminated
+        if known and not _occur(near, [near.at(square) for square in squares]):
+            x.refute(what, "a frequency is not one of the linear motion near it")
+            return False
+        if known and not _same_motion(near, [[near.at(p) for p in m or ()] for m in matrices]):
+            x.refute(what, "the matrices are not those of the linear motion near it")
+            return False
+    return True
+
+
+def _matrices(motion: SteadyMotion) -> tuple[tuple[tuple[Expression, ...], ...], ...]:
+    return motion.mass, motion.velocity, motion.stiffness
+
+
+def _same_motion(near: Near, flat: Sequence[Sequence[arb]]) -> bool:
+    """Whether M a'' + C a' + K a = 0 has eigenvalues of the motion near it only."""
+    size = isqrt(len(flat[0]))
+    if not size or any(len(m) != size * size for m in flat):
+        return True
+    M, C, K = (arb_mat(size, size, list(m)) for m in flat)
+    if not all(e.is_finite() for m in flat for e in m) or M.det().contains(0):
+        return True
+    by_v, by_q = (-M.solve(each) for each in (C, K))
+    rows = [[arb(0)] * size + [arb(int(i == j)) for j in range(size)] for i in range(size)]
+    rows += [[*a, *b] for a, b in zip(by_q.tolist(), by_v.tolist(), strict=True)]
+    left = list(near.eigenvalues)
+    scale = max([1e-3, *map(abs, left)])
+    for value in eigenvalues(rows):
+        nearest = min(left, key=lambda z: abs(z - value), default=None)
+        if nearest is None or abs(nearest - value) > 1e-7 * scale:
+            return False
+        left.remove(nearest)
+    return True
+
+
+def _close(a: arb, b: arb) -> bool:
+    return abs(float((a - b).mid())) <= _AGREE * (abs(float(a.mid())) + abs(float(b.mid())) + 1e-6)
+
+
+def _occur(near: Near, squares: Sequence[arb]) -> bool:
+    """Whether each omega^2 is minus the square of an eigenvalue, as often as it is there."""
+    left = [-(z**2) for z in near.eigenvalues]
+    scale = max([1e-6, *map(abs, left)])
+    for square in squares:
+        if not square.is_finite():
+            continue
+        W = float(square.mid())
+        equal = [z for z in left if abs(z - W) < _AGREE * scale]
+        if len(equal) < 2:
+            return False
+        left = [z for z in left if z not in equal[:2]] + equal[2:]
+    return True
+
+
+def _is_mode(x: Examination, mode: Mode) -> bool:
+    what = f"the normal modes about {_named(mode.at, mode.on)}"
+    place = Place(x, what, mode.at, {}, mode.on, ())
+    square = x.places(what, [f for f in (mode.frequency_squared,) if f is not None])
+    frequency = x.places(what, [f for f in (mode.frequency,) if f is not None])
+    shapes = [s for s in (mode.shape, *mode.more_shapes) if s is not None]
+    flat = x.places(what, [shape[n] for shape in shapes for n in x.reference.names])
+    if not place.readable or square is None or frequency is None or flat is None:
+        return False
+    size = len(x.reference.names)
+    for near in place.states():
+        if not (near.defined and near.regular):
+            continue
+        W = [near.at(p) for p in square] + [near.at(p) ** 2 for p in frequency]
+        if not all(w.is_finite() for w in W):
+            continue
+        if not all(_occur(near, [w] * mode.multiplicity) for w in W):
+            x.refute(what, "a frequency is not one of the linear motion near it")
+            return False
+        values = [near.at(p) for p in flat]
+        for k in range(0, len(values), size):
+            if not _moves_so(near, W[0], values[k : k + size]):
+                x.refute(what, "a shape is not that of its frequency")
+                return False
+    return True
+
+
+def _moves_so(near: Near, W: arb, shape: Sequence[arb]) -> bool:
+    """Whether (dq''/dq) a = -omega^2 a, where velocities play no part."""
+    by_q, by_v = near.slopes
+    if any(abs(float(e.mid())) > NOTHING for row in by_v for e in row):
+        return True
+    if not all(a.is_finite() for a in shape):
+        return True
+    forces = [sum((e * a for e, a in zip(row, shape, strict=True)), arb(0)) for row in by_q]
+    scale = max([1e-6, *(abs(float(f.mid())) for f in forces)])
+    gaps = (abs(float((f + W * a).mid())) for f, a in zip(forces, shape, strict=True))
+    return max(gaps) < _AGREE * max(scale, 1.0)

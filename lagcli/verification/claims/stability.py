@@ -1,0 +1,95 @@
+"""What the linear motion near a state that stays says of a printed verdict on its stability."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lagcli.motions import Above, Verdict
+from lagcli.verification.claims.rest import Near, conditions, eigenvalues
+from lagcli.verification.examination import Examination
+
+
+class Judged:
+    """What the linear motion says of a printed verdict at one state."""
+
+    def __init__(self, near: Near, cyclic: int) -> None:
+        everything = near.eigenvalues
+        self.scale = max([1e-3, *map(abs, everything)])
+        self.values = everything[2 * cyclic :]  # two are 0 for each cyclic coordinate
+
+    @property
+    def growing(self) -> bool:
+        """Some motion surely grows."""
+        return any(z.real > 1e-8 * self.scale for z in self.values)
+
+    @property
+    def oscillating(self) -> bool:
+        """No motion grows, and none is so slow that higher orders decide."""
+        return not self.growing and all(abs(z) > 1e-6 * self.scale for z in self.values)
+
+    @property
+    def damped(self) -> bool:
+        """Every motion surely dies out."""
+        return all(z.real < -1e-8 * self.scale for z in self.values)
+
+    @property
+    def imaginary(self) -> bool:
+        """All frequencies are real, distinct and not 0."""
+        return not self.growing and not any(z.real < -1e-8 * self.scale for z in self.values)
+
+    @property
+    def distinct(self) -> bool:
+        """No two eigenvalues are equal, none is 0."""
+        pairs = ((a, b) for k, a in enumerate(self.values) for b in self.values[:k])
+        apart = all(abs(a - b) > 1e-7 * self.scale for a, b in pairs)
+        return apart and all(abs(z) > 1e-7 * self.scale for z in self.values)
+
+
+def refutes(x: Examination, what: str, near: Near, verdict: Verdict, cyclic: int) -> str:
+    """Why a verdict cannot be right at this state; empty where it can."""
+    if not near.regular:
+        return ""
+    judged = Judged(near, cyclic)
+    if verdict.stable and judged.growing:
+        return "a disturbance grows"
+    given = x.problem
+    pushed = given.forces or given.dissipation or any(p.force for p in given.points)
+    conservative = not (pushed or cyclic)
+    definite = all(_positive(value) for value in eigenvalues(near.laws.mass_matrix))
+    free = not any(not row.holonomic for row in x.reference.rows)
+    bowl = conservative and definite and free and all(k > 1e-8 for k in near.stiffness)
+    if verdict.stable is False and (bowl or judged.oscillating):
+        return "no disturbance grows"
+    minimum = _all_hold(x, what, near, verdict.minimum)
+    if minimum and judged.growing:
+        return "a disturbance grows where the potential is said to have a minimum"
+    if minimum is False and bowl:
+        return "the potential has a minimum where it is said to have none"
+    hurwitz = _all_hold(x, what, near, verdict.hurwitz)
+    if hurwitz and judged.growing:
+        return "a disturbance grows where all roots are said to have negative real parts"
+    if hurwitz is False and judged.damped:
+        return "all roots have negative real parts where they are said not to"
+    spectrum = _all_hold(x, what, near, verdict.spectrum)
+    if spectrum and judged.growing:
+        return "a frequency is not real where all are said to be"
+    if spectrum is False and judged.imaginary and judged.distinct:
+        return "all frequencies are real where they are said not to be"
+    unstable = [near.at(place) > 0 for place in conditions(x, what, verdict.unstable)]
+    if any(unstable) and (bowl or judged.oscillating):
+        return "no disturbance grows where one is said to"
+    return ""
+
+
+def _positive(z: complex) -> bool:
+    return z.real > 1e-12
+
+
+def _all_hold(x: Examination, what: str, near: Near, where: Sequence[Above] | None) -> bool | None:
+    """Whether all inequalities hold; None where there are none, or one is not decided."""
+    if not where:
+        return None
+    values = [near.at(place) for place in conditions(x, what, where)]
+    if any(v < 0 for v in values):
+        return False
+    return True if all(v > 0 for v in values) else None
