@@ -65,6 +65,12 @@ class Examination:
         self._found: dict[int, list[State]] = {}
         self._more: dict[int, Iterator[State]] = {}
 
+    def of(self, problem: Problem) -> Examination:
+        """The examination of a variant of the problem, whose findings are noted here."""
+        other = Examination(problem)
+        other.retracted, other.unchecked = self.retracted, self.unchecked
+        return other
+
     # -- states -----------------------------------------------------------------------------
 
     def states(self, count: int = 0, bits: int = PRECISIONS[0]) -> list[State]:

@@ -76,7 +76,8 @@ def test_a_verdict_of_stability_turned_round_is_withheld(name: str) -> None:
             answers.sections[section], "motions", ()
         )
         for each in listed:
-            if each.verdict.stable is None or getattr(each, "rates", each) is None:
+            singular = getattr(each, "rates", each) is None or getattr(each, "indeterminate", ())
+            if each.verdict.stable is None or singular:
                 continue
             other = replace(each, verdict=Verdict(stable=not each.verdict.stable))
             key = "equilibria" if section == "equilibria" else "motions"

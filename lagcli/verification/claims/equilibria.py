@@ -12,7 +12,14 @@ from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.motions import SteadyMotion, SteadySection, Verdict
 from lagcli.record import replace
-from lagcli.verification.claims.rest import BITS, NOTHING, Near, Place, eigenvalues
+from lagcli.verification.claims.rest import (
+    BITS,
+    NOTHING,
+    Near,
+    Place,
+    eigenvalues,
+    with_closed_contacts,
+)
 from lagcli.verification.claims.stability import refutes
 from lagcli.verification.examination import Examination
 
@@ -30,7 +37,13 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
     with ctx.workprec(BITS):
         for each in section.equilibria:
             what = f"the equilibrium {_named(each.at, each.on)}"
+            if each.sticking:
+                x.unchecked.append(what)
+                found.append(each)
+                continue
             place = Place(x, what, each.at, {}, each.on, each.where)
+            y = with_closed_contacts(x, place)
+            place = place if y is x else Place(y, what, each.at, {}, each.on, each.where)
             verdict = _stays(x, what, place, each.verdict, cyclic=0)
             if verdict is None:
                 return replace(section, equilibria=None, reason=_not_confirmed("an equilibrium"))
@@ -184,6 +197,9 @@ def _occur(near: Near, squares: Sequence[arb]) -> bool:
 def _is_mode(x: Examination, mode: Mode) -> bool:
     what = f"the normal modes about {_named(mode.at, mode.on)}"
     place = Place(x, what, mode.at, {}, mode.on, ())
+    if with_closed_contacts(x, place) is not x:
+        x.unchecked.append(what)  # on one side only the motion is that of the equations
+        return True
     square = x.places(what, [f for f in (mode.frequency_squared,) if f is not None])
     frequency = x.places(what, [f for f in (mode.frequency,) if f is not None])
     shapes = [s for s in (mode.shape, *mode.more_shapes) if s is not None]

@@ -14,6 +14,8 @@ from flint import arb, arb_mat
 
 from lagcli.expression import Expression
 from lagcli.motions import Above
+from lagcli.problem import Constraint
+from lagcli.record import replace
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear, least_step, rank, size, solve
 from lagcli.verification.reference import Dynamics
@@ -135,6 +137,26 @@ class Place:
             for key, d in zip(free, step, strict=True):
                 environment[key] = (environment[key] + d).mid()
         return False
+
+
+def with_closed_contacts(x: Examination, place: Place) -> Examination:
+    """The examination in which the contacts that are closed at a place are constraints."""
+    near = next(place.states(), None) if place.readable else None
+    if near is None or not x.problem.contacts:
+        return x
+    closed = []
+    for contact in x.problem.contacts:
+        sides = (contact.equation.left, contact.equation.right)
+        left, right = (near.at(x.reference.place(side)) for side in sides)
+        if size(left - right) < NOTHING:
+            closed.append(
+                Constraint(
+                    name=contact.name, equation=contact.equation, multiplier=contact.multiplier
+                )
+            )
+    if not closed:
+        return x
+    return x.of(replace(x.problem, constraints=(*x.problem.constraints, *closed)))
 
 
 def ball_numbers(count: int) -> list[arb]:
