@@ -38,7 +38,7 @@ def check_all(files: Sequence[str], jobs: int, limit: float) -> Generator[Report
     _import_what_workers_need()
     pool = _Pool(files, limit)
     try:
-        pool.start(min(jobs, len(files)))
+        pool.start(min(jobs, len(files)) if files else 0)
         for place in range(len(files)):
             while place not in pool.reports:
                 pool.advance()

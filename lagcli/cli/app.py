@@ -22,6 +22,7 @@ COMMANDS = {
     "extremes": "Take a problem to its extremes and report where it breaks.",
     "export": "Write the equations of motion as code in another language.",
     "check": "Check problems against their known answers and against the mathematics.",
+    "diff": "Say whether two files mean the same physics.",
     "new": "Write a first problem, to change into your own.",
     "list": "List the problems of the library that comes with lagcli.",
     "show": "Print the file of a problem of the library, to read or to change.",

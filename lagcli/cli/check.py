@@ -19,7 +19,7 @@ Paths = Annotated[
 Format = Annotated[
     str,
     typer.Option(
-        "--format", "-f", metavar="NAME", help="text, json, junit or github.",
+        "--format", "-f", metavar="NAME", help="text, json, junit, github or sarif.",
         autocompletion=complete_report,
     ),
 ]  # fmt: skip
@@ -32,8 +32,20 @@ Timeout = Annotated[
 ]
 
 
+Shard = Annotated[
+    str | None,
+    typer.Option(
+        "--shard", metavar="I/N", help="Only every N-th problem from the I-th: for N machines."
+    ),
+]
+
+
 def check(
-    paths: Paths, format_name: Format = "text", jobs: Jobs = None, timeout: Timeout = 60.0
+    paths: Paths,
+    format_name: Format = "text",
+    jobs: Jobs = None,
+    timeout: Timeout = 60.0,
+    shard: Shard = None,
 ) -> int:
     """Check problems against their known answers and against the mathematics.
 
@@ -48,7 +60,8 @@ def check(
     Examples:
       lagcli check hoop kepler
       lagcli check problems/ --format junit > report.xml
+      lagcli check problems/ --shard 1/4
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.checking import check_paths
 
-    return check_paths(paths, format_name, jobs, timeout)
+    return check_paths(paths, format_name, jobs, timeout, shard)

@@ -15,8 +15,11 @@ from lagcli.cli.telling import tell_line
 from lagcli.reader.suggest import did_you_mean
 
 
-def check_paths(paths: Sequence[str], form: str, jobs: int | None, limit: float) -> Status:
+def check_paths(
+    paths: Sequence[str], form: str, jobs: int | None, limit: float, shard: str | None = None
+) -> Status:
     """Check, print, and say how it ended."""
+    part = _part(shard)
     if form not in FORMS:
         advice = did_you_mean(form, FORMS) or f"there are {', '.join(FORMS)}"
         tell_line(f"lagcli: error: --format: unknown format '{form}': {advice}")
@@ -26,8 +29,9 @@ def check_paths(paths: Sequence[str], form: str, jobs: int | None, limit: float)
         for line in error.lines:
             tell_line(line)
         return Status.USAGE
-    if form not in FORMS:
+    if form not in FORMS or part is None:
         return Status.USAGE
+    files = files[part]
     worst = Status.WELL
 
     def noted(reports: Iterable[Report]) -> Iterator[Report]:
@@ -40,6 +44,17 @@ def check_paths(paths: Sequence[str], form: str, jobs: int | None, limit: float)
         for piece in FORMS[form](_with_progress(noted(reports), len(files))):
             print_result(piece.encode("utf-8", "replace"))
     return worst
+
+
+def _part(shard: str | None) -> slice | None:
+    """Every N-th file from the I-th for `I/N`; None where that is wrong, which is reported."""
+    if shard is None:
+        return slice(None)
+    first, slash, count = shard.partition("/")
+    if slash and first.isdecimal() and count.isdecimal() and 1 <= int(first) <= int(count):
+        return slice(int(first) - 1, None, int(count))
+    tell_line(f"lagcli: error: --shard: write I/N with 1 <= I <= N, such as 1/4, not '{shard}'")
+    return None
 
 
 def _status(report: Report) -> Status:

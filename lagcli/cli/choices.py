@@ -8,6 +8,8 @@ BINARY = ("npz", "parquet")
 #: The forms of a study of `tradeoff`, and what it weighs.
 STUDIES = ("text", "json", "csv")
 COSTS = ("total", "integration", "evaluations")
+#: The forms of a report of `check`.
+REPORTS = ("text", "json", "junit", "github", "sarif")
 #: What `lagcli export --to` writes.
 LANGUAGES = ("python", "c", "julia", "fortran", "matlab", "modelica", "sympy", "mathematica")
 #: What `lagcli schema` describes.
@@ -44,7 +46,7 @@ def complete_format(incomplete: str) -> list[str]:
 
 def complete_report(incomplete: str) -> list[str]:
     """The forms of a check's report that begin so."""
-    return [name for name in ("text", "json", "junit", "github") if name.startswith(incomplete)]
+    return [name for name in REPORTS if name.startswith(incomplete)]
 
 
 def complete_table(incomplete: str) -> list[str]:

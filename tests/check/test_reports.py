@@ -87,3 +87,20 @@ def test_github_marks_the_line_and_escapes_what_it_must():
 @pytest.mark.parametrize("form", FORMS)
 def test_no_report_talks_to_the_terminal(form):
     assert "\x1b" not in made(form)
+
+
+def test_sarif_has_each_finding_at_its_place():
+    """The parts of the standard that readers need: rules, levels, regions, escaped names."""
+    log = json.loads(made("sarif"))
+    [one] = log["runs"]
+    rules = {rule["id"] for rule in one["tool"]["driver"]["rules"]}
+    found = [(each["ruleId"], each["level"]) for each in one["results"]]
+    assert found == [("wrong", "error"), ("took-too-long", "error"), ("invalid-file", "error")]
+    assert {rule for rule, _ in found} <= rules
+    [place] = one["results"][0]["locations"]
+    assert place["physicalLocation"] == {
+        "artifactLocation": {"uri": "a%2Cb%3A%20100%25.yaml"},
+        "region": {"startLine": 12, "startColumn": 3, "endLine": 12, "endColumn": 8},
+    }
+    assert "region" not in one["results"][1]["locations"][0]["physicalLocation"]
+    assert "\x1b" not in one["results"][0]["message"]["text"]

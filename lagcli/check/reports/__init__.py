@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 
 from lagcli.check.findings import Report
-from lagcli.check.reports import github, json, junit, text
+from lagcli.check.reports import github, json, junit, sarif, text
 
 #: Form -> what makes it; the pieces come as soon as what they tell of is known.
 FORMS: dict[str, Callable[[Iterable[Report]], Iterator[str]]] = {
@@ -13,6 +13,7 @@ FORMS: dict[str, Callable[[Iterable[Report]], Iterator[str]]] = {
     "json": json.render,
     "junit": junit.render,
     "github": github.render,
+    "sarif": sarif.render,
 }
 
 __all__ = ["FORMS"]

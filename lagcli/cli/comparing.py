@@ -1,0 +1,57 @@
+"""Two files compared, and the differences as lines."""
+
+from __future__ import annotations
+
+import sys
+
+from lagcli.cli.files import read_input, reason
+from lagcli.cli.status import Status
+from lagcli.cli.telling import tell, tell_line
+from lagcli.diagnostics import ProblemError
+from lagcli.pipeline import read, with_lagrangian
+from lagcli.problem import Problem
+from lagcli.stack import with_deep_stack
+
+
+def compare_files(old: str, new: str) -> Status:
+    """Compare, print, and say how it ended."""
+    problems = [_problem(name) for name in (old, new)]
+    first, second = problems
+    if first is None or second is None:
+        return Status.USAGE
+    return with_deep_stack(lambda: _compared(first, second))
+
+
+def _problem(name: str) -> Problem | None:
+    try:
+        found = read(name, read_input(name))
+    except OSError as error:
+        tell_line(f"{name}: error: {reason(error)}")
+        return None
+    tell(found.source, found.diagnostics)
+    if found.problem is None:
+        return None
+    try:
+        return with_lagrangian(found.problem)
+    except ProblemError as error:
+        tell(error.source, error.diagnostics)
+        return None
+
+
+def _compared(first: Problem, second: Problem) -> Status:
+    from lagcli.check.difference import differences
+
+    try:
+        found = differences(first, second)
+    except ProblemError as error:
+        tell(error.source, error.diagnostics)
+        return Status.USAGE
+    if not found:
+        sys.stdout.write("the same physics\n")
+        return Status.WELL
+    for one in found:
+        sys.stdout.write(f"{one.verdict}: {one.subject}\n")
+        for mark, text in (("-", one.old), ("+", one.new)):
+            if text:
+                sys.stdout.write(f"  {mark} {text}\n")
+    return Status.NOT_FOUND
