@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-HEAVY = ("sympy", "numpy", "mpmath", "flint", "lark", "yaml", "rich", "pydantic")
+HEAVY = ("sympy", "numpy", "matplotlib", "mpmath", "flint", "lark", "yaml", "rich", "pydantic")
 
 PROBE = """
 import sys
@@ -32,7 +32,15 @@ def imported(*arguments, **environment):
 
 @pytest.mark.parametrize(
     "arguments",
-    [["--help"], ["solve", "--help"], ["check", "--help"], ["formats"], ["version"]],
+    [
+        ["--help"],
+        ["solve", "--help"],
+        ["check", "--help"],
+        ["plot", "--help"],
+        ["animate", "--help"],
+        ["formats"],
+        ["version"],
+    ],
     ids=" ".join,
 )
 def test_answers_without_heavy_imports(arguments):
