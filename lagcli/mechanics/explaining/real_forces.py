@@ -70,7 +70,8 @@ def _magnitude(force: PointForce, multiplier: Name) -> Iterator[Block]:
         return
     where = "."
     if force.allowed is not None:
-        where = ", in the direction in which the contact pushes," if force.allowed > 0 else "."
+        pushes = "string pulls" if force.kind == "tension" else "contact pushes"
+        where = f", in the direction in which the {pushes}," if force.allowed > 0 else "."
     if force.towards is not None:
         where = f" towards {force.towards or 'the origin'}"
     elif force.away_from is not None:
