@@ -6,7 +6,15 @@ from collections.abc import Mapping, Sequence
 
 from lagcli.answers import QuantityUnit
 from lagcli.document import Formula, Label, Row
-from lagcli.expression import ZERO, Expression, Name, operation_count
+from lagcli.expression import (
+    ZERO,
+    Expression,
+    Name,
+    Negative,
+    Product,
+    Sum,
+    operation_count,
+)
 from lagcli.motions import Above, Irreducible, SteadyMotion, Verdict
 
 Part = str | Formula
@@ -34,8 +42,33 @@ def _joined(where: Sequence[Above], word: str) -> list[Part]:
         sides: list[Part] = (
             [each.right, " < ", each.left] if below else [each.left, " > ", each.right]
         )
-        parts += [word if position else "", *sides]
+        parts += [word if position else "", *sides, *_order_of_three(each)]
     return parts
+
+
+def _order_of_three(condition: Above) -> list[Part]:
+    """(B - A) (C - A) > 0, or with other signs, in words."""
+    product = condition.right if condition.left == ZERO else condition.left
+    if ZERO not in (condition.left, condition.right) or not isinstance(product, Product):
+        return []
+    pairs = [_signs(factor) for factor in product.factors]
+    if len(pairs) != 2 or not all(sorted(pair.values()) == [-1, 1] for pair in pairs):
+        return []
+    shared = [name for name in pairs[0] if name in pairs[1]]
+    if len(shared) != 1:
+        return []
+    [A] = shared
+    sign = pairs[0][A] * pairs[1][A] * (-1 if condition.left == ZERO else 1)
+    place = "the largest or the smallest of the three" if sign == 1 else "between the other two"
+    return [" (", A, f" is {place})"]
+
+
+def _signs(factor: Expression) -> dict[Expression, int]:
+    """1 and -1 of a difference of two names; empty for anything else."""
+    terms = factor.terms if isinstance(factor, Sum) else ()
+    signs = {(t.operand if isinstance(t, Negative) else t): 1 - 2 * isinstance(t, Negative)
+             for t in terms}  # fmt: skip
+    return signs if all(isinstance(name, Name) for name in signs) else {}
 
 
 def place_rows(

@@ -8,15 +8,18 @@ import random
 import pytest
 import sympy
 
+from lagcli.algebra.build import symbol
 from lagcli.algebra.numeric import Evaluator
 from lagcli.document import Paragraph
 from lagcli.expression import Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.reduction.averaged import averaged
+from lagcli.mechanics.reduction.readable import conditions, opposites
 from lagcli.mechanics.reduction.statement import reduction
 from lagcli.mechanics.statements import Statements
 from lagcli.pipeline import explain
+from lagcli.wording import conditions as in_words
 
 from .derived import derive
 from .test_explanation import rows, words
@@ -459,3 +462,23 @@ def test_a_period_has_no_correction_that_is_0_on_its_branch():
     assert len(periods) == 2
     assert {to_grammar(each.period) for each in periods} == {"pi/w"}
     assert all(each.amplitude == "" for each in periods)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_order_of_three_is_what_the_sign_of_a_product_says(seed):
+    """(A - B) (A - C) > 0 just where A is not between the others (Goldstein, section 5.6)."""
+    source = random.Random(seed)
+    symbols = [symbol(name, "positive") for name in ("A", "B", "C")]
+    source.shuffle(symbols)
+    A, B, C = symbols
+    expression = source.choice([(A - B) * (A - C), (A - B) * (C - A), (B - A) * (C - A)])
+    for inequality in (conditions([expression], ("A", "B", "C")), opposites([expression], "ABC")):
+        *_, name, place = in_words(inequality)
+        values = {s: source.uniform(1, 3) for s in symbols}
+        at = {s.name: value for s, value in values.items()}
+        holds = bool(expression.xreplace(values) > 0)
+        if inequality == opposites([expression], "ABC"):
+            holds = not holds
+        middle = sorted(at.values())[1] == at[name.name]
+        assert name.name == A.name
+        assert holds is (middle if "between" in place else not middle)

@@ -17,7 +17,7 @@ from lagcli.algebra.factors import factors_of
 from lagcli.algebra.leaves import Translator
 from lagcli.algebra.signs import sign, sign_beside_zero, sign_of_circle
 from lagcli.algebra.writing import Writer
-from lagcli.expression import Expression, operation_count
+from lagcli.expression import ZERO, Expression, operation_count
 from lagcli.motions import Above
 
 #: A potential may have so many operations more than another form, and is left as it was given.
@@ -202,6 +202,9 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
     rest = deciding(expression, positive)
     if rest == 1:
         return None
+    differences = [factor for factor, _ in factors_of(rest) if factor.is_Add]
+    if len(differences) == 2 and all(len(f.args) == 2 for f in differences):  # (A - B) (A - C) > 0
+        return Above(shape(rest, order), ZERO)
     all_terms = rest.expand().as_ordered_terms()
     right = -sympy.Add(*(term for term in all_terms if term.could_extract_minus_sign()))
     left = sympy.Add(*(term for term in all_terms if not term.could_extract_minus_sign()))
