@@ -16,9 +16,11 @@ from lagcli.mechanics.explaining.oscillations import oscillations
 from lagcli.mechanics.explaining.questions import questions
 from lagcli.mechanics.explaining.real_forces import real_forces
 from lagcli.mechanics.explaining.reduction import reduction
+from lagcli.mechanics.explaining.steady import steady
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.transformations import transformations
 from lagcli.mechanics.explaining.words import names, says
+from lagcli.mechanics.reduction.routh import ALL_CYCLIC
 from lagcli.mechanics.statements import Statements
 from lagcli.mechanics.stating import Stating
 from lagcli.wording import conditions as inequalities
@@ -41,7 +43,8 @@ def further(teller: Teller, also: Sequence[str], others: Others) -> tuple[list[S
         title, explain = _STEPS[name]
         section = statements.answers([name]).sections[name]
         steps.append(Step(title, tuple(explain(teller, section))))
-    return steps, list(dict.fromkeys(statements.warnings))
+    missing = [each for each in statements.warnings if not each.endswith(ALL_CYCLIC)]
+    return steps, list(dict.fromkeys(missing))
 
 
 # -- equilibria ------------------------------------------------------------------------------------
@@ -103,7 +106,7 @@ _STEPS: Mapping[str, tuple[str, Callable[[Teller, Section], Iterator[Block]]]] =
     "equilibria": ("Equilibria", _equilibria),
     "modes": ("Small oscillations", oscillations),
     "reduction": ("The reduction", reduction),
-    "steady_motions": ("Steady motions", phase_space.steady),
+    "steady_motions": ("Steady motions", steady),
     "canonical_equations": ("Canonical equations", phase_space.canonical_equations),
     "brackets": ("Poisson brackets", phase_space.brackets),
     "canonical": ("Canonical transformations", transformations),

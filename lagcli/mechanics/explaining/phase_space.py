@@ -1,9 +1,8 @@
-"""The steps on steady motions and on phase space."""
+"""The steps on phase space: Hamilton's equations, Poisson brackets, the separation."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from fractions import Fraction
 from typing import cast
 
 from lagcli.answers import CanonicalSection, Section
@@ -11,150 +10,16 @@ from lagcli.document import (
     Block,
     Bracket,
     Equations,
-    Heading,
     Integral,
     Label,
-    Matrix,
     Row,
 )
-from lagcli.expression import ZERO, Diff, Expression, Name, Negative, Number, Power, Product
-from lagcli.mechanics.explaining.given_momenta import two_rates
+from lagcli.expression import ZERO, Diff, Expression, Name, Negative, Product
 from lagcli.mechanics.explaining.teller import Teller
-from lagcli.mechanics.explaining.words import Part, difference, listed, names, says, shows
-from lagcli.motions import HamiltonJacobiSection, SteadyMotion, SteadySection
+from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
+from lagcli.motions import HamiltonJacobiSection
 from lagcli.phase_space import BracketsSection
-from lagcli.wording import POTENTIAL, conditions, place_rows, steady_stability
-
-_SQUARED = Power(Name("omega"), Number(Fraction(2)))
-
-_BALANCED = {
-    (): "vanish",
-    ("forces",): "balance the other forces",
-    ("constraints",): "vanish along every displacement that the constraints allow",
-    ("forces", "constraints"): "balance the other forces along every displacement that the "
-    "constraints allow",
-}
-
-# -- steady motions ------------------------------------------------------------------------------
-
-
-def steady(teller: Teller, section: Section) -> Iterator[Block]:
-    """The relative equilibria: cyclic velocities constant, the other coordinates at rest."""
-    found = cast(SteadySection, section)
-    if found.eliminated:
-        yield says(
-            "The constraints give ",
-            names(found.eliminated, 1),
-            " in terms of the other velocities. With these substituted, the accelerations of the "
-            "other coordinates depend on few of the coordinates. In a steady motion these few are "
-            "constant and so are the velocities, and the accelerations vanish:",
-        )
-        yield from _steady_states(teller, found)
-        return
-    if found.motions and not any(motion.momenta for motion in found.motions):
-        yield says(
-            "No momentum of a cyclic coordinate is constant, so the steady motions "
-            "are the equilibria:"
-        )
-        yield from _steady_states(teller, found)
-        return
-    yield says(
-        "In a steady motion the coordinates that are not cyclic are constant, and the cyclic ones "
-        "have constant velocities. All velocities and accelerations in the Routhian's "
-        "equations are "
-        "then 0, so the derivatives of ",
-        POTENTIAL,
-        f" {_BALANCED[found.acting]}, with the momenta of the cyclic coordinates as constants:",
-    )
-    yield from _steady_states(teller, found)
-
-
-def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
-    wanted = dict.fromkeys(found.conditions.values())
-    yield Equations(tuple(Row(ZERO, each) for each in wanted if each != ZERO or len(wanted) == 1))
-    if found.motions is None:
-        yield says(f"These were not solved: {found.reason}.")
-        return
-    if not found.motions:
-        yield says("These have no solution: there is no steady motion.")
-    for number, motion in enumerate(found.motions, 1):
-        yield Heading(f"Steady motion {number}", 2)
-        yield from _motion(teller, motion)
-    if not found.complete:
-        yield says("There may be others.")
-
-
-def _motion(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
-    if motion.rolling:
-        yield from _rolling(motion)
-        return
-    if motion.free:
-        yield says("For any value of ", _free(motion), ",")
-    if motion.at or motion.on is not None:
-        yield Equations(place_rows(motion.at, motion.on))
-    rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
-    if rates:
-        yield says("The velocities of the cyclic coordinates are then")
-        yield Equations(tuple(Row(Name(name, 1), rate) for name, rate in rates.items()))
-    momenta = {n: p for n, p in motion.momenta.items() if p != Name(f"p_{n}")}
-    if momenta:
-        yield says("and the momenta are" if rates else "The momenta are")
-        yield Equations(tuple(Row(Name(f"p_{name}"), p) for name, p in momenta.items()))
-        yield from two_rates(teller, motion)
-    if motion.mirrored:
-        yield says("The same holds with the opposite signs of all these.")
-    if motion.where:
-        yield says("It is possible for ", conditions(motion.where), ".")
-    if motion.mass:
-        yield from _displaced(motion)
-    yield says(steady_stability(motion))
-
-
-def _free(motion: SteadyMotion) -> list[Part]:
-    return listed([Name(name.rstrip("'"), 1 if name.endswith("'") else 0) for name in motion.free])
-
-
-def _rolling(motion: SteadyMotion) -> Iterator[Block]:
-    if motion.free:
-        yield says("This holds for any value of ", _free(motion), " with")
-    places = [Row(Name(name), value) for name, value in motion.at.items()]
-    rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
-    yield Equations((*places, *(Row(Name(name, 1), rate) for name, rate in rates.items())))
-    if motion.frequencies_squared:
-        yield says(
-            "The linearised equations have the root 0, of the dimension of the family of steady "
-            "motions; the other roots have the squared frequency below."
-        )
-    yield says(steady_stability(motion))
-    if motion.frequencies_squared:
-        yield Equations(tuple(Row(_SQUARED, s) for s in motion.frequencies_squared))
-
-
-def _displaced(motion: SteadyMotion) -> Iterator[Block]:
-    """M x'' + C x' + K x = 0 and the squares of the frequencies."""
-    M, C, K = (Label(letter, matrix=True) for letter in "MCK")
-    turning = any(entry != ZERO for row in motion.velocity for entry in row)
-    velocities: list[Part] = [C, " · velocities + "] if turning else []
-    yield says(
-        "Small displacements at unchanged momenta obey to first order ",
-        *(M, " · accelerations + ", *velocities, K, " · displacements = 0 with"),
-    )
-    tags = tuple(str(n) for n in range(1, len(motion.mass) + 1))
-    for letter, entries in (("M", motion.mass), ("C", motion.velocity), ("K", motion.stiffness)):
-        label = Label(letter, matrix=True)
-        if any(entry != ZERO for row in entries for entry in row):
-            yield (
-                shows(label, entries[0][0])
-                if len(entries) == 1
-                else Matrix(label, entries, tags, tags)
-            )
-    squares = dict.fromkeys(motion.frequencies_squared)
-    if squares:
-        yield says("The squares of the frequencies are the roots of the determinant:")
-        yield Equations(tuple(Row(_SQUARED, s) for s in squares))
-
-
-# -- phase space ---------------------------------------------------------------------------------
+from lagcli.wording import conditions
 
 
 def canonical_equations(teller: Teller, section: Section) -> Iterator[Block]:
@@ -278,6 +143,10 @@ def hamilton_jacobi(_: Teller, section: Section) -> Iterator[Block]:
         yield says(f"{each} is solved for its momentum, with a square root of either sign:")
     for name in found.equations:
         yield from _part(found, name)
+    if found.energy not in found.constants:
+        yield says("The derivatives of ", S, " with respect to the constants, of which ", E,
+                   " is a function, are constant: this is the motion.")  # fmt: skip
+        return
     if len(found.constants) == 1:
         yield says("The derivative of ", S, " with respect to ", E,
                    " is constant, which gives the motion in time.")  # fmt: skip

@@ -1,0 +1,158 @@
+"""The step on steady motions: the condition, each motion, and its small displacements."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+from typing import cast
+
+from lagcli.answers import Section
+from lagcli.document import (
+    Block,
+    Equations,
+    Heading,
+    Label,
+    Matrix,
+    Row,
+)
+from lagcli.expression import ZERO, Expression, Name, Number, Power
+from lagcli.mechanics.explaining.given_momenta import two_rates
+from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.words import Part, listed, names, says, shows
+from lagcli.mechanics.reduction.routh import ALL_CYCLIC
+from lagcli.motions import SteadyMotion, SteadySection
+from lagcli.wording import POTENTIAL, conditions, place_rows, steady_stability
+
+_BALANCED = {
+    (): "vanish",
+    ("forces",): "balance the other forces",
+    ("constraints",): "vanish along every displacement that the constraints allow",
+    ("forces", "constraints"): "balance the other forces along every displacement that the "
+    "constraints allow",
+}
+
+
+def steady(teller: Teller, section: Section) -> Iterator[Block]:
+    """The relative equilibria: cyclic velocities constant, the other coordinates at rest."""
+    found = cast(SteadySection, section)
+    if found.eliminated:
+        yield says(
+            "The constraints give ",
+            names(found.eliminated, 1),
+            " in terms of the other velocities. With these substituted, the accelerations of the "
+            "other coordinates depend on few of the coordinates. In a steady motion these few are "
+            "constant and so are the velocities, and the accelerations vanish:",
+        )
+        yield from _steady_states(teller, found)
+        return
+    if found.motions is None and found.reason == ALL_CYCLIC:
+        yield says("Every coordinate is cyclic, so all velocities are constant: every motion is "
+                   "steady.")  # fmt: skip
+        return
+    if found.motions and not any(motion.momenta for motion in found.motions):
+        yield says(
+            "No momentum of a cyclic coordinate is constant, so the steady motions "
+            "are the equilibria:"
+        )
+        yield from _steady_states(teller, found)
+        return
+    yield says(
+        "In a steady motion the coordinates that are not cyclic are constant, and the cyclic ones "
+        "have constant velocities. All velocities and accelerations in the Routhian's "
+        "equations are "
+        "then 0, so the derivatives of ",
+        POTENTIAL,
+        f" {_BALANCED[found.acting]}, with the momenta of the cyclic coordinates as constants:",
+    )
+    yield from _steady_states(teller, found)
+
+
+def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
+    wanted = dict.fromkeys(found.conditions.values())
+    yield Equations(tuple(Row(ZERO, each) for each in wanted if each != ZERO or len(wanted) == 1))
+    if found.motions is None:
+        yield says(f"These were not solved: {found.reason}.")
+        return
+    if not found.motions:
+        yield says("These have no solution: there is no steady motion.")
+    for number, motion in enumerate(found.motions, 1):
+        yield Heading(f"Steady motion {number}", 2)
+        yield from _motion(teller, motion)
+    if not found.complete:
+        yield says("There may be others.")
+
+
+def _motion(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
+    if motion.rolling:
+        yield from _rolling(teller, motion)
+        return
+    if motion.free:
+        yield says("For any value of ", _free(motion), ",")
+    if motion.at or motion.on is not None:
+        yield Equations(place_rows(motion.at, motion.on))
+    rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
+    if rates:
+        yield says("The velocities of the cyclic coordinates are then")
+        yield Equations(tuple(Row(Name(name, 1), rate) for name, rate in rates.items()))
+    momenta = {n: p for n, p in motion.momenta.items() if p != Name(f"p_{n}")}
+    if momenta:
+        yield says("and the momenta are" if rates else "The momenta are")
+        yield Equations(tuple(Row(Name(f"p_{name}"), p) for name, p in momenta.items()))
+        yield from two_rates(teller, motion)
+    if motion.mirrored:
+        yield says("The same holds with the opposite signs of all these.")
+    if motion.where:
+        yield says("It is possible for ", conditions(motion.where), ".")
+    if motion.mass:
+        yield from _displaced(teller, motion)
+    yield says(steady_stability(motion))
+
+
+def _free(motion: SteadyMotion) -> list[Part]:
+    return listed([Name(name.rstrip("'"), 1 if name.endswith("'") else 0) for name in motion.free])
+
+
+def _rolling(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
+    if motion.free:
+        yield says("This holds for any value of ", _free(motion), " with")
+    places = [Row(Name(name), value) for name, value in motion.at.items()]
+    rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
+    yield Equations((*places, *(Row(Name(name, 1), rate) for name, rate in rates.items())))
+    if motion.frequencies_squared:
+        yield says(
+            "The linearised equations have the root 0, of the dimension of the family of steady "
+            "motions; the other roots have the squared frequency below."
+        )
+    yield says(steady_stability(motion))
+    if motion.frequencies_squared:
+        yield _squares(teller, motion.frequencies_squared)
+
+
+def _displaced(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
+    """M x'' + C x' + K x = 0 and the squares of the frequencies."""
+    M, C, K = (Label(letter, matrix=True) for letter in "MCK")
+    turning = any(entry != ZERO for row in motion.velocity for entry in row)
+    velocities: list[Part] = [C, " · velocities + "] if turning else []
+    yield says(
+        "Small displacements at unchanged momenta obey to first order ",
+        *(M, " · accelerations + ", *velocities, K, " · displacements = 0 with"),
+    )
+    tags = tuple(str(n) for n in range(1, len(motion.mass) + 1))
+    for letter, entries in (("M", motion.mass), ("C", motion.velocity), ("K", motion.stiffness)):
+        label = Label(letter, matrix=True)
+        if any(entry != ZERO for row in entries for entry in row):
+            yield (
+                shows(label, entries[0][0])
+                if len(entries) == 1
+                else Matrix(label, entries, tags, tags)
+            )
+    squares = dict.fromkeys(motion.frequencies_squared)
+    if squares:
+        yield says("The squares of the frequencies are the roots of the determinant:")
+        yield _squares(teller, squares)
+
+
+def _squares(teller: Teller, values: Iterable[Expression]) -> Equations:
+    """omega^2 = ..., with a letter that the file does not use."""
+    square = Power(teller.letters.free("omega"), Number(Fraction(2)))
+    return Equations(tuple(Row(square, value) for value in values))
