@@ -12,16 +12,19 @@ from __future__ import annotations
 
 from functools import cached_property
 
+import mpmath
 import sympy
+from mpmath import mpf
 from sympy import Expr
 
 from lagcli.algebra import Shapes, is_zero, left_nullspace, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
+from lagcli.algebra.numeric import Evaluator
 from lagcli.answers import Verification
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.euler_lagrange import EulerLagrange
-from lagcli.mechanics.states import Contradiction, RandomStates
+from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates, independent_rows
 from lagcli.mechanics.system import System
 from lagcli.mechanics.verify import Verifier
 from lagcli.record import record
@@ -120,6 +123,29 @@ class Dynamics:
             for i in range(len(self.system.q))
             if any(is_zero(vector[i]) is not True for vector in kernel)
         )
+
+    @cached_property
+    def undetermined(self) -> tuple[int, ...]:
+        """The degenerate coordinates, where constraints do not determine q'' either.
+
+        A massless link has no part in the kinetic energy; M and A together determine its motion.
+        """
+        return () if self._determined_by_constraints else self.degenerate
+
+    @property
+    def _determined_by_constraints(self) -> bool:
+        """Whether [[M, -A^T], [A, 0]] has full rank at a random state, dependent rows left out."""
+        rows = [self.constraints.equations[k].row for k in self.independent_constraints]
+        if not rows:
+            return False
+        n, m = len(self.system.q), len(rows)
+        entries = [x for row in (*self.lagrange.mass_matrix, *rows) for x in row]
+        with mpmath.workdps(DIGITS):
+            values = Evaluator(entries, DIGITS)(self.states.take(1)[0])
+            M, A = values[: n * n], values[n * n :]
+            square = [[*M[i * n : i * n + n], *(A[k * n + i] for k in range(m))] for i in range(n)]
+            square += [[*A[k * n : k * n + n], *([mpf(0)] * m)] for k in range(m)]
+            return not independent_rows(square, mpf(10) ** -25).dependent
 
     @cached_property
     def contradiction(self) -> Expr | None:

@@ -211,7 +211,7 @@ class Statements(Stating):
             if abbreviated is not None:
                 return abbreviated
             self._unsolved()
-            degenerate = tuple(self.system.names[i] for i in self.dynamics.degenerate)
+            degenerate = tuple(self.system.names[i] for i in self.dynamics.undetermined)
             return AccelerationsSection(
                 accelerations=None, regular=not degenerate, degenerate=degenerate
             )
@@ -221,7 +221,7 @@ class Statements(Stating):
         )
 
     def _unsolved(self, why: str = "") -> None:
-        degenerate = [self.system.names[i] for i in self.dynamics.degenerate]
+        degenerate = [self.system.names[i] for i in self.dynamics.undetermined]
         if not degenerate:
             super()._unsolved(why)
             return

@@ -176,3 +176,40 @@ def test_the_square_of_a_constraint_is_told_from_a_contradiction():
     [diagnostic] = caught.value.diagnostics
     assert diagnostic.message == "the derivatives of constraint 'a' vanish where it holds"
     assert diagnostic.hint == "write it without the power"
+
+
+LINKAGE = """
+coordinates: [q1, q2, q3]
+parameters: [g]
+points:
+  one: {{position: [{first}], mass: 2}}
+  two: {{position: [{second}], mass: 3}}
+constraints:
+  across: {across} = 4
+  up: {up} = 0
+"""
+
+
+@pytest.mark.parametrize("relative", [False, True])
+@pytest.mark.parametrize("where", [1, 2])
+def test_constraints_determine_the_motion_of_a_massless_link(relative, where):
+    """The third link has no mass: M is singular, M and A together are not."""
+    angles = ("q1", "q1 + q2", "q1 + q2 + q3") if relative else ("q1", "q2", "q3")
+    lengths = (1, 2, 3)
+
+    def end(function, count):
+        return " + ".join(
+            f"{length}*{function}({angle})"
+            for length, angle in zip(lengths[:count], angles[:count], strict=True)
+        )
+
+    first, second = (f"{end('cos', k)}, {end('sin', k)}" for k in (min(where, 1), 2))
+    d = derive(LINKAGE.format(first=first, second=second, across=end("cos", 3), up=end("sin", 3)))
+    assert d.dynamics.degenerate == (2,)
+    assert d.dynamics.undetermined == ()
+
+
+def test_a_coordinate_that_nothing_determines_is_named():
+    d = derive("coordinates: [x, y, z]\nT: x'^2/2\nV: x + y\nconstraints: {c: y = x^2}")
+    assert 2 in d.dynamics.undetermined
+    assert d.dynamics.motion is None

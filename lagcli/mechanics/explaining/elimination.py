@@ -42,7 +42,7 @@ def elimination(teller: Teller) -> Iterator[Block]:
 
 
 def _unsolved(teller: Teller) -> Iterator[Block]:
-    degenerate = [teller.system.names[i] for i in teller.dynamics.degenerate]
+    degenerate = [teller.system.names[i] for i in teller.dynamics.undetermined]
     if degenerate:
         yield says(
             "The equations are linear in the accelerations, but the matrix of their coefficients "
