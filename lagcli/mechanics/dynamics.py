@@ -90,7 +90,9 @@ class Dynamics:
         others = [c.name for c in self.system.problem.constraints if c is not constraint]
         with_what = " with " + ", ".join(f"'{name}'" for name in others) if others else ""
         message = f"constraint '{constraint.name}' cannot be satisfied{with_what}"
-        hint = "no state was found at which all constraints hold: they contradict each other"
+        hint = "no state was found at which all constraints hold"
+        if self._contradict:
+            hint += ": they contradict each other"
         above = sympy.numer(sympy.together(self.constraints.equations[max(index, 0)].f))
         if any(power > 1 for _, power in sympy.factor_list(above)[1]):
             message = f"the derivatives of constraint '{constraint.name}' vanish where it holds"
@@ -99,6 +101,15 @@ class Dynamics:
             self.system.problem.source,
             (Diagnostic(message, constraint.equation.span, hint),),
         )
+
+    @property
+    def _contradict(self) -> bool:
+        """Whether 1 is in the ideal of the holonomic constraints, for general parameters."""
+        forms = [e.f for e in self.constraints.equations if e.holonomic]
+        polynomials = [sympy.numer(sympy.together(f)) for f in forms]
+        if not all(p.is_polynomial(*self.system.q) for p in polynomials):
+            return False
+        return len(forms) > 1 and sympy.groebner(polynomials, *self.system.q).exprs == [1]
 
     @property
     def redundant(self) -> tuple[str, ...]:

@@ -24,8 +24,9 @@ from lagcli.record import record
 DIGITS = 50
 _GUARD = 15  # digits beyond those that are claimed
 _TOLERANCE = mpf(10) ** -(DIGITS + 5)
-_ATTEMPTS = 60
+_ATTEMPTS = 40
 _NEWTON_STEPS = 60
+_AS_DRAWN = 20  # attempts with the parameters as they were drawn
 _SURFACES = 8  # at most
 
 State = dict[Symbol, mpf]
@@ -85,7 +86,11 @@ class RandomStates:
         self.system = system
         self.constraints = constraints
         self._positions = [e for e in constraints.equations if e.holonomic]
-        self._surfaces = [self._surface(forms) for forms in self._branches()]
+        self._forms = self._branches()
+        self._surfaces = [self._surface(forms, system.q) for forms in self._forms]
+        self._wide: dict[int, Evaluator] = {}
+        fixed = [p for p in system.parameters if p.is_integer]
+        self._movable = (*system.q, *(p for p in system.parameters if p not in fixed), system.t)
         self._f, self._f_rows = self._surfaces[0]
         self._a_rows = Evaluator(
             [x for e in constraints.equations for x in (*e.row, e.drift)], DIGITS + _GUARD
@@ -106,9 +111,11 @@ class RandomStates:
         choices = [branches.get(e.name, (e.f,)) for e in self._positions]
         return [list(forms) for forms in islice(product(*choices), _SURFACES)]
 
-    def _surface(self, forms: Sequence[Expr]) -> tuple[Evaluator, Evaluator]:
+    def _surface(
+        self, forms: Sequence[Expr], variables: Sequence[Symbol]
+    ) -> tuple[Evaluator, Evaluator]:
         """The forms, and their gradients."""
-        rows = [without_jumps(f.diff(q)) for f in forms for q in self.system.q]
+        rows = [without_jumps(f.diff(q)) for f in forms for q in variables]
         return Evaluator(forms, DIGITS + _GUARD), Evaluator(rows, DIGITS + _GUARD)
 
     def take(self, number: int) -> list[State]:
@@ -153,6 +160,8 @@ class RandomStates:
             scale = 1.0 if attempts % 3 else 0.1
             with mpmath.workdps(DIGITS + _GUARD):
                 state = self._draw(source, scale)
+                if attempts > _AS_DRAWN:
+                    self._adapt(state, draw % self.surfaces)
                 failed = self._project(state)
                 good = failed is None and self._is_regular(state)
             if good:
@@ -184,15 +193,40 @@ class RandomStates:
     def _index(self, position: int) -> int:
         return self.constraints.equations.index(self._positions[position])
 
-    def _project_positions(self, state: State) -> int | None:
-        n = len(self.system.q)
+    def _adapt(self, state: State, surface: int) -> None:
+        """Move the parameters and the time as well, to where the constraints can hold.
+
+        x = 4 a and x² + y² = l² have a solution for l > 4 a.  Not where they hold for special
+        parameters only, x = a and x = b: there the gradients in q alone have a lower rank.
+        """
         if not self._positions:
-            return None
+            return
+        if surface not in self._wide:
+            self._wide[surface] = self._surface(self._forms[surface], self._movable)[1]
+        moved, wide = dict(state), self._wide[surface]
+        try:
+            if self._newton(moved, self._movable, wide) is None:
+                narrow = self._independent(self._f_rows(moved), len(self.system.q))
+                if len(narrow) == len(self._independent(wide(moved), len(self._movable))):
+                    state.update(moved)
+        except (ArithmeticError, ValueError):
+            return
+
+    def _independent(self, flat: Sequence[mpf], width: int) -> tuple[int, ...]:
+        rows = [flat[i * width : (i + 1) * width] for i in range(len(self._positions))]
+        return independent_rows(rows, mpf(10) ** -25).independent
+
+    def _project_positions(self, state: State) -> int | None:
+        return self._newton(state, self.system.q, self._f_rows) if self._positions else None
+
+    def _newton(self, state: State, unknowns: Sequence[Symbol], gradients: Evaluator) -> int | None:
+        """Newton steps of least norm in the unknowns; the index of a constraint that fails."""
+        n = len(unknowns)
         for _ in range(_NEWTON_STEPS):
             values = self._f(state)
             if not all(is_real(v) for v in values):
                 return self._index(0)
-            flat = self._f_rows(state)
+            flat = gradients(state)
             rows = [flat[i * n : (i + 1) * n] for i in range(len(values))]
             if not all(is_real(x) for x in flat):
                 return self._index(0)
@@ -205,7 +239,7 @@ class RandomStates:
             step = least_norm_solution([rows[i] for i in kept], [-values[i] for i in kept])
             longest = max(map(abs, step))
             shrink = min(mpf(1), mpf(2) / longest) if longest else mpf(1)
-            for q, delta in zip(self.system.q, step, strict=True):
+            for q, delta in zip(unknowns, step, strict=True):
                 moved = state[q] + shrink * delta
                 # a coordinate that has a sign keeps it: half-way to zero instead
                 state[q] = moved if _has_assumed_sign(q, moved) else state[q] / 2

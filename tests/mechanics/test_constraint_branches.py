@@ -7,6 +7,7 @@ import random
 import pytest
 
 from lagcli.algebra import is_zero
+from lagcli.diagnostics import ProblemError
 from lagcli.mechanics.statements import Statements
 
 from .derived import derive, printed
@@ -68,3 +69,46 @@ def test_no_answer_has_a_jump_that_the_grammar_cannot_say(V):
     formulas = [*lagrange.left_sides, *lagrange.forcing, *d.dynamics.motion.accelerations]
     formulas += [c.rate for c in d.noether.charges if c.rate is not None]
     assert not any("irac" in printed(d, formula) for formula in formulas)
+
+
+POSITIVE = "coordinates: [x, y]\nparameters: {m: {assume: positive}, a: {assume: positive}, l: {assume: positive}}\n"
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_constraints_that_hold_for_some_parameters_only_are_no_contradiction(seed):
+    """x = n a on x^2 + y^2 = l^2: for l > n a, however large n is."""
+    source = random.Random(seed)
+    n = source.choice((4, 7, 30, 200))
+    line, curve = source.choice(
+        [
+            (f"x = {n}*a", "x^2 + y^2 = l^2"),
+            (f"x = {n}*l", "x^2 + 3*y^2 = a^2"),
+            (f"y - x = {n}*a", "x^2 + y^2 = l^2"),
+            (f"x = {n}*a*cos(1)", "sqrt(x^2 + y^2) = l"),
+            (f"x = {n}*t + {n}*a", "x^2 + y^2 = l^2"),
+        ]
+    )
+    first, second = source.sample((line, curve), 2)
+    text = f"T: m*(x'^2 + y'^2)/2\nconstraints: {{c: {first}, d: {second}}}"
+    d = derive(POSITIVE + text)
+    assert d.dynamics.degrees_of_freedom == 0
+    assert d.dynamics.motion is not None
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "proved"),
+    [
+        ("x = a", "x = l", True),
+        ("x^2 + y^2 = l^2", "x^2 + y^2 = a^2", True),
+        ("x + y = a", "2*x + 2*y = 3*a", True),
+        ("x = a", "x^2 + y^2 = -l^2", False),
+        ("y = 1", "cos(x) = 1 + y", False),
+    ],
+)
+def test_only_what_is_proved_is_called_a_contradiction(first, second, proved):
+    text = f"T: m*(x'^2 + y'^2)/2\nconstraints: {{c: {first}, d: {second}}}"
+    with pytest.raises(ProblemError) as found:
+        derive(POSITIVE + text).dynamics.degrees_of_freedom  # noqa: B018
+    [mistake] = found.value.diagnostics
+    assert ("contradict" in mistake.hint) is proved
+    assert "no state was found" in mistake.hint
