@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from sympy import Expr
+from sympy import Expr, S
 
 from lagcli.algebra import is_zero
 from lagcli.mechanics.oscillations.characteristic import determinant
@@ -60,7 +60,7 @@ def stated(
 def potential_of(rest: RestPoints, usual: str = "V_eff") -> str:
     """What has the minimum: V where it is the file's V alone, else `usual`; "" with forces."""
     system = rest.system
-    at_rest = dict.fromkeys(system.qdot, 0)
+    at_rest = dict.fromkeys(system.qdot, S.Zero)
     if any(is_zero(force.xreplace(at_rest)) is not True for force in system.applied_forces):
         return ""
     if usual != "V_eff" or system.V is None:
