@@ -120,7 +120,7 @@ V: (a^2 + (b - a)^2)/2
 dissipation: d*(a'^2 + (b' - a')^2)/2
 forces: {a: P*sin(a - b)}
 """)
-    assert told(found.verdict.hurwitz) == ["14*d^2 + 41 > 28*P"]
+    assert told(found.verdict.hurwitz) == ["41 + 14*d^2 > 28*P"]
     d = mpmath.mpf("0.3")
     bound = (14 * d**2 + 41) / 28
     for P, stable in ((bound - 0.01, True), (bound + 0.01, False)):
