@@ -1,0 +1,295 @@
+"""Forms of L: singular, branches of functions, forces, H, linear terms, frames, light, units, names."""
+
+from __future__ import annotations
+
+from random import Random
+
+from ..system import CANONICAL, MAIN, System
+from .draw import gauge, kinetic, number, parameters, plane_map, polynomial, potential, whole
+
+
+def singular(rng: Random) -> System:
+    """Lagrangians whose Hessian is singular; at times the motion is determined all the same."""
+    L = rng.choice(
+        [
+            "m*x'^2/2 + y*x' - k*x^2/2",
+            "m*(x' + y')^2/2 - k*(x + y)^2/2",
+            "m*(x' - a*y')^2/2 - k*x^2/2 - g*y^2/2",
+            "x*y' - y*x' - k*(x^2 + y^2)/2",
+            "m*x'^2/2 - k*(x - y)^2/2",
+            "m*x'^2/2 + y*(x - a) - g*y^2",
+            "m*(x'*cos(y) + y'*sin(x))^2/2",
+            "m*x'^2*y/2 - k*x",
+            "x'*y^2 - k*x^2*y",
+            "m*(x*y' - y*x')^2/2 - k*x",
+        ]
+    )
+    made = System(
+        coordinates={"x": None, "y": None},
+        parameters=parameters("m", "k", "g", free=("a", "b")),
+        L=L,
+        sections=MAIN + CANONICAL,
+    )
+    if rng.random() < 0.4:
+        made.constraints = {"c1": rng.choice(["y = a*x", "x*y = 1", "y = sin(x)", "x + y = b*t"])}
+    return made
+
+
+def kinks(rng: Random) -> System:
+    """abs, sign, roots of squares, arcs of their functions."""
+    u = rng.choice(["x", "y", "x + y", "x - 2*y", "x*y"])
+    f = rng.choice(
+        [
+            "abs({u})", "abs({u})^3", "({u})*abs({u})", "sqrt(({u})^2)", "acos(cos({u}))",
+            "asin(sin({u}))", "atan(tan({u}))", "({u})^2*sign({u})", "atan2(y, x)",
+            "abs(sin({u}))", "sqrt(({u})^2 + abs(x))", "log(abs({u}))", "abs({u} - 1/7)",
+            "sign({u})*x", "sqrt(1 - cos({u})^2)", "abs(x)*abs(y)", "((({u})^2)^(3/2))",
+            "exp(log(1 + ({u})^2)/2)", "acosh(cosh({u}))", "atan(x/y)", "sqrt(x^2*y^2)",
+            "sqrt(x^2 + 2*x*y + y^2)", "abs(x^2 - y^2)", "sqrt((1 + sin({u}))^2)",
+        ]
+    ).format(u=u)  # fmt: skip
+    made = System(
+        coordinates={"x": None, "y": None},
+        parameters=parameters("m", "k", free=("a", "b")),
+        T=kinetic(("x", "y")),
+        V=f"a*{f} + k*y^2/2",
+        sections=MAIN + CANONICAL,
+    )
+    where = rng.random()
+    if where < 0.25:
+        made.V, made.forces = "k*x^2/2", {"x": f"b*{f}", "y": "-b*abs(y')*y'"}
+    elif where < 0.4:
+        made.T = f"m*(x'^2 + y'^2)/2 + m*(x'^2*({f})^2)/2"
+        made.V = "k*x^2/2"
+    elif where < 0.5:
+        made.V, made.constraints = "k*x^2/2", {"c1": rng.choice(["y = abs(x)", "abs(x) + abs(y) = 2"])}
+    if rng.random() < 0.3:
+        made.symmetries = {"s": {"x": "1", "y": "-1"}}
+    return made
+
+
+def damped(rng: Random) -> System:
+    """Dissipation and forces of the velocity."""
+    names = ("x", "y")
+    made = System(
+        coordinates=dict.fromkeys(names),
+        parameters=parameters("m", "k", "g", "c", "w", free=("a", "b")),
+        T=rng.choice([kinetic(names), "m*(x'^2 + x^2*y'^2)/2", "m*(x'^2 + y'^2 + x'*y'*cos(x))/2"]),
+        V=potential(rng, names),
+        sections=MAIN + CANONICAL,
+    )
+    made.dissipation = rng.choice(
+        [None, "c*x'^2/2", "c*(x' - y')^2/2", "c*(x'^2 + y'^2)^2", "c*x^2*y'^2/2", "c*sqrt(1 + x'^2)"]
+    )
+    made.forces = rng.choice(
+        [
+            {},
+            {"x": "b*y'", "y": "-b*x'"},
+            {"x": "-a*x'*sqrt(x'^2 + y'^2)"},
+            {"y": "b*cos(w*t)"},
+            {"x": "-k*y", "y": "k*x"},
+            {"x": "a*x*y' + b*t"},
+        ]
+    )
+    if rng.random() < 0.3:
+        made.constraints = {"c1": rng.choice(["y = a*x", "x^2 + y^2 = 4", "x' = a*x*y'", "y = x^2"])}
+    made.symmetries = {"s": {rng.choice(names): "1"}, "turn": {"x": "-y", "y": "x"}}
+    return made
+
+
+def hamiltonians(rng: Random) -> System:
+    """A file that gives H."""
+    kinetic_ = rng.choice(
+        [
+            "(p_x^2 + p_y^2)/(2*m)",
+            "p_x^2/(2*m) + p_y^2/(2*m*(1 + x^2))",
+            "((p_x - b*y)^2 + (p_y + b*x)^2)/(2*m)",
+            "(p_x^2 + p_x*p_y + p_y^2)/(2*m)",
+            "p_x^2/(2*m) + p_y^2/(2*m) + w*(x*p_y - y*p_x)",
+            "c*sqrt(m^2*c^2 + p_x^2 + p_y^2)",
+            "exp(x)*p_x^2/(2*m) + p_y^2/(2*m)",
+            "p_x^2/(2*m*exp(b*t)) + p_y^2/m",
+            "p_x*p_y/m",
+            "(p_x + t*p_y)^2/(2*m) + p_y^2/(2*m)",
+            "cosh(p_x) + p_y^2/(2*m)",
+            "p_x^2/(2*m) + exp(p_y)",
+        ]
+    )
+    return System(
+        coordinates={"x": None, "y": None},
+        parameters=parameters("m", "k", "g", "c", "w", free=("a", "b")),
+        H=f"{kinetic_} + {potential(rng, ('x', 'y'))}",
+        sections=MAIN + CANONICAL,
+    )
+
+
+def gyroscopic(rng: Random) -> System:
+    """Terms linear in the velocities."""
+    A = rng.choice(
+        [
+            "b*(x*y' - y*x')", "a*x*y'", "a*y^2*x' + b*x", "b*sin(x)*y'", "a*exp(y)*x' + b*t*y'",
+            "a*(x^2*y' - y^2*x')", "b*(x*y' - y*x')/(x^2 + y^2)", "a*x'*y + b*x'*x^2",
+        ]
+    )  # fmt: skip
+    return System(
+        coordinates={"x": None, "y": None},
+        parameters=parameters("m", "k", "g", free=("a", "b")),
+        L=f"m*(x'^2 + y'^2)/2 + {A} + {gauge(rng, 'x', 'y')[1]} - ({potential(rng, ('x', 'y'))})",
+        symmetries={"s": {"x": "1"}, "up": {"y": "1"}, "turn": {"x": "-y", "y": "x"}},
+        sections=MAIN + CANONICAL,
+    )
+
+
+def rotating(rng: Random) -> System:
+    """Turning frames and driven points of support."""
+    X, Y = rng.choice(
+        [
+            ("x*cos(w*t) - y*sin(w*t)", "x*sin(w*t) + y*cos(w*t)"),
+            ("a*cos(w*t) + l*sin(x)", "a*sin(w*t) - l*cos(x) + y*0"),
+            ("x*cos(w*t)", "x*sin(w*t) + y"),
+            ("x*cos(y + w*t)", "x*sin(y + w*t)"),
+            ("x + b*t^2/2", "y + a*sin(w*t)"),
+            ("x*exp(b*t)", "y*exp(-b*t)"),
+        ]
+    )
+    names = ("x",) if "y*0" in Y else ("x", "y")
+    made = System(
+        coordinates=dict.fromkeys(names),
+        parameters=parameters("m", "k", "g", "l", "w", free=("a", "b")),
+        points={"P": ([X, Y.replace(" + y*0", "")], "m")},
+        V=potential(rng, names) if rng.random() < 0.7 else f"m*g*({Y})",
+        sections=MAIN + CANONICAL,
+    )
+    made.V = made.V.replace(" + y*0", "")
+    return made
+
+
+def central(rng: Random) -> System:
+    """Central forces in several coordinates."""
+    V = rng.choice(["-k/{r}", "k*{r}^2/2", "k*log({r})", "-k*exp(-{r}/b^2)/{r}", "k*{r}^a", "k/{r}^2"])
+    where = rng.choice(["polar", "cartesian", "spherical", "cylindrical"])
+    made = System(coordinates={}, parameters=parameters("m", "k", free=("a", "b")))
+    made.sections = MAIN + CANONICAL
+    r = "sqrt(x^2 + y^2 + z^2)"
+    if where == "polar":
+        made.coordinates, r = {"r": "positive", "phi": None}, "r"
+        made.T, made.symmetries = "m*(r'^2 + r^2*phi'^2)/2", {"s": {"phi": "1"}}
+        if rng.random() < 0.3:
+            made.symmetries = {"s": {"phi": str(whole(rng))}}
+    elif where == "cartesian":
+        made.coordinates = dict.fromkeys("xyz")
+        made.T, made.symmetries = kinetic("xyz"), {"s": {"y": "-z", "z": "y"}}
+    elif where == "cylindrical":
+        made.coordinates, r = {"r": "positive", "phi": None, "z": None}, "sqrt(r^2 + z^2)"
+        made.T = "m*(r'^2 + r^2*phi'^2 + z'^2)/2"
+        made.symmetries = {"s": {"r": "-z*cos(phi)", "z": "r*cos(phi)", "phi": "z*sin(phi)/r"}}
+    else:
+        made.coordinates, r = {"r": "positive", "theta": "positive", "phi": None}, "r"
+        made.T = "m*(r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2"
+        made.symmetries = {"s": {"theta": "sin(phi)", "phi": "cos(phi)*cot(theta)"}}
+    made.V = V.format(r=r)
+    made.known["conserved"] = {"s": True}
+    return made
+
+
+def relativistic(rng: Random) -> System:
+    """Roots of the velocity."""
+    names = rng.choice([("x",), ("x", "y")])
+    square = " + ".join(f"{name}'^2" for name in names)
+    if names == ("x", "y") and rng.random() < 0.4:
+        square = "x'^2 + (1 + x^2)*y'^2"
+    V = rng.choice(["k*x^2/2", "g*x", "0", f"k*({polynomial(rng, names, 2)})"])
+    made = System(
+        coordinates=dict.fromkeys(names),
+        parameters=parameters("m", "k", "g", "c", free=("b",)),
+        L=f"-m*c^2*sqrt(1 - ({square})/c^2) - ({V})" + rng.choice(["", "", f" + b*x*{names[-1]}'"]),
+        symmetries={"s": {"x": "1"}},
+        sections=MAIN + CANONICAL,
+        known={"slow": "0"},
+    )
+    made.known["slow"] = __import__("mpmath").mpf("0.12")
+    return made
+
+
+def growing_mass(rng: Random) -> System:
+    """Masses and springs that depend on the time."""
+    f = rng.choice(["exp(b*t)", "(1 + t)", "(1 + a^2*t^2)", "(2 + cos(w*t))", "t^2", "1/(1 + t)"])
+    names = rng.choice([("x",), ("x", "y")])
+    made = System(
+        coordinates=dict.fromkeys(names),
+        parameters=parameters("m", "k", "g", "w", free=("a", "b")),
+        L=f"{f}*({kinetic(names)} - ({potential(rng, names)}))",
+        sections=MAIN + CANONICAL,
+    )
+    if rng.random() < 0.5:
+        made.L = f"exp(b*t)*(m*x'^2/2 - k*x^2/2){'' if names == ('x',) else ' + m*y' + chr(39) + '^2/2'}"
+        made.symmetries = {"s": {"t": "1", "x": "-b*x/2"}}
+        made.known["conserved"] = {"s": names == ("x",) or None}
+        if names != ("x",):
+            made.known = {"conserved": {"s": True}}
+    return made
+
+
+def units(rng: Random) -> System:
+    """Decimals, values and units."""
+    c = rng.choice(["0.5", "1.25", "0.1", "2.", "1e-1", "0.333", "12.5e-2"])
+    made = System(
+        coordinates={"x": None, "theta": None},
+        parameters={"m": "positive", "M": "positive", "l": "positive", "g": "positive", "k": "positive"},
+        units={"x": "m", "theta": "rad", "m": "kg", "M": "kg", "l": "m", "g": "m/s^2", "k": "N/m"},
+        values={"M": rng.choice(["3*m", "2.5*m"])} if rng.random() < 0.3 else {},
+        T=f"M*x'^2/2 + {c}*m*(x'^2 + l^2*theta'^2 + 2*l*x'*theta'*cos(theta))",
+        V=f"-{c}*m*g*l*cos(theta)" + rng.choice(["", " + k*x^2/2", f" + {c}*k*x^2"]),
+        sections=MAIN + CANONICAL,
+    )
+    made.parameters["M"] = "positive"
+    if rng.random() < 0.4:
+        made.constraints = {"c1": rng.choice(["x = l*theta", f"x = {c}*l*sin(theta)", "x = l"])}
+    made.symmetries = {"s": {"x": "l"}}
+    return made
+
+
+def names(rng: Random) -> System:
+    """Names that mean something to other programs, and long ones."""
+    pool = ["I", "E", "S", "N", "Q", "O", "C", "lambda", "beta", "gamma", "zeta", "e", "i", "pi_1",
+            "GF", "oo", "zoo", "nan", "true", "None", "print", "D", "d", "Ω", "λ", "φ", "theta_1",
+            "x1", "x_1", "alpha_beta_gamma", "the_position_of_the_first_body", "H", "T_", "V_",
+            "Q1", "p", "q", "h", "delta", "Delta_t", "f", "in_", "and_", "s1", "s2", "u"]  # fmt: skip
+    rng.shuffle(pool)
+    x, y, m, k, g = pool[:5]
+    made = System(
+        coordinates={x: None, y: None},
+        parameters={m: "positive", k: "positive", g: None},
+        T=f"{m}*({x}'^2 + {y}'^2)/2 + {m}*{x}'*{y}'*cos({x})/3",
+        V=f"{k}*{x}^2/2 + {g}*{x}*{y} + {k}*cos({y})",
+        sections=MAIN + CANONICAL,
+    )
+    if rng.random() < 0.5:
+        made.constraints = {pool[5]: rng.choice([f"{y} = {g}*{x}", f"{x}^2 + {y}^2 = 1", f"{x}' = {y}*{y}'"])}
+    if rng.random() < 0.3:
+        made.functions = {pool[6]: ["u"]}
+        made.V += f" + {pool[6]}({x} - {y})"
+    made.symmetries = {pool[7]: {x: "1", y: "1"}}
+    return made
+
+
+def curved(rng: Random) -> System:
+    """Points on maps of the plane, with forces of every sort: formulas of some length."""
+    X, Y, _, assumed = plane_map(rng, "x", "y")
+    return System(
+        coordinates=assumed,
+        parameters=parameters("m", "k", "g", free=("a", "b")),
+        points={"P": ([X, Y], "m"), "Q1": (["x", "y"], "2*m")} if rng.random() < 0.4 else {"P": ([X, Y], "m")},
+        V=potential(rng, ("x", "y")),
+        forces=rng.choice([{}, {"x": f"a*x' + ({number(rng)})*y"}, {"y": "b*t*x'"}]),
+        sections=MAIN + CANONICAL,
+    )
+
+
+KINDS = {
+    function.__name__: function
+    for function in (
+        singular, kinks, damped, hamiltonians, gyroscopic, rotating, central, relativistic,
+        growing_mass, units, names, curved,
+    )
+}  # fmt: skip

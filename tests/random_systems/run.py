@@ -1,0 +1,134 @@
+"""Random systems, solved and judged: `python -m tests.random_systems.run --count 500`.
+
+One worker imports once and forks for each system, so that a crash or a hang is one system's.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import random
+import select
+import signal
+import sys
+import time
+import traceback
+from collections import Counter
+from dataclasses import asdict
+from pathlib import Path
+
+from lagcli.diagnostics import ProblemError
+from lagcli.formatters.json import to_object
+from lagcli.pipeline import Request, derive, read, state
+
+from .judge import Finding, Judge
+from .kinds import KINDS
+from .system import System
+
+LIMIT = 60
+
+
+def system(kind: str, number: int) -> System:
+    """The system of a kind and a number, always the same."""
+    made = KINDS[kind](random.Random(f"{kind} {number}"))
+    made.kind, made.seed = kind, number
+    return made
+
+
+def answer(made: System) -> dict:
+    """What lagcli says of it, as JSON; {"refused": sentences} where it refuses."""
+    found = read(made.kind, made.text.encode())
+    if found.problem is None:
+        return {"refused": [each.message for each in found.diagnostics]}
+    try:
+        answers = state(derive(found.problem), Request(sections=tuple(made.sections)))
+    except ProblemError as error:
+        return {"refused": [each.message for each in error.diagnostics]}
+    return json.loads(json.dumps(to_object(answers)))
+
+
+def judged(made: System) -> list[Finding]:
+    """What is wrong or missing in what lagcli says of a system."""
+    try:
+        sheet = answer(made)
+    except Exception:  # noqa: BLE001 - a crash is a finding
+        return [Finding("crash", "", traceback.format_exc(limit=-3))]
+    if "refused" in sheet:
+        if not made.known.get("valid", True):
+            return []
+        judge = Judge(made, {"warnings": []}, count=1)
+        verdict = "wrong" if judge.states else "refused"
+        return [Finding(verdict, "refused", " / ".join(sheet["refused"]))]
+    if not made.known.get("valid", True):
+        return [Finding("wrong", "accepted", "no state satisfies the constraints")]
+    judge = Judge(made, sheet)
+    if not judge.states and not judge.stuck:
+        return [Finding("judge", "", "no state was found")]
+    return judge.examine()
+
+
+def in_a_fork(made: System, limit: float = LIMIT) -> tuple[list[dict], float]:
+    """The findings of one system, from a process of its own, and the seconds it took."""
+    began, (reading, writing) = time.perf_counter(), os.pipe()
+    child = os.fork()
+    if child == 0:
+        try:
+            os.close(reading)
+            found = [asdict(each) for each in judged(made)]
+        except BaseException:  # noqa: BLE001
+            found = [asdict(Finding("judge", "", traceback.format_exc(limit=-4)))]
+        with os.fdopen(writing, "w") as out:
+            json.dump(found, out)
+        os._exit(0)
+    os.close(writing)
+    ready, _, _ = select.select([reading], [], [], limit)
+    if not ready:
+        os.kill(child, signal.SIGKILL)
+    text = os.fdopen(reading).read() if ready else ""
+    os.waitpid(child, 0)
+    seconds = time.perf_counter() - began
+    if not ready:
+        return [asdict(Finding("slow", "", f"over {limit} s"))], seconds
+    return json.loads(text or '[{"verdict": "crash", "section": "", "what": "died"}]'), seconds
+
+
+def main() -> None:
+    options = argparse.ArgumentParser(description=__doc__)
+    options.add_argument("--count", type=int, default=100, help="systems of each kind")
+    options.add_argument("--first", type=int, default=0, help="the first number")
+    options.add_argument("--kinds", default=",".join(KINDS))
+    options.add_argument("--limit", type=float, default=LIMIT)
+    options.add_argument("--keep", type=Path, help="findings, one JSON object a line")
+    options.add_argument("--show", action="store_true", help="the file of what is not right")
+    chosen = options.parse_args()
+    totals = Counter()
+    for kind in chosen.kinds.split(","):
+        counts, began = Counter(), time.perf_counter()
+        for number in range(chosen.first, chosen.first + chosen.count):
+            made = system(kind, number)
+            found, seconds = in_a_fork(made, chosen.limit)
+            for verdict in {each["verdict"] for each in found} or {"right"}:
+                counts[verdict] += 1
+            if found:
+                for each in found[:4]:
+                    print(f"{kind} {number} {each['verdict']} {each['section']}: {each['what'][:300]}")
+                if chosen.show:
+                    print(made.text)
+                if chosen.keep:
+                    line = {"kind": kind, "number": number, "seconds": seconds, "found": found}
+                    with chosen.keep.open("a") as out:
+                        out.write(json.dumps(line | {"text": made.text}) + "\n")
+                sys.stdout.flush()
+        totals.update(counts)
+        print(f"== {kind}: {dict(counts)} {time.perf_counter() - began:.0f} s", flush=True)
+    print(f"== all: {dict(totals)}")
+
+
+if __name__ == "__main__":
+    # what is imported before the fork is not imported in it
+    import lagcli.mechanics.statements
+    import lagcli.mechanics.discovery.discovery
+    import lagcli.mechanics.oscillations.small_oscillations  # noqa: F401
+
+    main()
