@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from mpmath import mpf
 
-from . import linear, rest
+from . import linear, phase, rest
 from .grammar import Undefined, Unreadable, read, sides
 from .motion import Motion, State, rate, slope
 from .system import System
@@ -105,6 +105,11 @@ class Judge:
             rest.equilibria(self, self.sheet["equilibria"])
         if "modes" in self.sheet:
             rest.modes(self, self.sheet["modes"])
+        for section in (
+            "brackets", "canonical", "reduction", "steady_motions", "hamilton_jacobi", "forces",
+        ):  # fmt: skip
+            if self.sheet.get(section) is not None:
+                getattr(phase, section)(self, self.sheet[section])
         return self.found
 
     # -- the equations ------------------------------------------------------------------

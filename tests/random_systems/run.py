@@ -6,18 +6,19 @@ One worker imports once and forks for each system, so that a crash or a hang is 
 from __future__ import annotations
 
 import argparse
+import importlib
 import json
 import os
+import pkgutil
 import random
-import select
-import signal
+import resource
 import sys
-import time
 import traceback
 from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
 
+import lagcli
 from lagcli.diagnostics import ProblemError
 from lagcli.formatters.json import to_object
 from lagcli.pipeline import Request, derive, read, state
@@ -69,12 +70,13 @@ def judged(made: System) -> list[Finding]:
 
 
 def in_a_fork(made: System, limit: float = LIMIT) -> tuple[list[dict], float]:
-    """The findings of one system, from a process of its own, and the seconds it took."""
-    began, (reading, writing) = time.perf_counter(), os.pipe()
+    """The findings of one system, from a process of its own, and the seconds of a processor it took."""
+    reading, writing = os.pipe()
     child = os.fork()
     if child == 0:
         try:
             os.close(reading)
+            resource.setrlimit(resource.RLIMIT_CPU, (int(limit), int(limit) + 5))
             found = [asdict(each) for each in judged(made)]
         except BaseException:  # noqa: BLE001
             found = [asdict(Finding("judge", "", traceback.format_exc(limit=-4)))]
@@ -82,15 +84,14 @@ def in_a_fork(made: System, limit: float = LIMIT) -> tuple[list[dict], float]:
             json.dump(found, out)
         os._exit(0)
     os.close(writing)
-    ready, _, _ = select.select([reading], [], [], limit)
-    if not ready:
-        os.kill(child, signal.SIGKILL)
-    text = os.fdopen(reading).read() if ready else ""
-    os.waitpid(child, 0)
-    seconds = time.perf_counter() - began
-    if not ready:
-        return [asdict(Finding("slow", "", f"over {limit} s"))], seconds
-    return json.loads(text or '[{"verdict": "crash", "section": "", "what": "died"}]'), seconds
+    with os.fdopen(reading) as answer_:
+        text = answer_.read()
+    _, status, used = os.wait4(child, 0)
+    seconds = used.ru_utime + used.ru_stime
+    if text:
+        return json.loads(text), seconds
+    verdict = "slow" if seconds >= limit else "crash"
+    return [asdict(Finding(verdict, "", f"status {status} after {seconds:.0f} s"))], seconds
 
 
 def main() -> None:
@@ -102,33 +103,38 @@ def main() -> None:
     options.add_argument("--keep", type=Path, help="findings, one JSON object a line")
     options.add_argument("--show", action="store_true", help="the file of what is not right")
     chosen = options.parse_args()
-    totals = Counter()
-    for kind in chosen.kinds.split(","):
-        counts, began = Counter(), time.perf_counter()
-        for number in range(chosen.first, chosen.first + chosen.count):
+    totals = {kind: Counter() for kind in chosen.kinds.split(",")}
+    for number in range(chosen.first, chosen.first + chosen.count):
+        for kind, counts in totals.items():
             made = system(kind, number)
             found, seconds = in_a_fork(made, chosen.limit)
             for verdict in {each["verdict"] for each in found} or {"right"}:
                 counts[verdict] += 1
-            if found:
-                for each in found[:4]:
-                    print(f"{kind} {number} {each['verdict']} {each['section']}: {each['what'][:300]}")
-                if chosen.show:
-                    print(made.text)
-                if chosen.keep:
-                    line = {"kind": kind, "number": number, "seconds": seconds, "found": found}
-                    with chosen.keep.open("a") as out:
-                        out.write(json.dumps(line | {"text": made.text}) + "\n")
-                sys.stdout.flush()
-        totals.update(counts)
-        print(f"== {kind}: {dict(counts)} {time.perf_counter() - began:.0f} s", flush=True)
-    print(f"== all: {dict(totals)}")
+            _report(chosen, made, found, seconds)
+    for kind, counts in totals.items():
+        print(f"{kind:16} {dict(counts)}")
+    print(f"all: {dict(sum(totals.values(), Counter()))}")
+
+
+def _report(chosen, made, found, seconds):
+    for each in found[:4]:
+        print(f"{made.kind} {made.seed} {each['verdict']} {each['section']}: {each['what'][:300]}")
+    if found and chosen.show:
+        print(made.text)
+    if chosen.keep and (found or seconds > 8):
+        line = {"kind": made.kind, "number": made.seed, "seconds": seconds, "found": found}
+        with chosen.keep.open("a") as out:
+            out.write(json.dumps(line | {"text": made.text}) + "\n")
+    sys.stdout.flush()
+
+
+def _import_all() -> None:
+    """What is imported before the fork is not imported in it, nor changed under way."""
+    for module in pkgutil.walk_packages(lagcli.__path__, "lagcli."):
+        if not module.name.endswith("__main__"):
+            importlib.import_module(module.name)
 
 
 if __name__ == "__main__":
-    # what is imported before the fork is not imported in it
-    import lagcli.mechanics.statements
-    import lagcli.mechanics.discovery.discovery
-    import lagcli.mechanics.oscillations.small_oscillations  # noqa: F401
-
+    _import_all()
     main()

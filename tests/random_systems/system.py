@@ -38,6 +38,8 @@ class System:
     dissipation: str | None = None
     constraints: dict[str, str] = field(default_factory=dict)
     symmetries: dict[str, dict[str, str]] = field(default_factory=dict)
+    observables: dict[str, str] = field(default_factory=dict)
+    canonical: dict[str, dict[str, str]] = field(default_factory=dict)
     sections: tuple[str, ...] = MAIN
     known: dict = field(default_factory=dict)
 
@@ -61,16 +63,22 @@ class System:
                 lines += [f'{key}: "{getattr(self, key)}"']
         lines += _block("forces", self.forces)
         lines += _block("constraints", self.constraints)
-        if self.symmetries:
-            lines += ["symmetries:"]
-        for name, change in self.symmetries.items():
-            inside = ", ".join(f'{key}: "{value}"' for key, value in change.items())
-            lines += [f"  {name}: {{{inside}}}"]
+        lines += _maps("symmetries", self.symmetries)
+        lines += _block("observables", self.observables)
+        lines += _maps("canonical_transformations", self.canonical)
         return "\n".join(lines) + "\n"
 
 
 def _block(key, entries):
     return [f"{key}:", *(f'  {name}: "{value}"' for name, value in entries.items())] * bool(entries)
+
+
+def _maps(key, entries):
+    lines = [f"{key}:"] * bool(entries)
+    for name, values in entries.items():
+        inside = ", ".join(f'{key}: "{value}"' for key, value in values.items())
+        lines.append(f"  {name}: {{{inside}}}")
+    return lines
 
 
 def _attributed(entries, values, units):

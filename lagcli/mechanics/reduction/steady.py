@@ -415,7 +415,10 @@ class SteadyMotions:
 
     def _regularized(self, q: Symbol, place: Expr, block: list[list[Expr]]) -> list[Steady]:
         momenta = self.routh.momenta
-        rows = nullspace([[at(entry, {q: place}) for entry in row] for row in block])
+        there = [[at(entry, {q: place}) for entry in row] for row in block]
+        if any(entry.has(sympy.zoo, sympy.nan) for row in there for entry in row):
+            return []
+        rows = nullspace(there)
         conditions = [
             sympy.Add(*(v * p for v, p in zip(row, momenta, strict=True))) for row in rows
         ]
