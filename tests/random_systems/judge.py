@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mpmath import mpf
 
 from . import linear, phase, rest
 from .grammar import Undefined, Unreadable, read, sides
-from .motion import Motion, State, rate, slope
+from .motion import H, Motion, State, rate, slope
 from .system import System
 
 TOLERANCE = mpf(10) ** -10
@@ -347,6 +347,9 @@ class Judge:
             if said != conserved:
                 verdict = "missing" if said is None else "wrong"
                 self.say(verdict, "charges", f"{name} conserved: {said}, not {conserved}")
+        for name in self.system.symmetries:
+            if by_name.get(name, {}).get("conserved") is False and self._has_gauge(name):
+                self.say("wrong", "charges", f"{name} is conserved: its K is a total derivative")
         if any(self._free(solved) for solved in self.states):
             return
         energy = all(close(rate(self.h, solved[0]), mpf(0)) for solved in self.states)
@@ -356,6 +359,34 @@ class Judge:
             self.say(verdict, "energy", f"it is conserved, not {said}")
         if not energy and said is None and "energy" in self.sheet:
             self.say("missing", "energy", "it is not conserved")
+
+    def _has_gauge(self, name):
+        """Whether Euler's operator takes K to 0, where nothing acts beside L."""
+        change, motion = self.system.symmetries[name], self.motion
+        if motion.constraints or motion.forces or motion.D is not None or "gauge" in change:
+            return False
+        if any("'" in text for text in change.values()):
+            return False
+        moves = [read(change.get(q, "0")) for q in motion.coordinates]
+        clock = read(change.get("t", "0"))
+
+        def K(state):
+            still = replace(state, a=[mpf(0)] * motion.n)
+            stretch = rate(lambda s: clock(motion.names(s)), still)
+            total, dt = mpf(0), clock(motion.names(state))
+            for i, dq in enumerate(moves):
+                Dq = rate(lambda s, dq=dq: dq(motion.names(s)), still)
+                total += slope(motion.L, state, "q", i) * dq(motion.names(state))
+                total += slope(motion.L, state, "v", i) * (Dq - state.v[i] * stretch)
+            later, earlier = (motion.L(replace(state, t=state.t + h)) for h in (H, -H))
+            return total + (later - earlier) / (2 * H) * dt + motion.L(state) * stretch
+
+        state = replace(self.states[0][0], a=[mpf(7) / 5 - i for i in range(motion.n)])
+        return all(
+            abs(rate(lambda s, i=i: slope(K, s, "v", i), state) - slope(K, state, "q", i))
+            < mpf(10) ** -8
+            for i in range(motion.n)
+        )
 
     def all_discovered(self, printed):
         """Charges that must be found: each is a function of the printed ones, by gradients."""

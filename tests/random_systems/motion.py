@@ -20,6 +20,7 @@ from .system import System
 
 mp.dps = 70
 H = mpf(10) ** -12
+FREE = (None, "nonzero")
 
 
 @dataclass
@@ -72,7 +73,7 @@ class Motion:
 
     def _number(self, assume):
         size = mpf(self.rng.randint(300, 2500)) / 1009
-        negative = assume == "negative" or (assume is None and self.rng.random() < 0.5)
+        negative = assume == "negative" or (assume in FREE and self.rng.random() < 0.5)
         return -size if negative else size
 
     def names(self, state: State):
@@ -85,6 +86,12 @@ class Motion:
             table[name] = text(table)
             table[name + "'"] = _total_derivative(self, name, state)
         return table
+
+    @cached_property
+    def kinked(self):
+        """Whether a constraint may have a kink where a coordinate is 0."""
+        texts = " ".join(self.system.constraints.values())
+        return any(name in texts for name in ("abs", "sign", "sqrt", "log", "atan"))
 
     @cached_property
     def definitions(self):
@@ -179,10 +186,10 @@ class Motion:
     def _anywhere(self):
         q = [
             mpf(self.rng.randint(100, 1900)) / 1013
-            * (-1 if assume is None and self.rng.random() < 0.5 else 1)
+            * (-1 if assume == "negative" or (assume in FREE and self.rng.random() < 0.5) else 1)
             for assume in self.system.coordinates.values()
         ]  # fmt: skip
-        slow = self.system.known.get("slow", 1)
+        slow = mpf(self.system.known.get("slow", 1))
         v = [mpf(self.rng.randint(-1500, 1500)) / 1021 * slow for _ in q]
         state = State(q, v, mpf(self.rng.randint(100, 1500)) / 1019, [mpf(0)] * self.n)
         if self.system.H:
@@ -204,7 +211,9 @@ class Motion:
             if holonomic:
                 return None
         for q, assume in zip(state.q, self.system.coordinates.values(), strict=True):
-            if assume == "positive" and q <= mpf("0.01"):
+            if abs(q) < mpf("0.001") and (assume is not None or self.kinked):
+                return None
+            if q * {"positive": 1, "negative": -1}.get(assume, 0) < 0:
                 return None
         if max(map(abs, state.q)) > 50:
             return None

@@ -198,8 +198,32 @@ def _stability(judge, each, linear_):
         safe = False
     if (said is True and unstable) or (said is False and safe):
         judge.say("wrong", "equilibria", f"{where}: roots {[mp.nstr(x, 5) for x in s]}")
+    if said is not None and not unstable and not safe and minimum:
+        _flat(judge, each, linear_, where)
     if said is None:
         _conditions(judge, each, linear_, s, where, unstable or safe)
+
+
+def _flat(judge, each, linear_, where):
+    """Where the second derivatives do not decide, V is compared around the place."""
+    motion = judge.motion
+    if motion.constraints or motion.forces or motion.D is not None or each.get("free"):
+        return
+    if "on" in each or max(abs(x) for row in linear_.C for x in row) > NEAR:
+        return
+    q = [read(each["at"][name])(motion.constants) for name in motion.coordinates]
+    U0, around = -motion.L(_rest(motion, q)), []
+    for k in range(60):
+        angle = [mp.cos(k * mp.pi / 30 + j * mp.pi / 2) for j in range(motion.n)]
+        near = [x + a * mpf("1e-3") for x, a in zip(q, angle, strict=True)]
+        around.append(-motion.L(_rest(motion, near)) - U0)
+    low = min(around)
+    if (each["stable"] and low < -mpf("1e-20")) or (not each["stable"] and low > mpf("1e-16")):
+        judge.say("wrong", "equilibria", f"{where}: around it U - U0 is at least {short(low)}")
+
+
+def short(value):
+    return mp.nstr(value, 5)
 
 
 def _conditions(judge, each, linear_, s, where, decided):
@@ -342,7 +366,7 @@ def modes(judge, printed):
         return
     by_place = {}
     for mode in printed:
-        if "on" in mode or "free" in mode:
+        if "on" in mode or set(mode["at"]) != set(motion.coordinates):
             continue
         by_place.setdefault(str(mode["at"]), []).append(mode)
     for some in by_place.values():

@@ -59,8 +59,9 @@ def judged(made: System) -> list[Finding]:
         if not made.known.get("valid", True):
             return []
         judge = Judge(made, {"warnings": []}, count=1)
-        verdict = "wrong" if judge.states else "refused"
-        return [Finding(verdict, "refused", " / ".join(sheet["refused"]))]
+        if not judge.states:
+            return []  # no regular state is known, so that nothing contradicts it
+        return [Finding("wrong", "refused", " / ".join(sheet["refused"]))]
     if not made.known.get("valid", True):
         return [Finding("wrong", "accepted", "no state satisfies the constraints")]
     judge = Judge(made, sheet)

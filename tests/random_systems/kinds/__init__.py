@@ -1,5 +1,9 @@
 """The kinds of random systems, by name: a generator of random numbers -> a system."""
 
-from . import constraints, forms, further, resting, symmetries
+from . import constraints, corners, forms, further, resting, symmetries
 
-KINDS = constraints.KINDS | symmetries.KINDS | forms.KINDS | resting.KINDS | further.KINDS
+KINDS = {
+    name: kind
+    for file in (constraints, symmetries, forms, resting, further, corners)
+    for name, kind in file.KINDS.items()
+}
