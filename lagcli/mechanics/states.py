@@ -28,6 +28,7 @@ _ATTEMPTS = 40
 _NEWTON_STEPS = 60
 _AS_DRAWN = 20  # attempts with the parameters as they were drawn
 _SURFACES = 8  # at most
+_NEAR = 3  # states drawn near 0, before those that come from afar
 
 State = dict[Symbol, mpf]
 
@@ -137,14 +138,16 @@ class RandomStates:
 
     # -- drawing ------------------------------------------------------------------------
 
-    def _draw(self, source: random.Random, scale: float) -> State:
+    def _draw(self, source: random.Random, scale: float, *, wide: bool) -> State:
         state: State = {}
         system = self.system
         for parameter in system.parameters:
             state[parameter] = random_value(source, parameter, 0.6, 1.7)
         state[system.t] = mpf(source.randint(100, 900)) / 1009
         for q in system.q:
-            state[q] = random_value(source, q, 0.3, 1.3)
+            state[q] = random_value(source, q, 0.3, 3.3 if wide else 1.3)
+            if wide and source.random() < 0.3 and _has_assumed_sign(q, -state[q]):
+                state[q] = -state[q]
         for v in system.qdot:
             state[v] = random_value(source, v, 0.1, 0.9) * scale
         return state
@@ -159,7 +162,9 @@ class RandomStates:
             self._f, self._f_rows = self._surfaces[draw % self.surfaces]
             scale = 1.0 if attempts % 3 else 0.1
             with mpmath.workdps(DIGITS + _GUARD):
-                state = self._draw(source, scale)
+                # the branches of x^2 = y^2 or cos(x) = cos(y) are met from all sides
+                wide = len(self._kept) >= _NEAR and attempts % 2 == 1
+                state = self._draw(source, scale, wide=wide)
                 if attempts > _AS_DRAWN:
                     self._adapt(state, draw % self.surfaces)
                 failed = self._project(state)

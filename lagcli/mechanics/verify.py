@@ -21,6 +21,8 @@ from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates, State, 
 from lagcli.record import record
 
 _STATES = 3
+#: A surface may have branches: of x^2 y = x y^2 three states met one, twelve all of three.
+_STATES_OF_SURFACES = 12
 _ZERO = mpf(10) ** -(DIGITS - 12)  # of the sum of magnitudes: cancelled
 _NONZERO = mpf(10) ** -20
 
@@ -76,7 +78,9 @@ class Verifier:
 
     def vanishes_at_random_states(self, expressions: Sequence[Expr]) -> bool | None:
         """The numeric test; None where no state could be evaluated."""
-        wanted = max(_STATES, 2 * self.states.surfaces)
+        bent = any(equation.holonomic for equation in self.constraints.equations)
+        few = _STATES_OF_SURFACES if bent else _STATES
+        wanted = max(few, 2 * self.states.surfaces)
         return self._vanishes_at(expressions, self._states(4 * wanted), wanted)
 
     def _states(self, most: int) -> Iterator[State]:

@@ -113,7 +113,7 @@ class _Parser:
         self.at += 1
         if kind == "number":
             number = mpf(text)
-            return lambda names: number
+            return lambda _: number
         if kind == "name":
             return self.name(text, primes)
         if text == "(":
@@ -125,6 +125,8 @@ class _Parser:
     def name(self, text, primes):
         if text == "diff" and self.take("("):
             return self.derivative()
+        if text == "integral" and self.take("("):
+            return self.integral()
         if not self.take("("):
             return _pi if text == "pi" else _lookup(text + "'" * primes)
         arguments = self.arguments()
@@ -132,6 +134,16 @@ class _Parser:
             return _elementary(FUNCTIONS[text], arguments)
         slots = (1,) * primes
         return lambda names: _declared(names, text, slots, arguments)
+
+    def integral(self):
+        """integral(f, x, a, b): of f by x from a to b."""
+        body = self.sum()
+        self.need(",")
+        by = self.here[1]
+        self.at += 1
+        self.need(",")
+        low, high = self.arguments()
+        return lambda names: mp.quad(lambda x: body(names | {by: x}), [low(names), high(names)])
 
     def arguments(self):
         found = [self.sum()]
@@ -163,6 +175,8 @@ class _Parser:
 def _slope(body, names, by):
     up, down = dict(names), dict(names)
     up[by], down[by] = names[by] + STEP, names[by] - STEP
+    for name, formula in names.get("#definitions", {}).items():
+        up[name], down[name] = formula(up), formula(down)
     return (body(up) - body(down)) / (2 * STEP)
 
 
@@ -264,4 +278,3 @@ class Unspecified:
         first = sum(a * each for a, each in zip(self.a, x, strict=True))
         second = sum(b * each for b, each in zip(self.b, x, strict=True))
         return rise * mp.exp(first) + turn * mp.sin(second + self.c + len(slots) * mp.pi / 2)
-

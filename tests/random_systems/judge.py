@@ -16,7 +16,8 @@ TOLERANCE = mpf(10) ** -10
 
 @dataclass(frozen=True)
 class Finding:
-    """`verdict` is "wrong" (a false claim) or "missing" (an answer that there is)."""
+    """`verdict` is "wrong" (a false claim), "missing" (an answer that there is) or "trivial" (a charge
+    that is a constant because of the constraints)."""
 
     verdict: str
     section: str
@@ -275,6 +276,8 @@ class Judge:
     def charges(self, printed, section):
         for each in printed:
             label = f"{each['name']}:"
+            if each["conserved"] and each["charge"] is None:
+                continue  # a charge that is 0: no result
             if each["conserved"] is None or each["charge"] is None:
                 self.say("missing", section, f"{label} undecided")
                 continue
@@ -305,7 +308,7 @@ class Judge:
             for solved, change in zip(self.states, rates, strict=True):
                 self.same(section, each["rate"], change, self.names(solved), f"{label} rate")
         if len(values) > 1 and all(close(value, values[0]) for value in values):
-            self.say("wrong", section, f"{label} {each['charge']} is a constant")
+            self.say("trivial", section, f"{label} {each['charge']} is a constant")
         self._noether(each, section, label)
 
     def _noether(self, each, section, label):

@@ -82,9 +82,11 @@ class Motion:
         table["t"] = state.t
         for name, q, v, a in zip(self.coordinates, state.q, state.v, state.a, strict=True):
             table[name], table[name + "'"], table[name + "''"] = q, v, a
-        for name, text in self.definitions.items():
+        for i, (name, text) in enumerate(self.definitions.items()):
+            table["#definitions"] = dict(list(self.definitions.items())[:i])
             table[name] = text(table)
             table[name + "'"] = _total_derivative(self, name, state)
+        table["#definitions"] = self.definitions
         return table
 
     @cached_property

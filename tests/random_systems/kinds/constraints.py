@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from random import Random
 
-from ..system import CANONICAL, MAIN, System
+from tests.random_systems.system import CANONICAL, MAIN, System
+
 from .draw import kinetic, number, parameters, potential, whole
 
 

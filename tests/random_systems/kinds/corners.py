@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 from random import Random
 
-from ..system import CANONICAL, MAIN, REST, System
+from tests.random_systems.system import CANONICAL, MAIN, REST, System
+
 from .draw import kinetic, parameters, potential
 
 
@@ -53,7 +55,9 @@ def corner_constraints(rng: Random) -> System:
     made = System(
         coordinates=dict.fromkeys(names),
         parameters=parameters("m", "k", "g", "l", "w", "max_", free=("a", "b")),
-        T=rng.choice([kinetic(names), kinetic(names) + " + m*x'*y'/2", kinetic(names) + " + m*x^2*y'^2/2"]),
+        T=rng.choice(
+            [kinetic(names), kinetic(names) + " + m*x'*y'/2", kinetic(names) + " + m*x^2*y'^2/2"]
+        ),
         V=potential(rng, names),
         constraints={f"c{i}": text for i, text in enumerate(constraints)},
         symmetries={"r": {"x": "-y", "y": "x"}, "s": {"x": "1", "y": "1"}},
@@ -138,7 +142,8 @@ def corner_functions(rng: Random) -> System:
         functions={"U": ["s"], "W": ["u", "s"]},
         T=T,
         V=V,
-        sections=MAIN + (CANONICAL if "x')" not in T and "^4" not in T and ")^2/4" not in T else ()),
+        sections=MAIN
+        + (CANONICAL if "x')" not in T and "^4" not in T and ")^2/4" not in T else ()),
     )
 
 
@@ -193,7 +198,9 @@ def corner_rest(rng: Random) -> System:
     if rng.random() < 0.25:
         made.dissipation = rng.choice(["c*x'^2/2", "c*(x'^2 + y'^2)/2", "-c*x'^2/2"])
     if rng.random() < 0.2:
-        made.forces = rng.choice([{"x": "-b*y", "y": "b*x"}, {"x": "b"}, {"x": "b*x'"}, {"y": "-c*y'^3"}])
+        made.forces = rng.choice(
+            [{"x": "-b*y", "y": "b*x"}, {"x": "b"}, {"x": "b*x'"}, {"y": "-c*y'^3"}]
+        )
     if rng.random() < 0.2:
         made.L += " + b*(x*y' - y*x')"
     return made
@@ -203,18 +210,25 @@ def crowds(rng: Random) -> System:
     """Four to six coordinates: chains, networks of springs, rods."""
     n = rng.randint(4, 6)
     names = [f"q{i}" for i in range(1, n + 1)]
-    links = "".join(f" + k*({b} - {a})^2/2" for a, b in zip(names, names[1:], strict=False))
+    links = "".join(f" + k*({b} - {a})^2/2" for a, b in itertools.pairwise(names))
     made = System(
         coordinates=dict.fromkeys(names),
         parameters=parameters("m", "k", "g", "l", free=("a", "b")),
-        T=kinetic(names) + rng.choice(["", " + m*q1'*q2'*cos(q1 - q2)", f" + m*(q1' + {names[-1]}')^2/2"]),
+        T=kinetic(names)
+        + rng.choice(["", " + m*q1'*q2'*cos(q1 - q2)", f" + m*(q1' + {names[-1]}')^2/2"]),
         V="0" + links + rng.choice(["", " + g*q1", " + k*q1^2/2", " + g*cos(q2)", " + k*q1*q2*q3"]),
         symmetries={"all": dict.fromkeys(names, "1")},
     )
     for i in range(rng.choice([0, 1, 2])):
         u, v, w = rng.sample(names, 3)
         made.constraints[f"c{i}"] = rng.choice(
-            [f"{u} + {v} = 2*{w}", f"{u} - {v} = l", f"{u}' = {v}*{w}'", f"{u} = a*{v}^2", f"{u}^2 + {v}^2 = l^2"]
+            [
+                f"{u} + {v} = 2*{w}",
+                f"{u} - {v} = l",
+                f"{u}' = {v}*{w}'",
+                f"{u} = a*{v}^2",
+                f"{u}^2 + {v}^2 = l^2",
+            ]
         )
     if rng.random() < 0.3:
         made.dissipation = f"b^2*({names[0]}' - {names[1]}')^2/2"

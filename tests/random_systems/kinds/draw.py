@@ -149,5 +149,3 @@ def gauge(rng: Random, x: str, y: str) -> tuple[str, str]:
     ]
     G, rate = rng.choice(some)
     return f"({a})*({G})", f"({a})*({rate})"
-
-

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from random import Random
 
-from ..system import CANONICAL, MAIN, System
+from tests.random_systems.system import CANONICAL, MAIN, System
+
 from .draw import gauge, kinetic, number, parameters, plane_map, polynomial, potential, whole
 
 
@@ -62,7 +63,10 @@ def kinks(rng: Random) -> System:
         made.T = f"m*(x'^2 + y'^2)/2 + m*(x'^2*({f})^2)/2"
         made.V = "k*x^2/2"
     elif where < 0.5:
-        made.V, made.constraints = "k*x^2/2", {"c1": rng.choice(["y = abs(x)", "abs(x) + abs(y) = 2"])}
+        made.V, made.constraints = (
+            "k*x^2/2",
+            {"c1": rng.choice(["y = abs(x)", "abs(x) + abs(y) = 2"])},
+        )
     if rng.random() < 0.3:
         made.symmetries = {"s": {"x": "1", "y": "-1"}}
     return made
@@ -79,7 +83,14 @@ def damped(rng: Random) -> System:
         sections=MAIN + CANONICAL,
     )
     made.dissipation = rng.choice(
-        [None, "c*x'^2/2", "c*(x' - y')^2/2", "c*(x'^2 + y'^2)^2", "c*x^2*y'^2/2", "c*sqrt(1 + x'^2)"]
+        [
+            None,
+            "c*x'^2/2",
+            "c*(x' - y')^2/2",
+            "c*(x'^2 + y'^2)^2",
+            "c*x^2*y'^2/2",
+            "c*sqrt(1 + x'^2)",
+        ]
     )
     made.forces = rng.choice(
         [
@@ -92,7 +103,9 @@ def damped(rng: Random) -> System:
         ]
     )
     if rng.random() < 0.3:
-        made.constraints = {"c1": rng.choice(["y = a*x", "x^2 + y^2 = 4", "x' = a*x*y'", "y = x^2"])}
+        made.constraints = {
+            "c1": rng.choice(["y = a*x", "x^2 + y^2 = 4", "x' = a*x*y'", "y = x^2"])
+        }
     made.symmetries = {"s": {rng.choice(names): "1"}, "turn": {"x": "-y", "y": "x"}}
     return made
 
@@ -166,7 +179,9 @@ def rotating(rng: Random) -> System:
 
 def central(rng: Random) -> System:
     """Central forces in several coordinates."""
-    V = rng.choice(["-k/{r}", "k*{r}^2/2", "k*log({r})", "-k*exp(-{r}/b^2)/{r}", "k*{r}^a", "k/{r}^2"])
+    V = rng.choice(
+        ["-k/{r}", "k*{r}^2/2", "k*log({r})", "-k*exp(-{r}/b^2)/{r}", "k*{r}^a", "k/{r}^2"]
+    )
     where = rng.choice(["polar", "cartesian", "spherical", "cylindrical"])
     made = System(coordinates={}, parameters=parameters("m", "k", free=("a", "b")))
     made.sections = MAIN + CANONICAL
@@ -199,7 +214,7 @@ def relativistic(rng: Random) -> System:
     if names == ("x", "y") and rng.random() < 0.4:
         square = "x'^2 + (1 + x^2)*y'^2"
     V = rng.choice(["k*x^2/2", "g*x", "0", f"k*({polynomial(rng, names, 2)})"])
-    made = System(
+    return System(
         coordinates=dict.fromkeys(names),
         parameters=parameters("m", "k", "g", "c", free=("b",)),
         L=f"-m*c^2*sqrt(1 - ({square})/c^2) - ({V})" + rng.choice(["", "", f" + b*x*{names[-1]}'"]),
@@ -207,7 +222,6 @@ def relativistic(rng: Random) -> System:
         sections=MAIN + CANONICAL,
         known={"slow": "0.12"},
     )
-    return made
 
 
 def growing_mass(rng: Random) -> System:
@@ -221,7 +235,9 @@ def growing_mass(rng: Random) -> System:
         sections=MAIN + CANONICAL,
     )
     if rng.random() < 0.5:
-        made.L = f"exp(b*t)*(m*x'^2/2 - k*x^2/2){'' if names == ('x',) else ' + m*y' + chr(39) + '^2/2'}"
+        made.L = (
+            f"exp(b*t)*(m*x'^2/2 - k*x^2/2){'' if names == ('x',) else ' + m*y' + chr(39) + '^2/2'}"
+        )
         made.symmetries = {"s": {"t": "1", "x": "-b*x/2"}}
         made.known["conserved"] = {"s": names == ("x",) or None}
         if names != ("x",):
@@ -234,7 +250,13 @@ def units(rng: Random) -> System:
     c = rng.choice(["0.5", "1.25", "0.1", "2.", "1e-1", "0.333", "12.5e-2"])
     made = System(
         coordinates={"x": None, "theta": None},
-        parameters={"m": "positive", "M": "positive", "l": "positive", "g": "positive", "k": "positive"},
+        parameters={
+            "m": "positive",
+            "M": "positive",
+            "l": "positive",
+            "g": "positive",
+            "k": "positive",
+        },
         units={"x": "m", "theta": "rad", "m": "kg", "M": "kg", "l": "m", "g": "m/s^2", "k": "N/m"},
         values={"M": rng.choice(["3*m", "2.5*m"])} if rng.random() < 0.3 else {},
         T=f"M*x'^2/2 + {c}*m*(x'^2 + l^2*theta'^2 + 2*l*x'*theta'*cos(theta))",
@@ -264,7 +286,9 @@ def names(rng: Random) -> System:
         sections=MAIN + CANONICAL,
     )
     if rng.random() < 0.5:
-        made.constraints = {pool[5]: rng.choice([f"{y} = {g}*{x}", f"{x}^2 + {y}^2 = 1", f"{x}' = {y}*{y}'"])}
+        made.constraints = {
+            pool[5]: rng.choice([f"{y} = {g}*{x}", f"{x}^2 + {y}^2 = 1", f"{x}' = {y}*{y}'"])
+        }
     if rng.random() < 0.3:
         made.functions = {pool[6]: ["u"]}
         made.V += f" + {pool[6]}({x} - {y})"
@@ -278,7 +302,9 @@ def curved(rng: Random) -> System:
     return System(
         coordinates=assumed,
         parameters=parameters("m", "k", "g", free=("a", "b")),
-        points={"P": ([X, Y], "m"), "Q1": (["x", "y"], "2*m")} if rng.random() < 0.4 else {"P": ([X, Y], "m")},
+        points={"P": ([X, Y], "m"), "Q1": (["x", "y"], "2*m")}
+        if rng.random() < 0.4
+        else {"P": ([X, Y], "m")},
         V=potential(rng, ("x", "y")),
         forces=rng.choice([{}, {"x": f"a*x' + ({number(rng)})*y"}, {"y": "b*t*x'"}]),
         sections=MAIN + CANONICAL,

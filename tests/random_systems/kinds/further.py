@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from random import Random
 
-from ..system import CANONICAL, MAIN, System
+from tests.random_systems.system import CANONICAL, MAIN, System
+
 from .draw import kinetic, number, parameters, potential, whole
 
 
@@ -39,7 +40,9 @@ def phase_space(rng: Random) -> System:
         parameters=parameters("m", "k", "g", "w", free=("b",)),
         observables={
             "A": rng.choice(["x*p_y - y*p_x", "x*p_x", "p_x^2 + x^2", "sin(x)*p_y", "exp(y)*p_x"]),
-            "B": rng.choice(["p_x^2/m + k*x^2", "t*p_x - m*x", "A^2 + y", "x*y*p_x", "log(1 + A^2)"]),
+            "B": rng.choice(
+                ["p_x^2/m + k*x^2", "t*p_x - m*x", "A^2 + y", "x*y*p_x", "log(1 + A^2)"]
+            ),
         },
         canonical=chosen,
         sections=("hamiltonian", "canonical_equations", "brackets", "canonical"),
@@ -56,7 +59,9 @@ def phase_space(rng: Random) -> System:
 def ignorable(rng: Random) -> System:
     """Cyclic coordinates: the Routhian, steady motions, Hamilton and Jacobi."""
     A = rng.choice(["m", "m*(1 + r^2)", "m*r^2", "m*exp(r)", "m/r^2"])
-    B = rng.choice(["m*r^2", "m*(b^2 + r^2)", "m*sin(r)^2", "m*exp(2*r)", "m*cosh(r)^2", "m/(1 + r^2)"])
+    B = rng.choice(
+        ["m*r^2", "m*(b^2 + r^2)", "m*sin(r)^2", "m*exp(2*r)", "m*cosh(r)^2", "m/(1 + r^2)"]
+    )
     C = rng.choice(["0", "0", "m*r", "m*b*cos(r)"])
     D = rng.choice(["0", "0", "b*r^2", "b*cos(r)", "b*r"])
     V = rng.choice(["-k/r", "k*r^2/2", "k*r", "-k*cos(r)", "k*log(r)", "k*r^4", "-k/r + g*r", "0"])

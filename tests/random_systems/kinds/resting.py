@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from random import Random
 
-from ..system import REST, System
+from tests.random_systems.system import REST, System
+
 from .draw import kinetic, number, parameters, whole
 
 SECTIONS = ("accelerations", "energy", *REST)
@@ -12,7 +13,9 @@ SECTIONS = ("accelerations", "energy", *REST)
 
 def _matrix(rng: Random, n):
     """A random integer matrix that can be inverted: a triangle times a triangle."""
-    low = [[1 if i == j else rng.randint(-1, 1) if i > j else 0 for j in range(n)] for i in range(n)]
+    low = [
+        [1 if i == j else rng.randint(-1, 1) if i > j else 0 for j in range(n)] for i in range(n)
+    ]
     up = [[1 if i == j else rng.randint(-1, 1) if i < j else 0 for j in range(n)] for i in range(n)]
     return [[sum(low[i][k] * up[k][j] for k in range(n)) for j in range(n)] for i in range(n)]
 
@@ -84,18 +87,18 @@ def roots_of_V(rng: Random) -> System:
     top = len(coefficients)
     V = " + ".join(f"({each})*x^{top - i}/{top - i}" for i, each in enumerate(coefficients))
     y = rng.choice(["k*y^2/2", "k*(y - x)^2/2", "k*(y + x^2)^2/2", "-k*y^2/2"])
-    rest_y = {"k*(y - x)^2/2": lambda r: str(r), "k*(y + x^2)^2/2": lambda r: f"-{r * r}"}
+    rest_y = {"k*(y - x)^2/2": str, "k*(y + x^2)^2/2": lambda r: f"-{r * r}"}
     made = System(
         coordinates={"x": None, "y": None},
         parameters=parameters("m", "k", "c"),
-        T=rng.choice([kinetic("xy"), "m*(x'^2 + y'^2 + x'*y'*cos(x))/2", "m*(1 + x^2)*x'^2/2 + m*y'^2"]),
+        T=rng.choice(
+            [kinetic("xy"), "m*(x'^2 + y'^2 + x'*y'*cos(x))/2", "m*(1 + x^2)*x'^2/2 + m*y'^2"]
+        ),
         V=f"k*({c})*({V}) + {y}",
         sections=SECTIONS,
     )
     made.dissipation = rng.choice([None, None, "c*x'^2/2", "c*(x'^2 + y'^2)/2"])
-    made.known["equilibria"] = [
-        {"x": str(r), "y": rest_y.get(y, lambda r: "0")(r)} for r in roots
-    ]
+    made.known["equilibria"] = [{"x": str(r), "y": rest_y.get(y, lambda _: "0")(r)} for r in roots]
     return made
 
 
@@ -116,7 +119,7 @@ def turning(rng: Random) -> System:
             ("-k*cos(x)*cos(y) + g*sin(x)", None),
         ]
     )
-    made = System(
+    return System(
         coordinates={"x": None, "y": None},
         parameters=parameters("m", "k", "g", "w"),
         T=T or kinetic("xy"),
@@ -124,7 +127,6 @@ def turning(rng: Random) -> System:
         sections=SECTIONS,
         known={"search": True},
     )
-    return made
 
 
 def polynomial_rest(rng: Random) -> System:

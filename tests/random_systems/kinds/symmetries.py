@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from random import Random
 
-from ..system import MAIN, System
+from tests.random_systems.system import MAIN, System
+
 from .draw import gauge, kinetic, number, parameters, plane_map, whole
 
 FORMS = ("k*{u}", "k*{u}^2/2", "k*cos({u})", "k*exp({u})", "k/(1 + {u}^2)", "k*{u}^3 - b*{u}")
