@@ -12,7 +12,16 @@ from .run import in_a_fork, judged, system
 
 #: A bar of 1 %: what may not have been found.  Nothing may be wrong, crash, or take 60 s.
 ALL, MISSING = 5000, 50
-LARGE = {"linkages", "crowds", "curved", "branches", "near_miss", "names", "hamiltonians", "turning"}
+LARGE = {
+    "linkages",
+    "crowds",
+    "curved",
+    "branches",
+    "near_miss",
+    "names",
+    "hamiltonians",
+    "turning",
+}
 MILD = {"missing", "trivial"}
 
 
