@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 
-from lagcli.expression import ONE, Expression, Name, Negative, Number
+from lagcli.expression import Expression, Name, Negative, Number
 from lagcli.graph.nodes import Node, Symbol
 from lagcli.numerics.arithmetic import Doubles
 from lagcli.numerics.constants import constants_of
@@ -17,12 +17,13 @@ from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import Refusal
 from lagcli.numerics.start import initial_state
 from lagcli.numerics.surface import Surface
-from lagcli.problem import Problem
+from lagcli.problem import Parameter, Problem
 from lagcli.record import replace
 
 Vector = list[float]
 
 _ROUNDS = 40
+_GOLDEN = 371  # of 600
 _ON_SURFACE = 1e-12
 #: A step of a coordinate that shows whether anything depends on it.
 _ELSEWHERE, _SAME = 0.37, 1e-12
@@ -35,18 +36,26 @@ def number(value: float | Fraction) -> Expression:
     return Negative(size) if exact < 0 else size
 
 
-def with_all_values(problem: Problem) -> tuple[Problem, tuple[str, ...]]:
-    """The problem with 1 (or -1) for each parameter that has no value, and their names."""
-    missing = tuple(p.name for p in problem.parameters if p.value is None)
+def with_all_values(problem: Problem) -> tuple[Problem, dict[str, Fraction]]:
+    """The problem with a value for each parameter that has none, and these values.
+
+    They are near 1 and in no simple ratio: with 1 for each, a hoop would turn with just the
+    speed at which its bead becomes unstable.
+    """
+    missing = [p for p in problem.parameters if p.value is None]
+    taken = {p.name: _ordinary(p, place) for place, p in enumerate(missing, 1)}
     parameters = tuple(
-        p if p.value is not None else replace(p, value=Negative(ONE) if _is_negative(p) else ONE)
+        replace(p, value=number(taken[p.name])) if p.name in taken else p
         for p in problem.parameters
     )
-    return replace(problem, parameters=parameters), missing
+    return replace(problem, parameters=parameters), taken
 
 
-def _is_negative(parameter: object) -> bool:
-    return getattr(parameter, "assume", "") == "negative"
+def _ordinary(parameter: Parameter, place: int) -> Fraction:
+    """The place-th of numbers from 0.7 to 1.3, spread by the golden ratio; an integer is 2, 3, …"""
+    thousandths = Fraction(700 + place * _GOLDEN % 600, 1000)
+    size = Fraction(1 + place) if parameter.integer else thousandths
+    return -size if parameter.assume == "negative" else size
 
 
 class Scene:

@@ -69,7 +69,7 @@ def study(
     Parameters
     ----------
     problem
-        As it is read; parameters without a value become 1.
+        As it is read; parameters without a value get one that is not special.
     wanted
         What is asked of each case.
     words
@@ -85,7 +85,8 @@ def study(
         When a word fits no case.
     """
     problem, missing = with_all_values(problem)
-    notes = [f"without a value, taken as 1: {', '.join(missing)}"] if missing else []
+    values = ", ".join(f"{name} = {float(value):g}" for name, value in missing.items())
+    notes = [f"without a value, taken as {values}"] if missing else []
     scene = Scene(problem)
     if not problem.initial:
         notes.append("without an initial state: one in which nothing is special is taken")

@@ -1,6 +1,8 @@
 """What is extreme in a problem follows from its formulas."""
 
 import math
+from itertools import product
+from math import prod
 from pathlib import Path
 
 import pytest
@@ -169,3 +171,23 @@ def test_a_library_problem_has_cases(name):
     names = [case.name for case in found]
     assert names[0] == "as given"
     assert len(names) == len(set(names))
+
+
+@pytest.mark.parametrize("count", range(2, 6))
+def test_values_that_are_taken_are_not_special(count):
+    """No product of powers of them is 1, as g/(R w^2) of a hoop is where its bead starts to rise."""
+    names = [f"p{k}" for k in range(count)]
+    text = f"coordinates: [x]\nparameters: [{', '.join(names)}]\nL: x'^2\n"
+    taken = with_all_values(read("x.yaml", text.encode()).problem)[1]
+    assert list(taken) == names
+    powers = [p for p in product(range(-2, 3), repeat=count) if any(p)]
+    for each in powers:
+        value = prod(taken[name] ** e for name, e in zip(names, each, strict=True))
+        assert abs(value - 1) > 1e-5
+
+
+def test_values_that_are_taken_are_as_assumed():
+    text = "coordinates: [x]\nparameters: {a: {assume: negative}, n: {integer: true}}\nL: x'^2\n"
+    taken = with_all_values(read("x.yaml", text.encode()).problem)[1]
+    assert taken["a"] < 0
+    assert taken["n"].denominator == 1

@@ -126,7 +126,7 @@ T: m*l^2*th'^2/2
 V: m*g*l*(1 - cos(th))
 """
     known, missing = with_all_values(problem(text))
-    assert missing == ("m", "g", "l")
+    assert list(missing) == ["m", "g", "l"]
     found = {formula.name: formula for formula in printed_formulas(known)}
     assert list(found) == ["th''", "energy"]
     assert found["th''"].rewritten is None
