@@ -145,3 +145,9 @@ def test_a_section_that_takes_too_much_work_is_null(monkeypatch: pytest.MonkeyPa
     assert found.warnings == (
         "the section 'equilibria' could not be found: it takes more work than it is allowed",
     )
+
+
+@pytest.mark.parametrize("power", [201, 1000, 50_000])
+def test_a_high_power_ends_the_search_for_special_values_with_a_sentence(power: int) -> None:
+    found = answers(f"{HEAD}V: k*x^{power} + c*y^2\n", ["algebra"])
+    assert not [w for w in found.warnings if "bug" in w]

@@ -14,6 +14,7 @@ from lagcli.algebra import nullspace, simplify
 from lagcli.algebra.effort import EFFORT
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.ring import Monomial, Poly
+from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, small_fraction
 
 _TOGETHER = 3  # parameters in one recognized monomial
@@ -159,6 +160,8 @@ class ExactSolver:
         """sum c_a entry_a = 0 as one sparse row of constants for each monomial in t, q, q'."""
         field, ring = self.field, self.field.ring
         elements = [field(e) for e in entries]
+        if len(field.generators) > len(self.points.constant):  # one that has no random value
+            raise TooMuchWork
         common = common_denominator(field, elements)
         groups: dict[tuple[tuple[int, int], ...], dict[int, list[tuple[Monomial, int]]]] = {}
         for index, element in enumerate(elements):
