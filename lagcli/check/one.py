@@ -11,6 +11,7 @@ from lagcli.diagnostics import ProblemError, Source
 from lagcli.pipeline import Read, Request, derive, read, state
 
 if TYPE_CHECKING:
+    from lagcli.answers import Answers
     from lagcli.mechanics.derivation import Derivation
 
 
@@ -49,6 +50,8 @@ def _check(found: Read) -> Report:
         if off:
             return Report(found.source, diagnostics=off)
         answers = state(derivation, Request(sections=sections))
+        if answers.absent:
+            return _without_sections(source, answers)
         comparison = Comparison(derivation)
         results = list(
             chain(
@@ -61,6 +64,14 @@ def _check(found: Read) -> Report:
         return Report(error.source, diagnostics=error.diagnostics)
     findings = tuple(result for result in results if result is not None)
     return Report(source, len(results), findings)
+
+
+def _without_sections(source: Source, answers: Answers) -> Report:
+    """Nothing can be compared with a section that could not be made."""
+    reason = "; ".join(w for w in answers.warnings if "the section" in w)
+    outcome = Outcome.BROKEN if "bug of lagcli" in reason else Outcome.UNDECIDED
+    findings = tuple(Finding(outcome, name, reason) for name in answers.absent)
+    return Report(source, len(findings), findings)
 
 
 def _check_phase_space(derivation: Derivation, source: Source) -> Report:

@@ -7,8 +7,12 @@ from fractions import Fraction
 
 import pytest
 
+from lagcli.algebra.effort import OutOfWork
+from lagcli.check.findings import Outcome
 from lagcli.check.laws import SECTIONS, Laws
+from lagcli.check.one import check_problem
 from lagcli.expression import Negative, Number, Product
+from lagcli.mechanics.statements import Statements
 from lagcli.pipeline import Request, derive, read, state
 
 PENDULUM = b"""\
@@ -68,3 +72,15 @@ def test_a_rate_that_is_not_the_charge_s(pendulum):
     assert broken_laws(derivation, with_section(answers, "charges", charges=wrong)) == {
         "charges.rotation"
     }
+
+
+@pytest.mark.parametrize(
+    ("error", "outcome"), [(ZeroDivisionError, Outcome.BROKEN), (OutOfWork, Outcome.UNDECIDED)]
+)
+def test_a_section_that_could_not_be_made_is_not_called_wrong(monkeypatch, error, outcome):
+    def fails(_self):
+        raise error
+
+    monkeypatch.setattr(Statements, "_charges", fails)
+    [finding] = check_problem("pendulum.yaml", PENDULUM).findings
+    assert (finding.outcome, finding.subject) == (outcome, "charges")
