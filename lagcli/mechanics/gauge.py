@@ -17,7 +17,7 @@ Frankel, *The Geometry of Physics*, 3rd ed., section 4.3 (Cartan's formula).
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import combinations
+from itertools import combinations, combinations_with_replacement
 
 import sympy
 from sympy import Expr
@@ -115,9 +115,9 @@ class GaugeSearch:
         """A K that is not linear in the allowed velocities is no dG(q, t)/dt: false, or open."""
         kernel = nullspace([list(e.row) for e in self.dynamics.constraints.equations])
         velocities = self.system.qdot
-        for u in kernel:
+        for pair in combinations_with_replacement(kernel, 2):
             along = change
-            for _ in range(2):
+            for u in pair:
                 along = sympy.Add(*(c * along.diff(v) for c, v in zip(u, velocities, strict=True)))
             if self.dynamics.verifier.is_zero(along).holds is False:
                 return False

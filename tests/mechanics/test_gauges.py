@@ -142,3 +142,14 @@ def test_an_answer_with_an_integral_can_be_expected():
         "coordinates: [x]\nfunctions: {f: [t]}\nL: x'^2/2 + x*f(t)\nsymmetries: {s: {x: 1}}\n"
         'expect: {charges: {s: "x\' - integral(f(t), t, 0, t)"}}'
     )
+
+
+@pytest.mark.parametrize("change", ["{x: 1, z: y}", "{x: y, z: y^2}", "{x: 1 + y, z: y + y^2}"])
+def test_a_change_that_is_quadratic_in_the_allowed_velocities_has_no_gauge(change):
+    """On z' = y x' the change is m (… x' y'), which is no dG(q, t)/dt."""
+    d = derive(
+        "coordinates: [x, y, z]\nparameters: {m: {assume: positive}}\n"
+        "T: m*(x'^2 + y'^2 + z'^2)/2\nconstraints: {c: z' = y*x'}\n"
+        f"symmetries: {{s: {change}}}"
+    )
+    assert charge(d, "s").conserved is False
