@@ -16,10 +16,9 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power
+from lagcli.formatters.findings import own_letter
 from lagcli.motions import SteadyMotion, SteadySection
 from lagcli.wording import conditions, place_rows, steady_stability
-
-_SQUARED = Power(Name("omega"), Number(Fraction(2)))
 
 
 def steady_blocks(section: SteadySection) -> Iterator[Block]:
@@ -72,7 +71,8 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
     yield Paragraph(tuple(steady_stability(motion)))
     squares = dict.fromkeys(motion.frequencies_squared)
     if squares:
-        yield Equations(tuple(Row(_SQUARED, square) for square in squares))
+        squared = Power(own_letter("omega", squares), Number(Fraction(2)))
+        yield Equations(tuple(Row(squared, square) for square in squares))
     if len(motion.mass) > 1:
         yield from _linearized(motion)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+import re
 
 import pytest
 import sympy
@@ -12,7 +13,10 @@ from lagcli.algebra.build import symbol
 from lagcli.algebra.numeric import Evaluator
 from lagcli.document import Paragraph
 from lagcli.expression import Name
+from lagcli.formatters import explaining
 from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.options import Options
+from lagcli.formatters.text import render
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.reduction.averaged import averaged
 from lagcli.mechanics.reduction.readable import conditions, opposites
@@ -482,3 +486,19 @@ def test_the_order_of_three_is_what_the_sign_of_a_product_says(seed):
         middle = sorted(at.values())[1] == at[name.name]
         assert name.name == A.name
         assert holds is (middle if "between" in place else not middle)
+
+
+def test_the_frequency_has_a_letter_of_its_own():
+    """A hoop that turns with omega: its bead does not oscillate with omega^2 = omega^2 - ..."""
+    text = (
+        "coordinates: [th]\nparameters: {m: {assume: positive}, omega: {assume: positive}, "
+        "g: {assume: positive}}\nT: m*(th'^2 + omega^2*sin(th)^2)/2\nV: -m*g*cos(th)\n"
+    )
+    answers = Statements(derive(text)).answers(["modes", "steady_motions"])
+    printed = render([answers], Options())
+    assert "ω_sys² = " in printed
+    assert not re.search(r"ω²\s*=", printed)
+    explanation = explain(derive(text), ["modes", "steady_motions"])
+    explained = explaining.render([explanation], "text", Options())
+    assert "ω_sys² = " in explained
+    assert not re.search(r"ω²\s*=", explained)
