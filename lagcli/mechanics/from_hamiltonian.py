@@ -58,7 +58,7 @@ def _lagrangian(system: System) -> Expr:
     if inversion.is_singular:
         raise NoLagrangian(
             system.problem,
-            "the matrix of its second derivatives by the momenta is singular: the velocities "
+            "the matrix of its second derivatives in the momenta is singular: the velocities "
             "do not determine the momenta",
         )
     if inversion.inverted is None:

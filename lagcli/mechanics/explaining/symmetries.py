@@ -92,8 +92,10 @@ def _charge(teller: Teller, charge: Charge) -> Iterator[Block]:
     if energy:
         yield says("It is listed with the sign of the energy, opposite to that of the theorem.")
     if moves:
-        yield says("The constraints allow this displacement, but it depends on the configuration: "
-                   "the momentum is not constant, and has this rate.")  # fmt: skip
+        yield says(
+            "The constraints allow this displacement, a combination of symmetries with coefficients "
+            "that depend on the configuration. So the momentum is not constant, and has this rate."
+        )
     elif any(_quick(change) for change in charge.transformation.values()):
         yield says("The change depends on the velocities, so this is not a point transformation.")
     if charge.where:
@@ -115,6 +117,8 @@ def algebra(teller: Teller, section: Section) -> Iterator[Block]:
     if not charges:
         yield says(f"No symmetry was found, so there is no algebra. Searched: {found.ansatz}.")
         return
+    if found.in_involution is None:
+        yield says(_no_brackets(teller))
     yield from _brackets(teller, closed=found.closed)
     yield from _dimension(found)
     number, n = found.independent, teller.dynamics.degrees_of_freedom
@@ -135,6 +139,16 @@ def algebra(teller: Teller, section: Section) -> Iterator[Block]:
         yield says(f"The number of symmetries is then {case.number}, with "
                    f"{'this' if new == 1 else 'these'} in addition:")  # fmt: skip
         yield Equations(tuple(Row(Name(name), value) for name, value in case.charges.items()))
+
+
+def _no_brackets(teller: Teller) -> str:
+    """Why the conserved quantities are not compared by Poisson brackets."""
+    kinds = teller.dynamics.constraints.kinds.values()
+    if any(kind != "holonomic" for kind in kinds):
+        return "Under velocity constraints no Poisson brackets are taken."
+    if not teller.derivation.discovery.canonical:
+        return "Applied forces act, so no Poisson brackets are taken."
+    return "The Poisson brackets were not worked out."
 
 
 def _dimension(found: AlgebraSection) -> Iterator[Block]:
