@@ -86,7 +86,7 @@ def test_the_brackets_of_the_charges_of_kepler():
 def test_a_momentum_equation_is_told_with_its_rate():
     told = also("nonholonomic/chaplygin-sleigh", "discovered")
     assert Name("Q", 1) in {row.left for row in rows(told, DISCOVERED)}
-    assert "the momentum is not constant, and has this rate" in words(told, DISCOVERED)
+    assert "The momentum is not constant: it has this rate." in words(told, DISCOVERED)
 
 
 def test_the_friction_that_a_disk_needs_goes_from_multipliers_to_forces():

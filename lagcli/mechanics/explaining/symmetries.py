@@ -94,7 +94,7 @@ def _charge(teller: Teller, charge: Charge) -> Iterator[Block]:
     if moves:
         yield says(
             "The constraints allow this displacement, a combination of symmetries with coefficients "
-            "that depend on the configuration. So the momentum is not constant, and has this rate."
+            "that depend on the configuration. The momentum is not constant: it has this rate."
         )
     elif any(_quick(change) for change in charge.transformation.values()):
         yield says("The change depends on the velocities, so this is not a point transformation.")
