@@ -93,8 +93,8 @@ def _charge(teller: Teller, charge: Charge) -> Iterator[Block]:
         yield says("It is listed with the sign of the energy, opposite to that of the theorem.")
     if moves:
         yield says(
-            "The constraints allow this displacement, a combination of symmetries with coefficients "
-            "that depend on the configuration. The momentum is not constant: it has this rate."
+            "The constraints allow this displacement, a combination of symmetries whose factors "
+            "depend on the configuration. The momentum is not constant: it has this rate."
         )
     elif any(_quick(change) for change in charge.transformation.values()):
         yield says("The change depends on the velocities, so this is not a point transformation.")
