@@ -17,7 +17,7 @@ from lagcli.graph.nodes import Node
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.one_freedom import OneFreedom as Reduced
 from lagcli.mechanics.reduction.routh import Routh
-from lagcli.numerics.arithmetic import Doubles
+from lagcli.numerics.arithmetic import Doubles, UndefinedFunction
 from lagcli.numerics.constants import constants_of
 from lagcli.numerics.equations import Equations
 from lagcli.numerics.motion import Motion
@@ -103,6 +103,9 @@ class OneFreedom:
         try:
             self._energy = straight_line(pair, [energy], constants, arithmetic)
             self._slope = straight_line(pair, [slope], constants, arithmetic)
+        except UndefinedFunction as error:
+            message = f"the function '{error}' is left unspecified: it has no numbers"
+            raise CannotDraw(message) from None
         except ArithmeticError as error:
             raise CannotDraw(f"the energy is not defined: {error}") from None
 

@@ -124,6 +124,7 @@ initial: {theta: 1}
         ("coordinates: [x, y]\nT: x'^2 + y'^2\nV: x^2*y^2 + x", "x, y are left"),
         ("coordinates: [x]\nT: x'^2\nV: x^2*cos(t)", "the energy is not conserved"),
         ("coordinates: [x, y]\nT: x'^2 + y'^2", "every coordinate is cyclic"),
+        ("coordinates: [x]\nfunctions: {U: [x]}\nT: x'^2\nV: U(x)", "'U' is left unspecified"),
     ],
 )
 def test_what_has_no_portrait_is_a_sentence(problem, sentence):
