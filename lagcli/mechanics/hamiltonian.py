@@ -17,13 +17,17 @@ from collections.abc import Sequence
 from functools import cached_property
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra import simplify
+from lagcli.algebra.build import free_of
+from lagcli.algebra.signs import sign
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.energy import EnergyFunction
 from lagcli.mechanics.legendre import LegendreTransform
+from lagcli.mechanics.oscillations.characteristic import determinant
+from lagcli.mechanics.reduction.readable import deciding
 from lagcli.mechanics.system import System
 
 
@@ -75,7 +79,23 @@ class Hamiltonian:
             return ""
         if self.dynamics.degenerate:
             return "the Hessian of L is singular: the momenta do not determine the velocities"
+        if self._fold is not None:
+            where = str(self._fold).replace("**", "^")
+            return (
+                "the Legendre transform has several branches: the determinant of the Hessian of L "
+                f"changes its sign with {where}, so the momenta do not determine the velocities"
+            )
         return "p = dL/dq' could not be solved for the velocities in closed form"
+
+    @cached_property
+    def _fold(self) -> Expr | None:
+        """What the determinant of d²L/dq'² has the sign of, where that depends on velocities."""
+        whole = determinant([list(row) for row in self.dynamics.lagrange.mass_matrix])
+        if whole is None:
+            return None
+        rest = deciding(simplify(whole))
+        depends = not free_of(rest, self.system.qdot)
+        return rest if depends and _takes_both_signs(rest, self.system.qdot) else None
 
     @cached_property
     def canonical_equations(self) -> tuple[tuple[Expr, Expr], ...] | None:
@@ -137,3 +157,16 @@ class GivenHamiltonian:
 def _force(system: System, constraints: Sequence[ConstraintEquation], j: int) -> Expr:
     """Q_j - dD/dq_j' + sum_k lambda_k a_kj."""
     return system.applied_forces[j] + sympy.Add(*(e.multiplier * e.row[j] for e in constraints))
+
+
+def _takes_both_signs(expression: Expr, velocities: Sequence[Symbol]) -> bool:
+    """Whether a polynomial in the velocities is of one sign at rest and of the other far away."""
+    still = expression.xreplace(dict.fromkeys(velocities, sympy.S.Zero))
+    for v in velocities:
+        alone = expression.xreplace({u: sympy.S.Zero for u in velocities if u != v})
+        if not alone.is_polynomial(v) or free_of(alone, [v]):
+            continue
+        leading = sympy.Poly(alone, v).LC()
+        if {sign(still), sign(leading)} == {1, -1}:
+            return True
+    return False

@@ -131,3 +131,20 @@ def test_canonical_equations_of_a_three_link_arm() -> None:
         found = growth.xreplace({**state, **momenta}).evalf(30)
         assert abs(found - expected) < 1e-20 * (1 + abs(expected))
         assert abs(velocity.xreplace({**state, **momenta}).evalf(30) - rates[v]) < 1e-20
+
+
+@pytest.mark.parametrize("power", [4, 6])
+def test_a_lagrangian_that_folds_has_several_branches(power):
+    """Henneaux, Teitelboim, Zanelli, Phys. Rev. A 36 (1987) 4417: multivalued Hamiltonians."""
+    found = derive(f"""
+coordinates: [x]
+parameters: {{a: {{assume: positive}}, k: {{assume: positive}}}}
+L: x'^{power}/{power} - a*x'^2/2 - k*x^2/2
+""").hamiltonian
+    assert found.function is None
+    assert "several branches" in found.reason
+
+
+def test_a_lagrangian_that_does_not_fold_is_only_not_solved():
+    found = derive("{coordinates: [x], L: x'^8/8 + x'^4/4 + x'^2/2 + x'^3/30}").hamiltonian
+    assert "several branches" not in found.reason
