@@ -92,6 +92,136 @@ def with_decimals(node: Expression) -> Expression:
             return rebuilt(node, with_decimals)
 
 
+class GivenDecimals:
+    """What was given with a decimal point is answered with decimals: 981/500 as 1.962.
+
+    A constant of an answer comes from the decimals given if it shares a prime factor with one
+    of them; 2 and 5 tell nothing, except of a decimal such as 0.25 that has no other.
+
+    Parameters
+    ----------
+    given
+        The values that were written with a decimal point.
+    """
+
+    def __init__(self, given: Iterable[Fraction]) -> None:
+        self._primes: set[int] = set()
+        for value in given:
+            found = _primes(value)
+            self._primes |= found - {2, 5} or found
+
+    def __bool__(self) -> bool:
+        return bool(self._primes)
+
+    def __call__(self, node: Expression) -> Expression:
+        """The formula with its constants as decimals where they come from decimals."""
+        match node:
+            case Negative() | Product() | Quotient():
+                constant, above, below = self._whole_sum(*self._factors(node))
+                simple = constant.denominator == 1 or not _primes(constant) & self._primes
+                return _with_decimal(constant, above, below, simple=simple)
+            case Power(base=base, exponent=exponent):
+                return Power(self(base), exponent)
+            case Number(value=value) if value.denominator != 1:
+                return self(
+                    Quotient(Number(Fraction(value.numerator)), Number(Fraction(value.denominator)))
+                )
+        return rebuilt(node, self)
+
+    def _whole_sum(
+        self, constant: Fraction, above: list[Expression], below: list[Expression]
+    ) -> tuple[Fraction, list[Expression], list[Expression]]:
+        """(100 a + 981 b)/100 as a + 9.81 b: the constant multiplied into a sum."""
+        if constant.denominator == 1 or not _primes(constant) <= {2, 5}:
+            return constant, above, below
+        inner = self._inner(above, abs(constant))
+        if inner is None:
+            return constant, above, below
+        return Fraction(-1 if constant < 0 else 1), inner, below
+
+    def _scaled(self, node: Sum, constant: Fraction) -> Sum | None:
+        """The sum times the constant; None where no decimal that was given appears."""
+        terms, seen = [], False
+        for term in node.terms:
+            number, above, below = self._factors(term)
+            product = number * constant
+            inner = self._inner(above, constant) if abs(number) == 1 else None
+            if inner is not None:
+                above, product, seen = inner, number, True
+            elif _primes(product) & self._primes:
+                seen = True
+            elif product.denominator > 2:
+                return None
+            simple = not _primes(product) & self._primes
+            terms.append(_with_decimal(product, above, below, simple=simple))
+        return Sum(tuple(terms)) if seen else None
+
+    def _inner(self, above: list[Expression], constant: Fraction) -> list[Expression] | None:
+        """The factors with the constant multiplied into a sum among them."""
+        for place, factor in enumerate(above):
+            scaled = self._scaled(factor, constant) if isinstance(factor, Sum) else None
+            if scaled is not None:
+                return [*above[:place], scaled, *above[place + 1 :]]
+        return None
+
+    def _factors(self, node: Expression) -> tuple[Fraction, list[Expression], list[Expression]]:
+        """The rational factor, the other factors above the line and those below."""
+        match node:
+            case Negative(operand=operand):
+                constant, above, below = self._factors(operand)
+                return -constant, above, below
+            case Number(value=value):
+                return value, [], []
+            case Product(factors=factors):
+                parts = [self._factors(factor) for factor in factors]
+                whole = Fraction(1)
+                for constant, _, _ in parts:
+                    whole *= constant
+                return (
+                    whole,
+                    [x for _, a, _ in parts for x in a],
+                    [x for _, _, b in parts for x in b],
+                )
+            case Quotient(numerator=numerator, denominator=denominator):
+                c, above, below = self._factors(numerator)
+                d, under, over = self._factors(denominator)
+                if d == 0:
+                    return Fraction(1), [node], []
+                return c / d, [*above, *over], [*below, *under]
+            case _:
+                return Fraction(1), [self(node)], []
+
+
+def _primes(value: Fraction) -> set[int]:
+    """The prime factors above and below, small ones by trial; what is left counts as one."""
+    found = set()
+    for number in (abs(value.numerator), value.denominator):
+        for prime in range(2, 1000):
+            while number and number % prime == 0:
+                found.add(prime)
+                number //= prime
+        if number > 1:
+            found.add(number)
+    return found
+
+
+def _with_decimal(
+    constant: Fraction, above: list[Expression], below: list[Expression], *, simple: bool = False
+) -> Expression:
+    """c a/b with c as a decimal, over a whole number where it has no end; p a/(q b) if simple."""
+    rest = constant.denominator
+    for prime in () if simple else (2, 5):
+        while rest % prime == 0:
+            rest //= prime
+    head = Number(abs(constant) * rest, decimal=True)
+    top = above if head.value == 1 and above else [head, *above]
+    bottom = below if rest == 1 else [Number(Fraction(rest)), *below]
+    whole = top[0] if len(top) == 1 else Product(tuple(top))
+    if bottom:
+        whole = Quotient(whole, bottom[0] if len(bottom) == 1 else Product(tuple(bottom)))
+    return Negative(whole) if constant < 0 else whole
+
+
 def number(value: Constant) -> Expression:
     """A number of at most `DIGITS` significant digits, with a `Negative` for its sign."""
     exact = Fraction(value)

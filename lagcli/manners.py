@@ -9,7 +9,8 @@ minus goes and whether a number comes first does not change a value, and follows
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from typing import TypeAlias
 
@@ -201,6 +202,29 @@ def given(problem: Problem) -> Iterator[Expression]:
     for constraint in problem.constraints:
         left, right = constraint.equation.left, constraint.equation.right
         yield from (left, right)
+
+
+_DECIMAL = re.compile(r"(?<![\w.])(\d+\.\d*|\.\d+)(?![\w.])")
+
+
+def decimals_of(problem: Problem, settings: Iterable[str] = ()) -> list[Fraction]:
+    """The values that the formulas of the file, or settings, write with a decimal point."""
+    lines = problem.source.text.splitlines()
+    found = []
+    state = set(map(id, _expressions(problem.initial)))
+    for node in given(problem):
+        for part in walk(node):
+            if id(node) in state:
+                break
+            if isinstance(part, Number) and part.value.denominator != 1 and part.span.line:
+                place = part.span
+                written = lines[place.line - 1 : place.line]
+                if any("." in line[place.column - 1 : place.end_column - 1] for line in written):
+                    found.append(part.value)
+    for setting in settings:
+        value = setting.partition("=")[2]
+        found += [Fraction(text) for text in _DECIMAL.findall(value)]
+    return [value for value in found if value.denominator != 1]
 
 
 def _expressions(value: object) -> Iterator[Expression]:

@@ -153,13 +153,31 @@ def state(derivation: Derivation, request: Request) -> Answers:
         unverified = answers
         answers = _ended(lambda: verified(derivation.problem, unverified))
     if not request.numeric:
-        return answers
+        return _with_given_decimals(derivation.given, request, answers)
     from lagcli.decimals import with_decimals
 
     return replace(
         answers,
         sections=rewritten(answers.sections, with_decimals),
         where=rewritten(answers.where, with_decimals),
+    )
+
+
+def _with_given_decimals(problem: Problem, request: Request, answers: Answers) -> Answers:
+    """981/500 as 1.962, where 9.81 was given."""
+    from lagcli.manners import decimals_of
+
+    given = decimals_of(problem, request.settings)
+    if not given:
+        return answers
+    from lagcli.decimals import GivenDecimals
+    from lagcli.rewriting import rewritten
+
+    write = GivenDecimals(given)
+    return replace(
+        answers,
+        sections=rewritten(answers.sections, write),
+        where=rewritten(answers.where, write),
     )
 
 

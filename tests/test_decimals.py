@@ -8,9 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lagcli.decimals import value_of, with_decimals
+from lagcli.decimals import GivenDecimals, value_of, with_decimals
 from lagcli.expression import Negative, Number
 from lagcli.formatters.grammar import to_grammar
+from lagcli.manners import decimals_of
+from lagcli.pipeline import read
 from lagcli.reader import parse_text
 
 
@@ -45,3 +47,26 @@ def test_a_decimal_is_near_and_reads_back(value):
 
 def test_signs_are_nodes():
     assert with_decimals(Negative(Number(Fraction(1, 2)))) == Negative(Number(Fraction(1, 2)))
+
+
+@pytest.mark.parametrize(
+    ("formula", "value", "written"),
+    [
+        ("981*sin(x)/500", "9.81", "1.962*sin(x)"),
+        ("m*v^2/2 - 981*m*x/100", "9.81", "m*v^2/2 - 9.81*m*x"),
+        ("-981*x/700", "9.81", "-9.81*x/7"),
+        ("(100*a + 981*b)/(100*c)", "9.81", "(a + 9.81*b)/c"),
+        ("x/4", "0.25", "0.25*x"),
+        ("x^(3/2)", "9.81", "x^(3/2)"),
+        ("x/3 + sqrt(981*l/100)", "9.81", "x/3 + sqrt(9.81*l)"),
+    ],
+)
+def test_what_was_given_with_a_decimal_point_is_answered_so(formula, value, written):
+    write = GivenDecimals([Fraction(value)])
+    assert to_grammar(write(parse_text(formula))) == written
+
+
+def test_without_decimals_nothing_changes():
+    assert not GivenDecimals([])
+    problem = read("t.yaml", b"coordinates: [x]\nparameters: [g]\nT: 0.5*x'^2\nV: g*x/4\n").problem
+    assert decimals_of(problem, ["g=2", "k=1/3", "m = 2.50"]) == [Fraction(1, 2), Fraction(5, 2)]

@@ -25,6 +25,7 @@ from lagcli.formatters.layout import (
     COMMA,
     DIGITS,
     PRODUCT,
+    QUOTIENT,
     SUM,
     Layout,
     Piece,
@@ -97,7 +98,7 @@ class GrammarPrinter(Printer[Layout]):
         return tuple(pieces)
 
     def quotient(self, node: Quotient) -> Layout:
-        over = Piece("/", 1, rank=PRODUCT, broken="/ ", broken_width=2)
+        over = Piece("/", 1, rank=QUOTIENT, broken="/ ", broken_width=2)
         numerator = self.at(node.numerator, Level.PRODUCT)
         return (*numerator, over, *self.at(node.denominator, Level.POWER))
 

@@ -1,7 +1,7 @@
 """A formula as a row of pieces, and where to break it when the line is too short.
 
 A line may break before a piece that has a `rank`.  The best break is the one outside the
-most brackets, at a sum rather than a product, that still fills the line.
+most brackets, before + and − rather than a factor, that still fills the line.
 """
 
 from __future__ import annotations
@@ -11,9 +11,10 @@ from collections.abc import Sequence
 from lagcli.record import record
 
 #: How bad a break is, apart from its brackets.
-RELATION, SUM, COMMA, PRODUCT, OPENING, DIGITS = 0, 1, 1, 3, 7, 8
+RELATION, SUM, COMMA, QUOTIENT, PRODUCT, OPENING, DIGITS = 0, 1, 1, 5, 25, 40, 50
 
-#: One more pair of brackets around a break is worse than a product outside them.
+#: One more pair of brackets around a break; a bracket is parted from its factor only where
+#: nothing else fits.
 _NESTING = 3.0
 #: An empty line is as bad as this many ranks.
 _RAGGEDNESS = 6.0

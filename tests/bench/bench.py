@@ -29,6 +29,7 @@ from tests.bench import (
     commands,
     cut_rows,
     discovering,
+    form,
     library,
     long_rows,
     motion_rows,
@@ -40,6 +41,7 @@ from tests.bench.measure import ROOT, Row, show
 #: What `--only` takes; without it the first three are measured.
 PARTS = (
     "commands", "scaling", "library", "discovery", "motions", "integration", "auto", "cut", "certificate",
+    "form",
 )  # fmt: skip
 _USUAL = PARTS[:3]
 
@@ -132,6 +134,8 @@ def _measure(part: str, run: Run, arguments: argparse.Namespace) -> None:
             run.take(auto_rows.rows(2, kept=True))
         case "cut":
             run.take(cut_rows.rows())
+        case "form":
+            run.take(form.rows(form.of_library(), listed=True))
         case "certificate":
             run.take(certificate.rows(certificate.study([], 2, arguments.cap, None)))
 
