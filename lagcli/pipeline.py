@@ -6,7 +6,7 @@ imported when it is come to.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -19,7 +19,7 @@ from lagcli.record import record
 if TYPE_CHECKING:
     from os import PathLike
 
-    from lagcli.answers import Answers, ModelSection
+    from lagcli.answers import Answers, ModelSection, Section
     from lagcli.explanation import Explanation
     from lagcli.formatters import Options
     from lagcli.mechanics.derivation import Derivation
@@ -146,7 +146,7 @@ def state(derivation: Derivation, request: Request) -> Answers:
     manner = Manner(derivation.given)
     answers = replace(
         answers,
-        sections=rewritten(answers.sections, manner),
+        sections=_with_words(derivation.given, rewritten(answers.sections, manner)),
         where=rewritten(answers.where, manner),
     )
     if VERIFYING and not derivation.no_lagrangian:
@@ -161,6 +161,18 @@ def state(derivation: Derivation, request: Request) -> Answers:
         sections=rewritten(answers.sections, with_decimals),
         where=rewritten(answers.where, with_decimals),
     )
+
+
+def _with_words(problem: Problem, sections: Mapping[str, Section]) -> Mapping[str, Section]:
+    """The reason of the energy without the letters that mean something else in the file."""
+    from lagcli.answers import EnergySection
+    from lagcli.letters import sentence
+
+    energy = sections.get("energy")
+    if not isinstance(energy, EnergySection):
+        return sections
+    told = sentence(energy.reason, _names_of(problem))
+    return {**sections, "energy": replace(energy, reason=told)}
 
 
 def _with_given_decimals(problem: Problem, request: Request, answers: Answers) -> Answers:
@@ -234,11 +246,23 @@ def _ended(work: Callable[[], Made]) -> Made:
 
 
 def _in_the_manner(derivation: Derivation, told: Explanation) -> Explanation:
-    """The explanation with its formulas as the file writes its own."""
+    """The explanation with its formulas as the file writes its own, and no letter twice."""
+    from lagcli.letters import settled
     from lagcli.manners import Manner
     from lagcli.rewriting import rewritten
 
-    return replace(told, steps=rewritten(told.steps, Manner(derivation.given)))
+    steps = rewritten(told.steps, Manner(derivation.given))
+    return replace(told, steps=settled(steps, _names_of(derivation.given)))
+
+
+def _names_of(problem: Problem) -> set[str]:
+    """Every name that the file gives a meaning."""
+    return {
+        *(q.name for q in (*problem.coordinates, *problem.parameters)),
+        *problem.definitions,
+        *problem.functions,
+        *(c.multiplier for c in problem.constraints),
+    }
 
 
 def _statements(derivation: Derivation) -> Stating:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 
 from lagcli.answers import (
@@ -22,7 +22,8 @@ from lagcli.document import (
     Paragraph,
     Row,
 )
-from lagcli.expression import ZERO, Expression, Name, Number, Power, operation_count, walk
+from lagcli.expression import ZERO, Expression, Name, Number, Power, operation_count
+from lagcli.letters import own
 from lagcli.questions import FindSection, Range, Ranges, Rewritten, Solutions
 from lagcli.wording import conditions, holding, place_rows, stability
 
@@ -59,7 +60,7 @@ def charge_blocks(section: ChargesSection) -> Iterator[Block]:
         if charge.charge is not None:
             rows.append(Row(Label("Q"), charge.charge))
         if charge.rate is not None and not charge.conserved:
-            rows.append(Row(Name("Q", 1), charge.rate))
+            rows.append(Row(own("Q", 1), charge.rate))
         if rows:
             yield Equations(tuple(rows))
         yield Paragraph((_verdict(charge),))
@@ -209,15 +210,9 @@ def mode_blocks(section: ModesSection) -> Iterator[Block]:
             yield Equations(tuple(_shape(other)))
 
 
-def own_letter(letter: str, beside: Iterable[Expression]) -> Name:
-    """The letter, with the index sys where the formulas beside it use it for something else."""
-    taken = {node.name for tree in beside for node in walk(tree) if isinstance(node, Name)}
-    return Name(f"{letter}_sys" if letter in taken else letter)
-
-
 def _mode(mode: Mode) -> Iterator[Row]:
     note = f"{mode.multiplicity} times" if mode.multiplicity > 1 else ""
-    omega = own_letter("omega", [x for x in (mode.frequency, mode.frequency_squared) if x])
+    omega = own("omega")
     if mode.frequency is not None:
         yield Row(omega, mode.frequency, note)
     elif mode.frequency_squared is not None:

@@ -16,6 +16,7 @@ from lagcli.document import (
 )
 from lagcli.expression import ZERO, Name
 from lagcli.formatters.findings import state_blocks
+from lagcli.letters import own
 from lagcli.motions import OneFreedom, PeriodSeries
 from lagcli.wording import POTENTIAL, conditions, irreducible
 
@@ -26,7 +27,7 @@ def reduction_blocks(section: ReductionSection) -> Iterator[Block]:
         names = [part for name in section.eliminated for part in (", ", Name(name))][1:]
         yield Paragraph(("The constraints are used to eliminate ", *names, "."))
     for name, each in section.irreducible.items():
-        yield Paragraph(tuple(irreducible(name, each, Name("L"))))
+        yield Paragraph(tuple(irreducible(name, each, own("L"))))
     if section.momenta:
         yield Paragraph(("Constant, since the coordinates are cyclic:",))
         yield Equations(

@@ -53,6 +53,7 @@ from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.reductions import reduction_blocks
 from lagcli.formatters.separation import hamilton_jacobi_blocks
 from lagcli.formatters.steady import steady_blocks
+from lagcli.letters import names_in, settled
 from lagcli.motions import HamiltonJacobiSection, SteadySection
 from lagcli.phase_space import (
     BracketsSection,
@@ -110,7 +111,9 @@ def to_document(answers: Answers) -> Document:
     if answers.warnings:
         blocks.append(Heading("Warnings"))
         blocks.extend(Paragraph((warning,)) for warning in answers.warnings)
-    return Document(answers.title, tuple(blocks), answers.coordinates, answers.symbols)
+    page = Document(answers.title, tuple(blocks), answers.coordinates, answers.symbols)
+    given = {*answers.coordinates, *answers.parameters, *answers.multipliers}
+    return settled(page, given | names_in(answers.sections) - set(answers.where))
 
 
 def _first_abbreviated(answers: Answers) -> str:

@@ -16,7 +16,7 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power
-from lagcli.formatters.findings import own_letter
+from lagcli.letters import own
 from lagcli.motions import SteadyMotion, SteadySection
 from lagcli.wording import conditions, place_rows, steady_stability
 
@@ -71,7 +71,7 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
     yield Paragraph(tuple(steady_stability(motion)))
     squares = dict.fromkeys(motion.frequencies_squared)
     if squares:
-        squared = Power(own_letter("omega", squares), Number(Fraction(2)))
+        squared = Power(own("omega"), Number(Fraction(2)))
         yield Equations(tuple(Row(squared, square) for square in squares))
     if len(motion.mass) > 1:
         yield from _linearized(motion)

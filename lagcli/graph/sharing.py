@@ -138,9 +138,12 @@ class GraphWriter:
         self._trees: dict[Node, Expression] = {}
         self._number: dict[Node, int] = {}
         self.names: dict[Node, Expression] = {}
+        self._leading: set[Node] = set()
 
-    def name(self, node: Node, name: str) -> None:
-        """Write the node by this name from now on."""
+    def name(self, node: Node, name: str, *, leading: bool = False) -> None:
+        """Write the node by this name from now on; before all letters of a product if `leading`."""
+        if leading:
+            self._leading.add(node)
         self._number[node] = len(self.names)
         self.names[node] = tree.Name(name)
 
@@ -246,8 +249,10 @@ class GraphWriter:
         return tree.Negative(result) if number < 0 else result
 
     def _key(self, base: Node) -> tuple[int, ...]:
-        """Parameters, t, coordinates, velocities; then names of parts; sums; functions."""
+        """Leading names, parameters, t, q, q'; then other names of parts; sums; functions."""
         match base:
+            case _ if base in self._leading:
+                return (0, -1, self._number[base])
             case Symbol(name=name, primes=primes):
                 return (0, primes, self._rank.get(name, len(self._rank)), base.index)
             case Constant():

@@ -138,7 +138,10 @@ class ClosedForm:
         if self._labels is None:
             self._labels = _Labels(self.taken)
         momenta = tuple(f"p_{q.name}" for q in self.form.q)
-        return _written(named, values, (*self.order, *momenta), self._labels)
+        varying = self.form.varying
+        for symbol in (*named, *map(self.graph.symbol, momenta)):
+            varying |= symbol.mask
+        return _written(named, values, (*self.order, *momenta), self._labels, varying)
 
     @cached_property
     def _mass_matrix(self) -> Sequence[Sequence[Node]]:
@@ -385,7 +388,11 @@ class _Elimination:
 
 
 def _written(
-    named: Mapping[Symbol, Node], values: Sequence[Node], order: Sequence[str], labels: _Labels
+    named: Mapping[Symbol, Node],
+    values: Sequence[Node],
+    order: Sequence[str],
+    labels: _Labels,
+    varying: int,
 ) -> Written | None:
     """The values and the abbreviations that they use, in order; None for more than a page."""
     needed = _needed(named, values)
@@ -399,7 +406,7 @@ def _written(
             if node in shared and node not in writer.names and not (name and node is root):
                 label = labels(node)
                 where[label] = writer.tree(node)
-                writer.name(node, label)
+                writer.name(node, label, leading=not node.mask & varying)
         if name:
             where[name] = writer.tree(root)
     trees = tuple(map(writer.tree, values))

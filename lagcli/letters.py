@@ -1,0 +1,113 @@
+"""Letters of ours give way to letters of the file: ω, L, h, H, Q, R, T, S, …
+
+A page has letters that no file declares: L for the Lagrangian, ω for a frequency.  Where the file
+uses one for itself, ours gets the index "sys" (L_sys), and a sentence says the word instead.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Mapping
+from dataclasses import fields, is_dataclass
+from typing import Any, TypeVar, cast
+
+from lagcli.document import Label, Paragraph
+from lagcli.expression import FUNCTIONS, Call, Expression, Name, PartialCall, walk
+from lagcli.record import replace
+from lagcli.rewriting import rebuilt
+
+Page = TypeVar("Page")
+
+#: What stands before a letter of ours until it is known whether the file has it.
+_OWN = "&"
+_INDEX = "sys"
+#: What a sentence says where a letter is the file's; the first that fits counts.
+_WORDS = (
+    ("dQ/dt = 0 on the motion", "Q", "its rate is 0 on the motion"),
+    ("T + V", "TV", "the sum of the kinetic and the potential energy"),
+    (r"\bL\b", "L", "the Lagrangian"),
+    (r"\bH\b", "H", "the Hamiltonian"),
+    (r"\bV\b", "V", "the potential energy"),
+    (r"\bT\b", "T", "the kinetic energy"),
+    (r"\bU_eff\b", "U_eff", "the effective potential"),
+    (r"^S = ", "S", "S_sys = "),
+)
+
+
+def own(letter: str, primes: int = 0) -> Name:
+    """A letter of the page itself, as a formula."""
+    return Name(_OWN + letter, primes)
+
+
+def names_in(value: object) -> set[str]:
+    """The names and functions that the formulas of a value use."""
+    if isinstance(value, Expression):
+        found = set()
+        for part in walk(value):
+            if isinstance(part, Name):
+                found.add(part.name)
+            elif isinstance(part, (Call, PartialCall)) and part.function not in FUNCTIONS:
+                found.add(part.function)
+        return found
+    parts: Any = ()
+    if isinstance(value, Mapping):
+        parts = value.values()
+    elif isinstance(value, (tuple, list)):
+        parts = value
+    elif is_dataclass(value):
+        parts = (getattr(value, each.name) for each in fields(value))
+    return {name for part in parts for name in names_in(part)}
+
+
+def settled(page: Page, taken: Collection[str]) -> Page:
+    """The page with every letter of its own free of those that are taken."""
+    return cast(Page, _settled(page, frozenset(taken)))
+
+
+def sentence(text: str, taken: Collection[str]) -> str:
+    """The sentence with words for the letters that are taken."""
+    for pattern, letters, words in _WORDS:
+        clash = letters in taken or (len(letters) == 2 and any(x in taken for x in letters))
+        if clash:
+            text = re.sub(pattern, words, text)
+    return text
+
+
+def _settled(value: Any, taken: frozenset[str]) -> Any:
+    match value:
+        case Label():
+            return _label(value, taken)
+        case Name(name=name) if name.startswith(_OWN):
+            return replace(value, name=_free(name.removeprefix(_OWN), taken))
+        case Expression():
+            return rebuilt(value, lambda part: _settled(part, taken))
+        case Paragraph(parts=parts):
+            found = (
+                sentence(p, taken) if isinstance(p, str) else _settled(p, taken) for p in parts
+            )
+            return Paragraph(tuple(found))
+        case tuple():
+            return tuple(_settled(part, taken) for part in value)
+        case _ if is_dataclass(value):
+            names = (each.name for each in fields(value))
+            changes = {n: _settled(getattr(value, n), taken) for n in names}
+            return replace(value, **changes)
+        case _:
+            return value
+
+
+def _said(parts: tuple[Any, ...], taken: frozenset[str]) -> tuple[Any, ...]:
+    return tuple(sentence(p, taken) if isinstance(p, str) else _settled(p, taken) for p in parts)
+
+
+def _label(label: Label, taken: frozenset[str]) -> Label:
+    spelled = "_".join((label.letter, *label.index))
+    if label.matrix or label.change or spelled not in taken:
+        return label
+    return replace(label, index=(*label.index, _INDEX))
+
+
+def _free(letter: str, taken: frozenset[str]) -> str:
+    while letter in taken:
+        letter += f"_{_INDEX}"
+    return letter
