@@ -102,7 +102,7 @@ def _said(parts: tuple[Any, ...], taken: frozenset[str]) -> tuple[Any, ...]:
 
 def _label(label: Label, taken: frozenset[str]) -> Label:
     spelled = "_".join((label.letter, *label.index))
-    if label.matrix or label.change or spelled not in taken:
+    if label.matrix or label.change or label.unit or spelled not in taken:
         return label
     return replace(label, index=(*label.index, _INDEX))
 
