@@ -502,3 +502,14 @@ def test_the_frequency_has_a_letter_of_its_own():
     explained = explaining.render([explanation], "text", Options())
     assert "ω_sys² = " in explained
     assert not re.search(r"ω²\s*=", explained)
+
+
+def test_a_search_that_left_something_out_does_not_say_that_there_is_nothing():
+    """x + F(t): the translation by cos(w t) has the gauge of an integral over F."""
+    text = (
+        "coordinates: [x]\nparameters: {m: {assume: positive}, k: {assume: positive}}\n"
+        "functions: {F: [t]}\nT: m*x'^2/2\nV: k*x^2/2 - x*F(t)\n"
+    )
+    derivation = derive(text)
+    assert bool(derivation.discovery.stopped) is (not derivation.discovery.charges)
+    assert "there is no symmetry" not in said(text, "Discovered symmetries", "discovered")

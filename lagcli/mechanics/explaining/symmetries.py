@@ -52,7 +52,10 @@ def discovered(teller: Teller, section: Section) -> Iterator[Block]:
         "solved exactly.",
     )
     if not found:
-        yield says("They have only the solution 0: within this ansatz there is no symmetry.")
+        if discovery.stopped:
+            yield says("No symmetry was found and proved, and the search was not complete.")
+        else:
+            yield says("They have only the solution 0: within this ansatz there is no symmetry.")
         return
     charges = [each for each in found if each.source != "momentum equation"]
     if charges:
@@ -115,7 +118,7 @@ def algebra(teller: Teller, section: Section) -> Iterator[Block]:
     found = cast(AlgebraSection, section)
     charges = teller.derivation.discovery.charges
     if not charges:
-        yield says(f"No symmetry was found, so there is no algebra. Searched: {found.ansatz}.")
+        yield says(f"No symmetry was found and proved. Searched: {found.ansatz}.")
         return
     if found.in_involution is None:
         yield says(_no_brackets(teller))
