@@ -100,7 +100,7 @@ def _motion(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
         yield Equations(tuple(Row(Name(f"p_{name}"), p) for name, p in momenta.items()))
         yield from two_rates(teller, motion)
     if motion.mirrored:
-        yield says("The same holds with the opposite signs of all these.")
+        yield says("It exists with the opposite signs of these velocities and momenta too.")
     if motion.where:
         yield says("It is possible for ", conditions(motion.where), ".")
     if motion.mass:
