@@ -1,16 +1,193 @@
-"""Abbreviations written out: the answers with every name replaced by what it stands for."""
+"""Abbreviations of long answers: names for what recurs in them, and those written out again.
+
+Where a formula would fill more than some three lines, a denominator that the rows share is named
+Δ, sines and cosines of differences s12 and c12, other sums k1, k2, …
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from lagcli.answers import Answers
-from lagcli.expression import Expression, Name, children, postorder
+from lagcli.expression import (
+    Call,
+    Expression,
+    Name,
+    Negative,
+    PartialCall,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    children,
+    operation_count,
+    postorder,
+    walk,
+)
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt, rewritten
 
 #: Operations beyond which a formula is not written out: it would fill some thirty pages.
 MOST_OPERATIONS = 100_000
+#: Operations of three lines of 80 columns.
+LONG = 65
+#: What is named has as many operations, or two thirds of them where it occurs often.
+_WORTH = 8
+_OFTEN = 3
+#: Occurrences from which a sine or cosine of a difference is named.
+_CIRCULAR = 4
+_MOST_NAMES = 12
+#: Whose rows have abbreviations in common.
+_SECTIONS = ("accelerations", "multipliers", "constraint_forces", "hamiltonian")
+
+
+def abbreviated(answers: Answers, taken: Collection[str]) -> Answers:
+    """The answers with names for what recurs in long accelerations, multipliers, Hamiltonians."""
+    given = [name for name in _SECTIONS if name in answers.sections]
+    trees = [tree for name in given for tree in _trees(answers.sections[name])]
+    if answers.where or not any(operation_count(tree) > LONG for tree in trees):
+        return answers
+    names = _Abbreviations(trees, taken)
+    if not names.where:
+        return answers
+    sections = {
+        name: rewritten(section, names) if name in given else section
+        for name, section in answers.sections.items()
+    }
+    return replace(answers, sections=sections, where=names.where)
+
+
+def _trees(section: object) -> Iterator[Expression]:
+    found: list[Expression] = []
+
+    def keep(node: Expression) -> Expression:
+        found.append(node)
+        return node
+
+    rewritten(section, keep)
+    yield from found
+
+
+class _Abbreviations:
+    """The names chosen for some formulas, the one that saves most first."""
+
+    def __init__(self, trees: Sequence[Expression], taken: Collection[str]) -> None:
+        self._taken = set(taken)
+        self._labels: dict[Expression, str] = {}  # what is named, as it stood when it was chosen
+        self._chosen: dict[str, Expression] = {}
+        self._trees = list(trees)
+        self._numbered: list[str] = []  # of k1, k2, …
+        while len(self._chosen) < _MOST_NAMES and (best := self._best()) is not None:
+            self._take(best)
+        found = dict(self._ordered())
+        counted = (name for name in found if name in self._numbered)
+        self._final = dict(zip(counted, self._numbered, strict=True))
+        self.where = {self._final.get(n, n): self._renamed(node) for n, node in found.items()}
+
+    def __call__(self, node: Expression) -> Expression:
+        """The formula with the names."""
+        for whole, label in self._labels.items():  # as they were chosen
+            node = _with_name(node, whole, label)
+        return self._renamed(node)
+
+    def _renamed(self, node: Expression) -> Expression:
+        """k1, k2, … in the order in which they are listed."""
+        if isinstance(node, Name):
+            return Name(self._final.get(node.name, node.name), node.primes)
+        return rebuilt(node, self._renamed)
+
+    def _best(self) -> Expression | None:
+        counts: Counter[Expression] = Counter()
+        for tree in (*self._trees, *self._chosen.values()):
+            counts.update(part for part in walk(tree) if isinstance(part, (Sum, Call)))
+        below = {f for tree in self._trees for f in _sums_below(tree)}
+        for part in list(counts):  # an angle has no name of its own
+            if isinstance(part, Call):
+                counts.update({a: -counts[a] for a in part.arguments if a in counts})
+        savings = {
+            part: (count - 1) * operation_count(part)
+            for part, count in counts.items()
+            if count > 1 and _is_worth(part, count, part in below)
+        }
+        return max(savings, key=lambda part: savings[part], default=None)
+
+    def _take(self, whole: Expression) -> None:
+        below = any(whole in set(_sums_below(tree)) for tree in self._trees)
+        label = self._new(_circular_name(whole) or ("Delta" if below else "k1"))
+        if not below and not _circular_name(whole):
+            self._numbered.append(label)
+        self._labels[whole] = label
+        self._trees = [_with_name(tree, whole, label) for tree in self._trees]
+        self._chosen = {name: _with_name(node, whole, label) for name, node in self._chosen.items()}
+        self._chosen[label] = whole
+
+    def _new(self, wanted: str) -> str:
+        stem = wanted.rstrip("0123456789")
+        number = 1 if stem == wanted else int(wanted[len(stem) :])
+        while wanted in self._taken:
+            number += 1
+            wanted = f"{stem}{number}"
+        self._taken.add(wanted)
+        return wanted
+
+    def _ordered(self) -> Iterator[tuple[str, Expression]]:
+        """The names, each after those that it uses."""
+        done: set[str] = set()
+        left = dict(reversed(self._chosen.items()))
+        while left:
+            for name, node in list(left.items()):
+                used = {p.name for p in walk(node) if isinstance(p, Name) and not p.primes}
+                if not used & (left.keys() - done):
+                    yield name, node
+                    done.add(name)
+                    del left[name]
+
+
+def _is_worth(part: Expression, count: int, below: bool) -> bool:
+    if isinstance(part, Call):
+        return count >= _CIRCULAR and bool(_circular_name(part))
+    size = operation_count(part)
+    return (below and size > 2) or size >= _WORTH or (count >= _OFTEN and 3 * size > 2 * _WORTH)
+
+
+def _circular_name(node: Expression) -> str:
+    """s12 of sin(θ1 − θ2), c12 of cos(θ1 − θ2)."""
+    match node:
+        case Call(
+            function="sin" | "cos" as function,
+            arguments=(Sum(terms=(Name(name=a, primes=0), Negative(operand=Name(name=b)))),),
+        ):
+            one, other = a.rstrip("0123456789"), b.rstrip("0123456789")
+            if one == other and one != a and other != b:
+                return function[0] + a[len(one) :] + b[len(other) :]
+    return ""
+
+
+def _sums_below(node: Expression) -> Iterator[Expression]:
+    """The sums among the factors of denominators."""
+    for part in walk(node):
+        if isinstance(part, Quotient):
+            factors = (
+                part.denominator.factors
+                if isinstance(part.denominator, Product)
+                else (part.denominator,)
+            )
+            for factor in factors:
+                base = factor.base if isinstance(factor, Power) else factor
+                if isinstance(base, Sum):
+                    yield base
+
+
+def _with_name(node: Expression, whole: Expression, label: str) -> Expression:
+    if node == whole:
+        return Name(label)
+    if isinstance(node, (Name, PartialCall)) or not children(node):
+        return node
+    return rebuilt(node, lambda part: _with_name(part, whole, label))
+
+
+# -- written out again ------------------------------------------------------------------------
 
 
 def written_out(answers: Answers) -> Answers:
@@ -20,14 +197,7 @@ def written_out(answers: Answers) -> Answers:
     sizes: dict[str, int] = {}
     for name, node in answers.where.items():
         sizes[name] = _size(node, sizes)
-    total = 0
-
-    def count(node: Expression) -> Expression:
-        nonlocal total
-        total += _size(node, sizes)
-        return node
-
-    rewritten(answers.sections, count)
+    total = sum(_size(tree, sizes) for s in answers.sections.values() for tree in _trees(s))
     if total > MOST_OPERATIONS:
         sentence = f"written out, the formulas would show {total:,} operations: abbreviated"
         return replace(answers, warnings=(*answers.warnings, sentence))

@@ -48,6 +48,9 @@ class Request:
         Put in the values of the file as well, and give decimal numbers.
     expand : bool
         Write the abbreviations of long answers out.
+    abbreviate : bool
+        Name what recurs in formulas of more than three lines; a system too large for formulas
+        has abbreviations in any case.
     """
 
     sections: tuple[str, ...] | None = None
@@ -55,6 +58,7 @@ class Request:
     state: tuple[str, ...] = ()
     numeric: bool = False
     expand: bool = False
+    abbreviate: bool = False
 
 
 @record
@@ -149,6 +153,10 @@ def state(derivation: Derivation, request: Request) -> Answers:
         sections=_with_words(derivation.given, rewritten(answers.sections, manner)),
         where=rewritten(answers.where, manner),
     )
+    if request.abbreviate and not request.expand:
+        from lagcli.abbreviations import abbreviated
+
+        answers = abbreviated(answers, _names_of(derivation.given))
     if VERIFYING and not derivation.no_lagrangian:
         unverified = answers
         answers = _ended(lambda: verified(derivation.problem, unverified))

@@ -30,7 +30,13 @@ def asked(
 ) -> Asked:
     """Read the options; a mistake in one hides none in another, nor those already found."""
     sections = _sections(show, mistakes, option, known)
-    request = Request(sections=sections, settings=tuple(settings), numeric=numeric, expand=expand)
+    request = Request(
+        sections=sections,
+        settings=tuple(settings),
+        numeric=numeric,
+        expand=expand,
+        abbreviate=not expand,
+    )
     return Asked(request, tuple(mistakes))
 
 

@@ -30,9 +30,13 @@ from lagcli.formatters.layout import (
     Layout,
     Piece,
     joined,
+    kept_whole,
 )
 from lagcli.formatters.numbers import DecimalParts, decimal_parts, digit_groups
 from lagcli.formatters.precedence import Level, Printer
+
+#: Columns of a bracket that is not parted.
+_SHORT = 24
 
 
 def to_grammar(expression: Expression) -> str:
@@ -62,7 +66,8 @@ class GrammarPrinter(Printer[Layout]):
         return name + "'" * primes
 
     def bracketed(self, shown: Layout) -> Layout:
-        return (Piece("(", 1, nesting=1), AFTER_BRACKET, *shown, Piece(")", 1, nesting=-1))
+        inner = kept_whole((AFTER_BRACKET, *shown), _SHORT)
+        return (Piece("(", 1, nesting=1), *inner, Piece(")", 1, nesting=-1))
 
     def number(self, node: Number) -> Layout:
         value = node.value

@@ -33,6 +33,7 @@ from lagcli.formatters.layout import (
     Layout,
     Piece,
     joined,
+    kept_whole,
     width_of,
 )
 from lagcli.formatters.numbers import DecimalParts, decimal_parts, digit_groups
@@ -64,6 +65,8 @@ _SIZES = (("", ""), (r"\bigl", r"\bigr"), (r"\Bigl", r"\Bigr"), (r"\biggl", r"\b
 _BRACKET_WIDTHS = (3.9, 4.6, 6.0, 7.4)
 _FLAT, _BIG, _TALL = 0, 1, 3
 
+#: Points of a bracket that is not parted.
+_SHORT = 90.0
 _SLASH = Piece("/", 5)
 
 
@@ -308,8 +311,7 @@ def _enclosed(content: Box, left: str, right: str, after: str = "") -> Layout:
     trailing = SCRIPT * text_width(after)
     return (
         Piece(before + left, width, nesting=1),
-        AFTER_BRACKET,
-        *content.pieces,
+        *kept_whole((AFTER_BRACKET, *content.pieces), _SHORT),
         Piece(behind + right + after, width + trailing, nesting=-1),
     )
 

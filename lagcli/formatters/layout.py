@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lagcli.record import record
+from lagcli.record import record, replace
 
 #: How bad a break is, apart from its brackets.
 RELATION, SUM, COMMA, QUOTIENT, PRODUCT, OPENING, DIGITS = 0, 1, 1, 5, 25, 40, 50
@@ -60,6 +60,13 @@ class Line:
     text: str
     depth: int
     width: float
+
+
+def kept_whole(layout: Layout, width: float) -> Layout:
+    """The pieces without breaks where they are no wider: (m1 + m2), sin(x - y)."""
+    if sum(piece.width for piece in layout) > width:
+        return layout
+    return tuple(p if p.rank is None else replace(p, rank=None) for p in layout)
 
 
 def joined(layout: Sequence[Piece]) -> str:
