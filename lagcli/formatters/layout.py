@@ -10,6 +10,8 @@ from collections.abc import Sequence
 
 from lagcli.record import record, replace
 
+#: What is added to the rank of a break inside a short bracket.
+WHOLE = 100
 #: How bad a break is, apart from its brackets.
 RELATION, SUM, COMMA, QUOTIENT, PRODUCT, OPENING, DIGITS = 0, 1, 1, 5, 25, 40, 50
 
@@ -63,10 +65,10 @@ class Line:
 
 
 def kept_whole(layout: Layout, width: float) -> Layout:
-    """The pieces without breaks where they are no wider: (m1 + m2), sin(x - y)."""
+    """Pieces that are no wider are parted last of all: (m1 + m2), sin(x - y)."""
     if sum(piece.width for piece in layout) > width:
         return layout
-    return tuple(p if p.rank is None else replace(p, rank=None) for p in layout)
+    return tuple(p if p.rank is None else replace(p, rank=p.rank % WHOLE + WHOLE) for p in layout)
 
 
 def joined(layout: Sequence[Piece]) -> str:
