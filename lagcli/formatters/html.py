@@ -49,11 +49,13 @@ _DISPLAY = (
 )
 _END_DISPLAY = "</mtable></math></div>"
 #: Chromium wants its own name of a side, Firefox the table's `columnalign`.
-_CELL = '<mtd style="text-align: -webkit-{side}; padding: 0.3em 0.2em">{content}</mtd>'
+_CELL = '<mtd style="text-align: -webkit-{side}; padding: {above} 0.2em 0.1em">{content}</mtd>'
 _WHOLE_ROW = (
     '<mtr><mtd columnspan="3" columnalign="left" '
-    'style="text-align: -webkit-left; padding: 0.3em 0.2em">{content}</mtd></mtr>'
+    'style="text-align: -webkit-left; padding: {above} 0.2em 0.1em">{content}</mtd></mtr>'
 )
+#: Above the first line of an equation, and above those that go on with it.
+_NEXT, _GOES_ON = "0.9em", "0.1em"
 #: A side of an equation is broken where its terms reach so many operations.
 _LONG = 24
 
@@ -128,14 +130,14 @@ def _row(row: Row, printer: MathmlPrinter) -> Iterator[str]:
         else:
             first += note
     if above:
-        for line in above:
-            yield _WHOLE_ROW.format(content=line)
+        for number, line in enumerate(above):
+            yield _WHOLE_ROW.format(content=line, above=_GOES_ON if number else _NEXT)
         content = f"<mrow><mspace width='1em'/>{last}<mo>=</mo>{first}</mrow>"
-        yield _WHOLE_ROW.format(content=content)
+        yield _WHOLE_ROW.format(content=content, above=_GOES_ON)
     else:
         yield _cells(last, "<mo>=</mo>", first)
     for line in below:
-        yield _cells("", "", f"<mspace width='1em'/>{line}")
+        yield _cells("", "", f"<mspace width='1em'/>{line}", _GOES_ON)
 
 
 def _lines(formula: Formula, printer: MathmlPrinter) -> list[str]:
@@ -153,9 +155,10 @@ def _lines(formula: Formula, printer: MathmlPrinter) -> list[str]:
     return [f"<mrow>{line}</mrow>" for line in lines]
 
 
-def _cells(left: str, middle: str, right: str) -> str:
+def _cells(left: str, middle: str, right: str, above: str = _NEXT) -> str:
     sides = zip(("right", "center", "left"), (left, middle, right), strict=True)
-    return f"<mtr>{''.join(_CELL.format(side=side, content=each) for side, each in sides)}</mtr>"
+    cells = (_CELL.format(side=side, content=each, above=above) for side, each in sides)
+    return f"<mtr>{''.join(cells)}</mtr>"
 
 
 def _matrix(matrix: Matrix, printer: MathmlPrinter) -> str:

@@ -37,6 +37,7 @@ from lagcli.graph.substitution import Substitution
 from lagcli.graph.values import Digits, Program
 from lagcli.mechanics.gathering import gathered
 from lagcli.mechanics.matrix_form import MatrixForm
+from lagcli.problem import Problem
 from lagcli.record import record
 
 #: More abbreviations than this fill more than a page; a chain of six links on a cart has 74.
@@ -64,6 +65,20 @@ class Written:
 
     values: tuple[Expression, ...]
     where: Mapping[str, Expression]
+
+
+def names_of(problem: Problem) -> set[str]:
+    """Every name that the file gives a meaning."""
+    return {
+        *(q.name for q in (*problem.parameters, *problem.coordinates)),
+        *(f"p_{q.name}" for q in problem.coordinates),
+        *problem.definitions,
+        *problem.functions,
+        *(c.multiplier for c in problem.constraints),
+        *(point.name for point in problem.points),
+        "t",
+        "pi",
+    }
 
 
 class ClosedForm:

@@ -155,18 +155,9 @@ class Stating:
     @property
     def _taken(self) -> set[str]:
         """Every name that the file gives a meaning."""
-        problem = self.problem
-        return {
-            *(q.name for q in (*problem.parameters, *problem.coordinates)),
-            *(f"p_{q.name}" for q in problem.coordinates),
-            *problem.definitions,
-            *problem.functions,
-            *(c.multiplier for c in problem.constraints),
-            *(point.name for point in problem.points),
-            *self._reserved,
-            "t",
-            "pi",
-        }
+        from lagcli.mechanics.closed_form import names_of
+
+        return names_of(self.problem) | self._reserved
 
     def _abbreviated(self, find: Callable[[ClosedForm], Kept | None]) -> Kept | None:
         """A closed form with its abbreviations noted; None where there is none."""
