@@ -239,8 +239,8 @@ class Examination:
         if not self.unchecked:
             return tuple(self.retracted)
         names = ", ".join(dict.fromkeys(self.unchecked))
-        why = "no random state was found" if not self.states() else "no random state decides"
-        return (*self.retracted, f"not verified in numbers ({why}): {names}")
+        why = "" if self.states() else " (no state was found that the constraints allow)"
+        return (*self.retracted, f"not verified in numbers{why}: {names}")
 
 
 def _shown(x: arb) -> str:

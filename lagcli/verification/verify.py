@@ -19,16 +19,18 @@ from lagcli.answers import (
     HamiltonianSection,
     LagrangianSection,
     MatrixFormSection,
+    ModelSection,
     ModesSection,
     MomentaSection,
     MultipliersSection,
+    ReductionSection,
     Section,
 )
 from lagcli.forces import ForcesSection
 from lagcli.motions import SteadySection
 from lagcli.problem import Problem
 from lagcli.record import replace
-from lagcli.verification.claims import charges, energies, equilibria, forces, motion
+from lagcli.verification.claims import charges, energies, equilibria, forces, motion, reduction
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear
 from lagcli.verification.sweeps import Unknown
@@ -49,6 +51,8 @@ _CLAIMS: dict[type, Callable[[Examination, Any], Section]] = {
     ChargesSection: charges.charges,
     EquilibriaSection: equilibria.equilibria,
     ModesSection: equilibria.modes,
+    ReductionSection: reduction.reduction,
+    ModelSection: reduction.model,
     SteadySection: equilibria.steady_motions,
 }
 

@@ -15,6 +15,7 @@ from flint import arb
 from lagcli.answers import AlgebraSection, Charge, ChargesSection
 from lagcli.expression import ONE, ZERO
 from lagcli.record import replace
+from lagcli.verification.claims.boundary import boundary_term
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot
 from lagcli.verification.states import State
@@ -27,12 +28,13 @@ def charges(x: Examination, section: ChargesSection) -> ChargesSection:
 
 
 def _charge(x: Examination, charge: Charge) -> Charge:
+    charge = _as_given(x, charge)
     if charge.charge is None:
         return charge
     what = f"the charge '{charge.name}'"
     places = x.places(what, [charge.charge])
     tried = len(x.unchecked)
-    if places is None or not _is_noethers(x, what, charge):
+    if places is None or not _is_noethers(x, what, charge) or not boundary_term(x, charge):
         return _without(charge)
     rate = _rate(x, charge, places[0])
     if rate is None:
@@ -50,6 +52,21 @@ def _charge(x: Examination, charge: Charge) -> Charge:
 def _without(charge: Charge) -> Charge:
     why = "its printed form was not confirmed at random states"
     return replace(charge, charge=None, rate=None, conserved=None, verified=None, broken_by=why)
+
+
+def _as_given(x: Examination, charge: Charge) -> Charge:
+    """A candidate's transformation is that of the file."""
+    given = [each for each in x.problem.symmetries if each.name == charge.name]
+    if charge.source != "candidate" or not given:
+        return charge
+    asked = {**given[0].changes, **({} if given[0].time is None else {"t": given[0].time})}
+    names = (*x.reference.names, "t")
+    places = [x.reference.place(asked.get(name, ZERO)) for name in names]
+    printed = [charge.transformation.get(name, ZERO) for name in names]
+    what = f"the transformation of '{charge.name}'"
+    if x.hold(what, printed, lambda s: [s.at(place) for place in places]):
+        return charge
+    return _without(replace(charge, transformation=asked))
 
 
 def _is_noethers(x: Examination, what: str, charge: Charge) -> bool:

@@ -73,7 +73,7 @@ def matrix_form(x: Examination, section: MatrixFormSection) -> MatrixFormSection
 def accelerations(x: Examination, section: AccelerationsSection) -> AccelerationsSection:
     """q'' by coordinate, and whether the equations determine them."""
     if section.accelerations is None:
-        return section
+        return _regularity(x, section)
     for j, name in enumerate(x.reference.names):
         what = f"the acceleration of {name}"
         if not x.determined(what, lambda s, j=j: s.laws.motion.determined(j)):  # type: ignore[misc]
@@ -82,6 +82,18 @@ def accelerations(x: Examination, section: AccelerationsSection) -> Acceleration
         if not x.holds(what, q, lambda s, j=j: s.laws.accelerations[j]):  # type: ignore[misc]
             return replace(section, accelerations=None, verified=None)
     return section
+
+
+def _regularity(x: Examination, section: AccelerationsSection) -> AccelerationsSection:
+    """That the equations do not determine the accelerations, where that is claimed."""
+    states = x.states()
+    if section.regular or x.reference.large or not states or not x.regular:
+        return section
+    x.refute(
+        "that the equations do not determine the accelerations",
+        "they do at random states",
+    )
+    return replace(section, regular=True, degenerate=())
 
 
 def multipliers(x: Examination, section: MultipliersSection) -> MultipliersSection:

@@ -1,0 +1,98 @@
+"""The boundary term of a candidate: K = dG/dt, and that there is none where none is given.
+
+The change of the action by Delta q = Dq, Delta t = Dt is the integral of
+
+    K = sum_j [ dL/dq_j Dq_j + dL/dq_j' (d(Dq_j)/dt - q_j' d(Dt)/dt) ] + dL/dt Dt + L d(Dt)/dt,
+
+which is a total derivative if and only if dK/dq_j - d/dt dK/dq_j' + d^2/dt^2 dK/dq_j'' = 0
+identically (Euler's operator; Olver, *Applications of Lie Groups to Differential Equations*,
+2nd ed., theorem 4.7).
+"""
+
+from __future__ import annotations
+
+from random import Random
+
+from flint import arb
+
+from lagcli.answers import Charge
+from lagcli.expression import ZERO
+from lagcli.verification.comparison import Verdict, compare
+from lagcli.verification.examination import Examination
+from lagcli.verification.states import State
+from lagcli.verification.sweeps import Values
+
+
+def boundary_term(x: Examination, charge: Charge) -> bool:
+    """Whether the boundary term of a candidate is right, be it that there is none."""
+    given = [each for each in x.problem.symmetries if each.name == charge.name]
+    if charge.source != "candidate" or not given or x.reference.large:
+        return True
+    what = f"the boundary term of '{charge.name}'"
+    if given[0].gauge is not None:
+        return charge.gauge is not None and x.holds(
+            what, charge.gauge, lambda s: s.at(x.reference.place(given[0].gauge or ZERO))
+        )
+    change = _change_of_action(x, charge)
+    if change is None:
+        return True
+    if charge.gauge is not None:
+        gauge = x.places(what, [charge.gauge])
+        if gauge is None:
+            return False
+        growth = x.reference.program.rate(gauge[0])
+        return x.decide(what, lambda s: ([s.loose.at(growth)], [s.loose.at(change)]))
+    if x.problem.constraints or not _is_total_derivative(x, change):
+        return True
+    x.refute(f"that '{charge.name}' has no boundary term", "the change of L is a total derivative")
+    return False
+
+
+def _change_of_action(x: Examination, charge: Charge) -> int | None:
+    """The step of K."""
+    program, reference = x.reference.program, x.reference
+    names = (*reference.names, "t")
+    places = x.places("", [charge.transformation.get(name, ZERO) for name in names])
+    if places is None:
+        return None
+    *changes, time = places
+    L = reference.lagrangian
+    stretch = program.rate(time)
+
+    def slope(symbol: int) -> int:
+        return program.derivative(L, {symbol: program.one})
+
+    terms = [program.product(slope(reference.time), time), program.product(L, stretch)]
+    for q, v, change in zip(reference.q, reference.v, changes, strict=True):
+        growth = program.sum(program.rate(change), program.negative(program.product(v, stretch)))
+        terms += [program.product(slope(q), change), program.product(slope(v), growth)]
+    return program.sum(*terms)
+
+
+def _is_total_derivative(x: Examination, change: int) -> bool:
+    """Whether Euler's operator gives 0 at random states, with random higher derivatives."""
+    program, reference = x.reference.program, x.reference
+    residuals = []
+    for q, v, a in zip(reference.q, reference.v, reference.a, strict=True):
+        parts = [program.derivative(change, {each: program.one}) for each in (q, v, a)]
+        rates = program.rate(parts[1]), program.rate(program.rate(parts[2]))
+        residuals.append(program.sum(parts[0], program.negative(rates[0]), rates[1]))
+    states = x.states()
+    if not states:
+        return False
+    return all(
+        compare(_anywhere(state)(residual), arb(0)) is Verdict.EQUAL
+        for state in states
+        for residual in residuals
+    )
+
+
+def _anywhere(state: State) -> Values:
+    """The state with random derivatives of q of orders 2 to 5."""
+    random = Random(3)
+    given = {
+        (name, primes): arb(random.randint(-1024, 1024)) / 1024
+        for name in state.reference.names
+        for primes in range(2, 6)
+    }
+    return state.reference.values({**state.environment, **given})

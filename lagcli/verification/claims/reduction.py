@@ -1,0 +1,154 @@
+"""The Routhian, what follows from it, and the one degree of freedom that is left.
+
+With the momenta p_c of the cyclic coordinates, R = L - sum p_c q_c' of the others, and
+R = T_2 + sum g_j q_j' - U_eff where it is quadratic in them (Routh; Goldstein, Poole, Safko,
+*Classical Mechanics*, 3rd ed., section 8.3).
+"""
+
+from __future__ import annotations
+
+from flint import arb
+
+from lagcli.answers import ModelSection, ReductionSection
+from lagcli.expression import Expression
+from lagcli.motions import OneFreedom
+from lagcli.record import replace
+from lagcli.verification.examination import Examination
+from lagcli.verification.linear import dot
+from lagcli.verification.states import State
+from lagcli.verification.sweeps import Values, column
+
+_WHY = "what was derived does not hold at random states"
+
+
+def reduction(x: Examination, section: ReductionSection) -> ReductionSection:
+    """Every formula of the reduced system, at states of the whole one."""
+    R = section.routhian
+    if R is None:
+        return section
+    holds = (
+        _cyclic(x, section)
+        and x.holds("the Routhian", R, lambda s: _routhian(x, s, section))
+        and _equations(x, section)
+        and _parts(x, section, R)
+    )
+    if not holds:
+        return ReductionSection(momenta={}, routhian=None, reason=_WHY)
+    one = section.one_freedom
+    if one is not None and not _one_freedom(x, one, R):
+        return replace(section, one_freedom=None)
+    return section
+
+
+def _cyclic(x: Examination, section: ReductionSection) -> bool:
+    """The momenta of the cyclic coordinates and their velocities."""
+    where = [x.reference.names.index(name) for name in section.momenta]
+    rates = [x.reference.names.index(name) for name in section.reconstruction]
+    return x.hold(
+        "the momenta of the cyclic coordinates",
+        list(section.momenta.values()),
+        lambda s: [s.laws.momenta[j] for j in where],
+    ) and x.hold(
+        "the velocities of the cyclic coordinates",
+        list(section.reconstruction.values()),
+        lambda s: [s.laws.velocities[j] for j in rates],
+    )
+
+
+def _routhian(x: Examination, s: State, section: ReductionSection) -> arb:
+    where = [x.reference.names.index(name) for name in section.momenta]
+    p, v = s.laws.momenta, s.laws.velocities
+    return s.laws.lagrangian - dot([p[j] for j in where], [v[j] for j in where])
+
+
+def _equations(x: Examination, section: ReductionSection) -> bool:
+    """Each holds on the motion."""
+    if not x.regular:
+        return True
+    sides = [side for each in section.equations for side in (each.left, each.right)]
+    places = x.places("the reduced equations", sides)
+    if places is None:
+        return False
+
+    def both(s: State) -> tuple[list[arb], list[arb]]:
+        values = [s.at(place) for place in places]
+        return values[::2], values[1::2]
+
+    return x.decide("the reduced equations", both)
+
+
+def _at_rest(x: Examination, s: State) -> Values:
+    """The state with the velocities 0, the momenta as they are."""
+    still = {(name, 1): arb(0) for name in x.reference.names}
+    return x.reference.values({**s.environment, **s.following, **still})
+
+
+def _parts(x: Examination, section: ReductionSection, R: Expression) -> bool:
+    """U_eff = -R, and g_j = dR/dq_j', where the velocities are 0."""
+    place = x.place(R)
+    U = section.effective_potential
+    if U is None:
+        return True
+    what = "the effective potential"
+    if not x.holds(what, U, lambda s: -_at_rest(x, s)(place), lambda s: _at_rest(x, s)):
+        return False
+    symbols = [x.reference.program.symbol(name, 1) for name in section.gyroscopic]
+    return x.hold(
+        "the gyroscopic terms",
+        list(section.gyroscopic.values()),
+        lambda s: column(_at_rest(x, s).gradient(place), symbols),
+    )
+
+
+def _one_freedom(x: Examination, one: OneFreedom, R: Expression) -> bool:
+    """E = q' dR/dq' - R, dt = rate dq, and E = U_eff at the turning points."""
+    place, velocity = x.place(R), x.reference.program.symbol(one.coordinate, 1)
+    what = "the energy of the one degree of freedom"
+
+    def energy(s: State) -> arb:
+        slope = s.at.gradient(place).get(velocity, arb(0))
+        return s.at(velocity) * slope - s.at(place)
+
+    if not x.holds(what, one.energy, energy):
+        return False
+    places = x.places(what, [one.energy, one.rate, *(one.turning_points or ())])
+    if places is None:
+        return False
+    h, rate, *turning = places
+
+    def with_energy(s: State) -> Values:
+        known = {**s.environment, **s.following, (one.constant, 0): s.at(h)}
+        return x.reference.values(known)
+
+    def paces(s: State) -> tuple[list[arb], list[arb]]:
+        return [(with_energy(s)(rate) * s.at(velocity)) ** 2], [arb(1)]
+
+    def turns(s: State) -> tuple[list[arb], list[arb]] | None:
+        known = {**s.environment, **s.following, (one.constant, 0): s.at(h)}
+        found = [x.reference.values(known)(each) for each in turning]
+        real = [q for q in found if q.is_finite()]
+        there = [
+            x.reference.values({**known, (one.coordinate, 0): q, (one.coordinate, 1): arb(0)})(h)
+            for q in real
+        ]
+        kept = [e for e in there if e.is_finite()]
+        return (kept, [s.at(h)] * len(kept)) if kept else None
+
+    if not x.decide("the rate of the one degree of freedom", paces):
+        return False
+    before = len(x.unchecked)
+    holds = not turning or x.decide("the turning points", turns)
+    del x.unchecked[before:]  # for no random energy are they real
+    return holds
+
+
+def model(x: Examination, section: ModelSection) -> ModelSection:
+    """The eliminated coordinates follow from the others."""
+    names = list(section.eliminated)
+    where = [x.reference.q[x.reference.names.index(name)] for name in names]
+    holds = x.hold(
+        "the eliminated coordinates",
+        [section.eliminated[name] for name in names],
+        lambda s: [s.at(q) for q in where],
+    )
+    return section if holds else ModelSection(kept=None)
