@@ -29,14 +29,25 @@ from lagcli.answers import (
 from lagcli.forces import ForcesSection
 from lagcli.motions import SteadySection
 from lagcli.problem import Problem
+from lagcli.questions import FindSection
 from lagcli.record import replace
-from lagcli.verification.claims import charges, energies, equilibria, forces, motion, reduction
+from lagcli.verification.claims import (
+    charges,
+    energies,
+    equilibria,
+    find,
+    forces,
+    motion,
+    reduction,
+)
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear
 from lagcli.verification.sweeps import Unknown
 
+Examine = Callable[[Examination, Any], Section]
+
 #: What examines each kind of section; a kind that is not here is not verified in numbers.
-_CLAIMS: dict[type, Callable[[Examination, Any], Section]] = {
+_CLAIMS: dict[type, Examine] = {
     LagrangianSection: motion.lagrangian,
     EquationsSection: motion.equations,
     MatrixFormSection: motion.matrix_form,
@@ -76,6 +87,11 @@ def verified(problem: Problem, answers: Answers) -> Answers:
             name: _examined(examination, name, section)
             for name, section in answers.sections.items()
         }
+        if isinstance(asked := sections.get("find"), FindSection):
+            known = find.printed_charges(sections.get("charges"))
+            sections["find"] = _tried(
+                examination, "find", asked, lambda x, s: find.find(x, s, known)
+            )
     warnings = examination.warnings()
     if not warnings:
         return answers
@@ -89,8 +105,10 @@ def verified(problem: Problem, answers: Answers) -> Answers:
 
 def _examined(examination: Examination, name: str, section: Section) -> Section:
     examine = _CLAIMS.get(type(section))
-    if examine is None:
-        return section
+    return section if examine is None else _tried(examination, name, section, examine)
+
+
+def _tried(examination: Examination, name: str, section: Section, examine: Examine) -> Section:
     try:
         return examine(examination, section)
     except (ArithmeticError, ValueError, Unclear, Unknown):  # or a name of another kind

@@ -34,6 +34,7 @@ from tests.bench import (
     long_rows,
     motion_rows,
     scaling,
+    verification_rows,
 )
 from tests.bench.compare import compare
 from tests.bench.measure import ROOT, Row, show
@@ -41,7 +42,7 @@ from tests.bench.measure import ROOT, Row, show
 #: What `--only` takes; without it the first three are measured.
 PARTS = (
     "commands", "scaling", "library", "discovery", "motions", "integration", "auto", "cut", "certificate",
-    "form",
+    "form", "verification",
 )  # fmt: skip
 _USUAL = PARTS[:3]
 
@@ -111,6 +112,8 @@ def _measure(part: str, run: Run, arguments: argparse.Namespace) -> None:
             run.take(commands.rows(runs))
         case "scaling":
             run.take(scaling.rows(quick))
+        case "verification":
+            run.take(verification_rows.rows(library.paths(quick)))
         case "library":
             files = library.paths(quick)
             problems = library.measured(files, arguments.cap, run.library, run.keep)

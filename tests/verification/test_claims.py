@@ -6,10 +6,12 @@ import json
 
 import pytest
 
+from lagcli.answers import Answers, Charge, ChargesSection
 from lagcli.formatters.json import to_object
 from lagcli.formatters.options import Options
 from lagcli.motions import Verdict
 from lagcli.pipeline import render
+from lagcli.reader import parse_text, read_problem
 from lagcli.record import replace
 from lagcli.verification import verified
 
@@ -86,3 +88,70 @@ def test_a_verdict_of_stability_turned_round_is_withheld(name: str) -> None:
             [left] = getattr(found.sections[section], key)
             assert left.verdict.stable is None
             assert not found.complete
+
+
+REDUCED = {"classics/spherical-pendulum": "reduction", "hoop": "model"}
+
+
+@pytest.mark.parametrize("name", REDUCED)
+def test_the_formulas_of_a_reduced_system_are_examined(name: str) -> None:
+    section = REDUCED[name]
+    problem, answers = derived(name, (section,))
+    assert verified(problem, answers) is answers
+    noticed = [not verified(problem, wrong).complete for _, wrong in each_spoiled(answers, section)]
+    assert sum(noticed) >= 0.6 * len(noticed)
+
+
+def text_of(
+    L: str, coordinates: str, symmetries: str, parameters: str = "m: {assume: positive}"
+) -> str:
+    return (
+        f"coordinates: {coordinates}\nparameters: {{{parameters}}}\nL: {L}\n"
+        f"symmetries:\n  candidate: {symmetries}\n"
+    )
+
+
+def checked(text: str, charge: Charge) -> Charge:
+    problem = read_problem("problem.yaml", text.encode()).problem
+    assert problem is not None
+    sheet = Answers(
+        title="", coordinates=(), parameters=(), degrees_of_freedom=1,
+        sections={"charges": ChargesSection(charges=(charge,))},
+    )  # fmt: skip
+    section = verified(problem, sheet).sections["charges"]
+    assert isinstance(section, ChargesSection)
+    return section.charges[0]
+
+
+GAUGES = {
+    "x*x'*exp(-x^2)": ("1", "x*exp(-x^2)"),
+    "x'*cos(x)": ("1/(1 + x^2)", "cos(x)/(1 + x^2)"),
+    "x^3*x'": ("x", "x^4"),
+}
+
+
+@pytest.mark.parametrize("term", GAUGES)
+def test_a_boundary_term_that_was_not_found_is_not_called_a_broken_symmetry(term: str) -> None:
+    """A term f(x) x' of L changes nothing: what is said to be broken by it is withheld."""
+    change, gauge = GAUGES[term]
+    text = text_of(f"m*y'^2/2 + {term}", "[x, y]", f"{{x: {change}}}")
+    charge = Charge(
+        name="candidate", source="candidate", transformation={"x": parse_text(change)},
+        gauge=None, conserved=False, charge=parse_text(f"({gauge})"), rate=parse_text("0"),
+        broken_by="the Lagrangian",
+    )  # fmt: skip
+    assert checked(text, charge).charge is None
+    assert not checked(text, charge).broken_by.endswith("the Lagrangian")
+
+
+@pytest.mark.parametrize(
+    ("gauge", "kept"), [("m*g*t", True), ("m*g*t + m", True), ("-m*g*t", False), ("0", False)]
+)
+def test_a_boundary_term_has_the_rate_of_the_change_of_L(gauge: str, kept: bool) -> None:
+    text = text_of("m*x'^2/2 + m*g*x", "[x]", "{x: 1}", "m: {assume: positive}, g: {}")
+    charge = Charge(
+        name="candidate", source="candidate", transformation={"x": parse_text("1")},
+        gauge=parse_text(gauge), conserved=kept or None, charge=parse_text(f"m*x' - ({gauge})"),
+        rate=None,
+    )  # fmt: skip
+    assert (checked(text, charge).charge is not None) is kept

@@ -1,0 +1,220 @@
+"""Answers to `find`: put back into states that share the initial values of the charges.
+
+The energy function (where it is conserved), the momenta of cyclic coordinates and the charges
+that are printed have the values of the initial state; the answer must hold wherever they do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from random import Random
+
+from flint import arb
+
+from lagcli.answers import Charge, ChargesSection
+from lagcli.expression import Expression
+from lagcli.problem import Rewrite, Where
+from lagcli.questions import Answer, FindSection, Rewritten, Solutions
+from lagcli.record import replace
+from lagcli.verification.comparison import Verdict, compare
+from lagcli.verification.examination import Examination
+from lagcli.verification.linear import Unclear, least_step, size
+from lagcli.verification.states import Environment, State
+from lagcli.verification.sweeps import Unknown, column
+
+_STEPS = 48
+_STARTS = 4
+#: Newton's method has arrived: at a turning point it converges by halves, to some 2^-60.
+_ARRIVED = 1e-26
+#: Relative difference of an answer and the truth; a velocity at a turning point is the root of
+#: what is left of the energy.
+_AGREE = 1e-8
+
+
+def find(x: Examination, section: FindSection, charges: Sequence[Charge]) -> FindSection:
+    """Each answer, at states that the initial values of the charges allow."""
+    found = {name: _answer(x, name, each, charges) for name, each in section.answers.items()}
+    return replace(section, answers=found)
+
+
+def printed_charges(section: object) -> tuple[Charge, ...]:
+    """Those of the sheet that are conserved."""
+    if not isinstance(section, ChargesSection):
+        return ()
+    return tuple(each for each in section.charges if each.conserved and each.charge is not None)
+
+
+def _answer(x: Examination, name: str, answer: Answer, charges: Sequence[Charge]) -> Answer:
+    question = next(each for each in x.problem.find if each.name == name)
+    what = f"the answer to '{name}'"
+    if not all(row.holonomic for row in x.reference.rows) or x.reference.large:
+        return answer
+    reached = Reached(x, charges)
+    if isinstance(answer, Rewritten) and isinstance(question, Rewrite):
+        values = [v for v in (answer.value, *answer.values) if v is not None]
+        if not values or _is_value(x, what, question.value, values, reached):
+            return answer
+        return replace(answer, value=None, values=(), note=_NOTE)
+    if isinstance(answer, Solutions) and isinstance(question, Where) and answer.solutions:
+        places = x.places(what, answer.solutions)
+        if places is not None and all(_is_root(x, what, question, p, reached) for p in places):
+            return answer
+        return replace(answer, solutions=None, note=_NOTE)
+    return answer
+
+
+_NOTE = "what was derived does not hold at random states"
+
+
+class Reached:
+    """States with the constraints and the initial values of the charges."""
+
+    def __init__(self, x: Examination, charges: Sequence[Charge]) -> None:
+        self.x = x
+        self.reference = reference = x.reference
+        self.charges = [place for c in charges for place in x.places("", [c.charge]) or ()]  # type: ignore[list-item]
+        self.everything = [(n, primes) for primes in (0, 1) for n in reference.names]
+        self.constraints = [row.value for row in reference.rows if row.holonomic]
+        self.velocities = [row.velocity for row in reference.rows]
+        self.charges += self._evident()
+
+    def _evident(self) -> list[int]:
+        """The energy function and the momenta that are conserved."""
+        program, reference = self.reference.program, self.reference
+        L = reference.lagrangian
+        momenta = [program.derivative(L, {v: program.one}) for v in reference.v]
+        energy = [program.product(v, p) for v, p in zip(reference.v, momenta, strict=True)]
+        h = program.sum(*energy, program.negative(L))
+        states = self.x.states()
+        return [
+            place
+            for place in (h, *momenta)
+            if states and all(compare(s.laws.rate(place), arb(0)) is Verdict.EQUAL for s in states)
+        ]
+
+    def initial(self, known: Environment) -> Environment | None:
+        """The state at t = 0; what is not given is 0, or what the constraints leave."""
+        start = {**known, ("t", 0): arb(0), **{key: arb(0) for key in self.everything}}
+        given = {(n.name, n.primes): value for n, value in self.x.problem.initial.items()}
+        at = self.reference.values(dict(start))
+        start |= {key: at(self.reference.place(value)).mid() for key, value in given.items()}
+        free = [key for key in self.everything if key not in given]
+        if not self._solved(start, self.constraints, [k for k in free if not k[1]]):
+            return None
+        return start if self._solved(start, self.velocities, [k for k in free if k[1]]) else None
+
+    def states(self, known: Environment, pinned: Sequence[int] = ()) -> Iterator[State]:
+        """Random states with the initial charges at which the pinned steps are 0."""
+        start = self.initial(known)
+        if start is None:
+            return
+        before = self.reference.values(start)
+        program = self.reference.program
+        offsets = {place: before(place) for place in self.charges}
+        if not all(value.is_finite() for value in offsets.values()):
+            return
+        names = {place: program.symbol(f"initial {k}") for k, place in enumerate(offsets)}
+        kept = {(f"initial {k}", 0): v.mid() for k, v in enumerate(offsets.values())}
+        gaps = [program.sum(p, program.negative(names[p])) for p in offsets]
+        random = Random(11)
+        for _ in range(_STARTS):
+            there = {**known, **kept}
+            for key in self.everything:
+                there[key] = arb(random.randint(-1500, 1500)) / 1024
+            places = [*self.constraints, *self.velocities, *gaps, *pinned]
+            moments = [("t", 0)] if pinned else []
+            if self._solved(there, places, [*self.everything, *moments]):
+                yield State(self.reference, there)
+
+    def _solved(
+        self, environment: Environment, places: Sequence[int], free: list[tuple[str, int]]
+    ) -> bool:
+        symbols = [self.reference.program.symbol(*key) for key in free]
+        for _ in range(_STEPS if places else 0):
+            at = self.reference.values(environment)
+            residual = [at(place) for place in places]
+            if max(map(size, residual)) < _ARRIVED:
+                return True
+            if not free or not all(r.is_finite() for r in residual):
+                return False
+            rows = [column(at.gradient(place), symbols) for place in places]
+            try:
+                step = least_step(rows, residual)
+            except Unclear:
+                return False
+            longest = max(map(size, step))
+            if not longest < 1e6:
+                return False
+            shorter = arb(1 / longest) if longest > 1 else arb(1)
+            for key, d in zip(free, step, strict=True):
+                environment[key] = (environment[key] + d * shorter).mid()
+        return not places
+
+
+def _is_value(
+    x: Examination, what: str, asked: Expression, values: Sequence[Expression], reached: Reached
+) -> bool:
+    """Whether the formula (or one of two) is what was asked for."""
+    places = x.places(what, values)
+    if places is None:
+        return False
+    truth, tried = x.reference.place(asked), 0
+    for base in x.states(6):
+        for state in reached.states(_parameters(x, base)):
+            try:
+                true, found = state.at(truth), [state.at(place) for place in places]
+            except Unclear:
+                continue
+            finite = [each for each in found if each.is_finite()]
+            if not true.is_finite() or not finite:
+                continue
+            tried += 1
+            if not any(_near(each, true) for each in finite):
+                shown = f"{float(finite[0].mid()):.6g} where {float(true.mid()):.6g} is right"
+                x.refute(what, f"as derived it is {shown}")
+                return False
+        if tried > 1:
+            break
+    if not tried:
+        x.unchecked.append(what)
+    return True
+
+
+def _is_root(x: Examination, what: str, question: Where, root: int, reached: Reached) -> bool:
+    """Whether the equation holds where the unknown has the value of the root."""
+    key = (question.unknown.name, question.unknown.primes)
+    if key not in reached.everything:
+        return True
+    program = x.reference.program
+    unknown = program.symbol(*key)
+    pinned = [program.sum(unknown, program.negative(root))]
+    sides = [x.reference.place(s) for s in (question.equation.left, question.equation.right)]
+    gaps = []
+    for base in x.states(5):
+        try:
+            if not x.reference.values(base.environment)(root).is_finite():
+                continue
+            for state in reached.states(_parameters(x, base), pinned):
+                left, right = map(state.at, sides)
+                if left.is_finite() and right.is_finite():
+                    gaps.append(_near(left, right))
+        except (Unclear, Unknown):
+            continue
+        if any(gaps):
+            return True
+    if gaps:
+        x.refute(what, "the equation does not hold there")
+    else:
+        x.unchecked.append(what)
+    return not gaps
+
+
+def _parameters(x: Examination, state: State) -> Environment:
+    """The environment of a state; its parameters are used."""
+    moving = {(n, primes) for n in x.reference.names for primes in (0, 1)}
+    return {key: value for key, value in state.environment.items() if key not in moving}
+
+
+def _near(a: arb, b: arb) -> bool:
+    scale = 1.0 + abs(float(a.mid())) + abs(float(b.mid()))
+    return abs(float((a - b).mid())) < _AGREE * scale
