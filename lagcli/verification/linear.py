@@ -38,8 +38,12 @@ def size(x: arb) -> float:
     return abs(float(x.mid())) if x.is_finite() else float("inf")
 
 
-def solve(rows: Sequence[Sequence[arb]], right: Sequence[arb], columns: int) -> Solution:
+def solve(
+    rows: Sequence[Sequence[arb]], right: Sequence[arb], columns: int, clear: float = _CLEAR
+) -> Solution:
     """Every solution of `rows . x = right`, by Gauss-Jordan with full pivoting.
+
+    Pivots must be larger than `clear`, or 0 but for rounding.
 
     Raises
     ------
@@ -58,7 +62,7 @@ def solve(rows: Sequence[Sequence[arb]], right: Sequence[arb], columns: int) -> 
         )
         if largest < _ZERO:
             break
-        if not _CLEAR < largest < float("inf"):
+        if not clear < largest < float("inf"):
             raise Unclear
         work[step], work[i] = work[i], work[step]
         _eliminate(work, step, j)
@@ -121,7 +125,9 @@ def rank(rows: Sequence[Sequence[arb]], columns: int) -> int:
 def least_step(rows: Sequence[Sequence[arb]], residual: Sequence[arb]) -> list[arb]:
     """The shortest d with rows . d = -residual: d = A^T y, A A^T y = -residual."""
     gram = [[dot(p, q) for q in rows] for p in rows]
-    y = solve(gram, [-r for r in residual], len(rows)).x
+    y = solve(
+        gram, [-r for r in residual], len(rows), _ZERO
+    ).x  # at a turning point nearly singular
     return [dot(y, column) for column in zip(*rows, strict=True)]
 
 

@@ -155,3 +155,12 @@ def test_a_boundary_term_has_the_rate_of_the_change_of_L(gauge: str, kept: bool)
         rate=None,
     )  # fmt: skip
     assert (checked(text, charge).charge is not None) is kept
+
+
+@pytest.mark.parametrize("name", ["hoop", "symmetry/projectile"])
+def test_the_answers_to_questions_are_examined(name: str) -> None:
+    problem, answers = derived(name, ("charges", "find"))
+    assert verified(problem, answers) is answers
+    for place, wrong in each_spoiled(answers, "find"):
+        found = verified(problem, wrong)
+        assert place != 0 or not found.complete

@@ -18,17 +18,17 @@ from lagcli.questions import Answer, FindSection, Rewritten, Solutions
 from lagcli.record import replace
 from lagcli.verification.comparison import Verdict, compare
 from lagcli.verification.examination import Examination
-from lagcli.verification.linear import Unclear, least_step, size
+from lagcli.verification.linear import Unclear, least_step, rank, size
 from lagcli.verification.states import Environment, State
 from lagcli.verification.sweeps import Unknown, column
 
-_STEPS = 48
+_STEPS = 60
 _STARTS = 4
-#: Newton's method has arrived: at a turning point it converges by halves, to some 2^-60.
-_ARRIVED = 1e-26
+#: Newton's method has arrived: at a turning point it converges by halves, to some 2^-60 (linear.py).
+_ARRIVED = 1e-17
 #: Relative difference of an answer and the truth; a velocity at a turning point is the root of
 #: what is left of the energy.
-_AGREE = 1e-8
+_AGREE = 1e-6
 
 
 def find(x: Examination, section: FindSection, charges: Sequence[Charge]) -> FindSection:
@@ -72,11 +72,11 @@ class Reached:
     def __init__(self, x: Examination, charges: Sequence[Charge]) -> None:
         self.x = x
         self.reference = reference = x.reference
-        self.charges = [place for c in charges for place in x.places("", [c.charge]) or ()]  # type: ignore[list-item]
         self.everything = [(n, primes) for primes in (0, 1) for n in reference.names]
         self.constraints = [row.value for row in reference.rows if row.holonomic]
         self.velocities = [row.velocity for row in reference.rows]
-        self.charges += self._evident()
+        printed = [place for c in charges for place in x.places("", [c.charge]) or ()]  # type: ignore[list-item]
+        self.charges = self._independent([*self._evident(), *printed])
 
     def _evident(self) -> list[int]:
         """The energy function and the momenta that are conserved."""
@@ -91,6 +91,25 @@ class Reached:
             for place in (h, *momenta)
             if states and all(compare(s.laws.rate(place), arb(0)) is Verdict.EQUAL for s in states)
         ]
+
+    def _independent(self, places: Sequence[int]) -> list[int]:
+        """Those whose gradients do not depend on the constraints' and on earlier ones."""
+        kept: list[int] = []
+        states = self.x.states()
+        if not states:
+            return kept
+        symbols = [self.reference.program.symbol(*key) for key in self.everything]
+        rows = [
+            column(states[0].at.gradient(place), symbols)
+            for place in (*self.constraints, *self.velocities)
+        ]
+        known = rank(rows, len(symbols))
+        for place in dict.fromkeys(places):
+            more = [*rows, column(states[0].at.gradient(place), symbols)]
+            if rank(more, len(symbols)) > known:
+                rows, known = more, known + 1
+                kept.append(place)
+        return kept
 
     def initial(self, known: Environment) -> Environment | None:
         """The state at t = 0; what is not given is 0, or what the constraints leave."""
