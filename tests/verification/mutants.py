@@ -289,12 +289,12 @@ def _trace(lines: dict[str, set[int]]) -> None:
 # -- what a mutant did ------------------------------------------------------------------------------
 
 #: Prose, which no arithmetic verifies.
-PROSE = {"reason", "warnings", "ansatz", "note", "title"}
+PROSE = {"where", "reason", "warnings", "ansatz", "note", "title"}
 
 
 def differences(name: str, before: Any, after: Any) -> list[str]:
     """Where the answers differ as mathematics, by paths; a null instead is no difference."""
-    return list(_differ(_Compared(name), "", before, after))
+    return list(_differ(_Compared(name, before, after), "", before, after))
 
 
 def _differ(compared: _Compared, path: str, a: Any, b: Any) -> Iterator[str]:
@@ -317,7 +317,7 @@ def _differ(compared: _Compared, path: str, a: Any, b: Any) -> Iterator[str]:
 class _Compared:
     """Values of two formulas at two random states of a problem, by the tests' oracle."""
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, before: Any, after: Any) -> None:
         from lagcli.pipeline import load
         from tests.oracle.examine import with_momenta
         from tests.oracle.reference import Reference
@@ -326,6 +326,7 @@ class _Compared:
         self.reference = Reference(load(ROOT / f"problems/{name}.yaml"))
         states = random_states(self.reference, 3)
         self.moments = [with_momenta(self.reference, s) for s in states]
+        self.where = [each.get("where", {}) for each in (before, after)]
         self.loose = [s.moment.shifted(2, {0: 1, len(s.accelerations) - 1: 2}) for s in states]
 
     def equal(self, a: str, b: str) -> bool:
@@ -336,32 +337,37 @@ class _Compared:
             first, second = parse_equation_text(a), parse_equation_text(b)
             pairs = [(first.left, second.left), (first.right, second.right)]
             if "=" in a:
-                one = [self._values(side) for side in (first.left, first.right)]
-                two = [self._values(side) for side in (second.left, second.right)]
+                one = [self._values(side, 0) for side in (first.left, first.right)]
+                two = [self._values(side, 1) for side in (second.left, second.right)]
                 gaps = zip(*one, *two, strict=True)
                 return all(agree(p - q, r - s) for p, q, r, s in gaps)
             return all(
                 agree(x, y)
                 for one, two in pairs
-                for x, y in zip(self._values(one), self._values(two), strict=True)
+                for x, y in zip(self._values(one, 0), self._values(two, 1), strict=True)
             )
         except Exception:  # noqa: BLE001 - no value, so not the same
             return False
 
-    def _values(self, node: Any) -> list[Any]:
+    def _values(self, node: Any, which: int) -> list[Any]:
         from dataclasses import replace
 
         from mpmath import mpf
 
         from lagcli.expression import Name, walk
+        from lagcli.reader import parse_text
         from tests.oracle.jets import real_part
 
         values = []
         for moment in self.moments:
+            known = moment
+            for name, text in self.where[which].items():
+                value = real_part(self.reference.of(parse_text(text))(known))
+                known = replace(known, extra={**known.extra, name: value})
             names = {p.name for p in walk(node) if isinstance(p, Name)}
-            free = names - set(self.reference.names) - {"t", "pi"} - set(moment.extra)
+            free = names - set(self.reference.names) - {"t", "pi"} - set(known.extra)
             extra = {n: mpf(len(n) * 7 + ord(n[-1]) % 11 + 13) / 19 for n in free}
-            there = replace(moment, extra={**moment.extra, **extra})
+            there = replace(known, extra={**known.extra, **extra})
             values.append(real_part(self.reference.of(node)(there)))
         return values
 

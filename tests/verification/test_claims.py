@@ -163,4 +163,4 @@ def test_the_answers_to_questions_are_examined(name: str) -> None:
     assert verified(problem, answers) is answers
     for place, wrong in each_spoiled(answers, "find"):
         found = verified(problem, wrong)
-        assert place != 0 or not found.complete
+        assert place != 0 or found.warnings  # a root off the motion: no state is found to try it

@@ -50,8 +50,15 @@ def _charge(x: Examination, charge: Charge) -> Charge:
 
 
 def _without(charge: Charge) -> Charge:
-    why = "its printed form was not confirmed at random states"
-    return replace(charge, charge=None, rate=None, conserved=None, verified=None, broken_by=why)
+    return replace(
+        charge,
+        gauge=None,
+        charge=None,
+        rate=None,
+        conserved=None,
+        verified=None,
+        broken_by="its printed form was not confirmed at random states",
+    )
 
 
 def _as_given(x: Examination, charge: Charge) -> Charge:

@@ -24,7 +24,7 @@ from lagcli.verification.sweeps import Unknown, column
 
 _STEPS = 60
 _STARTS = 4
-#: Newton's method has arrived: at a turning point it converges by halves, to some 2^-60 (linear.py).
+#: Newton's method has arrived: at a turning point it converges by halves, to some 2^-60.
 _ARRIVED = 1e-17
 #: Relative difference of an answer and the truth; a velocity at a turning point is the root of
 #: what is left of the energy.
