@@ -11,8 +11,8 @@ from collections.abc import Collection, Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any, TypeVar, cast
 
-from lagcli.document import Label, Paragraph
-from lagcli.expression import FUNCTIONS, Call, Expression, Name, PartialCall, walk
+from lagcli.document import Items, Label, Paragraph
+from lagcli.expression import FUNCTIONS, Call, Expression, Name, PartialCall, Sum, walk
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt
 
@@ -32,6 +32,7 @@ _WORDS = (
     (r"\bU_eff\b", "U_eff", "the effective potential"),
     (r"^S = ", "S", "S_sys = "),
 )
+_LETTERS = re.compile(r"(?<![\w'])(T \+ V|[LH]|t(?= explicitly))(?![\w'])")
 
 
 def own(letter: str, primes: int = 0) -> Name:
@@ -82,10 +83,9 @@ def _settled(value: Any, taken: frozenset[str]) -> Any:
         case Expression():
             return rebuilt(value, lambda part: _settled(part, taken))
         case Paragraph(parts=parts):
-            found = (
-                sentence(p, taken) if isinstance(p, str) else _settled(p, taken) for p in parts
-            )
-            return Paragraph(tuple(found))
+            return Paragraph(_said(parts, taken))
+        case Items(items=items):
+            return Items(tuple(_said(parts, taken) for parts in items))
         case tuple():
             return tuple(_settled(part, taken) for part in value)
         case _ if is_dataclass(value):
@@ -97,7 +97,26 @@ def _settled(value: Any, taken: frozenset[str]) -> Any:
 
 
 def _said(parts: tuple[Any, ...], taken: frozenset[str]) -> tuple[Any, ...]:
-    return tuple(sentence(p, taken) if isinstance(p, str) else _settled(p, taken) for p in parts)
+    found: list[Any] = []
+    for part in parts:
+        if isinstance(part, str):
+            found += _typeset(sentence(part, taken))
+        else:
+            found.append(_settled(part, taken))
+    return tuple(found)
+
+
+def _typeset(text: str) -> list[Any]:
+    """The sentence with its letters as formulas: L, H, T + V, and t where L depends on it."""
+    found: list[Any] = []
+    for position, piece in enumerate(_LETTERS.split(text)):
+        if position % 2 == 0:
+            found += [piece] if piece else []
+        elif piece == "T + V":
+            found.append(Sum((Name("T"), Name("V"))))
+        else:
+            found.append(Name(piece))
+    return found
 
 
 def _label(label: Label, taken: frozenset[str]) -> Label:

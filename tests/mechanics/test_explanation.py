@@ -340,20 +340,31 @@ def test_what_is_not_found_makes_the_account_incomplete():
     assert any("normal modes" in warning for warning in explanation.warnings)
 
 
-def test_a_large_system_stays_in_matrix_form():
-    links = range(9)
+def chain(n):
+    links = range(n)
     coordinates = ", ".join(f"a{i}" for i in links)
     x = [" + ".join(f"l*sin(a{j})" for j in range(i + 1)) for i in links]
     y = [" - ".join(["0", *(f"l*cos(a{j})" for j in range(i + 1))]) for i in links]
     points = "".join(f"  p{i}: {{position: ['{x[i]}', '{y[i]}'], mass: m}}\n" for i in links)
     potential = " + ".join(f"m*g*({each})" for each in y)
-    explanation = told_text(
+    return told_text(
         f"title: Chain\ncoordinates: [{coordinates}]\nparameters: [m, l, g]\n"
         f"points:\n{points}V: {potential}\n"
     )
+
+
+def test_a_system_of_more_than_a_page_stays_in_matrix_form():
+    explanation = chain(14)
     assert "the system stays in this matrix form" in words(explanation)
-    assert "nine degrees of freedom" in words(explanation)
+    assert "14 degrees of freedom" in words(explanation)
     assert not explanation.complete
+
+
+def test_a_large_system_is_solved_by_elimination_with_its_steps_named():
+    explanation = chain(6)
+    assert "six degrees of freedom" in words(explanation)
+    assert "Gauss's elimination solves them" in words(explanation)
+    assert explanation.complete
 
 
 def test_sentences_end_and_no_word_stands_twice():
