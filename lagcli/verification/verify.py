@@ -40,6 +40,7 @@ from lagcli.verification.claims import (
     motion,
     reduction,
 )
+from lagcli.verification.claims.given_hamiltonian import legendre_transform
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear
 from lagcli.verification.sweeps import Unknown
@@ -78,15 +79,15 @@ def verified(problem: Problem, answers: Answers) -> Answers:
     answers
         What was derived from it.
     """
-    if problem.hamiltonian is not None:
-        return answers
+    if problem.hamiltonian is not None and problem.lagrangian is None:
+        return answers  # no Lagrangian follows: what is printed is the file's own H
     examination = Examination(problem)
     with ctx.workprec(PRECISIONS[0]):
         examination.define("the abbreviations", answers.where)
-        sections = {
-            name: _examined(examination, name, section)
-            for name, section in answers.sections.items()
-        }
+        given = answers.sections
+        if problem.hamiltonian is not None and not legendre_transform(examination):
+            given = {}  # nothing of it describes the motion of H
+        sections = {name: _examined(examination, name, each) for name, each in given.items()}
         if isinstance(asked := sections.get("find"), FindSection):
             known = find.printed_charges(sections.get("charges"))
             sections["find"] = _tried(

@@ -24,7 +24,7 @@ from lagcli.verification.sweeps import column
 
 #: States looked at until the printed conditions hold at `WANTED` of them.
 LOOKED_AT = 24
-WANTED = 2
+WANTED = 5
 BITS = PRECISIONS[1]
 _STEP = arb(2) ** -100
 _NEWTON_STEPS = 30

@@ -61,8 +61,9 @@ def refutes(x: Examination, what: str, near: Near, verdict: Verdict, cyclic: int
     if verdict.stable is False and (bowl or judged.oscillating):
         return "no disturbance grows"
     minimum = _all_hold(x, what, near, verdict.minimum)
-    if minimum and judged.growing:
-        return "a disturbance grows where the potential is said to have a minimum"
+    saddle = conservative and definite and free and any(k < -1e-8 for k in near.stiffness)
+    if minimum and (judged.growing or saddle):
+        return "the potential has no minimum where it is said to have one"
     if minimum is False and bowl:
         return "the potential has a minimum where it is said to have none"
     hurwitz = _all_hold(x, what, near, verdict.hurwitz)
