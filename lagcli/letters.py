@@ -81,6 +81,8 @@ def _settled(value: Any, taken: frozenset[str]) -> Any:
         case Name(name=name) if name.startswith(_OWN):
             return replace(value, name=_free(name.removeprefix(_OWN), taken))
         case Expression():
+            if not any(isinstance(p, Name) and p.name.startswith(_OWN) for p in walk(value)):
+                return value
             return rebuilt(value, lambda part: _settled(part, taken))
         case Paragraph(parts=parts):
             return Paragraph(_said(parts, taken))

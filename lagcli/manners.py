@@ -103,6 +103,8 @@ class Manner:
 
     def _in_manner(self, node: Expression, *, inside: bool) -> Expression:
         """The same; `inside` a function or a root the sign of a denominator is left alone."""
+        if isinstance(node, (Name, Number)):
+            return node
         known = self._known.get((node, inside))
         if known is None:
             deeper = inside or isinstance(node, (Call, PartialCall))
