@@ -101,6 +101,7 @@ class TrajectoryCheck:
             samples=len(times),
             times=tuple(times),
             columns=tuple(columns.values()),
+            furthest=False,
         )
         return simulate(self.problem, asked)
 

@@ -165,6 +165,7 @@ def _moved(case: Case, measured: Trial, end: float, wanted: Wanted) -> Trial:
         samples=_SAMPLES,
         columns=tuple(Column(*column) for column in usual_columns(case.problem)),
         project=bool(case.problem.constraints),
+        furthest=False,
     )
     for attempt in range(_ATTEMPTS):
         now = process_time()

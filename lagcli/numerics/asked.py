@@ -34,6 +34,8 @@ class Asked:
         and at what lies within their rounding.
     whole : bool
         Integrate the model as the file has it, nothing eliminated and nothing left out.
+    furthest : bool
+        Where the accuracy is not reached to the end, run shorter spans to find how long it holds.
     written : function
         Writes a formula of the cut model as text of the grammar.
     """
@@ -49,6 +51,7 @@ class Asked:
     method: str = "auto"
     digits: int | None = None
     whole: bool = False
+    furthest: bool = True
     written: Callable[[Expression], str] = str
 
 

@@ -20,6 +20,9 @@ from lagcli.record import replace
 if TYPE_CHECKING:
     from lagcli.numerics.simulate import Simulation
 
+#: A motion that is known up to this part of the time at which its run stops, stops there.
+_KNOWN = 0.5
+
 
 def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Result:
     """The table with its certificate."""
@@ -42,8 +45,8 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
     events = _events(outcome, names, kept)
     refusal = ""
     if not outcome.reached:
-        refusal = _refusal(simulation, motion, outcome, holds_until)
-        if run.stop is not None:
+        refusal = refusal_of(simulation, motion, outcome, holds_until)
+        if run.stop is not None and _is_known(outcome, holds_until):
             what = "grazes" if run.stop.reason.startswith("it grazes") else "singularity"
             events.append(Event(run.stop.t, what, why_stopped(motion, run.stop)))
     return Result(
@@ -154,9 +157,10 @@ def _residuals(outcome: Outcome, simulation: Simulation) -> dict[str, tuple[floa
     return found
 
 
-def _refusal(simulation: Simulation, motion: Motion, outcome: Outcome, holds_until: float) -> str:
+def refusal_of(simulation: Simulation, motion: Motion, outcome: Outcome, holds_until: float) -> str:
+    """Why the accuracy is not reached to the end, and until when it holds."""
     asked, stop = simulation.asked, outcome.run.stop
-    if stop is not None:
+    if stop is not None and _is_known(outcome, holds_until):
         why = why_stopped(motion, stop)
         return f"the motion stops at t = {stop.t:.13g}: {why}; shown until t = {holds_until:.6g}"
     bound = max(outcome.errors)
@@ -167,6 +171,13 @@ def _refusal(simulation: Simulation, motion: Motion, outcome: Outcome, holds_unt
     if asked.digits is not None or simulation.goes_on:
         more = ""
     return f"{told}; {held}{more}"
+
+
+def _is_known(outcome: Outcome, holds_until: float) -> bool:
+    """Whether a run that stops does so where the motion does, not long after nothing is known."""
+    run = outcome.run
+    assert run.stop is not None
+    return run.steps >= run.step_limit or holds_until >= _KNOWN * run.stop.t
 
 
 def why_stopped(motion: Motion, stop: CannotGoOn) -> str:

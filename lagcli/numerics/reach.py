@@ -63,6 +63,18 @@ def within_reach(outcome: Outcome, group: Sequence[str]) -> list[str]:
     return found
 
 
+def horizon_of(outcome: Outcome) -> float:
+    """The time until which the accuracy may hold with the most bits there are, 0 < t <= span.
+
+    A motion that has stopped is known no longer than to there.
+    """
+    span, stop = outcome.controller.span, outcome.run.stop
+    if stop is not None:
+        return float(stop.t) or span
+    left = max(_BITS[_LARGEST] + math.log2(outcome.controller.accuracy), 1.0)
+    return min(span, span * left / lost_bits(outcome)) or span
+
+
 def is_better(found: Outcome, outcome: Outcome) -> bool:
     """Whether to keep what a later method has found; one that stops must have come further."""
     if found.run.stop is not None:

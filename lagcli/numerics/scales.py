@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from lagcli.numerics.charges import Sizes
-from lagcli.numerics.run import Run
+from lagcli.numerics.run import Mark, Run
 from lagcli.numerics.steps import SMALL, component_tops, with_own_time
 
 if TYPE_CHECKING:
@@ -72,8 +72,10 @@ class Scales:
         if self._sizes is None or self._sizes[0] is not run:
             self._sizes = run, self._of_formulas(run)
         accuracy, until = self._simulation.asked.accuracy, self._simulation.asked.until
-        # near a singularity at which a run stops they are without bound
-        sizes = with_own_time(run.peaks, until)
+        # near a singularity at which a run stops they are without bound; where rows are left out,
+        # nothing is known of what lies behind them
+        is_whole = run.stop is None and len(rows) == len(run.marks)
+        sizes = with_own_time(run.peaks if is_whole else _peaks(run.marks[: len(rows)]), until)
         tops = component_tops(sizes)
         found = []
         for j, (place, peak, bound) in enumerate(zip(self._places, peaks, bounds, strict=True)):
@@ -82,8 +84,7 @@ class Scales:
             elif place == _FORMULA:
                 scale = max(peak, self._sizes[1].get(j, 0.0))
             else:
-                if run.stop is None:
-                    peak = max(peak, sizes[place])
+                peak = max(peak, sizes[place])
                 top = tops[place]
                 is_zero = (
                     bound > accuracy * peak
@@ -115,6 +116,12 @@ class Scales:
         forces = max(largest[len(plain) :], default=0.0)
         found = dict.fromkeys(places, forces) | dict(zip(plain, largest, strict=False))
         return {j: min(1.0, size) for j, size in found.items()}
+
+
+def _peaks(marks: Sequence[Mark]) -> list[float]:
+    """The largest magnitude of each component at some rows."""
+    columns = zip(*((*mark.q, *mark.v) for mark in marks), strict=True)
+    return [max(abs(float(x)) for x in column) for column in columns]
 
 
 def relative(error: float, scale: float) -> float:

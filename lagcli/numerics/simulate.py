@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext, suppress
+from copy import copy
 from itertools import pairwise
 from typing import Any
 
@@ -99,7 +100,7 @@ class Simulation:
         except ArithmeticError as error:
             raise Refusal(f"a column is not defined: {error}") from None
         #: the rows asked for are those at multiples of this
-        self.every = max(1, -(-_COMPARED // (asked.samples - 1)))
+        self.every = _parts_of_rows(asked)
         self.notes: list[str] = []
         #: what the model was cut by
         self.cut: Cut | None = None
@@ -205,14 +206,41 @@ class Simulation:
         return simulation.run(modes)
 
     def run(self, modes: Modes) -> Result:
-        """The table, from the state at the beginning."""
+        """The table, from the state at the beginning, over the longest span that is certain."""
+        outcome, result = self.first(modes)
+        if outcome.reached or not self.asked.furthest:
+            return result
+        from lagcli.numerics.horizon import longest
+
+        return longest(self, modes, outcome, result)
+
+    def over(self, asked: Asked) -> Simulation:
+        """The same motion from the same state with other rows."""
+        other = copy(self)
+        other.asked = asked
+        other.every = _parts_of_rows(asked)
+        other._begin()
+        other.finished = self.finished
+        return other
+
+    @property
+    def rows_at(self) -> list[float]:
+        """The times of the rows asked for."""
+        return self._times()[:: self.every]
+
+    def first(self, modes: Modes) -> tuple[Outcome, Result]:
+        """What comes of the span as it is, reached or not."""
+        outcome = self._outcome(modes)
+        return outcome, result_of(self, modes.first.motion, outcome)
+
+    def _outcome(self, modes: Modes) -> Outcome:
+        """The pair of runs of the first method that reaches the accuracy, or comes furthest."""
         outcome: Outcome | None = None
         digits: Precision = nullcontext
         if self.asked.method == "auto" and decay(self, modes) > STIFFNESS:
             found, digits = self.attempt(STIFF, modes)
             if found and found.reached:
-                found, digits = on_one_branch(self, modes, found, digits)
-                return result_of(self, modes.first.motion, found)
+                return on_one_branch(self, modes, found, digits)[0]
         for group in self._groups():
             names, first = (group, 1.0) if outcome is None else self._beyond(outcome, group)
             if names:
@@ -228,8 +256,7 @@ class Simulation:
         if not outcome.reached:
             with digits(), suppress(NotPossible):
                 outcome = outcome.controller.refined(outcome, self._between)
-        outcome, digits = on_one_branch(self, modes, outcome, digits)
-        return result_of(self, modes.first.motion, outcome)
+        return on_one_branch(self, modes, outcome, digits)[0]
 
     def ready(self) -> tuple[Simulation, Modes]:
         """What is integrated, this or less, in doubles; the initial state is found and tried."""
@@ -330,3 +357,8 @@ class Simulation:
         except (ArithmeticError, ValueError) as error:
             reason = told(error)
         raise Refusal(f"at t = 0 the accelerations are not determined: {reason}", mistake=False)
+
+
+def _parts_of_rows(asked: Asked) -> int:
+    """Into how many intervals of comparison that between two rows is divided."""
+    return max(1, -(-_COMPARED // (asked.samples - 1)))

@@ -114,6 +114,7 @@ def asked_of(given: Given) -> tuple[Problem, Asked]:
         project=given.project,
         method=given.method,
         whole=given.whole,
+        furthest=False,
     )
     return problem, asked
 
