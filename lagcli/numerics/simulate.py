@@ -104,9 +104,9 @@ class Simulation:
         self.notes: list[str] = []
         #: what the model was cut by
         self.cut: Cut | None = None
-        self._begin()
+        self.begin()
 
-    def _begin(self) -> None:
+    def begin(self) -> None:
         """Nothing has been run."""
         self.times = self._times()
         #: so many of the times are those asked for, and what lies between them
@@ -128,7 +128,7 @@ class Simulation:
             When there is no motion from it.
         """
         self.problem = self.whole = self.equations.problem = problem
-        self._begin()
+        self.begin()
         motion = modes.first.motion
         self.start = initial_state(motion, project=self.asked.project)
         self._check_start(motion, *self.start)
@@ -219,7 +219,7 @@ class Simulation:
         other = copy(self)
         other.asked = asked
         other.every = _parts_of_rows(asked)
-        other._begin()
+        other.begin()
         other.finished = self.finished
         return other
 
