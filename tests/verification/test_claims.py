@@ -164,3 +164,9 @@ def test_the_answers_to_questions_are_examined(name: str) -> None:
     for place, wrong in each_spoiled(answers, "find"):
         found = verified(problem, wrong)
         assert place != 0 or found.warnings  # a root off the motion: no state is found to try it
+
+
+def test_equal_frequencies_may_grow_in_proportion_to_the_time() -> None:
+    """A free particle in a rotating frame: what is at rest there leaves as v t."""
+    problem, answers = derived("particles/free-particle-in-rotating-frame", ("equilibria",))
+    assert verified(problem, answers) is answers

@@ -24,8 +24,8 @@ class Judged:
 
     @property
     def oscillating(self) -> bool:
-        """No motion grows, and none is so slow that higher orders decide."""
-        return not self.growing and all(abs(z) > 1e-6 * self.scale for z in self.values)
+        """No motion grows, not even in proportion to t, and higher orders do not decide."""
+        return not self.growing and self.distinct
 
     @property
     def damped(self) -> bool:
