@@ -96,6 +96,11 @@ WholeModel = Annotated[
     ),
 ]
 
+Rigorous = Annotated[
+    bool,
+    typer.Option("--rigorous", help="Prove every digit by enclosures of the exact motion."),
+]
+
 
 def simulate(
     files: Files,
@@ -112,6 +117,7 @@ def simulate(
     method: Method = "auto",
     stop_when: StopWhen = None,
     whole_model: WholeModel = False,
+    rigorous: Rigorous = False,
 ) -> int:
     """Compute the motion to a stated accuracy, with a certificate.
 
@@ -149,5 +155,6 @@ def simulate(
         method=method,
         stop_when=stop_when,
         whole=whole_model,
+        rigorous=rigorous,
     )
     return simulate_files(files, wish)

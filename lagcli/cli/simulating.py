@@ -45,6 +45,7 @@ class Wish:
     method: str
     stop_when: str | None
     whole: bool
+    rigorous: bool = False
 
 
 def simulate_files(files: Sequence[str], wish: Wish) -> Status:
@@ -111,6 +112,8 @@ def _run(problem: Problem, asked: Asked, wish: Wish) -> tuple[bytes | None, Stat
     from lagcli.numerics.simulate import simulate
     from lagcli.numerics.writing import WRITERS
 
+    if wish.rigorous:
+        return _proved(problem, asked, wish)
     try:
         with shared("integrating") as progress:
             result = simulate(problem, asked, progress)
@@ -122,8 +125,31 @@ def _run(problem: Problem, asked: Asked, wish: Wish) -> tuple[bytes | None, Stat
     return WRITERS[wish.format_name](result), (Status.NOT_FOUND if result.refusal else Status.WELL)
 
 
+def _proved(problem: Problem, asked: Asked, wish: Wish) -> tuple[bytes | None, Status]:
+    """The table of a proof, or None, and how it ended."""
+    from lagcli.numerics.refusal import Refusal
+    from lagcli.numerics.rigorous import prove
+    from lagcli.numerics.rigorous.writing import WRITERS
+
+    try:
+        with shared("proving") as progress:
+            proof = prove(problem, asked, progress)
+    except Refusal as refusal:
+        tell(problem.source, refusal.diagnostics)
+        return None, Status.USAGE if refusal.mistake else Status.NOT_FOUND
+    if proof.refusal:
+        tell_line(f"{problem.source.name}: {proof.refusal}")
+    status = Status.NOT_FOUND if proof.refusal else Status.WELL
+    return WRITERS[wish.format_name](proof), status
+
+
 def can_be_written(wish: Wish) -> bool:
     """Whether there is what writes the format, and a place that takes bytes."""
+    if wish.rigorous and wish.format_name not in ("table", "json", "csv"):
+        tell_line(
+            f"lagcli: error: --rigorous has no format {wish.format_name}: take table, json or csv"
+        )
+        return False
     if wish.format_name == "parquet" and not _is_installed("pyarrow"):
         tell_line(
             "lagcli: error: --format parquet needs the package pyarrow: "

@@ -9,7 +9,7 @@ from lagcli.diagnostics import Diagnostic, ProblemError
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
-    from lagcli.numerics.asked import Certificate, Result
+    from lagcli.numerics.asked import Asked, Certificate, Result
     from lagcli.numerics.events import Event
     from lagcli.problem import Problem
 
@@ -127,20 +127,7 @@ class Motion:
         return motion_as_html(self._result, self.title)
 
 
-def integrate(
-    problem: Problem,
-    *,
-    until: float | str | None,
-    accuracy: float | None,
-    samples: int,
-    times: Sequence[float],
-    show: Sequence[str],
-    method: str,
-    stop_when: str | None,
-    project: bool,
-    precision: int | None,
-    whole_model: bool,
-) -> Motion:
+def integrate(problem: Problem, **options: Any) -> Motion:
     """Run a problem; see `lagcli.simulate`.
 
     Raises
@@ -148,10 +135,35 @@ def integrate(
     ProblemError
         When an option does not fit the problem.
     """
+    from lagcli.numerics.simulate import simulate
+
+    return Motion(simulate(problem, asked_of(problem, **options)), problem.title)
+
+
+def asked_of(
+    problem: Problem,
+    *,
+    until: float | str | None = None,
+    accuracy: float | None = None,
+    samples: int = 101,
+    times: Sequence[float] = (),
+    show: Sequence[str] = (),
+    method: str = "auto",
+    stop_when: str | None = None,
+    project: bool = False,
+    precision: int | None = None,
+    whole_model: bool = False,
+) -> Asked:
+    """The options of a run as values.
+
+    Raises
+    ------
+    ProblemError, ValueError
+        When one does not fit the problem.
+    """
     from lagcli.formatters.grammar import to_grammar
     from lagcli.numerics.asked import Asked
     from lagcli.numerics.columns import Column
-    from lagcli.numerics.simulate import simulate
     from lagcli.problem import METHODS
     from lagcli.reader.columns import read_along, read_columns, usual_columns
 
@@ -160,7 +172,7 @@ def integrate(
     if chosen not in METHODS:
         raise ValueError(f"unknown method {chosen!r}: the methods are {', '.join(METHODS)}")
     shown = read_columns(problem, list(show)) if show else usual_columns(problem)
-    asked = Asked(
+    return Asked(
         until=_number(problem, until, run.until, "until"),
         accuracy=_number(problem, accuracy, run.accuracy, "accuracy", _USUAL_ACCURACY),
         samples=samples,
@@ -174,7 +186,6 @@ def integrate(
         whole=whole_model,
         written=to_grammar,
     )
-    return Motion(simulate(problem, asked), problem.title)
 
 
 def _number(

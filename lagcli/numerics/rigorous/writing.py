@@ -1,0 +1,111 @@
+"""A proof as a table of proved digits, as JSON with midpoints and radii, or as CSV."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from typing import Any
+
+from lagcli.numerics.rigorous.proof import Proof
+
+#: Digits of a midpoint and of a radius in JSON and CSV.
+_DIGITS, _RADIUS = 30, 3
+
+
+def to_json(proof: Proof) -> bytes:
+    """The keys of a run, with an enclosure for each number."""
+    content = {
+        "schema": 1,
+        "columns": list(proof.columns),
+        "rows": [[None if x is None else float(x.mid()) for x in row] for row in proof.rows],
+        "enclosures": [[_ball(x) for x in row] for row in proof.rows],
+        "certificate": {
+            "kind": "proof",
+            "accuracy": proof.accuracy,
+            "reached": proof.reached,
+            "holds_until": proof.holds_until,
+            "assumed": list(proof.assumed),
+        },
+        "method": {
+            "name": "interval Taylor series with Lohner's sets",
+            "bits": proof.bits,
+            "order": proof.order,
+            "steps": proof.steps,
+        },
+        "refused": _refused(proof),
+    }
+    return (json.dumps(content, ensure_ascii=False, allow_nan=False) + "\n").encode()
+
+
+def _refused(proof: Proof) -> dict[str, object] | None:
+    return {"reason": proof.refusal, "at": proof.holds_until} if proof.refusal else None
+
+
+def _ball(x: Any) -> dict[str, str] | None:
+    """A decimal midpoint, and a radius that contains its rounding as well."""
+    if x is None:
+        return None
+    middle = x.mid().str(_DIGITS, radius=False)
+    apart = abs(x - _exact(x, middle)).upper()
+    return {"midpoint": middle, "radius": _above(apart)}
+
+
+def _exact(x: Any, text: str) -> Any:
+    return type(x)(text)
+
+
+def _above(bound: Any) -> str:
+    """A decimal that is not below a bound."""
+    if bound == 0:
+        return "0"
+    exponent = math.floor(math.log10(float(bound))) if float(bound) > 0 else -300
+    for leading in range(100, 10_000):
+        candidate = f"{leading / 100:.2f}e{exponent}"
+        if type(bound)(candidate).lower() >= bound:
+            return candidate
+    return f"1e{exponent + 2}"
+
+
+def to_csv(proof: Proof) -> bytes:
+    """Midpoints, and a column with the radius behind each."""
+    header = [name for column in proof.columns for name in (column, f"{column} (radius)")]
+    lines = [header]
+    for row in proof.rows:
+        balls = [_ball(x) for x in row]
+        lines.append([
+            text for ball in balls
+            for text in (("", "") if ball is None else (ball["midpoint"], ball["radius"]))
+        ])  # fmt: skip
+    return "".join(",".join(line) + "\n" for line in lines).encode()
+
+
+def to_table(proof: Proof) -> bytes:
+    """Every number with the digits that are proved, and what the proof stands on."""
+    cells = [list(proof.columns)]
+    cells += [[_proved(x) for x in row] for row in proof.rows]
+    widths = [max(len(row[j]) for row in cells) for j in range(len(proof.columns))]
+    lines = ["  ".join(f"{x:>{w}}" for x, w in zip(row, widths, strict=True)) for row in cells]
+    whole = "proved" if proof.reached else f"proved until t = {proof.holds_until:g}"
+    made = f"{proof.steps} steps of order {proof.order} in {proof.bits} bits"
+    lines += [
+        "",
+        f"{whole}: every digit shown holds for the exact motion, within one unit of its last",
+        f"  place; accuracy {proof.accuracy:g}, {made}",
+        f"assumed: {'; '.join(proof.assumed)}",
+    ]
+    return "".join(f"{line}\n" for line in lines).encode()
+
+
+def _proved(x: Any) -> str:
+    if x is None:
+        return ""
+    if x.rad() == 0 and x.is_integer():
+        return str(int(x.unique_fmpz()))
+    radius, size = float(x.rad()), float(abs(x).upper())
+    digits = 15 if radius == 0 else max(1, min(40, math.floor(math.log10(size / radius)) + 1))
+    shown: str = x.str(digits, radius=False)
+    return shown if "[" not in shown else f"0 ± {radius:.1e}"
+
+
+WRITERS: dict[str, Callable[[Proof], bytes]] = {"table": to_table, "json": to_json, "csv": to_csv}

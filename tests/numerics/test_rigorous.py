@@ -1,0 +1,144 @@
+"""Proved motions: the exact one lies in the enclosure, against closed forms and certified runs."""
+
+from __future__ import annotations
+
+import json
+
+import mpmath
+import pytest
+
+import lagcli
+from lagcli.cli.run import run
+from lagcli.interface.motion import asked_of
+from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.rigorous import prove
+
+
+def proof(problem, until, accuracy=1e-9, samples=5, show=()):
+    return prove(
+        problem, asked_of(problem, until=until, accuracy=accuracy, samples=samples, show=show)
+    )
+
+
+def contains(ball, value):
+    """Whether a value known to 30 digits lies in a ball."""
+    middle, radius = mpmath.mpf(ball.mid().str(40, radius=False)), mpmath.mpf(float(ball.rad()))
+    return abs(middle - value) <= radius * (1 + mpmath.mpf(10) ** -10) + mpmath.mpf(10) ** -25
+
+
+def test_a_pendulum_lies_in_its_enclosure_by_jacobis_functions():
+    """theta = 2 asin(k sn(K - w t, k)) from rest at 2 asin k (Whittaker, section 44)."""
+    pendulum = lagcli.loads(
+        "{coordinates: [theta], T: theta'^2/2, V: -9*cos(theta), initial: {theta: 2}}"
+    )
+    found = proof(pendulum, 4.0, 1e-12)
+    assert found.reached
+    with mpmath.workdps(40):
+        k = mpmath.sin(1)
+        quarter = mpmath.ellipk(k**2)
+        for row in found.rows:
+            t = mpmath.mpf(float(row[0].mid()))
+            exact = 2 * mpmath.asin(k * mpmath.ellipfun("sn", quarter - 3 * t, m=k**2))
+            assert contains(row[1], exact)
+            assert float(row[1].rad()) < 1e-12
+
+
+@pytest.mark.parametrize("k", ["3", "1/7", "0.1"])
+def test_oscillations_with_and_without_a_drive_lie_in_theirs(k):
+    """x'' = -k x + t, x(0) = 1: x = t/k + cos(w t) - sin(w t)/(k w)."""
+    problem = lagcli.loads(f"{{coordinates: [x], L: x'^2/2 - {k}*x^2/2 + t*x, initial: {{x: 1}}}}")
+    with mpmath.workdps(40):
+        number = mpmath.mpf(1) / 7 if k == "1/7" else mpmath.mpf(k)
+        w = mpmath.sqrt(number)
+        for row in proof(problem, 3.0).rows:
+            t = mpmath.mpf(float(row[0].mid()))
+            exact = t / number + mpmath.cos(w * t) - mpmath.sin(w * t) / (number * w)
+            assert contains(row[1], exact)
+
+
+def test_damping_and_a_column_lie_in_theirs():
+    """x'' = -2 x', x'(0) = 1: x = (1 - exp(-2 t))/2; the column is x'' itself."""
+    problem = lagcli.loads("{coordinates: [x], T: x'^2/2, dissipation: x'^2, initial: {x': 1}}")
+    with mpmath.workdps(40):
+        for row in proof(problem, 2.0, show=["x", "x''"]).rows:
+            t = mpmath.mpf(float(row[0].mid()))
+            assert contains(row[1], (1 - mpmath.exp(-2 * t)) / 2)
+            assert contains(row[2], -2 * mpmath.exp(-2 * t))
+
+
+def test_kepler_comes_back_to_its_beginning():
+    """After one period 2 pi a^(3/2) the state is the first one; a = 1 from x = 1/2."""
+    problem = lagcli.loads(
+        "{coordinates: [x, y], T: (x'^2 + y'^2)/2, V: -1/sqrt(x^2 + y^2), "
+        "initial: {x: 1/2, y': sqrt(3)}}"
+    )
+    until = float(2 * mpmath.pi)
+    row = proof(problem, until, samples=2).rows[-1]
+    for ball, begin in zip(row[1:], (0.5, 0, 0, mpmath.sqrt(3)), strict=True):
+        assert abs(float(ball.mid()) - begin) < 1e-14 + float(ball.rad())
+
+
+@pytest.mark.parametrize("name", ["kepler", "double-pendulum-equal", "pendulum-cartesian"])
+def test_certified_runs_lie_in_the_enclosures(name):
+    """Within the bound of the certificate, which is another route to the same motion."""
+    problem = lagcli.load(name)
+    motion = lagcli.simulate(problem, 2.0, samples=5, accuracy=1e-9)
+    found = proof(problem, 2.0)
+    assert found.reached
+    for row, balls in zip(motion.rows, found.rows, strict=True):
+        for name, x, ball in zip(motion.columns, row, balls, strict=True):
+            scale = max(abs(value) for value in motion[name])
+            bound = 1e-9 * scale + float(ball.rad())
+            assert abs(float(ball.mid()) - x) <= bound
+
+
+def test_the_energy_is_enclosed_thinly_all_the_way():
+    problem = lagcli.load("double-pendulum-equal")
+    rows = proof(problem, 4.0, show=["energy"]).rows
+    assert all((row[1] - rows[0][1]).contains(0) for row in rows)
+    assert max(float(row[1].rad()) for row in rows) < 1e-9
+
+
+def test_a_collision_ends_the_proof_before_it(capsysbinary):
+    """The fall takes pi/(2 sqrt 2) = 1.1107."""
+    status = run(["simulate", "kepler", "--at", "y'=0", "--until", "2", "--samples", "9",
+                  "--rigorous", "-f", "json"])  # fmt: skip
+    content = json.loads(capsysbinary.readouterr().out)
+    assert status == 1
+    assert content["refused"]["at"] == content["certificate"]["holds_until"] == 1.0
+    assert content["rows"][-1][0] == 1.0
+
+
+def test_json_has_an_enclosure_for_each_number(capsysbinary):
+    assert run(["simulate", "plane-pendulum", "--until", "1", "--samples", "3", "--rigorous", "-f",
+                "json"]) == 0  # fmt: skip
+    content = json.loads(capsysbinary.readouterr().out)
+    for row, balls in zip(content["rows"], content["enclosures"], strict=True):
+        for x, ball in zip(row, balls, strict=True):
+            assert abs(x - float(ball["midpoint"])) <= float(ball["radius"]) + 1e-15 * abs(x)
+    assert content["certificate"]["kind"] == "proof"
+
+
+def test_the_table_shows_proved_digits_only(capsysbinary):
+    assert run(["simulate", "plane-pendulum", "--until", "1", "--samples", "2", "--rigorous"]) == 0
+    last = capsysbinary.readouterr().out.decode().splitlines()[2].split()
+    assert mpmath.mpf(last[1]) == pytest.approx(-0.98006699293340488, abs=1e-14)
+    assert len(last[1]) >= 14
+
+
+REFUSED = [
+    "{coordinates: [y], T: y'^2/2, V: y, contacts: {floor: y >= 0}, initial: {y: 1}}",
+    "{coordinates: [x], T: x'^2/2, V: abs(x), initial: {x: 1}}",
+]
+
+
+@pytest.mark.parametrize("text", REFUSED)
+def test_what_is_not_enclosed_is_refused_with_its_reason(text):
+    with pytest.raises(Refusal, match="not enclosed"):
+        proof(lagcli.loads(text), 1.0)
+
+
+def test_a_format_without_enclosures_is_a_mistake(capsysbinary, tmp_path):
+    out = str(tmp_path / "x.npz")
+    assert run(["simulate", "kepler", "--rigorous", "--until", "1", "-o", out]) == 2
+    assert b"--rigorous has no format npz" in capsysbinary.readouterr().err
