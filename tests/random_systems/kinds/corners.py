@@ -143,7 +143,11 @@ def corner_functions(rng: Random) -> System:
         T=T,
         V=V,
         sections=MAIN
-        + (CANONICAL if "x')" not in T and "^4" not in T and ")^2/4" not in T else ()),
+        + (
+            CANONICAL
+            if "cosh(x'" not in T and "x')" not in T and "^4" not in T and ")^2/4" not in T
+            else ()
+        ),
     )
 
 
