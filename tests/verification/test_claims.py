@@ -170,3 +170,14 @@ def test_equal_frequencies_may_grow_in_proportion_to_the_time() -> None:
     """A free particle in a rotating frame: what is at rest there leaves as v t."""
     problem, answers = derived("particles/free-particle-in-rotating-frame", ("equilibria",))
     assert verified(problem, answers) is answers
+
+
+def test_an_equilibrium_that_is_left_out_is_found() -> None:
+    problem, answers = derived("chains/coupled-pendulums", ("equilibria",))
+    section = answers.sections["equilibria"]
+    assert section.complete
+    kept = replace(section, equilibria=section.equilibria[1:])
+    found = verified(problem, replace(answers, sections={"equilibria": kept}))
+    assert not found.sections["equilibria"].complete
+    assert not found.complete
+    assert "no other equilibrium" in found.warnings[-1]

@@ -7,11 +7,12 @@ from math import isqrt
 
 from flint import arb, arb_mat, ctx
 
-from lagcli.answers import EquilibriaSection, Mode, ModesSection
+from lagcli.answers import EquilibriaSection, Equilibrium, Mode, ModesSection
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.motions import SteadyMotion, SteadySection, Verdict
 from lagcli.record import replace
+from lagcli.verification.claims.others import another
 from lagcli.verification.claims.rest import (
     BITS,
     NOTHING,
@@ -48,7 +49,17 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
             if verdict is None:
                 return replace(section, equilibria=None, reason=_not_confirmed("an equilibrium"))
             found.append(each if verdict is each.verdict else replace(each, verdict=verdict))
+        other = _another(x, found) if section.complete else ""
+    if other:
+        x.refute("that there is no other equilibrium", f"there is one at {other}")
+        section = replace(section, complete=False)
     return replace(section, equilibria=tuple(found))
+
+
+def _another(x: Examination, found: list[Equilibrium]) -> str:
+    what = "the equilibria"
+    places = [Place(x, what, each.at, {}, each.on, each.where) for each in found]
+    return another(x, found, places)
 
 
 def modes(x: Examination, section: ModesSection) -> ModesSection:

@@ -73,14 +73,15 @@ class Place:
         """States at this place for random parameters that the conditions allow."""
         count = 0
         for state in self.x.states(LOOKED_AT, BITS):
-            near = self._near(state.environment)
+            near = self.near(state.environment)
             if near is not None:
                 count += 1
                 yield near
             if count == WANTED:
                 return
 
-    def _near(self, known: Environment) -> Near | None:
+    def near(self, known: Environment) -> Near | None:
+        """The state here for these parameters; None where there is none."""
         reference = self.x.reference
         resting = {(name, 1) for name in reference.names} - self.values.keys()
         environment = {**known, **{key: arb(0) for key in resting}}
@@ -198,13 +199,18 @@ class Near:
         return all(value.is_finite() for value in (*self.laws.drift, *self.laws.applied))
 
     @cached_property
+    def pull(self) -> list[arb]:
+        """d/dt(dL/dq') - dL/dq - Q where q'' = 0."""
+        return [e - f for e, f in zip(self.laws.drift, self.laws.applied, strict=True)]
+
+    @cached_property
     def residual(self) -> float:
         """How far the state is from staying: constraints, and forces that none of them bears."""
         at, laws = self.at, self.laws
         reference = self.x.reference
         gaps = [at(row.value) for row in reference.rows if row.holonomic]
         gaps += [at(row.velocity) for row in reference.rows]
-        pull = [e - f for e, f in zip(laws.drift, laws.applied, strict=True)]
+        pull = self.pull
         carried = list(zip(*laws.jacobian, strict=True)) or [()] * self.size
         solution = solve([list(row) for row in carried], pull, len(laws.jacobian))
         for j, row in enumerate(carried):
