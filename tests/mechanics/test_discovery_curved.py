@@ -20,7 +20,7 @@ from .derived import derive
          "sl(2,R) + R", 4),
         ("{coordinates: [x, y], L: 2*(x'^2 + y'^2)/(1 + x^2 + y^2)^2}", "so(3) + R", 4),
         ("{coordinates: {u: {assume: positive}, phi: {}}, L: u'^2/(2*u^4) + phi'^2/(2*u^2)}",
-         "Schrödinger sch(2): sl(2,R) + so(2) with Heisenberg h(2)", 8),
+         "Schrödinger sch(2): sl(2,R) + so(2) with Heisenberg h(2), modulo constants", 8),
     ],
 )  # fmt: skip
 def test_isometries_of_the_second_degree(text, algebra, dimension):

@@ -5,15 +5,15 @@ cosecant and cotangent, as rotations about other axes have them), a radius also 
 inverse.  A coordinate is taken for an angle where it occurs in L only inside circular
 functions, or not at all while its own inertia, or that with another coordinate, depends on
 a third one.  What has the unit of a length is none; an angle of which only the constraints
-know takes part in both ways, and so does what is cyclic with an inertia that falls without
-end (the half plane, x'^2/y^2), as no circle has it.  Where the inertia depends on lengths
+know takes part in both ways, and so does what is cyclic with an inertia that no circle has
+(the half plane, x'^2/y^2).  Two cyclic coordinates of one inertia are lengths.  Where the inertia depends on lengths
 that are no radii, the space is curved, or the chart is: there the second degree is taken.
 """
 
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
 from math import isqrt
@@ -27,7 +27,13 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery.search import Unknown
 from lagcli.mechanics.discovery.slots import Equations, Slot
-from lagcli.mechanics.discovery.spectrum import Exponent, differences, exponents, sums
+from lagcli.mechanics.discovery.spectrum import (
+    Exponent,
+    differences,
+    exponents,
+    forced_motion,
+    sums,
+)
 
 _CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 _MOST_FUNCTIONS = 60
@@ -45,6 +51,8 @@ class Kinds:
     cyclic: list[Symbol] = field(default_factory=list)  # among the angles
     latitudes: list[Symbol] = field(default_factory=list)  # angles in the inertia of others
     curved: bool = False
+    exponentials: list[Expr] = field(default_factory=list)  # of lengths, in the inertia
+    centre: Mapping[Symbol, Expr] = field(default_factory=dict)  # of rotations, where not at 0
 
 
 def kinds(
@@ -65,7 +73,7 @@ def kinds(
             for y, m in zip(equations.q, inertia[x], strict=True)
         ) or inertia[x][equations.q.index(x)].free_symbols & (set(equations.q) - {x})
         angle = bool(cyclic and turned) or (x in inside and not _outside(L, x))
-        if cyclic and unit == "m":
+        if cyclic and (unit == "m" or _has_twin(x, equations, L)):
             angle = False
         (found.angles if angle else found.lengths).append(x)
         if angle and cyclic:
@@ -76,7 +84,7 @@ def kinds(
             angle
             and cyclic
             and unit is None
-            and _falls(inertia[x][equations.q.index(x)], equations.q)
+            and _is_of_no_circle(inertia[x][equations.q.index(x)], equations.q)
         ):
             found.lengths.append(x)
     found.radii = [
@@ -87,14 +95,44 @@ def kinds(
     found.curved = set(found.angles) <= set(found.lengths) and not in_inertia.isdisjoint(
         found.lengths
     )
+    found.exponentials = _exponentials(equations)
     found.latitudes = [x for x in found.angles if _in_determinant(x, equations)]
     return found
 
 
-def _falls(inertia: Expr, q: Sequence[Symbol]) -> bool:
-    """Whether it is a negative power or an exponential in what it depends on."""
-    below = sympy.fraction(sympy.together(inertia))[1]
-    return not free_of(below, q) or any(not free_of(e, q) for e in inertia.atoms(sympy.exp))
+def _has_twin(x: Symbol, equations: Equations, L: Expr) -> bool:
+    """Whether another cyclic coordinate has its inertia, as x and y in z^2 (x'^2 + 4 y'^2).
+
+    The two turn into each other, so they are lengths of a plane and no angles.
+    """
+    i = equations.q.index(x)
+    own = equations.mass[i]
+    return any(
+        own[k] == 0 and free_of(L, [y]) and free_of(sympy.cancel(equations.mass[k][k] / own[i]), q)
+        for q in [equations.q]
+        for k, y in enumerate(q)
+        if k != i
+    )
+
+
+def _is_of_no_circle(inertia: Expr, q: Sequence[Symbol]) -> bool:
+    """Whether it is no square of a radius: where a circle shrinks to a point it falls as r^2."""
+    above, below = sympy.fraction(sympy.together(inertia))
+    if not free_of(below, q) or any(not free_of(e, q) for e in inertia.atoms(sympy.exp)):
+        return True
+    inside = [x for x in q if x in above.free_symbols]
+    if not above.is_polynomial(*inside):
+        return False
+    return all(sympy.degree(above, x) != 2 for x in inside)
+
+
+def _exponentials(equations: Equations) -> list[Expr]:
+    """Of the inertia: exp(x), its root and their inverses, as isometries have them."""
+    atoms = {e for row in equations.mass for m in row for e in m.atoms(sympy.exp)}
+    inside = [e.args[0] for e in sorted(atoms, key=sympy.default_sort_key)
+              if not free_of(e, equations.q) and free_of(e, [equations.t])]  # fmt: skip
+    powers = [sympy.Rational(k, 2) for k in (-2, -1, 1, 2)]
+    return list(dict.fromkeys(sympy.exp(k * x) for x in inside for k in powers))
 
 
 def _in_determinant(x: Symbol, equations: Equations) -> bool:
@@ -133,6 +171,7 @@ class TimeFunctions:
     translations: tuple[Expr, ...]
     others: tuple[Expr, ...]
     exponents: tuple[Exponent, ...]
+    forced: tuple[Expr, ...] = ()
 
 
 def time_functions(
@@ -149,12 +188,17 @@ def time_functions(
     if not potential:
         # integrating factors solve the adjoint equation, whose exponents are the negatives
         own = [Exponent(-e.growth, e.frequency, e.repeated) for e in found]
-        between = [*sums(own), *between]
+        between = [*sums(own), *differences(own)]
     powers = [sympy.S.One, t, t**2]
     others = [*powers, *_functions(between, t)]
     translations = [*powers, t**3, *_functions(own, t), *_functions(between, t)]
+    forced = forced_motion(accelerations, equations.q, equations.v, t)
+    translations += [f * T for f in forced for T in (others if f != t else others[3:])]
     return TimeFunctions(
-        tuple(dict.fromkeys(translations)), tuple(dict.fromkeys(others)), tuple(found)
+        tuple(dict.fromkeys(translations)),
+        tuple(dict.fromkeys(others)),
+        tuple(found),
+        tuple(f for f in forced if f != t),
     )
 
 
@@ -170,8 +214,8 @@ def affine(found: Kinds) -> list[Expr]:
         by_angle = [[one, sympy.sin(x), sympy.cos(x)] for x in found.angles]
     if _size(by_angle) > _MOST_FUNCTIONS:
         by_angle = []
-    x = found.lengths
-    lengths = [one, *x, *(1 / r for r in found.radii)]
+    x = [y - found.centre.get(y, 0) for y in found.lengths]
+    lengths = [one, *x, *(1 / r for r in found.radii), *found.exponentials]
     if found.curved and len(x) <= _MOST_CURVED:
         lengths += [a * b for i, a in enumerate(x) for b in x[: i + 1]]
     if _size([lengths, *by_angle]) > _MOST_FUNCTIONS:
@@ -184,12 +228,12 @@ def affine(found: Kinds) -> list[Expr]:
 def quadratic(found: Kinds, most: int) -> list[Expr]:
     """At most so many functions for Killing tensors: second degree in lengths, sin and cos."""
     one = sympy.S.One
-    x = found.lengths
+    x = [y - found.centre.get(y, 0) for y in found.lengths]
     squares = [a * b for i, a in enumerate(x) for b in x[: i + 1]]
     inverse = [1 / r for r in found.radii]
     lengths = [
         [one, *x, *squares, *inverse, *(r**-2 for r in found.radii)],
-        [one, *inverse, *(y for y in x if y in found.radii)],
+        [one, *inverse, *found.radii],
         [one, *inverse],
     ]
     angles = [

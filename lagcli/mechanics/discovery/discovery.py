@@ -31,6 +31,7 @@ from lagcli.mechanics.discovery.ansatz import (
 )
 from lagcli.mechanics.discovery.brackets import rank
 from lagcli.mechanics.discovery.centralizer import centralized
+from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.constrained import rank_on_surface, tangent
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
@@ -158,6 +159,13 @@ class Discovery:
         rows = [x for e in self.dynamics.constraints.equations for x in (*e.row, e.drift)]
         return kinds(self.system.L, self.equations, units, rows)
 
+    @property
+    def centred_kinds(self) -> Kinds:
+        """The same, with the centre of the rotations found."""
+        given = [c.transformation for c in self.point_charges]
+        centre = centre_of(given, self.system.q, self.coordinate_kinds.lengths)
+        return replace(self.coordinate_kinds, centre=centre)
+
     @cached_property
     def canonical(self) -> bool:
         """Whether no forces act beside those of L."""
@@ -182,13 +190,12 @@ class Discovery:
         motion = self.dynamics.motion
         return None if motion is None else motion.accelerations
 
-    def _search(
-        self, equations: Equations, accelerations: Sequence[Expr] | None, allowed: Allowance
-    ) -> tuple[Search, str]:
+    def _search(self, kinds: Kinds, allowed: Allowance) -> tuple[Search, str]:
         """The linear system for the point symmetries, and what its ansatz is in words."""
-        times = time_functions(equations, accelerations, potential=self.canonical)
+        equations = self.equations
+        times = time_functions(equations, self.accelerations, potential=self.canonical)
         slots = point_slots(equations)
-        spaces = affine(self.coordinate_kinds)
+        spaces = affine(kinds)
         while True:
             unknowns = point_unknowns(slots, times, spaces, time_with_space=not self.quadratic_mass)
             if len(unknowns) <= MOST_UNKNOWNS or len(spaces) == 1:
@@ -199,12 +206,13 @@ class Discovery:
     def _points(self) -> None:
         allowed = self.allowed.part(0.7)
         constraints = self.dynamics.constraints.equations
-        search, words = self._search(self.equations, self.accelerations, allowed)
+        search, words = self._search(self.coordinate_kinds, allowed)
         self.words.append(words)
-        transformations = [
-            point.transformation_of(search, solution, set(self.system.parameters))
-            for solution in search.solutions()
-        ]
+        transformations = self._transformations(search)
+        centre = centre_of(transformations, self.system.q, self.coordinate_kinds.lengths)
+        if len(centre) > 1:  # rotations about it are mixed where they are counted from 0
+            search, _ = self._search(replace(self.coordinate_kinds, centre=centre), allowed)
+            transformations = self._transformations(search)
         if search.unsolved:
             self.stopped.append(
                 f"{more(search.unsolved, 'symmetry')} there, whose coefficients were not solved"
@@ -221,6 +229,10 @@ class Discovery:
                 self.stopped.append("a symmetry whose charge was not proved is left out")
                 continue
             self._add(charge)
+
+    def _transformations(self, search: Search) -> list[Transformation]:
+        constants = set(self.system.parameters)
+        return [point.transformation_of(search, s, constants) for s in search.solutions()]
 
     @cached_property
     def special(self) -> tuple[SpecialCase, ...]:
@@ -326,7 +338,7 @@ class Discovery:
                 "coefficients up to second degree in the coordinates"
             )
             integrals = QuadraticIntegrals(
-                self.noether, self.equations, self.coordinate_kinds, self.allowed
+                self.noether, self.equations, self.centred_kinds, self.allowed
             )
             if not integrals.functions:
                 self.stopped.append("there are too many coordinates for the second degree")
@@ -335,7 +347,7 @@ class Discovery:
         if TimedIntegrals.applies(self.equations, self.coordinate_kinds, self.point_charges):
             functions = time_functions(self.equations, self.accelerations, potential=True)
             timed = TimedIntegrals(
-                self.noether, self.equations, self.coordinate_kinds, functions, self.allowed
+                self.noether, self.equations, self.centred_kinds, functions, self.allowed
             )
             if timed.functions:
                 self.words.append("and with the same functions of time as coefficients")
@@ -343,7 +355,7 @@ class Discovery:
 
     def _keep_hidden(self, integrals: QuadraticIntegrals) -> None:
         """Add what is found, with names."""
-        naming = HiddenNames(self.system, self.equations, self.coordinate_kinds)
+        naming = HiddenNames(self.system, self.equations, self.centred_kinds)
         found = [each for each in integrals.found(self.charges) if self._lasts(each[1])]
         named = [(*naming.of(functions, charge), charge) for functions, charge in found]
         named.sort(key=lambda each: (not each[0], each[0]))
@@ -374,5 +386,7 @@ class Discovery:
             shapes.append("with sines and cosines of the angles")
         powers = "polynomial in t to second degree"
         timed = " and with the exponents of the linear part" if times.exponents else ""
+        if times.forced:
+            timed += " and the functions of time of the driving"
         space = " ".join(shapes) or "constant in the coordinates"
         return f"{what} {space}, {powers}{timed}"

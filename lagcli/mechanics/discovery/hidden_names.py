@@ -100,8 +100,9 @@ class HiddenNames:
         if is_zero(self.V) is True:
             return
         if len(kinds.lengths) == len(self.q):
-            if self._is_central(kinds.lengths):
-                yield from ((x.name, x) for x in self.q)
+            from_centre = [x - kinds.centre.get(x, 0) for x in self.q]
+            if self._is_central(from_centre):
+                yield from ((x.name, y) for x, y in zip(self.q, from_centre, strict=True))
             return
         if len(kinds.radii) != 1 or any(y in self.V.free_symbols for y in kinds.angles):
             return
@@ -117,9 +118,9 @@ class HiddenNames:
             yield "y", r * sympy.sin(theta) * sympy.sin(phi)
             yield "z", r * sympy.cos(theta)
 
-    def _is_central(self, q: Sequence[Symbol]) -> bool:
-        return len(q) > 1 and all(
-            is_zero(self.V.diff(y) * z - self.V.diff(z) * y) is True
-            for k, y in enumerate(q)
-            for z in q[:k]
+    def _is_central(self, r: Sequence[Expr]) -> bool:
+        return len(r) > 1 and all(
+            is_zero(self.V.diff(x) * r[i] - self.V.diff(y) * r[k]) is True
+            for k, x in enumerate(self.q)
+            for i, y in enumerate(self.q[:k])
         )

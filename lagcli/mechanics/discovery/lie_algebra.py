@@ -111,6 +111,8 @@ def _whole(C: list[list[Vector]], n: int, derived: int, *, extended: bool) -> st
         if n == 1 + turns + 2 * d and (plus, minus) == (0, turns) and extended:
             nilpotent = d > 1 or derived == 1
             return f"Galilei in {d} dimension{'s' if d > 1 else ''}" if nilpotent else None
+        if d == 3 and n == 1 + 2 * (turns + d) and (plus, minus) == (0, 2 * turns) and extended:
+            return "Galilei in 3 dimensions + so(3)"  # two bodies: L_rel beside L
         if d > 1 and n == turns + 2 * d + 1 and (plus, minus) == (d, turns) and not extended:
             return f"Poincaré iso({d},1)"
         if d > 2 and n == turns + d and (plus, minus) == (0, turns) and not extended:

@@ -148,8 +148,13 @@ class Naming:
             wanted = -sympy.sin(phi) if name == "L_x" else sympy.cos(phi)
             right = moved[self.kinds.latitudes[0]] == wanted
         else:
-            # the search leaves the last component positive: dz = x for y, dy = x for z
-            right = name != "L_y"
+            one, other = {"L_x": "yz", "L_y": "zx", "L_z": "xy"}[name]
+            slopes = (
+                e.diff(x) for y, e in moved.items() for x in self.q
+                if _bare(y.name) == other and _bare(x.name) == one and x in e.free_symbols
+            )  # fmt: skip
+            slope = next(slopes, sympy.S.One)
+            right = not slope.could_extract_minus_sign()
         return sympy.S.One if right else sympy.S.NegativeOne
 
 

@@ -134,7 +134,8 @@ def _searches(discovery: Discovery, allowed: Allowance) -> Iterator[Search | Non
     yield Search(equations, slots, unknowns, allowed) if few else None
     if len(equations.q) < 2 or not discovery.quadratic_mass or not discovery.canonical:
         return
-    integrals = QuadraticIntegrals(discovery.noether, equations, found, allowed)
+    centred = discovery.centred_kinds
+    integrals = QuadraticIntegrals(discovery.noether, equations, centred, allowed)
     size = len(integrals.functions) * (len(integrals.pairs) + len(integrals.linear))
     if size and t not in discovery.equations_symbols:
         yield integrals.search(()) if size <= _MOST_UNKNOWNS else None

@@ -19,6 +19,7 @@ from lagcli.algebra import is_zero, simplify
 
 _LARGEST_BLOCK = 4
 _MOST_OPERATIONS = 3000
+_WAVES = (sympy.sin, sympy.cos, sympy.exp)
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +89,7 @@ def differences(found: Sequence[Exponent], most: int = 8) -> list[Exponent]:
         # the exponents differ from 0, the exponent of free motion, by themselves; as they stand,
         # for two forms of one function would be two functions
         _keep(result, Exponent(each.growth, each.frequency))
+        _keep(result, Exponent(-each.growth, each.frequency))
     for i, one in enumerate(found):
         for other in found[:i]:
             if len(result) >= most:
@@ -106,6 +108,29 @@ def sums(found: Sequence[Exponent], most: int = 6) -> list[Exponent]:
             for frequency in (one.frequency - other.frequency, one.frequency + other.frequency):
                 _keep(result, Exponent(growth, simplify(frequency)))
     return result[:most]
+
+
+def forced_motion(
+    accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
+) -> list[Expr]:
+    """Functions of time in a motion forced by the terms of q'' without q and q'.
+
+    A sine, cosine or exponential of time in them returns in the motion; a constant gives a
+    drift, as of a falling body with drag, or of a charge in crossed fields.  A symmetry of
+    the equations without these terms is moved along with the motion, and has them as factors.
+    """
+    found: dict[Expr, None] = {}
+    for acceleration in accelerations:
+        terms = sympy.Add.make_args(sympy.expand(acceleration))
+        free = [x for x in terms if not x.free_symbols & {*q, *v}]
+        waves = {f for x in free for f in x.atoms(*_WAVES) if t in f.free_symbols}
+        for wave in sorted(waves, key=sympy.default_sort_key):
+            inside = wave.args[0]
+            both = [sympy.sin(inside), sympy.cos(inside)]
+            found |= dict.fromkeys([wave] if wave.func is sympy.exp else both)
+        if len(waves) < len(free):
+            found[t] = None
+    return list(found)
 
 
 def _keep(found: list[Exponent], new: Exponent) -> None:

@@ -18,6 +18,8 @@ from lagcli.mechanics.discovery.lie_algebra import name_of
 from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.states import Contradiction
 
+_MOST_FOR_SQUARES = 9  # two bodies in space: P, L and L_rel
+
 
 @dataclass(frozen=True, slots=True)
 class Summary:
@@ -141,7 +143,7 @@ def _squares(discovery: Discovery) -> list[Expr]:
     """L^2 of three charges of first degree that turn into each other, for involution."""
     linear = [c.charge for c in discovery.charges if c.transformation.time == 0
               and discovery.system.t not in c.charge.free_symbols]  # fmt: skip
-    if len(linear) < 3 or len(linear) > 8:
+    if len(linear) < 3 or len(linear) > _MOST_FOR_SQUARES:
         return []
     brackets = Brackets(linear, discovery.dynamics, discovery.allowed)
     found = []

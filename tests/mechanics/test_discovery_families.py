@@ -1,0 +1,161 @@
+"""What is concluded of a system does not depend on its coordinates, origin and letters.
+
+The numbers of symmetries: a linear equation of one coordinate has five, however it is driven or
+damped (Lutzky, J. Phys. A 11 (1978) 249; Caldirola, Nuovo Cim. 18 (1941) 393 for drag), a
+charge in crossed fields has the eight of the oscillator in a frame that drifts with E x B
+(Jackson, *Classical Electrodynamics*, 3rd ed., section 12.3).  Hyperbolic space: Ratcliffe,
+*Foundations of Hyperbolic Manifolds*, 2nd ed., chapter 4.  Kepler: Goldstein, Poole, Safko,
+3rd ed., section 3.9; two bodies: Landau and Lifshitz, *Mechanics*, section 13.
+"""
+
+import random
+import re
+
+import pytest
+
+from lagcli.mechanics.discovery.summary import summary
+from lagcli.reader import read_problem
+from tests.oracle.constancy import digits_kept, discovered
+
+from .derived import derive
+
+POS = "{assume: positive}"
+
+
+def numbers(seed, *names):
+    """Random rational values for names."""
+    source = random.Random(seed)
+    return {name: f"{source.randint(1, 9)}/{source.randint(1, 5)}" for name in names}
+
+
+def one_coordinate(L, force="", letter="x", positive="m k c g b Omega"):
+    parameters = "".join(f"  {p}: {POS}\n" for p in positive.split())
+    forces = f"forces: {{x: {force}}}\n" if force else ""
+    return (f"parameters:\n{parameters}  F: {{}}\n"
+            + re.sub(r"\bx\b", letter, f"coordinates: [x]\nL: {L}\n{forces}"))  # fmt: skip
+
+
+LINEAR = {
+    "drag": ("m*x'^2/2", "-c*x'"),
+    "falling with drag": ("m*x'^2/2 - m*g*x", "-c*x'"),
+    "driven": ("m*x'^2/2 - k*x^2/2 + F*x*cos(Omega*t)", ""),
+    "driven by a sum": ("m*x'^2/2 - k*x^2/2 + F*x*(sin(Omega*t) - g)", ""),
+    "driven and dying out": ("m*x'^2/2 - k*x^2/2 + F*x*exp(-b*t)", ""),
+    "driven without a spring": ("m*x'^2/2 + F*x*sin(Omega*t)", ""),
+    "repelled and driven": ("m*x'^2/2 + k*x^2/2 + F*x*cos(Omega*t)", ""),
+    "growing mass": ("m*exp(c*t)*x'^2/2", ""),
+    "growing mass that falls": ("exp(c*t)*(m*x'^2/2 - m*g*x)", ""),
+}
+
+
+@pytest.mark.parametrize("letter", ["x", "s"])
+@pytest.mark.parametrize("name", LINEAR)
+def test_a_linear_equation_of_one_coordinate_has_five(name, letter):
+    L, force = LINEAR[name]
+    found = derive(one_coordinate(L, force, letter)).discovery
+    assert len(found.charges) == 5, [c.name for c in found.charges]
+    assert found.stopped == []
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("name", LINEAR)
+def test_their_charges_stay_on_an_independent_motion(name, seed):
+    L, force = LINEAR[name]
+    text = one_coordinate(L, force)
+    for letter, value in numbers(f"{name} {seed}", *"mkcgb", "Omega").items():
+        text = text.replace(f"  {letter}: {POS}", f"  {letter}: {{value: {value}}}")
+    problem = read_problem("test.yaml", text.encode()).checked()
+    charges, _, _ = discovered(problem)
+    kept = digits_kept(problem, charges)
+    assert len(kept) == 5
+    assert {n: digits for n, digits in kept.items() if digits < 20} == {}
+
+
+@pytest.mark.parametrize("L", [
+    "m*(x'^2 + y'^2)/2 + q*B*(x*y' - y*x')/2 + q*E*x",
+    "m*(x'^2 + y'^2)/2 + q*B*x*y' + q*E*y",
+    "m*(x'^2 + y'^2)/2 - q*B*y*x' + q*E*(x + 2*y)",
+])  # fmt: skip
+def test_crossed_fields_have_the_eight_of_the_drifting_frame(L):
+    derivation = derive(f"{{parameters: {{m: {POS}, q: {{}}, B: {{}}, E: {{}}}}, "
+                        f"coordinates: [x, y], L: {L}}}")  # fmt: skip
+    found = summary(derivation.discovery)
+    assert (found.dimension, found.integrable) == (8, True)
+    assert found.name.startswith("Schrödinger sch(2)")
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "L"),
+    [
+        (f"{{x: {{}}, y: {{}}, z: {POS}}}", "m*(x'^2 + y'^2 + z'^2)/(2*z^2)"),
+        (f"{{u: {{}}, v: {{}}, h: {POS}}}", "m*(u'^2 + 9*v'^2 + a^2*h'^2)/(2*h^2)"),
+        ("[x, y, z]", "m*(exp(2*z/a)*(x'^2 + y'^2) + z'^2)/2"),
+        ("[s, x, y]", "m*(exp(-s)*(x'^2 + a*y'^2) + s'^2)/2"),
+    ],
+)
+def test_hyperbolic_space_has_its_name_in_other_coordinates(coordinates, L):
+    found = summary(derive(f"{{parameters: {{m: {POS}, a: {POS}}}, "
+                           f"coordinates: {coordinates}, L: {L}}}").discovery)  # fmt: skip
+    assert (found.dimension, found.name) == (7, "so(3,1) + R")
+    assert (found.independent, found.integrable) == (5, True)
+
+
+@pytest.mark.parametrize(
+    ("L", "names"),
+    [
+        ("m*z^2*(x'^2 + y'^2)/2 + m*z'^2/2", "energy p_x p_y L_z dilation conformal"),
+        ("m*z^2*(x'^2 + y'^2)/2 + m*z'^2/2 - k/z^2", "energy p_x p_y L_z dilation conformal"),
+        ("m*z^4*(x'^2 + y'^2)/2 + m*z'^2/2", "energy p_x p_y L_z dilation"),
+        ("m*(1 + z^2)*(x'^2 + y'^2)/2 + m*z'^2/2 - k*z^4", "energy p_x p_y L_z"),
+    ],
+)
+def test_two_cyclic_coordinates_of_one_inertia_are_lengths(L, names):
+    text = f"{{parameters: {{m: {POS}, k: {POS}}}, coordinates: {{x: {{}}, y: {{}}, z: {POS}}}, "
+    found = derive(f"{text}L: {L}}}").discovery
+    assert {c.name for c in found.point_charges} == set(names.split())
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "z"), [("x - a", "y", ""), ("x - a", "y + b", ""), ("x + 2", "y - a*b", ""),
+                      ("x - a", "y", "z + b"), ("x", "y + a", "z - b"), ("x - a", "y - b", "z - 1")]
+)  # fmt: skip
+def test_kepler_about_any_point_is_keplers(x, y, z):
+    places = [p for p in (x, y, z) if p]
+    q = "xyz"[: len(places)]
+    squares = " + ".join(f"({p})^2" for p in places)
+    kinetic = " + ".join(f"{c}'^2" for c in q)
+    found = derive(
+        f"{{parameters: {{m: {POS}, k: {POS}, a: {{}}, b: {{}}}}, "
+        f"coordinates: [{', '.join(q)}], L: m*({kinetic})/2 + k/sqrt({squares})}}"
+    )
+    turns = {"L_z"} if len(q) == 2 else {"L_x", "L_y", "L_z"}
+    names = {"energy", *turns, *(f"runge_lenz_{c}" for c in q)}
+    assert {c.name for c in found.discovery.charges} == names
+    told = summary(found.discovery)
+    assert told.name.startswith("the energy and so(3)" if len(q) == 2 else "the energy and so(4)")
+    assert told.integrable is True
+    for c in found.discovery.charges:
+        if c.name in turns:  # L = r x p, in this order
+            one, other = {"L_x": "yz", "L_y": "zx", "L_z": "xy"}[c.name]
+            position = {s.name: s for s in found.system.q}
+            rate = dict(zip(position, found.system.qdot, strict=True))
+            slope = c.charge.diff(rate[other], position[one])
+            assert slope.is_positive, c.charge
+
+
+@pytest.mark.parametrize("V", ["k*R^3", "-k/R", "-k*exp(-R)"])
+def test_two_bodies_in_space_are_integrable(V):
+    """E, P, L_rel^2 and L_rel,z: six in involution."""
+    R = "sqrt((x1 - x2)^2 + (y1 - y2)^2 + (z1 - z2)^2)"
+    found = summary(
+        derive(f"""
+parameters: {{m1: {POS}, m2: {POS}, k: {POS}}}
+coordinates: [x1, y1, z1, x2, y2, z2]
+T: m1*(x1'^2 + y1'^2 + z1'^2)/2 + m2*(x2'^2 + y2'^2 + z2'^2)/2
+V: {V.replace("R", R).replace("kexp", "k*exp")}
+""").discovery
+    )
+    assert (found.in_involution, found.integrable) == (6, True)
+    if V == "k*R^3":
+        assert found.name == "Galilei in 3 dimensions + so(3), modulo constants"
+        assert found.dimension == 13
