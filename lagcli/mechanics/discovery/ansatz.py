@@ -1,13 +1,13 @@
 """What is searched: which functions of t and of the coordinates multiply the generators.
 
-Coordinates that are lengths enter to first degree, angles by sine and cosine (and by
-cosecant and cotangent, as rotations about other axes have them), a radius also by its
-inverse.  A coordinate is taken for an angle where it occurs in L only inside circular
-functions, or not at all while its own inertia, or that with another coordinate, depends on
-a third one.  What has the unit of a length is none; an angle of which only the constraints
-know takes part in both ways, and so does what is cyclic with an inertia that no circle has
-(the half plane, x'^2/y^2).  Two cyclic coordinates of one inertia are lengths.  Where the inertia depends on lengths
-that are no radii, the space is curved, or the chart is: there the second degree is taken.
+Coordinates that are lengths enter to first degree, angles by sine and cosine (and by cosecant
+and cotangent, as rotations about other axes have them), a radius also by its inverse.  A
+coordinate is taken for an angle where it occurs in L only inside circular functions, or not at
+all while its own inertia, or that with another coordinate, depends on a third one.  What has the
+unit of a length is none; an angle of which only the constraints know takes part in both ways,
+and so does what is cyclic with an inertia that no circle has (the half plane, x'^2/y^2).  Two
+cyclic coordinates of one inertia are lengths.  Where the inertia depends on lengths that are no
+radii, the space is curved, or the chart is: there the second degree is taken.
 """
 
 from __future__ import annotations

@@ -16,12 +16,15 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.mechanics.noether import Transformation
+from lagcli.mechanics.system import System
 
 Centre = dict[Symbol, Expr]
 
 
 def centre_of(
-    transformations: Iterable[Transformation], q: Sequence[Symbol], lengths: Sequence[Symbol]
+    transformations: Iterable[Transformation],
+    system: System,
+    lengths: Sequence[Symbol],
 ) -> Centre:
     """Where the rotations dx = c (y - b), dy = -c (x - a) vanish, for each coordinate not at 0.
 
@@ -29,7 +32,9 @@ def centre_of(
     """
     found: Centre = {}
     for transformation in transformations:
-        for x, at in _fixed(transformation, q):
+        for x, at in _fixed(transformation, system.q):
+            if not at.free_symbols <= set(system.parameters):  # it moves
+                return {}
             if x not in lengths or sympy.expand(found.setdefault(x, at) - at) != 0:
                 return {}
     return {x: at for x, at in found.items() if at != 0}
@@ -46,5 +51,5 @@ def _fixed(transformation: Transformation, q: Sequence[Symbol]) -> Iterator[tupl
         return
     points = [(y, sympy.cancel(y - moved[x] / s))
               for x, y, s in zip((one, other), (other, one), slopes, strict=True)]  # fmt: skip
-    if sympy.expand(sum(slopes)) == 0 and not any(at.free_symbols & {*q} for _, at in points):
+    if sympy.expand(sum(slopes)) == 0:
         yield from points

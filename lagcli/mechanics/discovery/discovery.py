@@ -163,7 +163,7 @@ class Discovery:
     def centred_kinds(self) -> Kinds:
         """The same, with the centre of the rotations found."""
         given = [c.transformation for c in self.point_charges]
-        centre = centre_of(given, self.system.q, self.coordinate_kinds.lengths)
+        centre = centre_of(given, self.system, self.coordinate_kinds.lengths)
         return replace(self.coordinate_kinds, centre=centre)
 
     @cached_property
@@ -209,7 +209,7 @@ class Discovery:
         search, words = self._search(self.coordinate_kinds, allowed)
         self.words.append(words)
         transformations = self._transformations(search)
-        centre = centre_of(transformations, self.system.q, self.coordinate_kinds.lengths)
+        centre = centre_of(transformations, self.system, self.coordinate_kinds.lengths)
         if len(centre) > 1:  # rotations about it are mixed where they are counted from 0
             search, _ = self._search(replace(self.coordinate_kinds, centre=centre), allowed)
             transformations = self._transformations(search)

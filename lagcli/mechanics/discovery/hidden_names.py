@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import sympy
-from sympy import Expr, Symbol
+from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.mechanics.discovery.ansatz import Kinds

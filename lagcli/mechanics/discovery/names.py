@@ -148,7 +148,7 @@ class Naming:
             wanted = -sympy.sin(phi) if name == "L_x" else sympy.cos(phi)
             right = moved[self.kinds.latitudes[0]] == wanted
         else:
-            one, other = {"L_x": "yz", "L_y": "zx", "L_z": "xy"}[name]
+            one, other = {"L_x": ("y", "z"), "L_y": ("z", "x"), "L_z": ("x", "y")}[name]
             slopes = (
                 e.diff(x) for y, e in moved.items() for x in self.q
                 if _bare(y.name) == other and _bare(x.name) == one and x in e.free_symbols
