@@ -91,15 +91,17 @@ class Noether:
         evident = [
             charge
             for charge in (*self._cyclic_charges(), self._energy_charge())
-            if not self.is_trivial(charge.charge)
+            if not self.is_trivial(charge)
             and not any(self._same_charge(charge, candidate) for candidate in candidates)
         ]
         return (*candidates, *evident)
 
-    def is_trivial(self, quantity: Expr) -> bool:
-        """Whether a quantity is constant by the constraints alone, whatever the motion is."""
-        on_surface = self.dynamics.simplified(quantity)
-        return not on_surface.free_symbols & {*self.system.q, *self.system.qdot, self.system.t}
+    def is_trivial(self, charge: NoetherCharge) -> bool:
+        """Whether a charge is constant by the constraints alone, whatever the motion is."""
+        on_surface = self.dynamics.simplified(charge.charge)
+        if not on_surface.free_symbols & {*self.system.q, *self.system.qdot, self.system.t}:
+            return True
+        return charge.conserved is True and self.dynamics.verifier.is_fixed(charge.charge)
 
     @cached_property
     def cyclic(self) -> tuple[int, ...]:

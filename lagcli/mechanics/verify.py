@@ -17,7 +17,15 @@ from lagcli.algebra import is_zero
 from lagcli.algebra.numeric import Evaluator
 from lagcli.answers import Verification
 from lagcli.mechanics.constraints import Constraints
-from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates, State, random_value
+from lagcli.mechanics.states import (
+    DIGITS,
+    Contradiction,
+    Elimination,
+    RandomStates,
+    State,
+    independent_rows,
+    random_value,
+)
 from lagcli.record import record
 
 _STATES = 3
@@ -83,6 +91,25 @@ class Verifier:
         wanted = max(few, 2 * self.states.surfaces)
         return self._vanishes_at(expressions, self._states(4 * wanted), wanted)
 
+    def is_fixed(self, quantity: Expr) -> bool:
+        """Whether the constraints alone keep a quantity from changing between states.
+
+        Its gradient by q and q' is then a combination of those of f and of A q' + b.
+        """
+        system, constraints = self.states.system, self.constraints
+        moving = (*system.q, *system.qdot)
+        held = [e.f for e in constraints.equations if e.holonomic]
+        forms = [*held, *constraints.velocity_forms, quantity]
+        evaluate = Evaluator([form.diff(x) for form in forms for x in moving], DIGITS)
+        try:
+            with mpmath.workdps(DIGITS):
+                return bool(constraints.equations) and all(
+                    len(forms) - 1 in _elimination(evaluate(state), len(moving)).dependent
+                    for state in self.states.take(_STATES)
+                )
+        except (ArithmeticError, ValueError, Contradiction):
+            return False
+
     def _states(self, most: int) -> Iterator[State]:
         for count in range(1, most + 1):
             try:
@@ -113,6 +140,11 @@ class Verifier:
                 if tested == wanted:
                     break
         return True if tested else None
+
+
+def _elimination(values: Sequence[mpf], width: int) -> Elimination:
+    rows = [values[i : i + width] for i in range(0, len(values), width)]
+    return independent_rows(rows, mpf(10) ** -20)
 
 
 def _vanish(groups: Sequence[Sequence[Expr]], values: Sequence[mpf]) -> bool | None:

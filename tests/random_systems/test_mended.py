@@ -16,6 +16,19 @@ MENDED = {
         L="m*r'^2/2 + m*exp(2*r)*phi'^2/2 - k*r^4",
         sections=("reduction", "steady_motions"),
     ),
+    "y = b x and (1 + y^2) x' = sin(z) y' leave neither x' nor y', and p_y is 0 by them alone": System(
+        coordinates=dict.fromkeys("xyz"),
+        parameters=M,
+        T="m*(x'^2 + y'^2 + z'^2)/2",
+        constraints={"c1": "(1 + y^2)*x' = sin(z)*y'", "c2": "y = b*x"},
+    ),
+    "cos x = sin y has two branches, and x + y is constant on one": System(
+        coordinates=dict.fromkeys("xy"),
+        parameters=M,
+        T="m*(x'^2 + y'^2)/2 + m*x'*y'/2",
+        V="k*cos(y) + g*x",
+        constraints={"c1": "cos(x) = sin(y)"},
+    ),
 }
 
 
