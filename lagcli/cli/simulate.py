@@ -100,6 +100,10 @@ Rigorous = Annotated[
     bool,
     typer.Option("--rigorous", help="Prove every digit by enclosures of the exact motion."),
 ]
+Beyond = Annotated[
+    bool,
+    typer.Option("--beyond", help="Print the rows after the certified ones as well, marked."),
+]
 
 
 def simulate(
@@ -118,6 +122,7 @@ def simulate(
     stop_when: StopWhen = None,
     whole_model: WholeModel = False,
     rigorous: Rigorous = False,
+    beyond: Beyond = False,
 ) -> int:
     """Compute the motion to a stated accuracy, with a certificate.
 
@@ -156,5 +161,6 @@ def simulate(
         stop_when=stop_when,
         whole=whole_model,
         rigorous=rigorous,
+        beyond=beyond,
     )
     return simulate_files(files, wish)

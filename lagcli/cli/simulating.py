@@ -46,6 +46,7 @@ class Wish:
     stop_when: str | None
     whole: bool
     rigorous: bool = False
+    beyond: bool = False
 
 
 def simulate_files(files: Sequence[str], wish: Wish) -> Status:
@@ -225,5 +226,6 @@ def asked_of(problem: Problem, wish: Wish, *, without_end: float | None = None) 
         method=method,
         digits=wish.precision,
         whole=wish.whole,
+        beyond=wish.beyond,
         written=to_grammar,
     )

@@ -36,6 +36,8 @@ class Asked:
         Integrate the model as the file has it, nothing eliminated and nothing left out.
     furthest : bool
         Where the accuracy is not reached to the end, run shorter spans to find how long it holds.
+    beyond : bool
+        Keep the rows after those that are within the accuracy, apart from these.
     written : function
         Writes a formula of the cut model as text of the grammar.
     """
@@ -52,6 +54,7 @@ class Asked:
     digits: int | None = None
     whole: bool = False
     furthest: bool = True
+    beyond: bool = False
     written: Callable[[Expression], str] = str
 
 
@@ -87,7 +90,14 @@ class Certificate:
 
 @record(kw_only=True)
 class Result:
-    """The table, its certificate, and how it was made."""
+    """The table, its certificate, and how it was made.
+
+    Attributes
+    ----------
+    beyond : tuple of rows, or None
+        Rows of the run over the whole span after the certified ones, of which nothing is
+        certified; None where they are not requested.
+    """
 
     columns: tuple[str, ...]
     rows: tuple[tuple[float | None, ...], ...]
@@ -99,4 +109,5 @@ class Result:
     events: tuple[Event, ...] = ()
     warnings: tuple[str, ...] = field(default=())
     cut: Cut | None = None  # what the model was cut by
+    beyond: tuple[tuple[float | None, ...], ...] | None = None
     refusal: str = ""  # why not all is there; empty when it is

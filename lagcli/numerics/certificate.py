@@ -77,6 +77,18 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
     )
 
 
+def rows_asked_for(simulation: Simulation, outcome: Outcome) -> list[tuple[float | None, ...]]:
+    """The rows of a run at the times of the output, certified or not, if they are requested."""
+    if not simulation.asked.beyond:
+        return []
+    count = len(simulation.asked.columns)
+    return [
+        _floats(row[:count])
+        for mark, row in zip(outcome.run.marks, outcome.rows, strict=True)
+        if mark.sample >= 0 and mark.sample % simulation.every == 0
+    ]
+
+
 def _apart(run: Run) -> str:
     """Which coordinates had steps of their own."""
     if not run.apart:

@@ -19,7 +19,7 @@ from collections.abc import Sequence
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from lagcli.numerics.asked import Result
-from lagcli.numerics.writing import document_of, to_text
+from lagcli.numerics.writing import document_of, to_text, with_column_certified
 
 Columns = Sequence[str]
 Rows = Sequence[Sequence[float | None]]
@@ -35,7 +35,7 @@ class NoParquet(Exception):
 
 def to_npz(result: Result) -> bytes:
     """What `numpy.load` reads: data["theta'"] is a column."""
-    return table_as_npz(result.columns, result.rows, "certificate.json", _certificate(result))
+    return table_as_npz(*with_column_certified(result), "certificate.json", _certificate(result))
 
 
 def table_as_npz(columns: Columns, rows: Rows, name: str, attached: str) -> bytes:
@@ -75,7 +75,7 @@ def to_parquet(result: Result) -> bytes:
     NoParquet
         Without pyarrow.
     """
-    return table_as_parquet(result.columns, result.rows, _certificate(result))
+    return table_as_parquet(*with_column_certified(result), _certificate(result))
 
 
 def table_as_parquet(columns: Columns, rows: Rows, attached: str) -> bytes:
@@ -103,5 +103,6 @@ def table_as_parquet(columns: Columns, rows: Rows, attached: str) -> bytes:
 def _certificate(result: Result) -> str:
     """Everything that the JSON form says but for the rows."""
     document = document_of(result)
-    del document["rows"]
+    for name in ("rows", "beyond_rows"):
+        document.pop(name, None)
     return to_text(document)

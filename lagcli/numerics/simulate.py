@@ -14,7 +14,7 @@ from lagcli.numerics.accuracy import Outcome
 from lagcli.numerics.arithmetic import Doubles
 from lagcli.numerics.asked import Asked, Result
 from lagcli.numerics.branches import on_one_branch, through_meeting
-from lagcli.numerics.certificate import result_of
+from lagcli.numerics.certificate import result_of, rows_asked_for
 from lagcli.numerics.columns import Column, Reading
 from lagcli.numerics.constants import constants_of
 from lagcli.numerics.contact import one_sided, with_contacts
@@ -41,6 +41,7 @@ from lagcli.numerics.stiffness import STIFF as STIFFNESS
 from lagcli.numerics.stiffness import decay
 from lagcli.numerics.surface import ROUNDING
 from lagcli.problem import Problem, charge_of
+from lagcli.record import replace
 
 #: The intervals at which two runs are compared are at least so many.
 _COMPARED = 100
@@ -49,6 +50,8 @@ _GOLDEN = 0.6180339887498949
 _CLOSER = 64
 #: Doubles claim nothing better: the parameters are rounded too, alike in all runs.
 _LEAST_DOUBLE = 1e-13
+#: The clocks of two runs differ by less than this part of the span.
+_SAME_TIME = 1e-12
 
 Progress = Callable[[float], None]
 
@@ -118,6 +121,8 @@ class Simulation:
         self.most_steps: int | None = None
         #: what is said beside the reason for the method
         self.remark = ""
+        #: the rows of the run over the whole span, certified or not, where they are requested
+        self.whole_span: list[tuple[float | None, ...]] = []
 
     def restart(self, problem: Problem, modes: Modes) -> None:
         """Take another initial state of the same problem, without constraints or contacts.
@@ -208,11 +213,19 @@ class Simulation:
     def run(self, modes: Modes) -> Result:
         """The table, from the state at the beginning, over the longest span that is certain."""
         outcome, result = self.first(modes)
-        if outcome.reached or not self.asked.furthest:
-            return result
-        from lagcli.numerics.horizon import longest
+        if not outcome.reached and self.asked.furthest:
+            from lagcli.numerics.horizon import longest
 
-        return longest(self, modes, outcome, result)
+            result = longest(self, modes, outcome, result)
+        return self._with_rows_beyond(result) if self.asked.beyond else result
+
+    def _with_rows_beyond(self, result: Result) -> Result:
+        """The result with the rows after those that are certified."""
+        last = result.certificate.holds_until
+        last += _SAME_TIME * self.asked.until
+        is_cut = not result.certificate.reached
+        beyond = (row for row in self.whole_span if is_cut and (row[0] or 0.0) > last)
+        return replace(result, beyond=tuple(beyond))
 
     def over(self, asked: Asked) -> Simulation:
         """The same motion from the same state with other rows."""
@@ -240,6 +253,7 @@ class Simulation:
         if self.asked.method == "auto" and decay(self, modes) > STIFFNESS:
             found, digits = self.attempt(STIFF, modes)
             if found and found.reached:
+                self.whole_span = rows_asked_for(self, found)
                 return on_one_branch(self, modes, found, digits)[0]
         for group in self._groups():
             names, first = (group, 1.0) if outcome is None else self._beyond(outcome, group)
@@ -251,6 +265,7 @@ class Simulation:
             outcome, digits = self.attempt(("dop853",), modes)
         if outcome is None:
             raise Refusal(f"no method for this problem{self.remark}", mistake=False)
+        self.whole_span = rows_asked_for(self, outcome)
         if not outcome.reached:
             outcome, digits = through_meeting(self, modes, outcome, digits)
         if not outcome.reached:

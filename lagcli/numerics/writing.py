@@ -13,6 +13,8 @@ from lagcli.numerics.scene import Cut
 
 #: Of many events so many are told at the beginning and at the end of the list.
 _LISTED = 5
+#: Marks a row of a table, and names the column that marks it elsewhere.
+_BEYOND, _CERTIFIED = "  ~", "certified"
 
 
 def to_json(result: Result) -> str:
@@ -28,10 +30,12 @@ def to_text(document: dict[str, Any]) -> str:
 def document_of(result: Result) -> dict[str, Any]:
     """The result as maps, lists and numbers."""
     held = result.certificate
+    beyond = {} if result.beyond is None else {"beyond_rows": [list(row) for row in result.beyond]}
     return {
         "schema": 1,
         "columns": list(result.columns),
         "rows": [list(row) for row in result.rows],
+        **beyond,
         "certificate": {
             "accuracy": held.accuracy,
             "reached": held.reached,
@@ -84,7 +88,17 @@ def _event(event: Event) -> dict[str, Any]:
 
 def to_csv(result: Result) -> str:
     """A header and the rows, every digit of a double; what is not defined is empty."""
-    return "".join(csv_lines(result.columns, result.rows))
+    return "".join(csv_lines(*with_column_certified(result)))
+
+
+def with_column_certified(
+    result: Result,
+) -> tuple[Sequence[str], Sequence[Sequence[float | None]]]:
+    """Columns and rows; those beyond the certified ones are told by a last column, 1 or 0."""
+    if result.beyond is None:
+        return result.columns, result.rows
+    marked = [(*row, 1.0) for row in result.rows] + [(*row, 0.0) for row in result.beyond]
+    return (*result.columns, _CERTIFIED), marked
 
 
 def csv_lines(columns: Sequence[str], rows: Sequence[Sequence[float | None]]) -> Iterator[str]:
@@ -105,13 +119,16 @@ def to_table(result: Result) -> str:
     cells = [list(result.columns)]
     cells += [
         ["–" if x is None else f"{x + 0.0:.{d}g}" for x, d in zip(row, digits, strict=True)]
-        for row in result.rows
+        for row in (*result.rows, *(result.beyond or ()))
     ]
     widths = [max(len(row[j]) for row in cells) for j in range(len(result.columns))]
     lines = [
         "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-        for row in cells
+        + (_BEYOND if place > len(result.rows) else "")
+        for place, row in enumerate(cells)
     ]
+    if result.beyond:
+        lines.append(f"{_BEYOND.strip()} after t = {held.holds_until:.6g}: not certified")
     lines.append("")
     lines += _told(result.events)
     bound = max(held.global_error.values(), default=0.0)
