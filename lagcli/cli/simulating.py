@@ -151,6 +151,9 @@ def can_be_written(wish: Wish) -> bool:
             f"lagcli: error: --rigorous has no format {wish.format_name}: take table, json or csv"
         )
         return False
+    if wish.rigorous and wish.beyond:
+        tell_line("lagcli: error: --rigorous prints what is proved: leave out --beyond")
+        return False
     if wish.format_name == "parquet" and not _is_installed("pyarrow"):
         tell_line(
             "lagcli: error: --format parquet needs the package pyarrow: "

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from functools import partial as partial_call
 from functools import reduce
 from math import factorial
 from operator import or_
@@ -19,6 +20,7 @@ from lagcli.expression import Name
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Constant, Node, Symbol
 from lagcli.numerics.arithmetic import UndefinedFunction
+from lagcli.numerics.assembly import assemblies
 from lagcli.numerics.determined import determined
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.polynomial import real_roots
@@ -31,6 +33,10 @@ from lagcli.problem import Coordinate
 _ON_SURFACE = 1e-12
 _HIGHEST_DEGREE = 6
 _ROUNDS = 30
+#: Zero satisfies an equation whose residual is rounding of terms of the size of 1.
+_ZERO = 1e-14
+#: Of several states this many are listed.
+_LISTED = 8
 
 
 def given_values(motion: Motion) -> dict[Symbol, Any]:
@@ -172,7 +178,7 @@ class _Completion:
             if not still:
                 return
             together = self._together(still, equations)
-            self.values.update(together or {still[0]: 0.0})
+            self.values.update(together or self._assembled(still, equations) or {still[0]: 0.0})
 
     def _together(
         self, unknowns: Sequence[Symbol], equations: list[tuple[int, Node]]
@@ -188,6 +194,81 @@ class _Completion:
                 right.append(-rest)
         return {unknowns[k]: value for k, value in determined(rows, right).items()}
 
+    def _assembled(
+        self, unknowns: Sequence[Symbol], equations: list[tuple[int, Node]]
+    ) -> dict[Symbol, float]:
+        """The positions that equations determine together, by Newton's method; none is empty."""
+        if unknowns[0].primes:  # the rates are linear in the velocities
+            return {}
+        mask = reduce(or_, (s.mask for s in unknowns))
+        for first in unknowns:
+            part, rows = _connected(first, unknowns, [x for x in equations if x[1].mask & mask])
+            if len(part) > len(rows):
+                continue
+            at_zero = self._values_at([node for _, node in rows], part, rows[0][0])
+            if max(map(abs, at_zero)) <= _ZERO:
+                return dict.fromkeys(part, 0.0)
+            if roots := self._roots(part, rows):
+                return self._only(part, roots, rows)
+        return {}
+
+    def _only(
+        self,
+        unknowns: Sequence[Symbol],
+        roots: Sequence[Sequence[float]],
+        equations: Sequence[tuple[int, Node]],
+    ) -> dict[Symbol, float]:
+        """The only root of some equations.
+
+        Raises
+        ------
+        Refusal
+            When several roots are found, or none.
+        """
+        if len(roots) == 1:
+            return dict(zip(unknowns, roots[0], strict=True))
+        raise self._several(unknowns, roots, equations[0][0])
+
+    def _roots(
+        self, unknowns: Sequence[Symbol], equations: Sequence[tuple[int, Node]]
+    ) -> list[tuple[float, ...]]:
+        """The roots that are found and that the assumptions allow."""
+        nodes = [node for _, node in equations]
+        slopes = [partial(self.equations.graph, s)(node) for node in nodes for s in unknowns]
+        known = {self.equations.t: 0.0, **self.values}
+        at = straight_line(
+            [*known, *unknowns], [*nodes, *slopes], self.motion.constants, self.motion.arithmetic
+        )
+        sizes = [*self.motion.constants.values(), *self.values.values()]
+        length = max((abs(float(x)) for x in sizes), default=0.0) or 1.0
+        roots = assemblies(partial_call(at, *known.values()), len(unknowns), length)
+        return [
+            root
+            for root in roots
+            if all(_allowed(self._coordinate(s), x) for s, x in zip(unknowns, root, strict=True))
+        ]
+
+    def _several(
+        self, unknowns: Sequence[Symbol], roots: Sequence[Sequence[float]], which: int
+    ) -> Refusal:
+        """The refusal where constraints can be satisfied in several ways, or in none found."""
+        names = ", ".join(map(str, unknowns))
+        if not roots:
+            return self._open(unknowns[0], which, "is not found: no state with the given values is")
+        told = [
+            "{" + ", ".join(f"{s}: {x!r}" for s, x in zip(unknowns, root, strict=True)) + "}"
+            for root in roots[:_LISTED]
+        ]
+        more = " and others" if len(roots) > _LISTED else ""
+        ways = "the constraints can be satisfied in several ways"
+        constraint = self.equations.declared[which]
+        diagnostic = Diagnostic(
+            f"{ways}: {', '.join(told)}{more}",
+            constraint.equation.span,
+            f"give {names} in `initial`",
+        )
+        return Refusal((diagnostic,))
+
     def _propagate(self, left_out: Sequence[Symbol], equations: list[tuple[int, Node]]) -> None:
         """Use each equation that has one unknown left, until nothing new follows."""
         progress = True
@@ -196,12 +277,14 @@ class _Completion:
             for which, node in equations:
                 unknown = [s for s in left_out if s not in self.values and s.mask & node.mask]
                 if len(unknown) == 1:
-                    value = self._solve(node, unknown[0], which)
+                    value = self._solve(node, unknown[0], which, equations)
                     if value is not None:
                         self.values[unknown[0]] = value
                         progress = True
 
-    def _solve(self, node: Node, unknown: Symbol, which: int) -> float | None:
+    def _solve(
+        self, node: Node, unknown: Symbol, which: int, equations: list[tuple[int, Node]]
+    ) -> float | None:
         """The value that the equation determines; None where it leaves the value open."""
         derivative = partial(self.equations.graph, unknown)
         orders = [node]
@@ -210,9 +293,11 @@ class _Completion:
         polynomial = not orders[-1].mask & unknown.mask
         at_zero = self._values_at(orders if polynomial else [node], [unknown], which)
         if not polynomial:
-            if abs(at_zero[0]) <= 1e-14:
+            if abs(at_zero[0]) <= _ZERO:
                 return 0.0
-            raise self._open(unknown, which, "does not follow in closed form")
+            _, alone = _connected(unknown, [unknown], equations)
+            rows = [(k, x) for k, x in alone if not self._has_other_unknowns(x, unknown)]
+            return self._only([unknown], self._roots([unknown], rows), rows)[unknown]
         coefficients = [value / factorial(k) for k, value in enumerate(at_zero)]
         if not any(coefficients[1:]):
             return None
@@ -220,6 +305,10 @@ class _Completion:
         if len(roots) > 1:
             raise self._open(unknown, which, f"could be any of {', '.join(map(repr, roots))}")
         return roots[0] if roots else None
+
+    def _has_other_unknowns(self, node: Node, unknown: Symbol) -> bool:
+        others = (s for s in self.equations.state if s not in self.values and s is not unknown)
+        return any(s.mask & node.mask for s in others)
 
     def _values_at(
         self, nodes: Sequence[Node], unknowns: Sequence[Symbol], which: int
@@ -306,6 +395,20 @@ class _Completion:
         except (ArithmeticError, ValueError):
             return None
         return (q, v) if max(surface.residuals) <= _ON_SURFACE else None
+
+
+def _connected(
+    first: Symbol, unknowns: Sequence[Symbol], equations: Sequence[tuple[int, Node]]
+) -> tuple[list[Symbol], list[tuple[int, Node]]]:
+    """The unknowns that equations tie to one of them, and these equations."""
+    mask, before = first.mask, 0
+    while mask != before:
+        before = mask
+        for _, node in equations:
+            if node.mask & mask:
+                mask |= reduce(or_, (s.mask for s in unknowns if s.mask & node.mask), 0)
+    part = [s for s in unknowns if s.mask & mask]
+    return part, [(k, node) for k, node in equations if node.mask & mask]
 
 
 def _allowed(coordinate: Coordinate | None, value: float) -> bool:
