@@ -1,10 +1,11 @@
 """Values of the parameters at which there are more charges, and which these are.
 
-They are the roots of the factors on which the rank of the linear systems falls (`pivots`):
-equal masses, the exponents of power laws, the frequency of a frame.  Where the functions of
-time of the ansatz depend on each other, at frequencies in the ratio 1, 2 or 3, the rank tells
-nothing: these are tried too.  At each value the whole search is made anew, and what is found
-there is compared with what is found everywhere.
+They are the roots of the factors on which the rank of the linear systems falls (`pivots`): equal
+masses, the exponents of power laws, the frequency of a frame.  Where the functions of time of
+the ansatz depend on each other, at frequencies in the ratio 1, 2 or 3, the rank tells nothing:
+these are tried too, and the exponents at which a power makes the equations linear.  At each
+value the whole search is made anew, and what is found there is compared with what is found
+everywhere.
 
 References
 ----------
@@ -22,11 +23,13 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import simplify, to_expression
+from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import NoPoint, pivot_columns
 from lagcli.mechanics.discovery.relation import Relation
+from lagcli.mechanics.discovery.slots import Equations
 from lagcli.mechanics.discovery.spectrum import Exponent
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
@@ -57,7 +60,12 @@ def candidates(
     for factor in factors:
         found |= dict.fromkeys(_solved(factor, system.parameters))
     found |= dict.fromkeys(_commensurate(system.parameters, exponents))
-    return list(found)
+    # of two signs the positive one: the other is the same system reflected
+    return [
+        (parameter, value)
+        for parameter, value in found
+        if not value.could_extract_minus_sign() or (parameter, -value) not in found
+    ]
 
 
 def problem_at(problem: Problem, parameter: Symbol, value: Expr) -> Problem | None:
@@ -92,6 +100,16 @@ def new_charges(
     return tuple(found[k - len(known)] for k in pivot_columns(rows) if k >= len(known))
 
 
+def linear_powers(equations: Equations) -> list[Expr]:
+    """What vanishes where a power of coordinates in the forcing is constant, or of degree one.
+
+    Then the equation may be linear, with functions of time that no other exponent suggests.
+    """
+    powers = {p for f in equations.forcing for p in f.atoms(sympy.Pow)}
+    open_ = {p.exp for p in powers if p.exp.free_symbols and not free_of(p.base, equations.q)}
+    return [e - k for e in sorted(open_, key=sympy.default_sort_key) for k in (0, 1)]
+
+
 # -- candidates ---------------------------------------------------------------------------
 
 
@@ -100,7 +118,7 @@ def _commensurate(parameters: Sequence[Symbol], exponents: Sequence[Exponent]) -
 
     Of two roots of one polynomial the sum and the product have no roots in them.
     """
-    squares = [e.frequency**2 for e in exponents if e.growth == 0 and e.frequency != 0]
+    squares = list(dict.fromkeys(_squares(exponents)))
     for ratio in _RATIOS:
         for one, other in combinations(squares, 2):
             total, product = simplify(one + other), simplify(one * other)
@@ -108,6 +126,18 @@ def _commensurate(parameters: Sequence[Symbol], exponents: Sequence[Exponent]) -
             for factor, _ in sympy.factor_list(sympy.numer(sympy.together(relation)))[1]:
                 if sign(factor) not in (1, -1):
                     yield from _solved(factor, parameters)
+
+
+def _squares(exponents: Sequence[Exponent]) -> Iterator[Expr]:
+    """Of frequencies; where exp(a t) and exp(-a t) stand for sine and cosine, -a^2."""
+    for one in exponents:
+        if one.growth == 0:
+            yield sympy.expand(one.frequency**2)
+        elif one.frequency == 0 and any(
+            other.frequency == 0 and sympy.expand(one.growth + other.growth) == 0
+            for other in exponents
+        ):
+            yield sympy.expand(-(one.growth**2))
 
 
 def _solved(relation: Expr, parameters: Sequence[Symbol]) -> Iterator[Value]:
@@ -130,11 +160,9 @@ def _is_rational(value: Expr) -> bool:
 
 
 def _admissible(parameter: Symbol, value: Expr) -> bool:
-    """Whether the assumptions on the parameter leave the value, of two signs the positive one."""
+    """Whether the assumptions on the parameter leave the value."""
     if value == 0:
         return not (parameter.is_nonzero or parameter.is_positive)
     if parameter.is_integer and value.is_integer is False:
         return False
-    if parameter.is_positive:
-        return not (value.is_negative or value.could_extract_minus_sign())
-    return not (value.free_symbols and value.is_negative and not parameter.is_negative)
+    return not (parameter.is_positive and (value.is_negative or value.could_extract_minus_sign()))

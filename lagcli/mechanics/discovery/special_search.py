@@ -21,7 +21,13 @@ from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.pivots import Pivots
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.slots import point_slots
-from lagcli.mechanics.discovery.special import SpecialCase, candidates, new_charges, problem_at
+from lagcli.mechanics.discovery.special import (
+    SpecialCase,
+    candidates,
+    linear_powers,
+    new_charges,
+    problem_at,
+)
 from lagcli.mechanics.discovery.spectrum import Exponent
 
 if TYPE_CHECKING:
@@ -46,9 +52,8 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
     allowed = Allowance(_UNITS)
     found: list[SpecialCase] = []
     try:
-        factors, complete = _factors(discovery, allowed)
-        exponents = () if complete else _exponents(discovery)
-        values = candidates(system, factors, exponents)
+        factors = [*_factors(discovery, allowed), *linear_powers(discovery.equations)]
+        values = candidates(system, factors, _exponents(discovery))
         if len(values) > _MOST_VALUES:
             discovery.words.append(_NOT_TRIED)
         for parameter, value in values[:_MOST_VALUES]:
@@ -94,25 +99,19 @@ def _at(discovery: Discovery, parameter: Symbol, value: Expr) -> Discovery | Non
         return None
 
 
-def _factors(discovery: Discovery, allowed: Allowance) -> tuple[list[Expr], bool]:
-    """Of the search for point symmetries, and of that for integrals of second degree.
-
-    Also whether both were made: then the energies of parts and products of conjugate
-    integrals are among these, so that frequencies need not be compared.
-    """
+def _factors(discovery: Discovery, allowed: Allowance) -> list[Expr]:
+    """Of the search for point symmetries, and of that for integrals of second degree."""
     part = allowed.part(_FOR_PIVOTS)
     found: dict[Expr, None] = {}
-    searches = 0
     try:
         for search in _searches(discovery, part):
             if search is None:
                 discovery.words.append(_NOT_ALL)
             else:
                 found |= dict.fromkeys(Pivots(search, part).factors())
-                searches += 1
     except (NoPoint, TooMuchWork, ZeroDivisionError):
         discovery.words.append(_NOT_ALL)
-    return list(found), searches == 2
+    return list(found)
 
 
 def _searches(discovery: Discovery, allowed: Allowance) -> Iterator[Search | None]:
