@@ -159,3 +159,22 @@ V: {V.replace("R", R).replace("kexp", "k*exp")}
     if V == "k*R^3":
         assert found.name == "Galilei in 3 dimensions + so(3), modulo constants"
         assert found.dimension == 13
+
+
+@pytest.mark.parametrize(
+    ("parameters", "coordinates", "L", "values"),
+    [
+        # a power is linear at n = 2, constant at n = 1; -2: Jackiw, Physics Today 25 (1972) 23
+        ("{m: POS, k: POS, n: {}}", f"{{x: {POS}}}", "m*x'^2/2 - k*x^n", "n=0 n=1 n=2 n=-2"),
+        ("{m: POS, k: POS, j: {}}", f"{{s: {POS}}}", "m*s'^2/2 - k*s^(2*j)", "j=0 j=1/2 j=1 j=-1"),
+        # frequencies w and sqrt(w^2 + 2 c) in the ratio 1, 2 and 1/2: Jauch and Hill (1940)
+        ("{w: POS, c: {}}", "[x, y]", "(x'^2 + y'^2)/2 - w^2*(x^2 + y^2)/2 - c*(x - y)^2/2",
+         "c=0 c=3*w**2/2 c=-3*w**2/8"),
+        ("{w: POS, c: {}}", "[x, y]", "(x'^2 + y'^2)/2 - w^2*(x^2 + y^2)/2 - c*x*y",
+         "c=0 c=3*w**2/5"),
+    ],
+)  # fmt: skip
+def test_special_values_are_those_of_the_family(parameters, coordinates, L, values):
+    text = f"{{parameters: {parameters}, coordinates: {coordinates}, L: {L}}}"
+    cases = derive(text.replace("POS", POS)).discovery.special
+    assert set(values.split()) <= {f"{c.parameter}={c.value}" for c in cases}

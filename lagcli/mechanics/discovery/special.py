@@ -64,7 +64,9 @@ def candidates(
     return [
         (parameter, value)
         for parameter, value in found
-        if not value.could_extract_minus_sign() or (parameter, -value) not in found
+        if not (
+            value.free_symbols and value.could_extract_minus_sign() and (parameter, -value) in found
+        )
     ]
 
 

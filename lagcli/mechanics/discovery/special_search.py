@@ -64,7 +64,10 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
             allowed.check()
             if there is None or len(there.charges) <= len(discovery.charges):
                 continue
-            known = [c.charge.xreplace({parameter: value}) for c in discovery.charges]
+            known = [
+                part for c in discovery.charges
+                for part in _real_parts(c.charge.xreplace({parameter: value}))
+            ]  # fmt: skip
             variables = (system.t, *system.q, *system.qdot)
             charges = new_charges(known, there.charges, variables, allowed)
             if charges:
@@ -72,6 +75,13 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
     except TooMuchWork:
         discovery.words.append(_NOT_TRIED)
     return tuple(found)
+
+
+def _real_parts(charge: Expr) -> list[Expr]:
+    """Both are conserved: exp(a t) with a^2 < 0 at the value has a cosine and a sine."""
+    if not charge.has(sympy.I):
+        return [charge]
+    return [part for part in charge.expand(complex=True).as_real_imag() if part != 0]
 
 
 def _exponents(discovery: Discovery) -> tuple[Exponent, ...]:
