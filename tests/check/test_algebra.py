@@ -7,7 +7,7 @@ import pytest
 from lagcli.check import Outcome
 from lagcli.check.one import check_problem
 
-#: A free particle has five Noether symmetries; a force F w x^2 leaves the energy alone.
+#: A free particle has five Noether symmetries; a force 3 F w x^2 leaves the energy alone.
 PUSHED = """\
 coordinates: [x]
 parameters: {m: {assume: positive}, F: {}, w: {assume: positive}}
@@ -18,7 +18,7 @@ expect:
     special:
       - where: F = 0
         charges: 5
-        discovered: {dilation: x*x' - t*x'^2, doubled: m*x'^2 + F*x}
+        discovered: {dilation: x*x' - t*x'^2, doubled: 2*m*x' + F*x}
 """
 FREE = """\
 coordinates: [x]
@@ -37,7 +37,7 @@ SLIPS = [
     (PUSHED, "where: F = 0", "where: F = 1", "special.0 special"),
     (PUSHED, "where: F = 0", "where: m = w", "special.0 special"),
     (PUSHED, "charges: 5", "charges: 4", "special.0.charges"),
-    (PUSHED, "m*x'^2 + F*x", "m*x'^2 + x", "special.0.discovered.doubled"),
+    (PUSHED, "2*m*x' + F*x", "2*m*x' + x", "special.0.discovered.doubled"),
     (FREE, "dimension: 5", "dimension: 6", "dimension"),
     (FREE, "sl(2,R)", "sl(2,C)", "name"),
     (FREE, "in_involution: 1", "in_involution: 2", "in_involution"),
