@@ -16,11 +16,15 @@ from sympy import Add, Expr, Mul, Pow, Symbol
 from sympy.core.function import AppliedUndef
 
 from lagcli.algebra.build import ELEMENTARY, free_of, unspecified
+from lagcli.algebra.effort import OutOfWork
+from lagcli.algebra.limited import limited
 from lagcli.algebra.simplification import is_zero
 
 _MOST_PARTS = 60
 _LONGEST = 1000  # operations while integrating by parts
 _MOST_RULES = 60  # integrands; what succeeded in the library took 23
+# One rule may take minutes: 85 s on a sum with sqrt(1 + x^2 + y^2), which then had none.
+_UNITS, _SECONDS = 2e6, 8.0
 
 
 def antiderivative(expression: Expr, variable: Symbol, *, rules: bool = True) -> Expr | None:
@@ -181,8 +185,10 @@ def _by_rules(expression: Expr, x: Symbol) -> Expr | None:
         return None
     try:
         with _at_most(_MOST_RULES):
-            result = manualintegrate.manualintegrate(expression, x)
-    except (NotImplementedError, ValueError, RecursionError):
+            result = limited(
+                lambda: manualintegrate.manualintegrate(expression, x), _UNITS, _SECONDS
+            )
+    except (NotImplementedError, ValueError, RecursionError, OutOfWork):
         return None
     known = all(type(f) in ELEMENTARY for f in result.atoms(sympy.Function))
     return result if known and not result.has(sympy.Integral) else None
@@ -207,6 +213,7 @@ def _at_most(count: int) -> Iterator[None]:
         yield
     finally:
         manualintegrate.integral_steps = steps
+        manualintegrate._integral_cache.clear()  # noqa: SLF001 - marks of what was under way
 
 
 def _summed(waves: Expr) -> Expr:

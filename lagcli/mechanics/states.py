@@ -271,6 +271,8 @@ class RandomStates:
         drift = [flat[i * (n + 1) + n] for i in range(len(equations))]
         elimination = independent_rows(rows, mpf(10) ** -25)
         kept = elimination.independent
+        if not kept:
+            return 0  # a corner: z^2 = y z and z (z - 2 y) = 0 where y and z are 0
         residual = [
             -sum(a * state[v] for a, v in zip(rows[i], self.system.qdot, strict=True)) - drift[i]
             for i in kept

@@ -29,6 +29,7 @@ class Judge(Charges):
     def __init__(self, system: System, sheet: dict, count: int = 3) -> None:
         self.system, self.sheet = system, sheet
         self.motion = Motion(system, system.seed)
+        self.motion.shared = {k: read(text) for k, text in sheet.get("where", {}).items()}
         self.found: list[Finding] = []
         self.states = self._states(count)
 

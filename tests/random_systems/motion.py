@@ -51,6 +51,7 @@ class Motion:
 
     def __init__(self, system: System, seed: int) -> None:
         self.system, self.rng = system, random.Random(seed)
+        self.shared = {}  # names that an answer gives to its own subexpressions
         self.coordinates = list(system.coordinates)
         self.n = len(self.coordinates)
         self.constants = self._constants()
@@ -87,7 +88,7 @@ class Motion:
             table[name] = text(table)
             table[name + "'"] = _total_derivative(self, name, state)
         table["#definitions"] = self.definitions
-        return table
+        return table | self.shared
 
     @cached_property
     def kinked(self):

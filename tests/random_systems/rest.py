@@ -36,7 +36,7 @@ def equilibria(judge, printed):
             _examine(judge, each, q)
     for q in to_be_found(judge):
         if not any(is_there(judge.motion, q, place, each) for place, each in places):
-            told = any("other" in warning for warning in judge.sheet["warnings"])
+            told = any("not listed" in warning for warning in judge.sheet["warnings"])
             where = [float(x) for x in q]
             judge.say("missing" if told else "wrong", "equilibria", f"{where} is not listed")
 

@@ -29,9 +29,30 @@ MENDED = {
         V="k*cos(y) + g*x",
         constraints={"c1": "cos(x) = sin(y)"},
     ),
+    "a gauge with sqrt(1 + x^2 + y^2) is sought with an end": System(
+        coordinates=dict.fromkeys("xy"),
+        parameters=M,
+        definitions={"X": "x + 2*y^3/3"},
+        L="m*(X'^2 + y'^2)/2 - k/(X^2 + y^2) + 2*(x*x' + y*y')/sqrt(1 + x^2 + y^2)",
+        symmetries={"s": {"x": "X - 2*y^3", "y": "y", "t": "2*t"}},
+        sections=("charges",),
+        known={"conserved": {"s": True}},
+    ),
 }
 
 
 @pytest.mark.parametrize("name", MENDED)
 def test_once_wrong(name: str) -> None:
     assert judged(MENDED[name]) == []
+
+
+def test_a_corner_of_two_constraints_is_no_state() -> None:
+    """z^2 = z y and sin(z) (z - 2 y) = 0 meet Newton's method where y and z are 0."""
+    corner = System(
+        coordinates=dict.fromkeys("xyz"),
+        parameters=M,
+        T="m*(x'^2 + y'^2 + z'^2)/2",
+        V="k*z*y + g*sin(y)",
+        constraints={"c0": "z^2 - z*y = 0", "c1": "sin(z)*(z - 2*y) = 0"},
+    )
+    assert [each for each in judged(corner) if each.verdict == "crash"] == []
