@@ -243,8 +243,8 @@ def _ended(work: Callable[[], Made]) -> Made:
     TimeoutError
         If it does.
     """
-    from lagcli.algebra.effort import OutOfWork
-    from lagcli.algebra.limited import limited
+    from lagcli.effort import OutOfWork
+    from lagcli.limited import limited
     from lagcli.mechanics.stating import SECONDS, TOO_MUCH, UNITS
 
     try:

@@ -16,9 +16,9 @@ from sympy import Add, Expr, Mul, Pow, Symbol
 from sympy.core.function import AppliedUndef
 
 from lagcli.algebra.build import ELEMENTARY, free_of, unspecified
-from lagcli.algebra.effort import OutOfWork
-from lagcli.algebra.limited import limited
 from lagcli.algebra.simplification import is_zero
+from lagcli.effort import OutOfWork
+from lagcli.limited import limited
 
 _MOST_PARTS = 60
 _LONGEST = 1000  # operations while integrating by parts

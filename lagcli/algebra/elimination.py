@@ -14,11 +14,11 @@ from dataclasses import dataclass
 import sympy
 from sympy import Dummy, Expr, Symbol
 
-from lagcli.algebra.effort import EFFORT, Work
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients
 from lagcli.algebra.field import Element
 from lagcli.algebra.ring import Poly, factorization
+from lagcli.effort import EFFORT, Work
 
 _PASSES = 12
 _MAX_TERMS = 4000

@@ -13,8 +13,8 @@ from fractions import Fraction
 
 from sympy import Expr
 
-from lagcli.algebra.effort import EFFORT
 from lagcli.algebra.ring import Poly, Ring
+from lagcli.effort import EFFORT
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from sympy import Expr
 
 from lagcli.algebra.build import as_expr
-from lagcli.algebra.effort import OutOfWork
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.generic_rank import has_full_rank
@@ -20,6 +19,7 @@ from lagcli.algebra.relations import Relations
 from lagcli.algebra.shapes import Shapes
 from lagcli.algebra.simplification import Readable
 from lagcli.algebra.writing import Writer
+from lagcli.effort import OutOfWork
 
 Matrix = Sequence[Sequence[Expr]]
 _Rows = list[dict[int, Element]]

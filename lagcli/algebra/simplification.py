@@ -9,7 +9,6 @@ from sympy import Expr
 
 from lagcli.algebra.cancellation import cancelled
 from lagcli.algebra.division import commonest_ratio
-from lagcli.algebra.effort import EFFORT
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.leaves import Translator, to_expression
@@ -18,6 +17,7 @@ from lagcli.algebra.ring import Monomial, Poly, factorization
 from lagcli.algebra.shaping.plan import OPERATION
 from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.writing import Writer
+from lagcli.effort import EFFORT
 from lagcli.expression import Expression, has_nested_fraction, operation_count
 
 _LONG = 60  # terms of an element of which ...

@@ -13,7 +13,6 @@ from dataclasses import field as default
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra.effort import Work
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients, solve_for
 from lagcli.algebra.numeric import vanishes_at_random
@@ -22,6 +21,7 @@ from lagcli.algebra.resultants import without
 from lagcli.algebra.ring import factorization
 from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import is_zero, simplify
+from lagcli.effort import Work
 
 _MAX_BRANCHES = 256
 

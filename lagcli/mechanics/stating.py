@@ -6,8 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
-from lagcli.algebra.effort import OutOfWork
-from lagcli.algebra.limited import limited
 from lagcli.answers import (
     DEFAULT_SECTIONS,
     SECTIONS,
@@ -22,15 +20,17 @@ from lagcli.answers import (
     Section,
 )
 from lagcli.diagnostics import ProblemError
+from lagcli.effort import OutOfWork
 from lagcli.expression import Expression
 from lagcli.failures import describe
+from lagcli.limited import limited
 from lagcli.problem import Problem
 
 if TYPE_CHECKING:
     from lagcli.mechanics.closed_form import ClosedForm
     from lagcli.mechanics.matrix_form import MatrixForm
 
-#: Work that one section may take (see `lagcli.algebra.effort`), and processor time.
+#: Work that one section may take (see `lagcli.effort`), and processor time.
 UNITS = 30_000_000
 SECONDS = 45.0
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
-from lagcli.algebra.effort import EFFORT, OutOfWork, work_done
-from lagcli.algebra.limited import limited
+from lagcli.effort import EFFORT, OutOfWork, work_done
+from lagcli.limited import limited
 
 x, y, z = sp.symbols("x y z", real=True)
 

@@ -7,10 +7,10 @@ from fractions import Fraction
 
 import pytest
 
-from lagcli.algebra.effort import OutOfWork
 from lagcli.check.findings import Outcome
 from lagcli.check.laws import SECTIONS, Laws
 from lagcli.check.one import check_problem
+from lagcli.effort import OutOfWork
 from lagcli.expression import Negative, Number, Product
 from lagcli.mechanics.statements import Statements
 from lagcli.pipeline import Request, derive, read, state

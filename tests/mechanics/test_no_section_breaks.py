@@ -8,8 +8,8 @@ import random
 import jsonschema
 import pytest
 
-from lagcli.algebra.effort import EFFORT
 from lagcli.answers import SECTIONS, Answers
+from lagcli.effort import EFFORT
 from lagcli.formatters import Options
 from lagcli.formatters.schema import answers_schema
 from lagcli.mechanics import stating

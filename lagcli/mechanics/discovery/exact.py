@@ -11,9 +11,9 @@ from flint import nmod_mat
 from sympy import Expr, Rational
 
 from lagcli.algebra import nullspace, simplify
-from lagcli.algebra.effort import EFFORT
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.ring import Monomial, Poly
+from lagcli.effort import EFFORT
 from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, small_fraction
 

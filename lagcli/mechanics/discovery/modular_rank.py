@@ -11,8 +11,8 @@ from collections.abc import Mapping, Sequence
 
 from flint import nmod_mat, nmod_poly
 
-from lagcli.algebra.effort import EFFORT
 from lagcli.algebra.ring import Monomial, Poly, factorization
+from lagcli.effort import EFFORT
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, pivot_columns
 

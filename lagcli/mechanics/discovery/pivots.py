@@ -12,9 +12,9 @@ from collections.abc import Iterator, Sequence
 
 from sympy import Expr
 
-from lagcli.algebra.effort import EFFORT
 from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.signs import sign
+from lagcli.effort import EFFORT
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular_rank import ModularRank, Row

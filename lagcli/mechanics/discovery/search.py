@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import sympy
 from sympy import Expr
 
-from lagcli.algebra.effort import EFFORT
+from lagcli.effort import EFFORT
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo

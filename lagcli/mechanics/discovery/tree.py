@@ -10,8 +10,8 @@ from collections.abc import Iterable, Sequence
 
 from sympy import Expr, Symbol
 
-from lagcli.algebra.effort import EFFORT
 from lagcli.algebra.entry import Field
+from lagcli.effort import EFFORT
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, NoPoint
 

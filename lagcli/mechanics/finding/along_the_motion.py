@@ -20,10 +20,10 @@ from mpmath import mpf
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
-from lagcli.algebra.effort import Work
 from lagcli.algebra.elimination import Eliminated, eliminate
 from lagcli.algebra.equations import written
 from lagcli.algebra.numeric import Evaluator
+from lagcli.effort import Work
 from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.finding.level_set import LevelSet

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from sympy import Expr, Symbol, sqrt
 
 from lagcli.algebra import simplify
-from lagcli.algebra.effort import Work
+from lagcli.effort import Work
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.finding.along_the_motion import UNITS, AlongTheMotion
 from lagcli.mechanics.finding.lasting import LastingAnswer
