@@ -221,6 +221,6 @@ def test_a_point_on_a_sphere_rests_at_its_poles():
         "constraints: {rod: x^2 + y^2 + z^2 = l^2}\n",
         "equilibria",
     )
-    places = {to_grammar(each.at["z"]): each.stable for each in found.equilibria}
+    places = {to_grammar(each.at["z"]): each.verdict.stable for each in found.equilibria}
     assert places == {"l": False, "-l": True}
     assert all(to_grammar(each.at["x"]) == "0" for each in found.equilibria)
