@@ -111,6 +111,6 @@ class Formula:
         >>> float(solve(spring, ["accelerations"]).accelerations["x"].to_numpy(["x", "k"])(2, 3))
         -6.0
         """
-        from lagcli.interface.sympy_form import numeric_function
+        from lagcli.interface.array_function import numeric_function
 
         return numeric_function(self, self._problem, arguments, dict(values or {}))

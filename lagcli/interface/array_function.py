@@ -1,0 +1,98 @@
+"""Formulas as functions of numbers and NumPy arrays, evaluated node by node."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import reduce
+from operator import add, mul
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lagcli.expression import (
+    Call,
+    Expression,
+    Name,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    walk,
+)
+from lagcli.values import numbers_of_parameters
+
+if TYPE_CHECKING:
+    from lagcli.interface.formula import Formula
+    from lagcli.problem import Problem
+
+_FUNCTIONS: dict[str, Callable[..., Any]] = {
+    **{
+        name: getattr(np, name)
+        for name in ("sqrt", "exp", "log", "abs", "sign", "sin", "cos", "tan", "sinh", "cosh", "tanh")
+    },
+    "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2,
+    "asinh": np.arcsinh, "acosh": np.arccosh, "atanh": np.arctanh,
+    "cot": lambda x: 1 / np.tan(x), "sec": lambda x: 1 / np.cos(x), "csc": lambda x: 1 / np.sin(x),
+}  # fmt: skip
+
+
+def numeric_function(
+    formula: Formula,
+    problem: Problem,
+    arguments: Sequence[str] | None,
+    values: Mapping[str, float],
+) -> Callable[..., Any]:
+    """A NumPy function of a formula; see `Formula.to_numpy`.
+
+    Raises
+    ------
+    ValueError
+        When a name has neither a place among the arguments nor a value.
+    """
+    if arguments is None:
+        arguments = [name for name in formula.arguments if name not in values]
+        known: dict[str, Any] = dict(values)
+    else:
+        known = {**numbers_of_parameters(problem), **values}
+    missing = [name for name in formula.arguments if name not in {*arguments, *known}]
+    if missing:
+        raise ValueError(f"no argument and no value: {', '.join(missing)}")
+    called = {node.function for node in walk(formula.expression) if isinstance(node, Call)}
+    if called - set(_FUNCTIONS):
+        names = ", ".join(sorted(called - set(_FUNCTIONS)))
+        raise ValueError(f"left unspecified by the file, so without numbers: {names}")
+    names_of_arguments = tuple(arguments)
+
+    def function(*given: Any) -> Any:
+        if len(given) != len(names_of_arguments):
+            raise TypeError(f"the arguments are {', '.join(names_of_arguments)}")
+        return _value(
+            formula.expression, {**known, **dict(zip(names_of_arguments, given, strict=True))}
+        )
+
+    return function
+
+
+def _value(node: Expression, values: Mapping[str, Any]) -> Any:
+    match node:
+        case Number(value=value):
+            return float(value)
+        case Name():
+            return np.pi if node.name == "pi" else values[str(node)]
+        case Negative(operand=operand):
+            return -_value(operand, values)
+        case Sum(terms=terms):
+            return reduce(add, (_value(term, values) for term in terms))
+        case Product(factors=factors):
+            return reduce(mul, (_value(factor, values) for factor in factors))
+        case Quotient(numerator=above, denominator=below):
+            return _value(above, values) / _value(below, values)
+        case Power(base=base, exponent=Number(value=value)) if value.denominator == 1:
+            return _value(base, values) ** int(value)
+        case Power(base=base, exponent=exponent):
+            return _value(base, values) ** _value(exponent, values)
+        case Call(function=function, arguments=arguments):
+            return _FUNCTIONS[function](*(_value(each, values) for each in arguments))
+    raise ValueError(f"no numbers for {type(node).__name__}")
