@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{
         name: getattr(np, name)
-        for name in ("sqrt", "exp", "log", "abs", "sign", "sin", "cos", "tan", "sinh", "cosh", "tanh")
+        for name in "sqrt exp log abs sign sin cos tan sinh cosh tanh".split()
     },
     "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2,
     "asinh": np.arcsinh, "acosh": np.arccosh, "atanh": np.arctanh,

@@ -75,7 +75,8 @@ class Scales:
         # near a singularity at which a run stops they are without bound; where rows are left out,
         # nothing is known of what lies behind them
         is_whole = run.stop is None and len(rows) == len(run.marks)
-        sizes = with_own_time(run.peaks if is_whole else _peaks(run.marks[: len(rows)]), until)
+        marks = run.marks[: len(rows)] or run.marks[:1]
+        sizes = with_own_time(run.peaks if is_whole else _peaks(marks), until)
         tops = component_tops(sizes)
         found = []
         for j, (place, peak, bound) in enumerate(zip(self._places, peaks, bounds, strict=True)):
