@@ -48,7 +48,7 @@ class Charges:
         except (Undefined, Unreadable) as error:
             self.say("wrong", section, f"{label} {each['charge']}: {error}")
             return
-        conserved = all(close(change, mpf(0)) for change in rates)
+        conserved = all(close(v + c, v) for v, c in zip(values, rates, strict=True))
         if conserved and not each["conserved"]:
             conserved = self._everywhere(Q)  # the rate may be 0 on some branches only
         if each["conserved"] != conserved:
@@ -112,7 +112,10 @@ class Charges:
                 self.say("wrong", "charges", f"{name} is conserved: its K is a total derivative")
         if any(self._free(solved) for solved in self.states):
             return
-        energy = all(close(rate(self.h, solved[0]), mpf(0)) for solved in self.states)
+        energy = all(
+            close(self.h(solved[0]) + rate(self.h, solved[0]), self.h(solved[0]))
+            for solved in self.states
+        )
         said = (self.sheet.get("energy") or {}).get("conserved")
         jumps = "sign" in self.system.text
         if energy and said is not True and "energy" in self.sheet and not jumps:

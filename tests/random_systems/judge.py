@@ -243,7 +243,7 @@ class Judge(Charges):
         if self._free(solved):
             return
         change = rate(self.h, state)
-        if printed["conserved"] and not close(change, mpf(0)):
+        if printed["conserved"] and not close(h + change, h):
             self.say("wrong", "energy", f"called conserved, dh/dt = {short(change)}")
 
     def _free(self, solved):
