@@ -46,7 +46,7 @@ def test_the_relations_of_a_generating_function_are_goldsteins():
     told = also("hamiltonian/oscillator-by-generating-function", "canonical")
     shown = [(row.left, to_grammar(row.right)) for row in rows(told, CANONICAL)
              if isinstance(row.right, Expression)]  # fmt: skip
-    assert (Name("p_x"), "m*w*x/tan(Q)") in shown
+    assert (Name("p_x"), "m*w*x*cot(Q)") in shown
     assert (Name("p_Q"), "m*w*x^2/(2*sin(Q)^2)") in shown
     assert (Label("K"), "w*p_Q") in shown
     assert "F generates" not in words(told, CANONICAL)

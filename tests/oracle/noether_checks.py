@@ -40,6 +40,9 @@ def _complete(x: Examination, listed: list[dict[str, Any]]) -> None:
             [real_part(gradient(x.reference.lagrangian, s.moment, 0)[j]) for s in x.states]
         )
         if cyclic and f"p_{name}" not in names:
+            # a momentum that the constraints alone make 0 is no result (form.md, rule 12)
+            if vanishes([reals(x.reference.momenta(s.moment))[j] for s in x.states]):
+                continue
             same = any(
                 _proportional(x, entry, lambda m, j=j: x.reference.momenta(m)[j])
                 for entry in listed
