@@ -12,6 +12,7 @@ from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
 from lagcli.pipeline import Request, derive, read, state
+from lagcli.problem import Problem
 from lagcli.stack import with_deep_stack
 
 
@@ -31,12 +32,10 @@ def export_file(name: str, language: str, output: Path | None, settings: tuple[s
     return with_deep_stack(lambda: _export(problem, name, language, output))
 
 
-def _export(problem: object, name: str, language: str, output: Path | None) -> Status:
+def _export(problem: Problem, name: str, language: str, output: Path | None) -> Status:
     from lagcli.export import NoCode, code_of, render
     from lagcli.export.routines import SECTIONS
-    from lagcli.problem import Problem
 
-    assert isinstance(problem, Problem)
     try:
         derivation = derive(problem)
         answers = state(derivation, Request(sections=SECTIONS))

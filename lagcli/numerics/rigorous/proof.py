@@ -14,7 +14,7 @@ from lagcli.numerics.columns import Values
 from lagcli.numerics.constants import constants_of
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.refusal import Refusal
-from lagcli.numerics.rigorous.enclosure import Enclosures, NotEnclosed, Piece
+from lagcli.numerics.rigorous.enclosure import Enclosures, NotEnclosed
 from lagcli.numerics.simulate import Simulation
 from lagcli.numerics.start import refined_state
 from lagcli.problem import Problem
@@ -133,17 +133,16 @@ def _attempt(simulation: Simulation, bits: int, progress: Progress | None) -> Pr
     rows: list[Enclosure] = []
     refusal = ""
 
-    def take(piece: Piece | None, x: Sequence[Any], t: Any) -> None:
-        del piece
+    def take(x: Sequence[Any], t: Any) -> None:
         n = motion.n
         rows.append(tuple(values(t, list(x[:n]), list(x[n:]))))
 
     try:
-        take(None, state, ball(0))
+        take(state, ball(0))
         waiting = 1
         for piece in enclosures.pieces(state, times[-1]):
             while waiting < len(times) and times[waiting] <= piece.end:
-                take(piece, piece.at(times[waiting]), times[waiting])
+                take(piece.at(times[waiting]), times[waiting])
                 waiting += 1
             if progress is not None:
                 progress(float(piece.end) / asked.until)
