@@ -176,7 +176,7 @@ def _is_installed(package: str) -> bool:
 
 
 def asked_of(problem: Problem, wish: Wish, *, without_end: float | None = None) -> Asked | None:
-    """The options as values; every mistake is told.
+    """The options as values; every mistake is reported.
 
     Where neither the options nor the file give an end, it is `without_end`, if that is given.
     """

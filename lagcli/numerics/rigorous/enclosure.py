@@ -42,7 +42,7 @@ _FIRST_TRY = 0.7
 _WIDER = 0.1
 #: Boxes over a step are wide: their coefficients need no more bits.
 _BOX_BITS = 64
-#: A remainder may be so many targets: the target is reached on smooth stretches.
+#: A remainder may be this multiple of the target, which is reached on smooth stretches.
 _REMAINDER = 1e3
 #: The derivative of the flow multiplies radii only.
 _FLOW_ORDER = 8

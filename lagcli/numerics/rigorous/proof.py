@@ -119,7 +119,7 @@ def _simulation(problem: Problem, asked: Asked) -> Simulation:
 
 
 def _attempt(simulation: Simulation, bits: int, progress: Progress | None) -> Proof:
-    """One proof in so many bits, with the order that suits them."""
+    """One proof at a given precision, with the order that suits it."""
     asked = simulation.asked
     arithmetic = Balls()
     constants = constants_of(simulation.equations, simulation.all_nodes, arithmetic)
@@ -210,7 +210,7 @@ def _start(simulation: Simulation, motion: Motion, bits: int) -> tuple[list[Any]
 def _good(rows: Sequence[Enclosure], accuracy: float) -> int:
     """How many rows are as thin as asked for, beside the largest magnitude of their column.
 
-    A column that is 0 as far as is known is compared with the largest of the others.
+    A column whose enclosures all contain 0 is compared with the largest of the others.
     """
     scales: list[float] = []
     for good, row in enumerate(rows):
