@@ -12,6 +12,7 @@ if TYPE_CHECKING:
         ProblemError,
         Report,
         Solution,
+        Sweep,
         check,
         explain,
         load,
@@ -19,13 +20,15 @@ if TYPE_CHECKING:
         problem,
         simulate,
         solve,
+        sweep,
     )
     from lagcli.interface.magic import load_ipython_extension
 
 __version__ = "0.1.0"
 __all__ = [
-    "Account", "Formula", "Motion", "Problem", "ProblemError", "Report", "Solution", "__version__",
-    "check", "explain", "load", "load_ipython_extension", "loads", "problem", "simulate", "solve",
+    "Account", "Formula", "Motion", "Problem", "ProblemError", "Report", "Solution", "Sweep",
+    "__version__", "check", "explain", "load", "load_ipython_extension", "loads", "problem",
+    "simulate", "solve", "sweep",
 ]  # fmt: skip
 
 

@@ -21,14 +21,15 @@ import lagcli
 from lagcli.check import Report
 from lagcli.diagnostics import ProblemError
 from lagcli.interface.account import Account
+from lagcli.interface.ensemble import Sweep, Vary, ensemble
 from lagcli.interface.formula import Formula
 from lagcli.interface.motion import Motion, integrate
 from lagcli.interface.solution import Solution
 from lagcli.problem import Problem
 
 __all__ = [
-    "Account", "Formula", "Motion", "Problem", "ProblemError", "Report", "Solution", "check",
-    "explain", "load", "loads", "problem", "simulate", "solve",
+    "Account", "Formula", "Motion", "Problem", "ProblemError", "Report", "Solution", "Sweep",
+    "check", "explain", "load", "loads", "problem", "simulate", "solve", "sweep",
 ]  # fmt: skip
 
 Values = Mapping[str, object]
@@ -194,6 +195,63 @@ def simulate(
     )
 
 
+def sweep(
+    problem: Problem,
+    vary: Vary,
+    until: float | str | None = None,
+    *,
+    random: int | None = None,
+    seed: int = 0,
+    along: bool = False,
+    samples: int = 101,
+    accuracy: float | None = None,
+    show: Sequence[str] | str = (),
+    values: Values | None = None,
+    at: Values | None = None,
+    method: str = "auto",
+    jobs: int = 1,
+) -> Sweep:
+    """Compute an ensemble of motions over parameters and initial states.
+
+    Parameters
+    ----------
+    problem : Problem
+        As for `simulate`.
+    vary : mapping of str to str or sequence of float
+        Parameters, coordinates and velocities, each with its values or with a range such as
+        `"0:3.14:200"` (first, last, count); the last varies fastest.
+    until, accuracy, show, values, at, method
+        As for `simulate`.
+    random, seed : int
+        So many draws between the ends of each range (`"0:3.14"`) instead.
+    along : bool
+        Every row of each motion, `samples` of them; its end otherwise.
+    jobs : int
+        Processes.
+
+    Raises
+    ------
+    ProblemError
+        When a range, a column or a value does not fit the problem.
+    """
+    from lagcli.pipeline import with_lagrangian
+
+    changed = with_lagrangian(_at(_with_values(problem, values), at))
+    return ensemble(
+        changed,
+        vary,
+        random=random,
+        seed=seed,
+        along=along,
+        jobs=jobs,
+        samples=samples,
+        until=until,
+        accuracy=accuracy,
+        show=[show] if isinstance(show, str) and show else list(show),
+        method=method,
+    )
+
+
 def explain(problem: Problem, also: Sequence[str] = ()) -> Account:
     """Give the derivation step by step, with its reasons; `also` adds sections.
 
@@ -265,7 +323,8 @@ def _at(problem: Problem, state: Values | None) -> Problem:
     return set_state(problem, [f"{name}={_text(value)}" for name, value in (state or {}).items()])
 
 
-# The modules lagcli.check and lagcli.problem have the names of two functions: once they are
-# imported, the functions take their places among the attributes of the package.
+# The modules lagcli.check, lagcli.problem and lagcli.sweep have the names of functions: once they
+# are imported, the functions take their places among the attributes of the package.
 lagcli.check = check
 lagcli.problem = problem
+lagcli.sweep = sweep

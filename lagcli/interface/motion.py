@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from lagcli.diagnostics import Diagnostic, ProblemError
+from lagcli.interface.columns import Columns
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
+    from lagcli.interface.picture import Animation, Plot
     from lagcli.numerics.asked import Asked, Certificate, Result
     from lagcli.numerics.events import Event
     from lagcli.problem import Problem
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
 _USUAL_ACCURACY = 1e-9
 
 
-class Motion:
+class Motion(Columns):
     """What `simulate` gives: a table, and how well it is known.
 
     Attributes
@@ -35,9 +37,11 @@ class Motion:
         Why the rows end early; empty when they do not.
     """
 
-    def __init__(self, result: Result, title: str) -> None:
+    def __init__(self, result: Result, problem: Problem, asked: Asked) -> None:
         self._result = result
-        self.title = title
+        self._problem = problem
+        self._asked = asked
+        self.title = problem.title
         self.columns = result.columns
         self.rows = result.rows
 
@@ -66,39 +70,9 @@ class Motion:
         """Why the rows end early; empty when they do not."""
         return self._result.refusal
 
-    def __len__(self) -> int:
-        return len(self.rows)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.columns)
-
-    def __getitem__(self, column: str) -> list[float | None]:
-        if column not in self.columns:
-            raise KeyError(f"no column {column!r}: there are {', '.join(self.columns)}")
-        place = self.columns.index(column)
-        return [row[place] for row in self.rows]
-
-    def to_dict(self) -> dict[str, list[float | None]]:
-        """Columns by name."""
-        return {name: self[name] for name in self.columns}
-
-    def to_numpy(self) -> Any:
-        """An array of shape (rows, columns); nan where a column is not defined."""
-        import numpy as np
-
-        return np.array(self.rows, dtype=float)
-
     def to_pandas(self) -> Any:
         """A pandas table with t as its index."""
-        import pandas as pd
-
-        return pd.DataFrame(self.to_numpy(), columns=list(self.columns)).set_index("t")
-
-    def to_arrow(self) -> Any:
-        """An Arrow table."""
-        import pyarrow as pa
-
-        return pa.table(self.to_dict())
+        return super().to_pandas().set_index("t")
 
     def to_csv(self) -> str:
         """CSV with every digit of a double."""
@@ -112,6 +86,39 @@ class Motion:
 
         return to_json(self._result)
 
+    def plot(self, kind: str = "series", *, section: str | None = None, orbits: int = 1) -> Plot:
+        """Draw the motion.
+
+        Parameters
+        ----------
+        kind : str
+            As `lagcli plot --kind` takes it: `series` draws the columns over time.
+        section, orbits
+            Of a Poincaré section: where it is, and of how many motions.
+
+        Raises
+        ------
+        ValueError
+            When there is no such kind.
+        CannotDraw
+            When there is no such picture of this motion.
+        """
+        from lagcli.interface.picture import plot
+
+        return plot(self._problem, self._asked, self._result, kind, section, orbits)
+
+    def animate(self, *, forces: bool = False) -> Animation:
+        """Show the motion as it goes on; `forces` adds arrows.
+
+        Raises
+        ------
+        CannotDraw
+            When the file does not state where its bodies are.
+        """
+        from lagcli.interface.picture import animation
+
+        return animation(self._problem, self._asked, forces=forces)
+
     def __str__(self) -> str:
         from lagcli.numerics.writing import to_table
 
@@ -124,7 +131,20 @@ class Motion:
     def _repr_html_(self) -> str:
         from lagcli.interface.tables import motion_as_html
 
-        return motion_as_html(self._result, self.title)
+        return self._plotted() + motion_as_html(self._result, self.title)
+
+    def _plotted(self) -> str:
+        """The columns over time as HTML; nothing where they cannot be drawn."""
+        from importlib.util import find_spec
+
+        from lagcli.pictures.drawing import CannotDraw
+
+        if find_spec("matplotlib") is None:
+            return ""
+        try:
+            return self.plot().to_html()
+        except CannotDraw:
+            return ""
 
 
 def integrate(problem: Problem, **options: Any) -> Motion:
@@ -137,7 +157,8 @@ def integrate(problem: Problem, **options: Any) -> Motion:
     """
     from lagcli.numerics.simulate import simulate
 
-    return Motion(simulate(problem, asked_of(problem, **options)), problem.title)
+    asked = asked_of(problem, **options)
+    return Motion(simulate(problem, asked), problem, asked)
 
 
 def asked_of(

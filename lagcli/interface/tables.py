@@ -1,10 +1,12 @@
-"""A motion as a table of HTML: its first and last rows, and the certificate."""
+"""Tables as HTML: first and last rows, and of a motion the certificate."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING
+
+from lagcli.pictures.run import short
 
 if TYPE_CHECKING:
     from lagcli.numerics.asked import Result
@@ -13,25 +15,30 @@ _SHOWN = 5  # rows at the beginning and at the end
 
 
 def motion_as_html(result: Result, title: str) -> str:
-    """The table with its certificate below."""
+    """The table, folded, with its certificate below."""
     return "\n".join(_lines(result, title)) + "\n"
 
 
-def _lines(result: Result, title: str) -> Iterator[str]:
-    yield f"<table><caption>{escape(title)}</caption>"
-    yield "<tr>" + "".join(f"<th>{escape(name)}</th>" for name in result.columns) + "</tr>"
-    rows = list(result.rows)
+def table_as_html(
+    columns: Sequence[str], rows: Sequence[Sequence[float | None]], title: str
+) -> str:
+    """The first and the last rows under the names of their columns."""
     many = len(rows) > 2 * _SHOWN + 1
     shown = [*rows[:_SHOWN], None, *rows[-_SHOWN:]] if many else rows
-    for row in shown:
-        cells = ["…"] * len(result.columns) if row is None else [_cell(x) for x in row]
-        yield "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
-    yield "</table>"
+    cells = [["…"] * len(columns) if row is None else [_cell(x) for x in row] for row in shown]
+    head = "".join(f"<th>{escape(name)}</th>" for name in columns)
+    body = "".join(f"<tr>{''.join(f'<td>{x}</td>' for x in row)}</tr>\n" for row in cells)
+    return f"<table><caption>{escape(title)}</caption>\n<tr>{head}</tr>\n{body}</table>"
+
+
+def _lines(result: Result, title: str) -> Iterator[str]:
+    yield f"<details><summary>{len(result.rows)} rows</summary>"
+    yield table_as_html(result.columns, result.rows, title)
+    yield "</details>"
     held = result.certificate
     word = "reached" if held.reached else f"holds until t = {held.holds_until:g}"
     error = max(held.global_error.values(), default=0.0)
-    made = f"{escape(result.method)}, {len(rows)} rows"
-    yield f"<p>Accuracy {held.accuracy:g} {word}; global error at most {error:.1e} ({made}).</p>"
+    yield f"<p>Accuracy {short(held.accuracy)} {word}; global error at most {short(error)}.</p>"
     for line in (*result.warnings, result.refusal):
         if line:
             yield f"<p>{escape(line)}</p>"

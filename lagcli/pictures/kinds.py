@@ -103,3 +103,5 @@ _KINDS: dict[str, Callable[[Problem, Asked, Request, Progress | None], Drawn]] =
     "drift": _drift,
     "error": _error,
 }
+#: What can be drawn.
+NAMES = tuple(_KINDS)

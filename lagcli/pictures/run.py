@@ -28,11 +28,23 @@ WITHOUT_BOUND = 20.0
 
 
 class Run:
-    """One motion with its columns; the first is the time."""
+    """One motion with its columns; the first is the time.
 
-    def __init__(self, problem: Problem, asked: Asked, progress: Progress | None = None) -> None:
+    Parameters
+    ----------
+    result : Result, optional
+        The motion, where it is known already.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        asked: Asked,
+        progress: Progress | None = None,
+        result: Result | None = None,
+    ) -> None:
         self.problem, self.asked = problem, asked
-        self.result: Result = simulate(problem, asked, progress)
+        self.result: Result = simulate(problem, asked, progress) if result is None else result
         self.names = self.result.columns
         self.labels = Labels(problem)
 

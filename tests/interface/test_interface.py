@@ -200,3 +200,52 @@ def test_the_cell_magic_answers_and_keeps_the_problem(capsys):
     assert magic("explain", PENDULUM).complete
     assert magic("", "T: x'") is None
     assert "error: unknown name" in capsys.readouterr().out
+
+
+def test_a_motion_shows_as_a_plot_above_its_rows(pendulum):
+    motion = lagcli.simulate(pendulum, samples=21)
+    shown = motion._repr_html_()
+    assert '<img src="data:image/svg+xml;base64,' in shown
+    assert 'alt="Pendulum: θ from ' in shown
+    assert shown.index("<img") < shown.index("<summary>21 rows</summary>")
+    picture = motion.plot().picture
+    curve = picture.panels[0].items[0]
+    assert [y for _, y in curve.pieces[0]] == motion["theta"]
+
+
+def test_a_plot_and_an_animation_are_files_by_their_endings(pendulum, tmp_path):
+    motion = lagcli.simulate(pendulum, samples=21)
+    for ending, start in (("svg", b"<?xml"), ("pdf", b"%PDF"), ("png", b"\x89PNG")):
+        file = tmp_path / f"p.{ending}"
+        motion.plot("phase").save(file)
+        assert file.read_bytes().startswith(start)
+    with pytest.raises(ValueError, match=r"one of \.svg, \.pdf, \.png"):
+        motion.plot().save(tmp_path / "p.jpg")
+    with pytest.raises(ValueError, match="the kinds are series, phase"):
+        motion.plot("phases")
+    ball = lagcli.simulate(lagcli.load("bouncing-ball"), 2, samples=21).animate()
+    ball.save(tmp_path / "ball.html")
+    assert (tmp_path / "ball.html").read_text("utf-8") == ball.to_html()
+    assert "<iframe" in ball._repr_html_()
+
+
+def test_a_motion_without_matplotlib_shows_its_rows(pendulum, monkeypatch):
+    monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
+    shown = lagcli.simulate(pendulum, samples=3)._repr_html_()
+    assert "<img" not in shown
+    assert "<table>" in shown
+
+
+def test_a_sweep_is_a_table_of_the_motions_one_by_one(pendulum):
+    table = lagcli.sweep(pendulum, {"m": [1, 2], "theta": "0.5:1:2"}, show=["theta"])
+    assert table.varied == ("m", "theta(0)")
+    assert table.complete
+    alone = [
+        lagcli.simulate(pendulum, show=["theta"], values={"m": m}, at={"theta": a})["theta"][-1]
+        for m in (1, 2)
+        for a in (0.5, 1.0)
+    ]
+    assert table["theta"] == pytest.approx(alone, rel=1e-9)
+    assert json.loads(table.to_json())["varied"] == ["m", "theta(0)"]
+    with pytest.raises(lagcli.ProblemError, match="did you mean 'theta'"):
+        lagcli.sweep(pendulum, {"tetha": "0:1:2"})

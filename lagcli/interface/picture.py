@@ -1,0 +1,142 @@
+"""Pictures of a motion as values: shown by a notebook, printed, or written to a file."""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lagcli.pictures.drawing import Picture
+
+if TYPE_CHECKING:
+    from lagcli.numerics.asked import Asked, Result
+    from lagcli.pictures.scene import Scene
+    from lagcli.problem import Problem
+
+
+class Plot:
+    """A picture: `print` draws it with characters, a notebook with lines.
+
+    Attributes
+    ----------
+    title : str
+    refusal : str
+        Why it ends early; empty when it does not.
+    """
+
+    def __init__(self, picture: Picture, refusal: str) -> None:
+        self.picture = picture
+        self.title = picture.title
+        self.refusal = refusal
+
+    def to_svg(self, *, dark: bool = False) -> str:
+        """The picture as SVG; needs Matplotlib."""
+        from lagcli.pictures.figure import to_bytes
+
+        return to_bytes(self.picture, "svg", dark=dark).decode()
+
+    def to_html(self) -> str:
+        """An image of HTML, with what it shows in words."""
+        from lagcli.pictures.inline import image
+
+        return image(self.picture)
+
+    def save(self, path: str | PathLike[str], *, dark: bool = False) -> None:
+        """Write a file; its ending is `.svg`, `.pdf` or `.png`.
+
+        Raises
+        ------
+        ValueError
+            When the ending is another.
+        """
+        from lagcli.pictures.figure import FORMATS, to_bytes
+
+        kind = _ending(path, FORMATS)
+        Path(path).write_bytes(to_bytes(self.picture, kind, dark=dark))
+
+    def __str__(self) -> str:
+        from lagcli.pictures.terminal import Terminal, to_text
+
+        return to_text(self.picture, Terminal(width=80, unicode=True, colour=False)).rstrip("\n")
+
+    def __repr__(self) -> str:
+        return f"<Plot of {self.title!r}>"
+
+    def _repr_html_(self) -> str:
+        return self.to_html()
+
+
+class Animation:
+    """A motion that plays: in a notebook, or as a page, a GIF or an MP4.
+
+    Attributes
+    ----------
+    title : str
+    refusal : str
+        Why it ends early; empty when it does not.
+    """
+
+    def __init__(self, scene: Scene, refusal: str) -> None:
+        self._scene = scene
+        self.title = scene.title
+        self.refusal = refusal
+
+    def to_html(self) -> str:
+        """A whole page, which needs no network."""
+        from lagcli.pictures.page import to_html
+
+        return to_html(self._scene)
+
+    def save(self, path: str | PathLike[str], *, dark: bool = False) -> None:
+        """Write a file; its ending is `.html`, `.gif` or `.mp4`.
+
+        Raises
+        ------
+        ValueError
+            When the ending is another.
+        """
+        from lagcli.pictures.film import to_film
+
+        kind = _ending(path, ("html", "gif", "mp4"))
+        data = self.to_html().encode() if kind == "html" else to_film(self._scene, kind, dark=dark)
+        Path(path).write_bytes(data)
+
+    def __repr__(self) -> str:
+        return f"<Animation of {self.title!r}>"
+
+    def _repr_html_(self) -> str:
+        from lagcli.pictures.inline import frame
+
+        return frame(self._scene)
+
+
+def plot(
+    problem: Problem, asked: Asked, result: Result, kind: str, section: str | None, orbits: int
+) -> Plot:
+    """The picture of a motion; see `Motion.plot`."""
+    from lagcli.pictures.kinds import NAMES, Request, picture_of
+
+    if kind == "series":
+        from lagcli.pictures.run import Run
+        from lagcli.pictures.series import series
+
+        return Plot(series(Run(problem, asked, result=result)), result.refusal)
+    if kind not in NAMES:
+        raise ValueError(f"unknown kind {kind!r}: the kinds are {', '.join(NAMES)}")
+    request = Request(kind=kind, section=section, orbits=orbits)
+    return Plot(*picture_of(problem, asked, request))
+
+
+def animation(problem: Problem, asked: Asked, *, forces: bool) -> Animation:
+    """The animation of a motion; see `Motion.animate`."""
+    from lagcli.pictures.scene import scene
+
+    return Animation(*scene(problem, asked, forces=forces))
+
+
+def _ending(path: str | PathLike[str], known: tuple[str, ...]) -> str:
+    kind = Path(path).suffix.lower().removeprefix(".")
+    if kind not in known:
+        endings = ", ".join(f".{each}" for each in known)
+        raise ValueError(f"{path}: the ending says what is written: one of {endings}")
+    return kind
