@@ -238,6 +238,7 @@ class AlgebraSection:
     """The Lie algebra of the discovered symmetries; None: no brackets to find it by.
 
     `dimension` counts generators: all `number` of them, or those of the point symmetries.
+    `independent` is None where no state was found, or not in the work allowed.
     `closed`: every bracket is a combination of all of them and of constants.  `integrable` is
     True or None; `separates` where the Hamilton-Jacobi equation shows it, not the charges.
     """
@@ -245,13 +246,18 @@ class AlgebraSection:
     ansatz: str
     dimension: int
     name: str | None
-    independent: int
+    independent: int | None
     in_involution: int | None
     integrable: bool | None
     number: int = 0
     closed: bool = False
     separates: bool = False
     special: tuple[SpecialValue, ...] = ()
+
+    @property
+    def dimension_counts(self) -> str:
+        """Which generators `dimension` counts: "charges", all of them, or "point symmetries"."""
+        return "charges" if self.dimension == self.number else "point symmetries"
 
 
 @record(kw_only=True)

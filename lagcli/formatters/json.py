@@ -147,6 +147,7 @@ def _value(section: Section) -> Value:
             return {
                 "ansatz": section.ansatz,
                 "dimension": section.dimension,
+                "dimension_counts": section.dimension_counts,
                 "name": section.name,
                 "independent": section.independent,
                 "in_involution": section.in_involution,

@@ -345,15 +345,17 @@ def _algebra(section: AlgebraSection) -> Iterator[Block]:
     named = f", {section.name}" if section.name else ""
     integrable = {
         True: "The motion is integrable.",
-        False: "These do not decide whether the motion is integrable.",
         None: "Whether the motion is integrable is undecided.",
     }
     yield Paragraph((f"Searched: {section.ansatz}.",))
     number = section.independent
     charges = f"{number} independent conserved quantit{'y' if number == 1 else 'ies'}"
+    if number is None:
+        charges = "the number of independent conserved quantities is not known"
     if section.in_involution is not None:
         charges += f", {section.in_involution} in involution"
-    yield Paragraph((f"Dimension {section.dimension}{named}; {charges}.",))
+    counts = "" if section.dimension_counts == "charges" else f" of the {section.dimension_counts}"
+    yield Paragraph((f"Dimension {section.dimension}{counts}{named}; {charges}.",))
     yield Paragraph((integrable[section.integrable],))
     for case in section.special:
         where = f"{case.parameter} = {to_grammar(case.value)}"

@@ -422,9 +422,10 @@ class Statements(Stating):
         )
 
     def _algebra(self) -> AlgebraSection:
-        from lagcli.mechanics.discovery.summary import algebra_section
+        from lagcli.mechanics.discovery.summary import algebra_section, summary
 
         discovery = self.derivation.discovery
+        found = summary(discovery)  # before the special values, which take the work that is left
         special = tuple(
             SpecialValue(
                 parameter=case.parameter.name,
@@ -434,7 +435,7 @@ class Statements(Stating):
             )
             for case in discovery.special
         )
-        section = algebra_section(discovery, self._separates)
+        section = algebra_section(discovery, found, self._separates)
         return replace(section, special=special)
 
     def _separates(self) -> bool:

@@ -99,6 +99,7 @@ class RandomStates:
         self._lagrangian = Evaluator([system.L, *system.applied_forces], DIGITS + _GUARD)
         self._kept: list[State] = []
         self._generator = self._generate()
+        self._contradiction: Contradiction | None = None
         self.elimination: Elimination | None = None
 
     @property
@@ -128,7 +129,13 @@ class RandomStates:
             When no state was found that satisfies all constraints.
         """
         while len(self._kept) < number:
-            self._kept.append(next(self._generator))
+            if self._contradiction is not None:
+                raise self._contradiction
+            try:
+                self._kept.append(next(self._generator))
+            except Contradiction as found:
+                self._contradiction = found  # the generator has ended with it
+                raise
         return self._kept[:number]
 
     def placed(self, state: State) -> bool:

@@ -35,6 +35,8 @@ def gauge_of(change: Expr, system: System, allowed: Allowance) -> Expr | None:
     still = dict.fromkeys(v, sympy.S.Zero)
     by_q = [sympy.expand(change.diff(x).xreplace(still)) for x in v]
     by_t = sympy.expand(change.xreplace(still))
+    if any(p.exp.is_negative and p.base.is_Add for p in by_t.atoms(sympy.Pow)):
+        by_t = sympy.expand(simplify(by_t))  # b/r^2 may cancel, in terms x^2 b/r^4 it does not
     candidates = _candidates(by_t, by_q, t, q)
     allowed.spend(_OF_DERIVATIVE * (1 + len(q)) * len(candidates))
     if 0 < len(candidates) <= _MOST_CANDIDATES:

@@ -46,6 +46,7 @@ from lagcli.mechanics.discovery.special_search import special_cases
 from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.discovery.under_constraints import UnderConstraints
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+from lagcli.mechanics.states import Contradiction
 
 _MOST_COORDINATES = 9
 _DIGITS = 40
@@ -60,6 +61,8 @@ class Discovery:
     ----------
     point_charges, hidden_charges : tuple of NoetherCharge
         Of point symmetries, and of second degree in the velocities beyond them.
+    unsearched : bool
+        Whether there was no search at all, for the reason in `stopped`.
     momentum_equations : tuple of NoetherCharge
         Of symmetries that nonholonomic constraints admit without a constant charge.
     stopped : list of str
@@ -76,6 +79,7 @@ class Discovery:
         self.point_charges: tuple[NoetherCharge, ...] = ()
         self.hidden_charges: tuple[NoetherCharge, ...] = ()
         self.momentum_equations: tuple[NoetherCharge, ...] = ()
+        self.unsearched = False
         self._found: list[tuple[str, NoetherCharge]] = []
         self._of_lagrangian: list[Transformation] = []
         self._run()
@@ -89,6 +93,17 @@ class Discovery:
     def ansatz(self) -> str:
         """What was searched and what was not, as a sentence without its full stop."""
         return "; ".join(dict.fromkeys((*self.words, *self.stopped)))
+
+    def _unusable(self) -> str:
+        """Why there is no search, empty where there is one."""
+        if len(self.system.q) > _MOST_COORDINATES:
+            return f"more than {_MOST_COORDINATES} coordinates are not searched"
+        if self.dynamics.constraints.equations:
+            return ""
+        try:
+            return "the Lagrangian is singular" if self._singular else ""
+        except Contradiction:
+            return "no state was found at which the Lagrangian is real"
 
     @property
     def _singular(self) -> bool:
@@ -109,14 +124,11 @@ class Discovery:
     # -- the two searches -------------------------------------------------------------------
 
     def _run(self) -> None:
-        n = len(self.system.q)
-        if n > _MOST_COORDINATES:
+        why = self._unusable()
+        if why:
+            self.unsearched = True
             self.words.append("nothing")
-            self.stopped.append(f"more than {_MOST_COORDINATES} coordinates are not searched")
-            return
-        if not self.dynamics.constraints.equations and self._singular:
-            self.words.append("nothing")
-            self.stopped.append("the Lagrangian is singular")
+            self.stopped.append(why)
             return
         searches = [(self._points, "point symmetries")]
         if self.dynamics.constraints.equations:
@@ -182,8 +194,10 @@ class Discovery:
         """q'' for its linear part; None where there are constraints."""
         if self.dynamics.constraints.equations:
             return None
-        mass, forcing = self.equations.mass, self.equations.forcing
+        mass = self.equations.mass
         if all(m == 0 for i, row in enumerate(mass) for j, m in enumerate(row) if i != j):
+            # as it was derived: in one fraction with b/x^3 no term of k x is linear
+            forcing = self.dynamics.lagrange.forcing
             return tuple(f / row[i] for i, (f, row) in enumerate(zip(forcing, mass, strict=True)))
         if any(not free_of(m, self.system.q) for row in mass for m in row):
             return None  # its inverse times the forcing has no linear terms of use

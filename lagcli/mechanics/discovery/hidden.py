@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from itertools import combinations_with_replacement
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.build import free_of
@@ -250,14 +250,26 @@ class QuadraticIntegrals:
             for _, f in functions
             for t in sympy.Add.make_args(sympy.expand(f))
         }
-        made = [a * b for b in terms for a in (*monomials, *sorted(inside, key=str))]
-        made += [m for m in monomials if m != 1]
+        roots = sorted(_roots(rest, q), key=sympy.default_sort_key)  # such as r in b sqrt(r + x)/r
+        made = [a * b for b in terms for a in (*monomials, *roots, *sorted(inside, key=str))]
+        made += [m for m in monomials if m != 1] + [
+            x / root for root in roots for x in (*q, root**2)
+        ]
         turns = {
             sympy.Mul(*(x for x in sympy.Mul.make_args(f) if x.has(sympy.sin, sympy.cos)))
             for f in inside
         } - {sympy.S.One}
         made += [a * b * x for b in terms for a in monomials[: 1 + len(q)] for x in turns]
         return sorted({m for m in made if not free_of(m, q)}, key=_length)
+
+
+def _roots(expression: Expr, q: Sequence[Symbol]) -> set[Expr]:
+    """The roots of functions of the coordinates that occur in it, to the power of one."""
+    return {
+        power.base ** sympy.Rational(1, power.exp.q)
+        for power in expression.atoms(sympy.Pow)
+        if power.exp.is_Rational and power.exp.q > 1 and not free_of(power.base, q)
+    }
 
 
 def _length(expression: Expr) -> tuple[int, str]:

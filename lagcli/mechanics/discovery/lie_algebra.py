@@ -87,7 +87,35 @@ def _name(C: list[list[Vector]], central: Sequence[Vector]) -> str | None:
         quotient = _without(C, central, centre)
         inner = _name(*quotient)
         return None if inner is None else f"{inner} + {_abelian(len(centre))}"
-    return None
+    return _direct_sum(C, central)
+
+
+def _direct_sum(C: list[list[Vector]], central: Sequence[Vector]) -> str | None:
+    """Ideals that the basis vectors fall into, the largest first."""
+    parts = _ideals(C, central)
+    if len(parts) < 2:
+        return None
+    found = []
+    for part in sorted(parts, key=len, reverse=True):
+        others = [i for i in range(len(C)) if i not in part]
+        name = _name(*_restricted(C, central, others))
+        if name is None:
+            return None
+        found.append(name)
+    return " + ".join(found)
+
+
+def _ideals(C: list[list[Vector]], central: Sequence[Vector]) -> list[list[int]]:
+    """Basis vectors that brackets connect, also brackets that are constants."""
+    n = len(C)
+    label = list(range(n))
+    for a in range(n):
+        for b in range(a):
+            joined = [c for c in range(n) if C[a][b][c]]
+            if joined or central[a][b]:
+                old = {label[k] for k in (a, b, *joined)}
+                label = [label[a] if x in old else x for x in label]
+    return [[i for i in range(n) if label[i] == x] for x in dict.fromkeys(label)]
 
 
 def _abelian(n: int) -> str:
@@ -155,7 +183,12 @@ def _centre(C: list[list[Vector]], central: Sequence[Vector]) -> list[Vector]:
 def _without(
     C: list[list[Vector]], central: Sequence[Vector], centre: Sequence[Vector]
 ) -> tuple[list[list[Vector]], list[Vector]]:
-    gone = {next(i for i, x in enumerate(z) if x) for z in centre}
+    return _restricted(C, central, [next(i for i, x in enumerate(z) if x) for z in centre])
+
+
+def _restricted(
+    C: list[list[Vector]], central: Sequence[Vector], gone: Sequence[int]
+) -> tuple[list[list[Vector]], list[Vector]]:
     kept = [i for i in range(len(C)) if i not in gone]
     return (
         [[[C[a][b][c] for c in kept] for b in kept] for a in kept],

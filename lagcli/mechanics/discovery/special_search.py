@@ -46,6 +46,8 @@ _NOT_ALL = "not all special values of the parameters were sought"
 def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
     """One parameter at a time."""
     system = discovery.system
+    if discovery.unsearched:
+        return ()
     few = 0 < len(system.q) <= _MOST_COORDINATES
     if discovery.dynamics.constraints.equations or not few or not system.parameters:
         return ()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -11,13 +11,14 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero
 from lagcli.answers import AlgebraSection
-from lagcli.mechanics.discovery.brackets import Brackets, NoState
+from lagcli.mechanics.discovery.brackets import Brackets, NoState, Structure
 from lagcli.mechanics.discovery.constrained import rank_on_surface
 from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.lie_algebra import name_of
 from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.states import Contradiction
 
+_SMALL = 1e-12
 _MOST_FOR_SQUARES = 9  # two bodies in space: P, L and L_rel
 
 
@@ -27,14 +28,16 @@ class Summary:
 
     dimension: int
     name: str | None
-    independent: int
+    independent: int | None
     in_involution: int | None
     integrable: bool | None
     notes: tuple[str, ...] = ()
     closed: bool = False  # all brackets are combinations of the charges and of constants
 
 
-def algebra_section(discovery: Discovery, separates: Callable[[], bool]) -> AlgebraSection:
+def algebra_section(
+    discovery: Discovery, found: Summary, separates: Callable[[], bool]
+) -> AlgebraSection:
     """The statement of it.
 
     A complete integral of the Hamilton-Jacobi equation, which `separates` looks for where the
@@ -45,7 +48,6 @@ def algebra_section(discovery: Discovery, separates: Callable[[], bool]) -> Alge
     Liouville, J. Math. Pures Appl. 20 (1855) 137 (n integrals in involution: quadratures).
     Arnold, *Mathematical Methods of Classical Mechanics*, 2nd ed., sections 47 and 49.
     """
-    found = summary(discovery)
     separable = found.integrable is not True and discovery.canonical and separates()
     return AlgebraSection(
         ansatz="; ".join((discovery.ansatz, *found.notes)),
@@ -62,7 +64,6 @@ def algebra_section(discovery: Discovery, separates: Callable[[], bool]) -> Alge
 
 def summary(discovery: Discovery) -> Summary:
     """Brackets and what follows from them; counts alone where they were not worked out."""
-    count = len(discovery.charges)
     try:
         kinds = discovery.dynamics.constraints.kinds.values()
         if any(kind != "holonomic" for kind in kinds):
@@ -72,8 +73,8 @@ def summary(discovery: Discovery) -> Summary:
         why = "the brackets were not worked out: too much work"
     except (NoState, Contradiction):
         why = "the brackets were not worked out: no state was found to do it at"
-    known = min(1, count)
-    return Summary(len(discovery.point_charges), None, known, None, None, (why,))
+    independent = None if discovery.charges else 0
+    return Summary(len(discovery.point_charges), None, independent, None, None, (why,))
 
 
 def _free(discovery: Discovery) -> Summary:
@@ -81,7 +82,8 @@ def _free(discovery: Discovery) -> Summary:
     charges = [c.charge for c in discovery.charges]
     count = len(charges)
     if not count:
-        return Summary(0, None, 0, 0, None)
+        number = None if discovery.unsearched else 0
+        return Summary(0, None, number, number, None)
     more = [*_squares(discovery), *_of_the_file(discovery)]
     brackets = Brackets([*charges, *more], discovery.dynamics, discovery.allowed)
     everything = list(range(count))
@@ -140,7 +142,11 @@ def _over_energy(
 
 
 def _squares(discovery: Discovery) -> list[Expr]:
-    """L^2 of three charges of first degree that turn into each other, for involution."""
+    """L^2, or p_x^2 + p_y^2, of charges of first degree that turn into each other.
+
+    For involution: two bodies in space have L_rel^2, two charges in a magnetic field the
+    square of their whole momentum, which commutes with L, as its components do not.
+    """
     linear = [c.charge for c in discovery.charges if c.transformation.time == 0
               and discovery.system.t not in c.charge.free_symbols]  # fmt: skip
     if len(linear) < 3 or len(linear) > _MOST_FOR_SQUARES:
@@ -149,9 +155,25 @@ def _squares(discovery: Discovery) -> list[Expr]:
     found = []
     for triple in combinations(range(len(linear)), 3):
         structure = brackets.structure(triple)
-        if structure is not None and name_of(structure) == "so(3)":
+        if structure is None:
+            continue
+        if name_of(structure) == "so(3)":
             found.append(sympy.Add(*(linear[k] ** 2 for k in triple)))
+        else:
+            found += [
+                linear[triple[a]] ** 2 + linear[triple[b]] ** 2 for a, b in _turned(structure)
+            ]
     return found
+
+
+def _turned(structure: Structure) -> Iterator[tuple[int, int]]:
+    """Pairs a, b of three with {c, a} = s b and {c, b} = -s a, so that c keeps a^2 + b^2."""
+    C, K = structure.constants, structure.central
+    for c, a, b in ((0, 1, 2), (1, 0, 2), (2, 0, 1)):
+        s = C[c][a][b]
+        turning = [C[c][a][a], C[c][a][c], K[c][a], C[c][b][b], C[c][b][c], K[c][b], C[c][b][a] + s]
+        if s and not any(abs(x) > _SMALL for x in turning):
+            yield a, b
 
 
 def _of_the_file(discovery: Discovery) -> list[Expr]:

@@ -125,7 +125,7 @@ def algebra(teller: Teller, section: Section) -> Iterator[Block]:
     yield from _brackets(teller, closed=found.closed)
     yield from _dimension(found)
     number, n = found.independent, teller.dynamics.degrees_of_freedom
-    if found.number > 1:
+    if found.number > 1 and number is not None:
         yield says(
             f"Of the {found.number} conserved quantities {number} {'is' if number == 1 else 'are'} "
             f"functionally independent: the rank of their gradients in phase space is {number}."
@@ -156,7 +156,7 @@ def _no_brackets(teller: Teller) -> str:
 
 def _dimension(found: AlgebraSection) -> Iterator[Block]:
     """What the dimension counts, and the name of the algebra."""
-    which = "the symmetries" if found.dimension == found.number else "the point symmetries"
+    which = "the symmetries" if found.dimension_counts == "charges" else "the point symmetries"
     if not found.name:
         if found.in_involution is not None:
             yield says(

@@ -1,0 +1,95 @@
+"""Systems of the literature: their integrals, algebras and integrability.
+
+Winternitz, Smorodinsky, Uhlir, Fris, Sov. J. Nucl. Phys. 4 (1967) 444 (superintegrable potentials
+of the plane); Landau and Lifshitz, *Mechanics*, section 15 (b/r^2 beside a central potential);
+Avron, Herbst, Simon, Ann. Phys. 114 (1978) 431 (the momentum of two charges in a magnetic field).
+"""
+
+import random
+
+import pytest
+
+from lagcli.mechanics.discovery.summary import summary
+from lagcli.reader import read_problem
+from tests.oracle.constancy import digits_kept, discovered
+
+from .derived import derive
+
+POS = "{assume: positive}"
+
+
+def problem(L, coordinates="[x, y]", parameters="", more=""):
+    """A problem file; parameters are positive, those after a bar have either sign."""
+    positive, _, others = parameters.partition("|")
+    given = [f"{p}: {POS}" for p in positive.split()] + [f"{p}: {{}}" for p in others.split()]
+    return (f"{{coordinates: {coordinates}, parameters: {{{', '.join(given)}}}, "
+            f'L: "{L}"{more}}}')  # fmt: skip
+
+
+def with_numbers(text, seed):
+    """Random rational values for the parameters."""
+    source = random.Random(seed)
+    while POS in text.split("L:")[0].split("parameters")[1]:
+        head, tail = text.split("parameters", 1)
+        value = f"{{value: {source.randint(1, 9)}/{source.randint(2, 5)}}}"
+        text = head + "parameters" + tail.replace(POS, value, 1)
+    return text
+
+
+def kept(text, seed):
+    """Digits to which each discovered charge stays on an independent motion."""
+    given = read_problem("test.yaml", with_numbers(text, seed).encode()).checked()
+    return digits_kept(given, discovered(given)[0])
+
+
+R = "sqrt(x^2 + y^2)"
+PARABOLIC = (
+    f"m*(x'^2 + y'^2)/2 + k/{R} - b*sqrt({R} + x)/{R}",
+    f"m*(x'^2 + y'^2)/2 + k/{R} - b*sqrt({R} - y)/{R}",
+    f"m*(x'^2 + y'^2)/2 + k/{R} - b*sqrt({R} + x)/{R} - c*sqrt({R} - x)/{R}",
+    f"m*(x'^2 + y'^2)/2 - b*sqrt({R} + x)/{R}",
+)
+
+
+@pytest.mark.parametrize("L", PARABOLIC)
+def test_a_root_of_r_and_x_leaves_two_integrals_of_second_degree(L):
+    text = problem(L, parameters="m k b c")
+    found = summary(derive(text).discovery)
+    assert (found.independent, found.integrable) == (3, True)
+    assert min(kept(text, L).values()) > 20
+
+
+@pytest.mark.parametrize(
+    ("x", "name", "algebra"),
+    [("x y", "L_z", "sl(2,R) + R"), ("x y z", "L_x L_y L_z", "so(3) + sl(2,R)")],
+)
+def test_an_inverse_square_leaves_the_oscillators_conformal_integrals(x, name, algebra):
+    square = " + ".join(f"{q}^2" for q in x.split())
+    rates = " + ".join(f"{q}'^2" for q in x.split())
+    text = problem(f"m*({rates})/2 - k*({square})/2 - b/({square})",
+                   f"[{', '.join(x.split())}]", "m k b")  # fmt: skip
+    derivation = derive(text)
+    names = {c.name for c in derivation.discovery.charges}
+    assert names == {"energy", *name.split(), "conformal_cos", "conformal_sin"}
+    assert summary(derivation.discovery).name == algebra
+
+
+def test_a_cone_over_the_plane_is_a_direct_sum():
+    found = summary(derive(problem("m*z^2*(x'^2 + y'^2)/2 + m*z'^2/2",
+                                   f"{{x: {{}}, y: {{}}, z: {POS}}}", "m")).discovery)  # fmt: skip
+    assert (found.dimension, found.name) == (6, "sl(2,R) + e(2)")
+
+
+@pytest.mark.parametrize("V", ["k/sqrt((x1-x2)^2 + (y1-y2)^2)", "k*((x1-x2)^2 + (y1-y2)^2)/2"])
+def test_two_like_charges_in_a_magnetic_field_are_integrable(V):
+    free = "m*(x1'^2 + y1'^2 + x2'^2 + y2'^2)/2 + B*(x1*y1' - y1*x1' + x2*y2' - y2*x2')/2"
+    found = summary(derive(problem(f"{free} - {V}", "[x1, y1, x2, y2]", "m k B")).discovery)
+    assert (found.in_involution, found.integrable) == (4, True)
+
+
+@pytest.mark.parametrize("L", ["x'^2/2 + sqrt(-1 - x^2)", "sqrt(-1 - x^2)*x'^2/2 + y'^2/2"])
+def test_a_lagrangian_that_is_never_real_has_no_answer(L):
+    found = derive(problem(L, "[x, y]" if "y" in L else "[x]")).discovery
+    assert found.stopped == ["no state was found at which the Lagrangian is real"]
+    known = summary(found)
+    assert (known.independent, known.in_involution, known.integrable) == (None, None, None)
