@@ -14,6 +14,7 @@ import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 from lagcli.graph.nodes import Symbol
 from lagcli.numerics.arithmetic import Doubles
@@ -103,8 +104,19 @@ def fast(times: Sequence[float]) -> list[float]:
     return [*(t * (1 + _EPSILON) for t in times[:-1]), times[-1]]
 
 
+#: Those of modes that are still there: an ensemble runs the same ones many times.
+_OTHERS: WeakKeyDictionary[Modes, tuple[Simulation, Modes | None]] = WeakKeyDictionary()
+
+
 def other_parameters(simulation: Simulation, modes: Modes) -> Modes | None:
     """The same modes with parameters beside those of the file; None where all are exact."""
+    known = _OTHERS.get(modes)
+    if known is None or known[0] is not simulation:
+        known = _OTHERS[modes] = simulation, _other_parameters(simulation, modes)
+    return known[1]
+
+
+def _other_parameters(simulation: Simulation, modes: Modes) -> Modes | None:
     arithmetic = BesideDoubles(exact=not simulation.equations.rows)
     try:
         constants: Mapping[Symbol, Any] = constants_of(

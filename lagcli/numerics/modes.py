@@ -166,6 +166,7 @@ class Modes:
         first = Mode(other, *self.first.key)
         first.motion = self.first.motion
         first.conserved = self.first.conserved
+        first.tabulate, first.sizes = self.first.tabulate, self.first.sizes
         other._known[first.key] = first
         return other
 

@@ -34,6 +34,7 @@ from tests.bench import (
     long_rows,
     motion_rows,
     scaling,
+    sweep_rows,
     verification_rows,
 )
 from tests.bench.compare import compare
@@ -42,7 +43,7 @@ from tests.bench.measure import ROOT, Row, show
 #: What `--only` takes; without it the first three are measured.
 PARTS = (
     "commands", "scaling", "library", "discovery", "motions", "integration", "auto", "cut", "certificate",
-    "form", "verification",
+    "form", "verification", "sweep",
 )  # fmt: skip
 _USUAL = PARTS[:3]
 
@@ -139,6 +140,8 @@ def _measure(part: str, run: Run, arguments: argparse.Namespace) -> None:
             run.take(cut_rows.rows())
         case "form":
             run.take(form.rows(form.of_library(), listed=True))
+        case "sweep":
+            run.take(sweep_rows.rows())
         case "certificate":
             run.take(certificate.rows(certificate.study([], 2, arguments.cap, None)))
 
