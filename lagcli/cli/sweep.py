@@ -32,6 +32,14 @@ Jobs = Annotated[
     int | None,
     typer.Option("--jobs", "-j", metavar="N", min=1, help="Processes.  [default: one per core]"),
 ]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="Run on the workers of a Dask cluster: tcp://host:8786.",
+    ),
+]
 
 
 def sweep(
@@ -50,6 +58,7 @@ def sweep(
     format_name: Format = None,
     output: Output = None,
     jobs: Jobs = None,
+    scheduler: Scheduler = None,
 ) -> int:
     """Compute an ensemble of motions over parameters and initial states.
 
@@ -66,6 +75,7 @@ def sweep(
       lagcli sweep plane-pendulum --vary theta=0.1:3:30 --until 10 --show theta,energy
       lagcli sweep plane-pendulum --vary l=0.5,1,2 --vary theta=0.1:3:300 -o swings.parquet
       lagcli sweep kepler --random 1000 --seed 7 --vary "y'=0.5:1.2" -o orbits.csv
+      lagcli sweep kepler --vary "y'=0.5:1.2:900" -o o.csv --scheduler tcp://host:8786
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import TABLES, format_of
     from lagcli.cli.simulating import Wish
@@ -87,4 +97,5 @@ def sweep(
         stop_when=None,
         whole=False,
     )
-    return sweep_file(wish, tuple(vary or ()), random, seed, along=along, jobs=jobs)
+    drawn = tuple(vary or ()), random, seed
+    return sweep_file(wish, *drawn, along=along, jobs=jobs, scheduler=scheduler)

@@ -16,10 +16,18 @@ from lagcli.numerics.asked import Asked
 from lagcli.problem import Problem
 from lagcli.sweep import WRITERS, Plan, WrongPlan, plan_of, sweep
 from lagcli.sweep.journal import Journal
+from lagcli.sweep.workers import NoCluster
 
 
 def sweep_file(
-    wish: Wish, vary: Sequence[str], random: int | None, seed: int, *, along: bool, jobs: int | None
+    wish: Wish,
+    vary: Sequence[str],
+    random: int | None,
+    seed: int,
+    *,
+    along: bool,
+    jobs: int | None,
+    scheduler: str | None,
 ) -> Status:
     """Run, write, and say how it ended."""
     known = is_known("--format", wish.format_name, TABLES)
@@ -38,11 +46,15 @@ def sweep_file(
     with Journal(wish.output, digest) as journal:
         if journal.done:
             tell_line(f"{wish.output}: going on after {len(journal.done)} finished parts")
-        with counted("sweeping") as progress:
-            table = sweep(
-                problem, asked, plan, journal,
-                along=along, jobs=jobs or cores(), progress=progress,
-            )  # fmt: skip
+        try:
+            with counted("sweeping") as progress:
+                table = sweep(
+                    problem, asked, plan, journal,
+                    along=along, jobs=jobs or cores(), scheduler=scheduler, progress=progress,
+                )  # fmt: skip
+        except NoCluster as reason:
+            tell_line(f"lagcli: error: {reason}")
+            return _without_cluster(wish, journal)
         if not place(WRITERS[wish.format_name](table), wish.output):
             return Status.USAGE
         journal.remove()
@@ -51,6 +63,16 @@ def sweep_file(
         tell_line(f"{wish.file}: {missed} of {len(table.rows)} rows do not reach the accuracy")
         return Status.NOT_FOUND
     return Status.WELL
+
+
+def _without_cluster(wish: Wish, journal: Journal) -> Status:
+    """What is there for the next call, when the scheduler was lost or never found."""
+    if not journal.done:
+        journal.remove()
+        return Status.USAGE
+    if wish.output is not None:
+        tell_line(f"{wish.output}: give the same command again to go on where this one ended")
+    return Status.NOT_FOUND
 
 
 def _options(

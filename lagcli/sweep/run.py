@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import multiprocessing
-import signal
-import sys
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from functools import partial
 from itertools import islice
 
 from lagcli.numerics.asked import Asked
@@ -15,11 +12,11 @@ from lagcli.sweep.journal import Journal
 from lagcli.sweep.members import Member, Row, rows_of
 from lagcli.sweep.plan import Plan
 from lagcli.sweep.table import KNOWN, Table
+from lagcli.sweep.workers import cluster, cores, in_order_of_arrival, one_at_a_time
 
-#: Members of a chunk: enough to share the machine code, few enough to lose little.
-_CHUNK = 100
-#: Chunks that wait for a process, for each process.
-_AHEAD = 4
+#: Members of a chunk at least, and chunks at most: a chunk makes its machine code anew (some
+#: 40 ms of CPU time, as ten members take), and it is what is lost when a run is killed.
+_CHUNK, _CHUNKS = 100, 64
 
 Progress = Callable[[float, float], None]
 
@@ -32,6 +29,7 @@ def sweep(
     *,
     along: bool = False,
     jobs: int = 1,
+    scheduler: str | None = None,
     progress: Progress | None = None,
 ) -> Table:
     """Run every member.
@@ -49,6 +47,8 @@ def sweep(
         Every row of each motion; otherwise its end.
     jobs : int
         Processes.
+    scheduler : str, optional
+        The address of a Dask scheduler, whose workers run the members instead.
     progress : function, optional
         Told how many of how many chunks are done.
 
@@ -56,53 +56,42 @@ def sweep(
     -------
     Table
         In the order of the plan, whatever ended first.
+
+    Raises
+    ------
+    NoCluster
+        When the scheduler cannot be reached, or was lost; what was finished is in the journal.
     """
     columns = (*plan.columns, *(column.name for column in asked.columns), *KNOWN)
     chunks = list(_chunks(plan))
-    todo = [(k, chunk) for k, chunk in enumerate(chunks) if k not in journal.done]
-    for k, rows in _made(problem, asked, plan.names, todo, along=along, jobs=jobs):
-        journal.keep(k, rows)
+    todo = [k for k in range(len(chunks)) if k not in journal.done]
+    make = partial(rows_of, problem, asked, plan.names, along=along)
+    for place, rows in _made(make, [chunks[k] for k in todo], jobs, scheduler):
+        journal.keep(todo[place], rows)
         if progress is not None:
             progress(len(journal.done), len(chunks))
     made = [tuple(row) for k in range(len(chunks)) for row in journal.done[k]]
     return Table(columns=columns, rows=tuple(made), varied=plan.columns)
 
 
-def _chunks(plan: Plan) -> Iterator[list[tuple[float, ...]]]:
+def _chunks(plan: Plan) -> Iterator[Sequence[Member]]:
     members = plan.members()
-    size = max(1, min(_CHUNK, plan.count // 8))
+    size = max(1, min(max(_CHUNK, plan.count // _CHUNKS), plan.count // 8))
     while chunk := list(islice(members, size)):
         yield chunk
 
 
 def _made(
-    problem: Problem,
-    asked: Asked,
-    names: Sequence[str],
-    todo: Sequence[tuple[int, Sequence[Member]]],
-    *,
-    along: bool,
+    make: Callable[[Sequence[Member]], list[Row]],
+    parts: Sequence[Sequence[Member]],
     jobs: int,
+    scheduler: str | None,
 ) -> Iterator[tuple[int, list[Row]]]:
-    if jobs == 1 or len(todo) < 2:
-        for k, chunk in todo:
-            yield k, rows_of(problem, asked, names, chunk, along=along)
-        return
-    kind = "fork" if sys.platform == "linux" else "spawn"
-    context = multiprocessing.get_context(kind)
-    waiting = iter(todo)
-    with ProcessPoolExecutor(jobs, mp_context=context, initializer=_leave_signals) as pool:
-        running: dict[Future[list[Row]], int] = {}
-        while True:
-            for k, chunk in islice(waiting, max(0, _AHEAD * jobs - len(running))):
-                running[pool.submit(rows_of, problem, asked, names, chunk, along=along)] = k
-            if not running:
-                return
-            done, _ = wait(running, return_when=FIRST_COMPLETED)
-            for future in done:
-                yield running.pop(future), future.result()
-
-
-def _leave_signals() -> None:
-    """Ctrl-C is the parent's to answer."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if scheduler is not None:
+        with cluster(scheduler) as (workers, count):
+            yield from in_order_of_arrival(partial(one_at_a_time, make), parts, workers, count)
+    elif jobs == 1 or len(parts) < 2:
+        yield from ((place, make(part)) for place, part in enumerate(parts))
+    else:
+        with cores(jobs) as pool:
+            yield from in_order_of_arrival(make, parts, pool, jobs)

@@ -15,7 +15,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -50,6 +50,7 @@ def rows(members: int = 10_000) -> Iterator[Row]:
         problem.write_text(PROBLEM, encoding="utf-8")
         ours, wall, cpu = _swept(problem, members, _ACCURACY)
         true, *_ = _swept(problem, members, 1e-13, _SOME)
+        through = _on_cluster(problem, members)
     some = ours[:_SOME]
     assert [row[:2] for row in some] == [row[:2] for row in true]
     error = _within(_errors([row[3:5] for row in some], true))
@@ -62,17 +63,31 @@ def rows(members: int = 10_000) -> Iterator[Row]:
     )
     yield Row(bar, each / wall, "times", 20, at_least=True, note=note)
     cores = os.cpu_count() or 1
+    name = "the same through Dask, two workers, to without"
+    yield Row(name, None if through is None else through / wall, "times", 1.3)
     yield Row(f"the same by CPU time, on {cores} cores", theirs_cpu / cpu * cores, "times")
 
 
+def _on_cluster(problem: Path, members: int) -> float | None:
+    """The wall time through two local workers; None without Dask."""
+    try:
+        from distributed import LocalCluster
+    except ImportError:
+        return None
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
+    with LocalCluster(**options) as cluster:
+        there = ("--scheduler", cluster.scheduler_address)
+        return _swept(problem, members, _ACCURACY, options=there)[1]
+
+
 def _swept(
-    problem: Path, members: int, accuracy: float, first: int = 0
+    problem: Path, members: int, accuracy: float, first: int = 0, options: Sequence[str] = ()
 ) -> tuple[Table, float, float]:
     """The rows of the sweep, its wall time and its CPU time; only the first members where given."""
     output = problem.with_suffix(".csv")
     command = [sys.executable, "-m", "lagcli", "sweep", str(problem), "--until", "10"]
     command += ["--vary", "a=0.1:2", "--vary", "b=0.1:2", "--random", str(first or members)]
-    command += ["--accuracy", str(accuracy), "--show", "a,b", "-o", str(output)]
+    command += ["--accuracy", str(accuracy), "--show", "a,b", "-o", str(output), *options]
     begin = time.perf_counter()
     run = cost(command, good=(0, 1))
     wall = time.perf_counter() - begin
