@@ -27,6 +27,7 @@ from lagcli.expression import (
 )
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt, rewritten
+from lagcli.statements.registry import in_order
 
 #: Operations beyond which a formula is not written out: it would fill some thirty pages.
 MOST_OPERATIONS = 100_000
@@ -38,13 +39,11 @@ _OFTEN = 3
 #: Occurrences from which a sine or cosine of a difference is named.
 _CIRCULAR = 4
 _MOST_NAMES = 12
-#: Whose rows have abbreviations in common.
-_SECTIONS = ("accelerations", "multipliers", "constraint_forces", "hamiltonian")
 
 
 def abbreviated(answers: Answers, taken: Collection[str]) -> Answers:
     """The answers with names for what recurs in long accelerations, multipliers, Hamiltonians."""
-    given = [name for name in _SECTIONS if name in answers.sections]
+    given = [each.name for each in in_order(answers.sections) if each.abbreviated]
     trees = [tree for name in given for tree in _trees(answers.sections[name])]
     if answers.where or not any(operation_count(tree) > LONG for tree in trees):
         return answers

@@ -8,63 +8,17 @@ in `Answers.sections`; an answer that does not exist or was not found is None.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal
+from typing import Any, Literal
 
 from lagcli.expression import Expression
-from lagcli.forces import ForcesSection
 from lagcli.motions import (
     Above,
-    HamiltonJacobiSection,
     Irreducible,
     OneFreedom,
-    SteadySection,
     Verdict,
 )
-from lagcli.phase_space import BracketsSection, TransformationsSection
-from lagcli.questions import FindSection
 from lagcli.record import field, record
 from lagcli.units import Unit
-
-#: The sections, in the order in which they are printed.
-SECTIONS = (
-    "lagrangian",
-    "equations",
-    "matrix_form",
-    "accelerations",
-    "multipliers",
-    "constraint_forces",
-    "forces",
-    "momenta",
-    "energy",
-    "hamiltonian",
-    "canonical_equations",
-    "brackets",
-    "canonical",
-    "charges",
-    "discovered",
-    "algebra",
-    "find",
-    "equilibria",
-    "modes",
-    "reduction",
-    "steady_motions",
-    "hamilton_jacobi",
-    "model",
-    "dimensions",
-)
-
-#: What `lagcli solve` prints unasked (`find` where the file asks).
-DEFAULT_SECTIONS = (
-    "lagrangian",
-    "equations",
-    "accelerations",
-    "multipliers",
-    "constraint_forces",
-    "momenta",
-    "energy",
-    "charges",
-    "find",
-)
 
 #: How an answer was checked before it was printed: "exact", or at 50 digits.
 Verification = Literal["exact", "50 digits"]
@@ -387,31 +341,8 @@ class DimensionsSection:
     charges: Mapping[str, QuantityUnit]
 
 
-Section = (
-    LagrangianSection
-    | EquationsSection
-    | MatrixFormSection
-    | AccelerationsSection
-    | MultipliersSection
-    | ConstraintForcesSection
-    | ForcesSection
-    | MomentaSection
-    | EnergySection
-    | HamiltonianSection
-    | CanonicalSection
-    | BracketsSection
-    | TransformationsSection
-    | ChargesSection
-    | AlgebraSection
-    | FindSection
-    | EquilibriaSection
-    | ModesSection
-    | ReductionSection
-    | SteadySection
-    | HamiltonJacobiSection
-    | ModelSection
-    | DimensionsSection
-)
+#: The statement of a section: its own record of values and expressions.
+Section = Any
 
 
 @record(kw_only=True)

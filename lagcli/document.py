@@ -1,6 +1,6 @@
 """A page before it has a notation: headings, sentences and equations in order.
 
-`formatters.sections` words the answers as such a page, `mechanics.explaining` a derivation;
+The sections word the answers as such a page, `mechanics.explaining` a derivation;
 the formatters `text`, `latex`, `markdown` and `html` set it.
 """
 

@@ -10,12 +10,6 @@ from collections.abc import Mapping
 from lagcli.document import Block
 from lagcli.record import field, record
 
-#: The sections that are told as steps when they are asked for.
-FURTHER = (
-    "find", "equilibria", "modes", "reduction", "steady_motions", "canonical_equations", "brackets",
-    "canonical", "hamilton_jacobi", "discovered", "algebra", "forces", "model", "dimensions",
-)  # fmt: skip
-
 
 @record
 class Step:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 from unicodedata import normalize
@@ -19,7 +18,7 @@ from lagcli.record import record
 if TYPE_CHECKING:
     from os import PathLike
 
-    from lagcli.answers import Answers, ModelSection, Section
+    from lagcli.answers import Answers, Section
     from lagcli.explanation import Explanation
     from lagcli.formatters import Options
     from lagcli.mechanics.derivation import Derivation
@@ -39,7 +38,7 @@ class Request:
     Attributes
     ----------
     sections : tuple of str or None
-        Out of `lagcli.answers.SECTIONS`; None for the usual ones.
+        Names of sections; None for the usual ones.
     settings : tuple of str
         Each `name=value`: what is put in for a parameter before anything is derived.
     state : tuple of str
@@ -231,7 +230,7 @@ def explain(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
         return _in_the_manner(derivation, explanation_of_large(large))
     from lagcli.mechanics.explaining.explain import explanation
 
-    told = _ended(lambda: explanation(derivation, also, {"model": _model}))
+    told = _ended(lambda: explanation(derivation, also))
     return _in_the_manner(derivation, told)
 
 
@@ -278,31 +277,14 @@ def _statements(derivation: Derivation) -> Stating:
         from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
 
         return PhaseSpaceStatements(derivation)
-    stating: Stating
     large = derivation.large_form
     if large is not None:
         from lagcli.mechanics.large_statements import LargeStatements
 
-        stating = LargeStatements(large)
-    else:
-        from lagcli.mechanics.statements import Statements
+        return LargeStatements(large)
+    from lagcli.mechanics.statements import Statements
 
-        stating = Statements(derivation)
-    stating.others["model"] = partial(_model, stating)
-    return stating
-
-
-def _model(stating: Stating) -> ModelSection:
-    """What a numerical run keeps of the model."""
-    from lagcli.answers import ModelSection
-    from lagcli.numerics.model import model_section
-    from lagcli.numerics.refusal import Refusal
-
-    try:
-        return model_section(stating.problem)
-    except Refusal as refusal:
-        stating.lacks("the model of a numerical run", str(refusal))
-        return ModelSection(kept=None)
+    return Statements(derivation)
 
 
 def render(answers: Sequence[Answers], format_name: str, options: Options) -> str:
@@ -352,7 +334,7 @@ def solve(problem: Problem, sections: Sequence[str] | None = None) -> Answers:
     problem
         As `load` gives it.
     sections
-        Out of `lagcli.answers.SECTIONS`; the usual ones when None.
+        Names of sections; the usual ones when None.
 
     Raises
     ------

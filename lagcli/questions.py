@@ -39,6 +39,16 @@ class Range:
     lower_included: bool = True
     upper_included: bool = True
 
+    @property
+    def bounds(self) -> list[tuple[str, Expression]]:
+        """The bounds, each with how the unknown compares with it."""
+        bounds = []
+        if self.lower is not None:
+            bounds.append((">=" if self.lower_included else ">", self.lower))
+        if self.upper is not None:
+            bounds.append(("<=" if self.upper_included else "<", self.upper))
+        return bounds
+
 
 @record(kw_only=True)
 class Ranges:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from lagcli.answers import QuantityUnit
-from lagcli.document import Formula, Label, Row
+from lagcli.answers import QuantityUnit, Verification
+from lagcli.document import Block, Equations, Formula, Label, Paragraph, Row
 from lagcli.expression import (
     ZERO,
     Expression,
@@ -27,7 +27,43 @@ CHANGE_OF_L = "a change of L that is not a total time derivative"
 POTENTIAL = Label("U", ("eff",))
 #: A condition of more operations is not written beside the frequency that it says of.
 _LONG = 24
+#: A value with so many operations stands within a sentence.
+_SHORT = 3
+_SHORT_RELATION = 12
 _THEOREM = "(Kelvin, Tait and Chetaev)"
+_SUBSTITUTED = {"exact": "exactly", "50 digits": "at random states to 50 digits"}
+
+
+def not_found(reason: str = "") -> Paragraph:
+    """The sentence of a section whose statement was not found."""
+    return Paragraph((f"Not found{': ' + reason if reason else '.'}",))
+
+
+def one_row(left: Formula, right: Expression) -> Equations:
+    """One equation."""
+    return Equations((Row(left, right),))
+
+
+def rows_by_name(expressions: Mapping[str, Expression], primes: int = 0) -> Equations:
+    """An equation for each name."""
+    return Equations(tuple(Row(Name(name, primes), each) for name, each in expressions.items()))
+
+
+def listed(names: Iterable[str]) -> list[Part]:
+    """Names between commas."""
+    parts: list[Part] = []
+    for name in names:
+        parts += [", ", Name(name)] if parts else [Name(name)]
+    return parts
+
+
+def substituted(level: Verification | None, symbols: Iterable[str] = ()) -> Iterator[Paragraph]:
+    """How the solution was verified, for some symbols or for all."""
+    if level is not None:
+        names = listed(symbols)
+        head = (*names, " substituted") if names else ("Substituted",)
+        how = f" into the equations of motion: verified {_SUBSTITUTED[level]}."
+        yield Paragraph((*head, how))
 
 
 def conditions(where: Sequence[Above]) -> list[Part]:
@@ -77,6 +113,26 @@ def place_rows(
     """A state, or a family of them: what ties its coordinates, and their values."""
     ties = () if on is None else (Row(*on),)
     return (*ties, *(Row(Name(name), value) for name, value in at.items()))
+
+
+def state_blocks(
+    at: Mapping[str, Expression],
+    before: str = "",
+    on: tuple[Expression, Expression] | None = None,
+) -> Iterator[Block]:
+    """A state, or a family: on one line where its values are short, else as equations."""
+    rows = place_rows(at, on)
+    short = on is None or sum(map(operation_count, on)) <= _SHORT_RELATION
+    if short and all(operation_count(value) <= _SHORT for value in at.values()):
+        parts: list[str | Formula] = [before]
+        for position, row in enumerate(rows):
+            parts += [", " if position else "", row.left, " = ", row.right]
+        if rows:
+            yield Paragraph((*parts, ":"))
+        return
+    if before:
+        yield Paragraph((before,))
+    yield Equations(rows)
 
 
 def unit_rows(

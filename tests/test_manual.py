@@ -80,11 +80,13 @@ def test_every_page_of_the_manual_is_found_by_its_name_and_topics():
 
 
 def test_every_command_section_and_key_has_a_page():
-    from lagcli.answers import SECTIONS
     from lagcli.reader.problem_file import KEYS
+    from lagcli.statements.registry import built_in
 
     text = "".join(page.text for page in pages())
-    assert [name for name in (*SECTIONS, *KEYS) if f"`{name}`" not in text] == []
+    assert [
+        name for name in (*(each.name for each in built_in()), *KEYS) if f"`{name}`" not in text
+    ] == []
     assert [name for name in COMMANDS if f"lagcli {name}" not in text] == []
 
 

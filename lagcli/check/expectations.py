@@ -29,7 +29,6 @@ from lagcli.check.real_forces import expected_forces
 from lagcli.check.reductions import Reductions
 from lagcli.diagnostics import NOWHERE, Span
 from lagcli.expression import Expression
-from lagcli.formatters.findings import bounds_of
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.problem import NOT_CONSERVED, Expect, Inequality
@@ -288,7 +287,7 @@ class Expectations:
             return self._finding(Outcome.UNDECIDED, path, answer.note)
         verdict = same_ranges(answer.ranges, expected, self.comparison.equal)
         wanted = [[(each.comparison, each.right) for each in bounds] for bounds in expected]
-        found = [bounds_of(each) for each in answer.ranges]
+        found = [each.bounds for each in answer.ranges]
         return self._judge(path, verdict, in_words(wanted), in_words(found))
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from lagcli.expression import Expression
-from lagcli.formatters.findings import bounds_of
 from lagcli.formatters.grammar import to_grammar
 from lagcli.problem import Inequality
 from lagcli.questions import Range
@@ -19,9 +18,7 @@ def same_ranges(
     """Whether they are the same ranges in the same order, with the same ends included."""
     if len(found) != len(expected):
         return False
-    verdicts = [
-        _same(bounds_of(one), other, equal) for one, other in zip(found, expected, strict=True)
-    ]
+    verdicts = [_same(one.bounds, other, equal) for one, other in zip(found, expected, strict=True)]
     return False if False in verdicts else None if None in verdicts else True
 
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 
-from lagcli.answers import SECTIONS
 from lagcli.pipeline import Request
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
+from lagcli.statements.declaration import Declaration
+from lagcli.statements.registry import BrokenSection, find_section, in_order
+
+#: Picks the sections of these names (all of them), in order.
+Known = Callable[[Iterable[str] | None], list[Declaration]]
 
 
 @record
@@ -26,7 +30,7 @@ def asked(
     expand: bool = False,
     mistakes: list[str],
     option: str = "--show",
-    known: Sequence[str] = SECTIONS,
+    known: Known = in_order,
 ) -> Asked:
     """Read the options; a mistake in one hides none in another, nor those already found."""
     sections = _sections(show, mistakes, option, known)
@@ -41,13 +45,26 @@ def asked(
 
 
 def _sections(
-    show: Sequence[str], mistakes: list[str], option: str, known: Sequence[str]
+    show: Sequence[str],
+    mistakes: list[str],
+    option: str,
+    known: Known,
 ) -> tuple[str, ...] | None:
     if not show:
         return None
     names = [word.strip() for words in show for word in words.split(",")]
-    for name in names:
-        if name not in known:
-            advice = did_you_mean(name, known) or f"there are {', '.join(known)}"
-            mistakes.append(f"{option}: unknown section '{name}': {advice}")
-    return tuple(name for name in known if name in names)
+    picked = [each.name for each in known(names)]
+    mistakes += [f"{option}: {_unknown(name, known)}" for name in names if name not in picked]
+    return tuple(picked)
+
+
+def _unknown(name: str, known: Known) -> str:
+    try:
+        find_section(name)
+    except BrokenSection as broken:
+        return str(broken)
+    except LookupError:
+        pass
+    every = [each.name for each in known(None)]
+    advice = did_you_mean(name, every) or f"there are {', '.join(every)}"
+    return f"unknown section '{name}': {advice}"

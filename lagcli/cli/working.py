@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Generic, NamedTuple, Protocol, TypeVar
 
-from lagcli.answers import SECTIONS
-from lagcli.explanation import FURTHER
 from lagcli.formatters import Options
 from lagcli.formatters.explaining import FORMATS
 from lagcli.formatters.explaining import render as render_explanations
@@ -14,6 +12,8 @@ from lagcli.formatters.registry import UnknownFormatter, find_formatter
 from lagcli.mechanics.derivation import Derivation
 from lagcli.pipeline import Request, explain, render, state
 from lagcli.reader.suggest import did_you_mean
+from lagcli.statements.declaration import Declaration
+from lagcli.statements.registry import in_order, told_in_order
 
 
 class Complete(Protocol):
@@ -35,7 +35,7 @@ class Work(NamedTuple, Generic[Result]):
     render: Callable[[Sequence[Result], str, Options], str]
     mistakes: Callable[[str], list[str]]
     option: str = "--show"  # that picks sections
-    sections: tuple[str, ...] = SECTIONS
+    sections: Callable[[Iterable[str] | None], list[Declaration]] = in_order
 
 
 def _format_of_answers(name: str) -> list[str]:
@@ -58,6 +58,6 @@ WORKS: dict[str, Work[Any]] = {
         render_explanations,
         _format_of_explanations,
         "--also",
-        FURTHER,
+        told_in_order,
     ),
 }

@@ -23,8 +23,8 @@ from lagcli.document import (
 from lagcli.expression import Sum, operation_count
 from lagcli.formatters.mathml import MathmlPrinter, enclosed
 from lagcli.formatters.options import Options
+from lagcli.formatters.page import to_document
 from lagcli.formatters.plain import harmless
-from lagcli.formatters.sections import to_document
 from lagcli.formatters.units import mathml_unit
 from lagcli.units import Unit
 

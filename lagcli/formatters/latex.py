@@ -21,7 +21,7 @@ from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.layout import joined
 from lagcli.formatters.options import Options
-from lagcli.formatters.sections import to_document
+from lagcli.formatters.page import to_document
 
 _PREAMBLE = r"""\documentclass{article}
 \usepackage{amsmath}

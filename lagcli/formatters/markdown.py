@@ -21,8 +21,8 @@ from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.layout import joined
 from lagcli.formatters.options import Options
+from lagcli.formatters.page import to_document
 from lagcli.formatters.plain import harmless
-from lagcli.formatters.sections import to_document
 
 #: Characters that mean something to HTML or to GitHub, and those that a backslash disarms.
 _ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", "$": "&#36;", "@": "&#64;"}

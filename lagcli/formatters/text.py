@@ -31,8 +31,8 @@ from lagcli.formatters.layout import (
     width_of,
 )
 from lagcli.formatters.options import Options
+from lagcli.formatters.page import to_document
 from lagcli.formatters.plain import FIRM_SPACE, filled, harmless
-from lagcli.formatters.sections import to_document
 from lagcli.formatters.unicode import AsciiPrinter, UnicodePrinter
 from lagcli.formatters.units import unicode_unit
 from lagcli.units import Unit

@@ -115,13 +115,15 @@ def solve(
     ProblemError
         When a value does not fit, or the constraints contradict each other.
     """
-    from lagcli.answers import SECTIONS
     from lagcli.pipeline import Request, derive, state
+    from lagcli.statements.registry import every_section, in_order
 
     names = None if sections is None else tuple(sections)
-    unknown = [name for name in names or () if name not in SECTIONS]
+    known = {each.name for each in in_order(names or ())}
+    unknown = [name for name in names or () if name not in known]
     if unknown:
-        raise ValueError(f"unknown sections {unknown}: the sections are {', '.join(SECTIONS)}")
+        every = ", ".join(each.name for each in every_section())
+        raise ValueError(f"unknown sections {unknown}: the sections are {every}")
     changed = _with_values(problem, values, numeric=numeric)
     request = Request(sections=names, numeric=numeric)
     return Solution(state(derive(changed), request), changed)

@@ -6,10 +6,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import is_dataclass, replace
 from typing import Any
 
-from lagcli.answers import SECTIONS, Answers
+from lagcli.answers import Answers
 from lagcli.expression import Expression
 from lagcli.interface.formula import Formula
 from lagcli.problem import Problem
+from lagcli.statements.registry import find_section, in_order
 
 
 class Solution:
@@ -42,7 +43,7 @@ class Solution:
         return {name: self[name] for name in self}
 
     def __iter__(self) -> Iterator[str]:
-        return (name for name in SECTIONS if name in self._answers.sections)
+        return (each.name for each in in_order(self._answers.sections))
 
     def __len__(self) -> int:
         return len(self._answers.sections)
@@ -105,7 +106,8 @@ class Part:
         self._value = value
         self._problem = problem
         self._page = page
-        self._content = getattr(value, _CONTENT.get(name, name), None) if name else None
+        content = find_section(name).content or name if name else ""
+        self._content = getattr(value, content, None) if name else None
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or not hasattr(self._value, name):
@@ -156,13 +158,6 @@ class Part:
 
     def _repr_html_(self) -> str | None:
         return None if self._page is None else _rendered(self._page, "html")
-
-
-#: Sections whose content has another name than the section.
-_CONTENT = {
-    "constraint_forces": "forces", "canonical_equations": "equations", "discovered": "charges",
-    "find": "answers", "steady_motions": "motions",
-}  # fmt: skip
 
 
 def wrapped(value: Any, problem: Problem) -> Any:

@@ -2,28 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
+from typing import Any
 
 from sympy import Expr
 
 from lagcli.algebra import shape
-from lagcli.answers import (
-    CanonicalPair,
-    CanonicalSection,
-    HamiltonianSection,
-    LagrangianSection,
-    Section,
-)
+from lagcli.answers import Section
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.expression import Expression
-from lagcli.mechanics.canonical.statement import PhaseSpace
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.hamiltonian import GivenHamiltonian
 from lagcli.mechanics.stating import Stating
-from lagcli.phase_space import (
-    BracketsSection,
-    TransformationsSection,
-)
+from lagcli.statements.declaration import Declaration
+from lagcli.statements.registry import in_order
 
 
 class PhaseSpaceStatements(Stating):
@@ -41,14 +33,14 @@ class PhaseSpaceStatements(Stating):
         found = derivation.hamiltonian
         assert isinstance(found, GivenHamiltonian)
         self.hamiltonian = found
-        self._phase_space = PhaseSpace(derivation)
+        self.derivation = derivation
         if self.problem.constraints:
             raise ProblemError(
                 self.problem.source,
                 tuple(
                     Diagnostic(
                         f"the constraint '{each.name}' cannot be used: H gives no Lagrangian; "
-                        f"{self._why_missing}",
+                        f"{self.why_missing}",
                         each.equation.span,
                         "its multiplier follows from a Lagrangian",
                     )
@@ -56,16 +48,9 @@ class PhaseSpaceStatements(Stating):
                 ),
             )
 
-    @property
-    def makers(self) -> Mapping[str, Callable[[], Section]]:
-        """What makes each section, by its name."""
-        return {
-            "lagrangian": self._lagrangian,
-            "hamiltonian": self._hamiltonian,
-            "canonical_equations": self._canonical_equations,
-            "brackets": self._brackets,
-            "canonical": self._canonical,
-        }
+    def maker(self, declared: Declaration) -> Callable[[Any], Section] | None:
+        """The derivation of a section from H, if it has one."""
+        return declared.phase_space
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -73,29 +58,8 @@ class PhaseSpaceStatements(Stating):
         return len(self.problem.coordinates)
 
     def _usual(self) -> list[str]:
-        return ["lagrangian", *self._asked_by_file()]
+        return [each.name for each in in_order(super()._usual()) if self.maker(each) is not None]
 
-    def _as_written(self, expression: Expr) -> Expression:
+    def as_written(self, expression: Expr) -> Expression:
+        """Readable."""
         return shape(expression, self.hamiltonian.system.order)
-
-    def _lagrangian(self) -> LagrangianSection:
-        self._missing("the Lagrangian")
-        return LagrangianSection(lagrangian=None)
-
-    def _hamiltonian(self) -> HamiltonianSection:
-        return HamiltonianSection(hamiltonian=self._as_written(self.hamiltonian.function))
-
-    def _canonical_equations(self) -> CanonicalSection:
-        names = (coordinate.name for coordinate in self.problem.coordinates)
-        return CanonicalSection(
-            equations={
-                name: CanonicalPair(q=self._as_written(q), p=self._as_written(p))
-                for name, (q, p) in zip(names, self.hamiltonian.canonical_equations, strict=True)
-            }
-        )
-
-    def _brackets(self) -> BracketsSection:
-        return self._of_phase_space(self._phase_space, PhaseSpace.brackets)
-
-    def _canonical(self) -> TransformationsSection:
-        return self._of_phase_space(self._phase_space, PhaseSpace.transformations)

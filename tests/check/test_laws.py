@@ -12,8 +12,8 @@ from lagcli.check.laws import SECTIONS, Laws
 from lagcli.check.one import check_problem
 from lagcli.effort import OutOfWork
 from lagcli.expression import Negative, Number, Product
-from lagcli.mechanics.statements import Statements
 from lagcli.pipeline import Request, derive, read, state
+from lagcli.sections import charges as room
 
 PENDULUM = b"""\
 coordinates: [x, y]
@@ -81,6 +81,6 @@ def test_a_section_that_could_not_be_made_is_not_called_wrong(monkeypatch, error
     def fails(_self):
         raise error
 
-    monkeypatch.setattr(Statements, "_charges", fails)
+    monkeypatch.setattr(room, "SECTION", replace(room.SECTION, derive=fails))
     [finding] = check_problem("pendulum.yaml", PENDULUM).findings
     assert (finding.outcome, finding.subject) == (outcome, "charges")

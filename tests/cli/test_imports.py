@@ -84,7 +84,7 @@ def test_each_command_says_in_help_what_the_table_says():
 
 
 def test_the_help_names_every_section():
-    from lagcli.answers import SECTIONS
+    from lagcli.statements.registry import built_in
 
     done = subprocess.run(
         [sys.executable, "-m", "lagcli", "solve", "--help"],
@@ -93,4 +93,4 @@ def test_the_help_names_every_section():
         check=True,
     )
     words = done.stdout.replace(",", " ").replace(".", " ").split()
-    assert [name for name in SECTIONS if name not in words] == []
+    assert [each.name for each in built_in() if each.name not in words] == []

@@ -14,11 +14,11 @@ import sympy
 
 from lagcli.algebra.build import Builder
 from lagcli.document import Equations, Heading, Items, Label, Paragraph
-from lagcli.explanation import FURTHER
 from lagcli.expression import Diff, Expression, Name, Number, Power, Rate, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.pipeline import derive, explain, load
 from lagcli.rewriting import rebuilt
+from lagcli.statements.registry import told_in_order
 
 from .derived import derive as derive_text
 from .formulas import formula, normal
@@ -265,7 +265,7 @@ def also(name, *sections):
 
 def test_the_further_steps_are_told_only_when_asked_for():
     titles = [step.title for step in told("pendulums/plane-pendulum").steps]
-    more = also("pendulums/plane-pendulum", *FURTHER)
+    more = also("pendulums/plane-pendulum", *(each.name for each in told_in_order()))
     added = [step.title for step in more.steps if step.title not in titles]
     assert added == [
         "Questions",

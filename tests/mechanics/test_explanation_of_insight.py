@@ -7,12 +7,12 @@ import random
 import pytest
 
 from lagcli.document import Bracket, Label
-from lagcli.explanation import FURTHER
 from lagcli.expression import Diff, Expression, Name
 from lagcli.formatters import explaining
 from lagcli.formatters.display_width import display_width
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.options import Options
+from lagcli.statements.registry import told_in_order
 
 from .formulas import formula, normal
 from .test_explanation import also, rows, slope, value, words
@@ -111,7 +111,7 @@ def test_units_go_from_those_given_to_those_of_momenta_and_forces():
 
 @pytest.mark.parametrize("name", ["central/kepler", "contact/car-in-loop"])
 def test_every_further_step_is_set_in_every_format(name):
-    told = [also(name, *FURTHER)]
+    told = [also(name, *(each.name for each in told_in_order()))]
     for line in explaining.render(told, "text", Options(width=80)).splitlines():
         assert display_width(line) <= 80, line
     for format_name in ("markdown", "html", "json", "latex"):

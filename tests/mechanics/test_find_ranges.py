@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from lagcli.formatters.findings import bounds_of
 from lagcli.formatters.grammar import to_grammar
 from lagcli.questions import Ranges
 from tests.numerics.running import column, simulated
@@ -22,7 +21,7 @@ def found(text: str, name: str = "asked") -> list[list[tuple[str, object]]] | No
     assert isinstance(answer, Ranges)
     if answer.ranges is None:
         return None
-    return [[(how, normal(bound)) for how, bound in bounds_of(each)] for each in answer.ranges]
+    return [[(how, normal(bound)) for how, bound in each.bounds] for each in answer.ranges]
 
 
 def why(text: str, name: str = "asked") -> str:
@@ -233,7 +232,7 @@ def test_a_run_keeps_the_contact_inside_and_loses_it_outside(
     for setting, expected in [*((s, True) for s in kept), *((s, False) for s in lost)]:
         number = float(setting.split("=")[1])
         inside = any(
-            all(_holds(number, how, to_grammar(bound), values) for how, bound in bounds_of(each))
+            all(_holds(number, how, to_grammar(bound), values) for how, bound in each.bounds)
             for each in answer.ranges or ()
         )
         run = simulated(plain, 6.0, settings=(setting,), samples=3)

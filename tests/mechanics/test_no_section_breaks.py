@@ -8,7 +8,7 @@ import random
 import jsonschema
 import pytest
 
-from lagcli.answers import SECTIONS, Answers
+from lagcli.answers import Answers
 from lagcli.effort import EFFORT
 from lagcli.formatters import Options
 from lagcli.formatters.schema import answers_schema
@@ -16,6 +16,9 @@ from lagcli.mechanics import stating
 from lagcli.mechanics.statements import Statements
 from lagcli.pipeline import Request, derive, read, render, state
 from lagcli.reader import parse_text
+from lagcli.record import replace
+from lagcli.sections import energy, equilibria
+from lagcli.statements.registry import built_in
 
 HEAD = """
 coordinates: [x, y]
@@ -24,7 +27,7 @@ T: m*(x'^2 + y'^2)/2
 """
 #: Everything but what searches, and what begins with the same search for equilibria.
 SLOW = {"discovered", "algebra", "modes", "steady_motions"}
-QUICK = [s for s in SECTIONS if s not in SLOW]
+QUICK = [s for s in (each.name for each in built_in()) if s not in SLOW]
 
 
 def answers(text: str, sections: list[str]) -> Answers:
@@ -119,7 +122,7 @@ def test_a_section_that_is_broken_leaves_the_others(monkeypatch: pytest.MonkeyPa
     def broken(_self: Statements) -> None:
         raise ZeroDivisionError("of a test")
 
-    monkeypatch.setattr(Statements, "_energy", broken)
+    monkeypatch.setattr(energy, "SECTION", replace(energy.SECTION, derive=broken))
     found = answers(f"{HEAD}V: k*x^2/2\n", ["momenta", "energy", "charges"])
     assert list(found.sections) == ["momenta", "charges"]
     assert (found.absent, found.complete) == (("energy",), False)
@@ -138,7 +141,7 @@ def test_a_section_that_takes_too_much_work_is_null(monkeypatch: pytest.MonkeyPa
         while True:
             EFFORT.fractions += 1
 
-    monkeypatch.setattr(Statements, "_equilibria", endless)
+    monkeypatch.setattr(equilibria, "SECTION", replace(equilibria.SECTION, derive=endless))
     monkeypatch.setattr(stating, "UNITS", 100_000)
     found = answers(f"{HEAD}V: k*x^2/2\n", ["momenta", "equilibria"])
     assert (list(found.sections), found.absent) == (["momenta"], ("equilibria",))

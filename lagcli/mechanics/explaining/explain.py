@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from lagcli.explanation import Explanation, Step
 from lagcli.mechanics.derivation import Derivation
@@ -16,13 +15,8 @@ from lagcli.mechanics.explaining.large import UNSOLVED
 from lagcli.mechanics.explaining.scene import scene
 from lagcli.mechanics.explaining.teller import Teller
 
-if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.further import Others
 
-
-def explanation(
-    derivation: Derivation, also: Sequence[str] = (), others: Others | None = None
-) -> Explanation:
+def explanation(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
     """The derivation as a teacher writes it.
 
     Parameters
@@ -30,9 +24,7 @@ def explanation(
     derivation
         That of a system of readable size; for a large one see `large`.
     also
-        Out of `lagcli.explanation.FURTHER`, explained after the rest.
-    others
-        Makers of sections that do not belong to mechanics, by name.
+        Names of sections that have a step, explained after the rest.
 
     Raises
     ------
@@ -64,7 +56,7 @@ def explanation(
     if also:
         from lagcli.mechanics.explaining.further import further
 
-        more, unfound = further(teller, also, others or {})
+        more, unfound = further(teller, also)
         steps += more
         missing = (*missing, *unfound)
     quantities = (*problem.coordinates, *problem.parameters)

@@ -2,47 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from fractions import Fraction
-from functools import partial
+from collections.abc import Iterator, Mapping, Sequence
 from typing import cast
 
 from lagcli.answers import EquilibriaSection, Section
 from lagcli.document import Block, Equations, Heading, Row
 from lagcli.explanation import Step
-from lagcli.expression import ZERO, Expression, Number
-from lagcli.mechanics.explaining import phase_space, quantities, symmetries
-from lagcli.mechanics.explaining.oscillations import oscillations
-from lagcli.mechanics.explaining.questions import questions
-from lagcli.mechanics.explaining.real_forces import real_forces
-from lagcli.mechanics.explaining.reduction import reduction
-from lagcli.mechanics.explaining.steady import steady
+from lagcli.expression import ZERO, Expression
 from lagcli.mechanics.explaining.teller import Teller
-from lagcli.mechanics.explaining.transformations import transformations
 from lagcli.mechanics.explaining.words import names, says
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC
 from lagcli.mechanics.statements import Statements
-from lagcli.mechanics.stating import Stating
+from lagcli.statements.registry import find_section
 from lagcli.wording import conditions as inequalities
 from lagcli.wording import holding, place_rows, stability
 
-Others = Mapping[str, Callable[[Stating], Section]]
 
-_SQUARE = Number(Fraction(2))
-
-
-def further(teller: Teller, also: Sequence[str], others: Others) -> tuple[list[Step], list[str]]:
-    """The steps of these sections, and what was not found on the way.
-
-    `others` makes sections that do not belong to mechanics.
-    """
+def further(teller: Teller, also: Sequence[str]) -> tuple[list[Step], list[str]]:
+    """The steps of these sections, and what was not found on the way."""
     statements = Statements(teller.derivation)
-    statements.others.update({name: partial(make, statements) for name, make in others.items()})
     steps = []
     for name in also:
-        title, explain = _STEPS[name]
+        told = find_section(name).told
+        if told is None:
+            raise LookupError(f"the section '{name}' has no step in an explanation")
         section = statements.answers([name]).sections[name]
-        steps.append(Step(title, tuple(explain(teller, section))))
+        steps.append(Step(told.title, tuple(told.blocks(teller, section))))
     missing = [each for each in statements.warnings if not each.endswith(ALL_CYCLIC)]
     return steps, list(dict.fromkeys(missing))
 
@@ -50,7 +35,8 @@ def further(teller: Teller, also: Sequence[str], others: Others) -> tuple[list[S
 # -- equilibria ------------------------------------------------------------------------------------
 
 
-def _equilibria(teller: Teller, section: Section) -> Iterator[Block]:
+def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
+    """The conditions of rest, then each equilibrium with its stability."""
     from lagcli.mechanics.oscillations.equilibria import RestPoints
 
     states = cast(EquilibriaSection, section)
@@ -99,21 +85,3 @@ def _state(
     at: Mapping[str, Expression], on: tuple[Expression, Expression] | None = None
 ) -> Equations:
     return Equations(place_rows(at, on))
-
-
-_STEPS: Mapping[str, tuple[str, Callable[[Teller, Section], Iterator[Block]]]] = {
-    "find": ("Questions", questions),
-    "equilibria": ("Equilibria", _equilibria),
-    "modes": ("Small oscillations", oscillations),
-    "reduction": ("The reduction", reduction),
-    "steady_motions": ("Steady motions", steady),
-    "canonical_equations": ("Canonical equations", phase_space.canonical_equations),
-    "brackets": ("Poisson brackets", phase_space.brackets),
-    "canonical": ("Canonical transformations", transformations),
-    "hamilton_jacobi": ("The Hamilton-Jacobi equation", phase_space.hamilton_jacobi),
-    "discovered": ("Discovered symmetries", symmetries.discovered),
-    "algebra": ("The algebra of the symmetries", symmetries.algebra),
-    "forces": ("Forces", real_forces),
-    "model": ("The model of a numerical run", quantities.model),
-    "dimensions": ("Units", quantities.dimensions),
-}

@@ -1,49 +1,42 @@
-"""The wording of Poisson brackets and of canonical transformations."""
+"""Canonical transformations."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
+from lagcli.answers import Answers
 from lagcli.document import Block, Bracket, Equations, Formula, Heading, Label, Paragraph, Row
 from lagcli.expression import Name, Number
+from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.json_values import Object, by_name, string, unless_none
 from lagcli.phase_space import (
-    BracketsSection,
     ExaminedTransformation,
     GeneratingFunction,
     TransformationsSection,
 )
+from lagcli.problem import Problem
+from lagcli.statements.declaration import Declaration, Told
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.explaining.teller import Teller
+    from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
+    from lagcli.mechanics.statements import Statements
 
 _CHECKED = {"exact": "checked exactly", "50 digits": "checked at random states to 50 digits"}
 _ONE = Number(Fraction(1))
 
 
-def bracket_blocks(section: BracketsSection) -> Iterator[Block]:
-    """Say the observables, their brackets and their rates."""
-    if section.observables:
-        yield Equations(tuple(Row(Name(name), f) for name, f in section.observables.items()))
-    yield Paragraph(("Poisson brackets, with the sign of {q, p} = 1:",))
-    rows = []
-    for each in section.brackets:
-        left = Bracket(each.left, each.right)
-        if each.value is None:
-            yield Paragraph((f"{each.name}: not found.",))
-        elif each.named is None:
-            rows.append(Row(left, each.value))
-        else:
-            rows.append(Row(left, each.named))
-    if rows:
-        yield Equations(tuple(rows))
-    elif not section.brackets:
-        yield Paragraph(("None: the file names no observables and no pairs.",))
-    if section.rates:
-        yield Paragraph(("Rates on the motion, from the brackets with H:",))
-        yield Equations(tuple(Row(Name(name, 1), value) for name, value in section.rates.items()))
-    elif section.reason:
-        yield Paragraph((f"No rates: {section.reason}.",))
+def derive(statements: Statements | PhaseSpaceStatements) -> TransformationsSection:
+    """Each transformation of the file, tested by its brackets."""
+    from lagcli.mechanics.canonical.statement import PhaseSpace
+
+    phase = PhaseSpace(statements.derivation)
+    return statements.noted((phase.transformations(), phase.missing))
 
 
-def transformation_blocks(section: TransformationsSection) -> Iterator[Block]:
+def blocks(section: TransformationsSection, _: Answers) -> Iterator[Block]:
     """Say of each transformation whether it is canonical, what generates it, and K."""
     if not section.transformations:
         yield Paragraph(("The file gives no transformation.",))
@@ -117,3 +110,65 @@ def _generator(generator: GeneratingFunction, each: ExaminedTransformation) -> I
             )
         )
         yield Equations(tuple(Row(left, right) for left, right in generator.failing))
+
+
+def json(section: TransformationsSection) -> Object:
+    """The verdict on each transformation."""
+    return {"canonical": [_transformation(each) for each in section.transformations]}
+
+
+def _transformation(each: ExaminedTransformation) -> Object:
+    return {
+        "name": each.name,
+        "variables": by_name(each.variables),
+        "kind": each.kind,
+        "valence": string(each.valence),
+        "failing": [
+            {
+                "left": bracket.left,
+                "right": bracket.right,
+                "value": string(bracket.value),
+                "expected": string(bracket.expected),
+            }
+            for bracket in each.failing
+        ],
+        "generator": unless_none(each.generator, _function),
+        "hamiltonian": string(each.hamiltonian),
+        "reason": each.reason,
+    }
+
+
+def _function(generator: GeneratingFunction) -> Object:
+    return {
+        "kind": generator.kind,
+        "function": string(generator.function),
+        "generates": generator.generates,
+        "failing": [
+            f"{to_grammar(left)} = {to_grammar(right)}" for left, right in generator.failing
+        ],
+    }
+
+
+def given(problem: Problem) -> bool:
+    """Whether the file gives a transformation."""
+    return bool(problem.canonical_transformations)
+
+
+def tell(teller: Teller, section: TransformationsSection) -> Iterator[Block]:
+    """The brackets one by one."""
+    from lagcli.mechanics.explaining.transformations import transformations
+
+    return transformations(teller, section)
+
+
+SECTION = Declaration(
+    name="canonical",
+    heading="Canonical transformations",
+    order=130,
+    derive=derive,
+    blocks=blocks,
+    json=json,
+    phase_space=derive,
+    unasked=given,
+    told=Told(title="Canonical transformations", blocks=tell, order=80),
+)

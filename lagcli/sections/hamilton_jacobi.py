@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
+from lagcli.answers import Answers
 from lagcli.document import (
     Block,
     Equations,
@@ -14,8 +16,14 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Expression, Name, Negative, Product
+from lagcli.formatters.json_values import Object, by_name, inequalities, string, unless_none
 from lagcli.motions import ActionPart, HamiltonJacobiSection
-from lagcli.wording import conditions
+from lagcli.statements.declaration import Declaration, Told
+from lagcli.wording import conditions, listed, not_found
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.explaining.teller import Teller
+    from lagcli.mechanics.statements import Statements
 
 _NAMED = {
     True: "It separates in these coordinates",
@@ -24,10 +32,17 @@ _NAMED = {
 }
 
 
-def hamilton_jacobi_blocks(section: HamiltonJacobiSection) -> Iterator[Block]:
+def derive(statements: Statements) -> HamiltonJacobiSection:
+    """By separation in the coordinates given, or for forces of the time alone."""
+    from lagcli.mechanics.reduction.separation_statement import hamilton_jacobi
+
+    return statements.noted(hamilton_jacobi(statements.derivation))
+
+
+def blocks(section: HamiltonJacobiSection, _: Answers) -> Iterator[Block]:
     """Say the equation, whether it separates, and the parts of S."""
     if section.hamiltonian is None:
-        yield Paragraph((f"Not found: {section.reason}.",))
+        yield not_found(f"{section.reason}.")
         return
     if section.time_rate is not None:
         yield from _driven(section, section.time_rate)
@@ -43,7 +58,7 @@ def hamilton_jacobi_blocks(section: HamiltonJacobiSection) -> Iterator[Block]:
     yield Paragraph((*parts, "."))
     if section.derivatives is None:
         if section.reason:
-            yield Paragraph((f"Not found: {section.reason}.",))
+            yield not_found(f"{section.reason}.")
         return
     yield from _solution(section)
 
@@ -73,10 +88,7 @@ def _driven(section: HamiltonJacobiSection, rate: Expression) -> Iterator[Block]
 
 
 def _constants(section: HamiltonJacobiSection) -> Paragraph:
-    listed: list[str | Formula] = []
-    for position, constant in enumerate(section.constants):
-        listed += [", " if position else "Constants: ", Name(constant)]
-    return Paragraph((*listed, "."))
+    return Paragraph(("Constants: " if section.constants else "", *listed(section.constants), "."))
 
 
 def _solution(section: HamiltonJacobiSection) -> Iterator[Block]:
@@ -105,3 +117,55 @@ def _solution(section: HamiltonJacobiSection) -> Iterator[Block]:
         yield Equations((Row(Label("W", (name,)), each.function),))
     if section.constants:
         yield _constants(section)
+
+
+def json(section: HamiltonJacobiSection) -> Object:
+    """The equation, its test, and the parts of S."""
+    return {
+        "hamilton_jacobi": {
+            "hamiltonian": string(section.hamiltonian),
+            "separable": section.separable,
+            "obstacle": section.obstacle or None,
+            "constants": section.constants,
+            "equations": by_name(section.equations),
+            "derivatives": unless_none(section.derivatives, by_name),
+            "functions": by_name(section.functions),
+            "cases": {
+                name: [
+                    {"function": string(each.function), "where": inequalities(each.where)}
+                    for each in forms
+                ]
+                for name, forms in section.cases.items()
+            },
+            **_timed(section),
+            "reason": section.reason,
+        }
+    }
+
+
+def _timed(section: HamiltonJacobiSection) -> Object:
+    if section.time_rate is None:
+        return {}
+    return {
+        "time_rate": string(section.time_rate),
+        "of_time": string(section.of_time),
+        "integrals": by_name(section.integrals),
+    }
+
+
+def tell(teller: Teller, section: HamiltonJacobiSection) -> Iterator[Block]:
+    """From H to the parts of S."""
+    from lagcli.mechanics.explaining.phase_space import hamilton_jacobi
+
+    return hamilton_jacobi(teller, section)
+
+
+SECTION = Declaration(
+    name="hamilton_jacobi",
+    heading="Hamilton-Jacobi",
+    order=220,
+    derive=derive,
+    blocks=blocks,
+    json=json,
+    told=Told(title="The Hamilton-Jacobi equation", blocks=tell, order=90),
+)

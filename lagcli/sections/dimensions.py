@@ -1,15 +1,29 @@
-"""The wording of the units of all quantities."""
+"""The units of all quantities."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
 
-from lagcli.answers import DimensionsSection, QuantityUnit
+from lagcli.answers import Answers, DimensionsSection, QuantityUnit
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph
+from lagcli.formatters.json_values import Object, unless_none
+from lagcli.statements.declaration import Declaration, Told
 from lagcli.wording import unit_rows
 
+if TYPE_CHECKING:
+    from lagcli.mechanics.explaining.teller import Teller
+    from lagcli.mechanics.stating import Stating
 
-def dimension_blocks(section: DimensionsSection) -> Iterator[Block]:
+
+def derive(statements: Stating) -> DimensionsSection:
+    """The units that the file gives, and those that follow."""
+    from lagcli.mechanics.quantity_units import dimensions_section
+
+    return dimensions_section(statements.problem)
+
+
+def blocks(section: DimensionsSection, _: Answers) -> Iterator[Block]:
     """Say the unit of each quantity, in its kind, and which are not determined."""
     if not section.units_given:
         yield Paragraph(("The file gives no units, so nothing is checked or inferred.",))
@@ -55,3 +69,36 @@ def _part(
     if rows:
         yield Heading(heading, 2)
         yield Equations(rows)
+
+
+def json(section: DimensionsSection) -> Object:
+    """The unit of each quantity, and where it comes from."""
+    parts = ("coordinates", "parameters", "functions", "definitions", "energy", "momenta",
+             "forces", "multipliers", "charges")  # fmt: skip
+    return {"dimensions": {name: _units(getattr(section, name)) for name in parts}}
+
+
+def _units(quantities: QuantityUnit | Mapping[str, QuantityUnit]) -> Object:
+    if isinstance(quantities, QuantityUnit):
+        return {"unit": unless_none(quantities.unit, str), "source": quantities.source}
+    return {name: _units(each) for name, each in quantities.items()}
+
+
+def tell(teller: Teller, section: DimensionsSection) -> Iterator[Block]:
+    """How the units follow."""
+    from lagcli.mechanics.explaining.quantities import dimensions
+
+    return dimensions(teller, section)
+
+
+SECTION = Declaration(
+    name="dimensions",
+    heading="Dimensions",
+    order=240,
+    derive=derive,
+    blocks=blocks,
+    json=json,
+    large=derive,
+    phase_space=derive,
+    told=Told(title="Units", blocks=tell, order=140),
+)

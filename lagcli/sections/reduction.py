@@ -1,10 +1,11 @@
-"""The wording of the reduction by cyclic coordinates and of one degree of freedom."""
+"""The cyclic coordinates eliminated, and one remaining freedom by quadrature."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
-from lagcli.answers import ReductionSection
+from lagcli.answers import Answers, ReductionSection
 from lagcli.document import (
     Block,
     Equations,
@@ -15,13 +16,33 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Name
-from lagcli.formatters.findings import state_blocks
+from lagcli.formatters.json_values import (
+    Object,
+    by_name,
+    inequalities,
+    string,
+    strings,
+    unless_none,
+)
 from lagcli.letters import own
 from lagcli.motions import OneFreedom, PeriodSeries
-from lagcli.wording import POTENTIAL, conditions, irreducible
+from lagcli.sections.equations import equation_json
+from lagcli.statements.declaration import Declaration, Told
+from lagcli.wording import POTENTIAL, conditions, irreducible, state_blocks
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.explaining.teller import Teller
+    from lagcli.mechanics.statements import Statements
 
 
-def reduction_blocks(section: ReductionSection) -> Iterator[Block]:
+def derive(statements: Statements) -> ReductionSection:
+    """Routh's reduction, and the quadrature of one remaining freedom."""
+    from lagcli.mechanics.reduction.statement import reduction
+
+    return statements.noted(reduction(statements.derivation))
+
+
+def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
     """Say the Routhian, what it is made of, and the motion that is left."""
     if section.eliminated:
         names = [part for name in section.eliminated for part in (", ", Name(name))][1:]
@@ -127,3 +148,61 @@ def _period(period: PeriodSeries, coordinate: str) -> Iterator[Block]:
     yield Equations((Row(Label("T"), period.period, alike + note),))
     if period.where:
         yield Paragraph(("where ", *conditions(period.where), "."))
+
+
+def json(section: ReductionSection) -> Object:
+    """Null where there is no Routhian."""
+    return {"reduction": None if section.routhian is None else _reduced(section)}
+
+
+def _reduced(section: ReductionSection) -> Object:
+    return {
+        "momenta": by_name(section.momenta),
+        "routhian": string(section.routhian),
+        "equations": [equation_json(each) for each in section.equations],
+        "reconstruction": by_name(section.reconstruction),
+        "effective_potential": string(section.effective_potential),
+        "gyroscopic": by_name(section.gyroscopic),
+        "one_freedom": unless_none(section.one_freedom, _one_freedom_json),
+    }
+
+
+def _one_freedom_json(motion: OneFreedom) -> Object:
+    return {
+        "coordinate": motion.coordinate,
+        "constant": motion.constant,
+        "energy": string(motion.energy),
+        "turning_points": unless_none(motion.turning_points, strings),
+        "rate": string(motion.rate),
+        "periods": [_period_json(each) for each in motion.periods],
+    }
+
+
+def _period_json(period: PeriodSeries) -> Object:
+    place: Object = {"at": by_name(period.at)}
+    if period.root_of is not None:
+        place = {"root_of": string(period.root_of)}
+    return place | {
+        "amplitude": period.amplitude or None,
+        "order": period.order,
+        "period": string(period.period),
+        "where": inequalities(period.where),
+    }
+
+
+def tell(teller: Teller, section: ReductionSection) -> Iterator[Block]:
+    """From the cyclic coordinates to the reduced equations."""
+    from lagcli.mechanics.explaining.reduction import reduction
+
+    return reduction(teller, section)
+
+
+SECTION = Declaration(
+    name="reduction",
+    heading="Reduction",
+    order=200,
+    derive=derive,
+    blocks=blocks,
+    json=json,
+    told=Told(title="The reduction", blocks=tell, order=40),
+)

@@ -1,10 +1,12 @@
-"""The wording of steady motions and their stability."""
+"""Steady motions and their stability."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
+from lagcli.answers import Answers
 from lagcli.document import (
     Block,
     Equations,
@@ -16,12 +18,25 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power
+from lagcli.formatters.json_values import Object, by_name, inequalities, place, strings, unless_none
 from lagcli.letters import own
 from lagcli.motions import SteadyMotion, SteadySection
+from lagcli.statements.declaration import Declaration, Told
 from lagcli.wording import conditions, place_rows, steady_stability
 
+if TYPE_CHECKING:
+    from lagcli.mechanics.explaining.teller import Teller
+    from lagcli.mechanics.statements import Statements
 
-def steady_blocks(section: SteadySection) -> Iterator[Block]:
+
+def derive(statements: Statements) -> SteadySection:
+    """The motions of constant cyclic velocities, with their stability."""
+    from lagcli.mechanics.reduction.steady_statement import steady_motions
+
+    return statements.noted(steady_motions(statements.derivation))
+
+
+def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
     """Say the conditions, then each steady motion."""
     if section.eliminated:
         yield Paragraph(
@@ -104,3 +119,50 @@ def _linearized(motion: SteadyMotion) -> Iterator[Block]:
     )
     for letter, entries in pairs if turning else (pairs[0], pairs[2]):
         yield Matrix(Label(letter, matrix=True), entries, names, names)
+
+
+def json(section: SteadySection) -> Object:
+    """The motions; null where they were not found."""
+    found = unless_none(section.motions, lambda motions: [_motion_json(m) for m in motions])
+    return {"steady_motions": found}
+
+
+def _motion_json(motion: SteadyMotion) -> Object:
+    verdict = motion.verdict
+    return place(motion.at, motion.on) | {
+        "free": motion.free,
+        "rates": unless_none(motion.rates, by_name),
+        "momenta": by_name(motion.momenta),
+        "where": inequalities(motion.where),
+        "mirrored": motion.mirrored,
+        "stable": verdict.stable,
+        "asymptotic": verdict.asymptotic,
+        "minimum": unless_none(verdict.minimum, inequalities),
+        "hurwitz": unless_none(verdict.hurwitz, inequalities),
+        "spectrum": unless_none(verdict.spectrum, inequalities),
+        "unstable": inequalities(verdict.unstable),
+        "frequencies_squared": strings(motion.frequencies_squared),
+        "mass": [strings(row) for row in motion.mass],
+        "velocity": [strings(row) for row in motion.velocity],
+        "stiffness": [strings(row) for row in motion.stiffness],
+        "reason": verdict.reason.replace("{V}", verdict.potential),
+    }
+
+
+def tell(teller: Teller, section: SteadySection) -> Iterator[Block]:
+    """From the effective potential to the stability."""
+    from lagcli.mechanics.explaining.steady import steady
+
+    return steady(teller, section)
+
+
+SECTION = Declaration(
+    name="steady_motions",
+    heading="Steady motions",
+    order=210,
+    derive=derive,
+    blocks=blocks,
+    json=json,
+    told=Told(title="Steady motions", blocks=tell, order=50),
+    content="motions",
+)

@@ -1,0 +1,116 @@
+"""The Lie algebra of the discovered symmetries, and special values of the parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from lagcli.answers import AlgebraSection, Answers, SpecialValue
+from lagcli.document import Block, Heading, Paragraph
+from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.json_values import Object, by_name, string
+from lagcli.record import replace
+from lagcli.statements.declaration import Declaration, Told
+from lagcli.wording import rows_by_name
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.explaining.teller import Teller
+    from lagcli.mechanics.statements import Statements
+
+
+def derive(statements: Statements) -> AlgebraSection:
+    """From the brackets of the generators."""
+    from lagcli.mechanics.discovery.summary import algebra_section, summary
+
+    discovery = statements.derivation.discovery
+    found = summary(discovery)  # before the special values, which take the work that is left
+    special = tuple(
+        SpecialValue(
+            parameter=case.parameter.name,
+            value=statements.as_written(case.value),
+            number=case.number,
+            charges={c.name: statements.by_terms(c.charge) for c in case.charges},
+        )
+        for case in discovery.special
+    )
+    section = algebra_section(discovery, found, lambda: _separates(statements))
+    return replace(section, special=special)
+
+
+def _separates(statements: Statements) -> bool:
+    """Whether a complete integral of the Hamilton-Jacobi equation was found."""
+    from lagcli.mechanics.reduction.separation import Separation
+
+    separation = Separation(statements.derivation)
+    found = separation.driven or separation.separated
+    return found is not None and len(found.constants) == len(separation.system.q)
+
+
+def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
+    """The ansatz, the algebra, whether the motion is integrable, and the special values."""
+    named = f", {section.name}" if section.name else ""
+    integrable = {
+        True: "The motion is integrable.",
+        None: "Whether the motion is integrable is undecided.",
+    }
+    yield Paragraph((f"Searched: {section.ansatz}.",))
+    number = section.independent
+    charges = f"{number} independent conserved quantit{'y' if number == 1 else 'ies'}"
+    if number is None:
+        charges = "the number of independent conserved quantities is not known"
+    if section.in_involution is not None:
+        charges += f", {section.in_involution} in involution"
+    counts = "" if section.dimension_counts == "charges" else f" of the {section.dimension_counts}"
+    yield Paragraph((f"Dimension {section.dimension}{counts}{named}; {charges}.",))
+    yield Paragraph((integrable[section.integrable],))
+    for case in section.special:
+        where = f"{case.parameter} = {to_grammar(case.value)}"
+        yield Heading(
+            f"Where {where}: {case.number} symmetr{'y' if case.number == 1 else 'ies'}, of "
+            f"which new",
+            2,
+        )
+        yield rows_by_name(case.charges)
+
+
+def json(section: AlgebraSection) -> Object:
+    """The counts, the verdict and the special values."""
+    return {
+        "algebra": {
+            "ansatz": section.ansatz,
+            "dimension": section.dimension,
+            "dimension_counts": section.dimension_counts,
+            "name": section.name,
+            "independent": section.independent,
+            "in_involution": section.in_involution,
+            "integrable": section.integrable,
+            "special": [_special(case) for case in section.special],
+        }
+    }
+
+
+def _special(case: SpecialValue) -> Object:
+    return {
+        "parameter": case.parameter,
+        "value": string(case.value),
+        "number": case.number,
+        "charges": by_name(case.charges),
+    }
+
+
+def tell(teller: Teller, section: AlgebraSection) -> Iterator[Block]:
+    """The brackets, and what they say of the motion."""
+    from lagcli.mechanics.explaining.symmetries import algebra
+
+    return algebra(teller, section)
+
+
+SECTION = Declaration(
+    name="algebra",
+    heading="Algebra of symmetries",
+    order=160,
+    derive=derive,
+    blocks=blocks,
+    json=json,
+    told=Told(title="The algebra of the symmetries", blocks=tell, order=110),
+)

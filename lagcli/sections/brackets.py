@@ -1,0 +1,98 @@
+"""Poisson brackets of observables, and their rates on the motion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from lagcli.answers import Answers
+from lagcli.document import Block, Bracket, Equations, Paragraph, Row
+from lagcli.expression import Name
+from lagcli.formatters.json_values import Object, by_name, string, unless_none
+from lagcli.phase_space import BracketsSection, PoissonBracket
+from lagcli.problem import Problem
+from lagcli.statements.declaration import Declaration, Told
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.explaining.teller import Teller
+    from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
+    from lagcli.mechanics.statements import Statements
+
+
+def derive(statements: Statements | PhaseSpaceStatements) -> BracketsSection:
+    """The brackets of the file, or those of all pairs of its observables."""
+    from lagcli.mechanics.canonical.statement import PhaseSpace
+
+    phase = PhaseSpace(statements.derivation)
+    return statements.noted((phase.brackets(), phase.missing))
+
+
+def blocks(section: BracketsSection, _: Answers) -> Iterator[Block]:
+    """Say the observables, their brackets and their rates."""
+    if section.observables:
+        yield Equations(tuple(Row(Name(name), f) for name, f in section.observables.items()))
+    yield Paragraph(("Poisson brackets, with the sign of {q, p} = 1:",))
+    rows = []
+    for each in section.brackets:
+        left = Bracket(each.left, each.right)
+        if each.value is None:
+            yield Paragraph((f"{each.name}: not found.",))
+        elif each.named is None:
+            rows.append(Row(left, each.value))
+        else:
+            rows.append(Row(left, each.named))
+    if rows:
+        yield Equations(tuple(rows))
+    elif not section.brackets:
+        yield Paragraph(("None: the file names no observables and no pairs.",))
+    if section.rates:
+        yield Paragraph(("Rates on the motion, from the brackets with H:",))
+        yield Equations(tuple(Row(Name(name, 1), value) for name, value in section.rates.items()))
+    elif section.reason:
+        yield Paragraph((f"No rates: {section.reason}.",))
+
+
+def json(section: BracketsSection) -> Object:
+    """Observables, brackets and rates."""
+    return {
+        "brackets": {
+            "observables": by_name(section.observables),
+            "brackets": [_bracket(each) for each in section.brackets],
+            "rates": unless_none(section.rates, by_name),
+        }
+    }
+
+
+def _bracket(each: PoissonBracket) -> Object:
+    return {
+        "name": each.name,
+        "left": string(each.left),
+        "right": string(each.right),
+        "value": string(each.value),
+        "named": string(each.named),
+    }
+
+
+def given(problem: Problem) -> bool:
+    """Whether the file asks for brackets."""
+    return bool(problem.brackets)
+
+
+def tell(teller: Teller, section: BracketsSection) -> Iterator[Block]:
+    """The brackets one by one."""
+    from lagcli.mechanics.explaining.phase_space import brackets
+
+    return brackets(teller, section)
+
+
+SECTION = Declaration(
+    name="brackets",
+    heading="Poisson brackets",
+    order=120,
+    derive=derive,
+    blocks=blocks,
+    json=json,
+    phase_space=derive,
+    unasked=given,
+    told=Told(title="Poisson brackets", blocks=tell, order=70),
+)

@@ -1,0 +1,108 @@
+"""q' = dH/dp and p' = -dH/dq + … by coordinate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from lagcli.answers import Answers, CanonicalPair, CanonicalSection
+from lagcli.document import Block, Equations, Row
+from lagcli.expression import Name
+from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.json_values import FORMULA, Object, map_of, record_of, unless_none
+from lagcli.sections.hamiltonian import given
+from lagcli.statements.declaration import Declaration, Told
+from lagcli.wording import not_found
+
+if TYPE_CHECKING:
+    from sympy import Expr
+
+    from lagcli.mechanics.explaining.teller import Teller
+    from lagcli.mechanics.large_statements import LargeStatements
+    from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
+    from lagcli.mechanics.statements import Statements
+    from lagcli.mechanics.stating import Stating
+
+
+def derive(statements: Statements) -> CanonicalSection:
+    """From the Hamiltonian, where there is one."""
+    hamiltonian = statements.derivation.hamiltonian
+    pairs = hamiltonian.canonical_equations
+    if pairs is None:
+        return _none(statements, hamiltonian.reason)
+    return _stated(statements, statements.system.names, pairs)
+
+
+def large(statements: LargeStatements) -> CanonicalSection:
+    """They are not derived."""
+    return _none(statements, statements.why_missing)
+
+
+def phase_space(statements: PhaseSpaceStatements) -> CanonicalSection:
+    """From the H of the file."""
+    names = [coordinate.name for coordinate in statements.problem.coordinates]
+    return _stated(statements, names, statements.hamiltonian.canonical_equations)
+
+
+def _stated(
+    statements: Statements | PhaseSpaceStatements,
+    names: Sequence[str],
+    pairs: Sequence[tuple[Expr, Expr]],
+) -> CanonicalSection:
+    write = statements.as_written
+    return CanonicalSection(
+        equations={
+            name: CanonicalPair(q=write(q), p=write(p))
+            for name, (q, p) in zip(names, pairs, strict=True)
+        }
+    )
+
+
+def _none(statements: Stating, reason: str) -> CanonicalSection:
+    statements.lacks("the canonical equations", reason)
+    return CanonicalSection(equations=None, reason=reason)
+
+
+def blocks(section: CanonicalSection, _: Answers) -> Iterator[Block]:
+    """The pair of each coordinate."""
+    if section.equations is None:
+        yield not_found(section.reason)
+        return
+    rows = []
+    for name, pair in section.equations.items():
+        rows += [Row(Name(name, 1), pair.q), Row(Name(f"p_{name}", 1), pair.p)]
+    yield Equations(tuple(rows))
+
+
+def json(section: CanonicalSection) -> Object:
+    """The right sides by coordinate."""
+    pairs = unless_none(
+        section.equations,
+        lambda found: {
+            name: {"q": to_grammar(pair.q), "p": to_grammar(pair.p)} for name, pair in found.items()
+        },
+    )
+    return {"canonical_equations": pairs}
+
+
+def tell(teller: Teller, section: CanonicalSection) -> Iterator[Block]:
+    """From H to the equations."""
+    from lagcli.mechanics.explaining.phase_space import canonical_equations
+
+    return canonical_equations(teller, section)
+
+
+SECTION = Declaration(
+    name="canonical_equations",
+    heading="Canonical equations",
+    order=110,
+    derive=derive,
+    large=large,
+    phase_space=phase_space,
+    blocks=blocks,
+    json=json,
+    schema=map_of(record_of(("q", "p"), {"q": FORMULA, "p": FORMULA})),
+    unasked=given,
+    told=Told(title="Canonical equations", blocks=tell, order=60),
+    content="equations",
+)

@@ -1,0 +1,134 @@
+"""lambda df/dq by constraint and coordinate, their total, and the force on each point."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from lagcli.answers import Answers, ConstraintForcesSection
+from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row
+from lagcli.expression import Expression
+from lagcli.formatters.json_values import Object, by_name, map_of, strings, unless_none
+from lagcli.sections.multipliers import constrained
+from lagcli.statements.declaration import Declaration
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.large_statements import LargeStatements
+    from lagcli.mechanics.statements import Statements
+    from lagcli.mechanics.stating import Stating
+
+
+def derive(statements: Statements) -> ConstraintForcesSection:
+    """Those of the solved motion, also where redundancy leaves single ones undetermined."""
+    from lagcli.mechanics.constraint_force import forces_on_points
+
+    dynamics = statements.dynamics
+    equations = dynamics.constraints.equations
+    if dynamics.motion is None and equations:
+        found = _abbreviated(statements)
+        if found is not None:
+            return found
+        statements.unsolved()
+    total = dynamics.total_constraint_force
+    return ConstraintForcesSection(
+        forces={
+            equation.name: None if force is None else statements.by_coordinate(force)
+            for equation, force in zip(equations, dynamics.constraint_forces, strict=True)
+        },
+        total=None if total is None else statements.by_coordinate(total),
+        on_points={
+            constraint: {
+                point: tuple(map(statements.on_surface, components))
+                for point, components in points.items()
+            }
+            for constraint, points in forces_on_points(dynamics).items()
+        },
+    )
+
+
+def large(statements: LargeStatements) -> ConstraintForcesSection:
+    """By elimination with abbreviations."""
+    constraints = statements.problem.constraints
+    if constraints:
+        found = _abbreviated(statements)
+        if found is not None:
+            return found
+        statements.unsolved(statements.why_missing)
+    return ConstraintForcesSection(forces={c.name: None for c in constraints}, total=None)
+
+
+def _abbreviated(statements: Stating) -> ConstraintForcesSection | None:
+    found = statements.abbreviated(lambda form: form.constraint_forces)
+    if found is None:
+        return None
+    names = [q.name for q in statements.problem.coordinates]
+    count = len(names)
+    rows = [
+        dict(zip(names, found.values[k : k + count], strict=True))
+        for k in range(0, len(found.values), count)
+    ]
+    *single, total = rows
+    return ConstraintForcesSection(
+        forces=dict(zip((c.name for c in statements.problem.constraints), single, strict=True)),
+        total=total,
+    )
+
+
+def blocks(section: ConstraintForcesSection, _: Answers) -> Iterator[Block]:
+    """By constraint, then the total."""
+    if not section.forces:
+        yield Paragraph(("There are no constraints.",))
+    for constraint, forces in section.forces.items():
+        yield Heading(constraint, 2)
+        if forces is None or None in forces.values():
+            yield Paragraph(("Not determined.",))
+        else:
+            yield _forces({name: each for name, each in forces.items() if each is not None})
+        for point, components in section.on_points.get(constraint, {}).items():
+            axes = "xyz" if len(components) > 1 else "x"
+            rows = zip(axes, components, strict=False)
+            yield Equations(
+                tuple(
+                    Row(Label("F", (point, axis)), part, "force on the point")
+                    for axis, part in rows
+                )
+            )
+    if section.total is not None and len(section.forces) > 1:
+        yield Heading("All constraints together", 2)
+        yield _forces(section.total)
+
+
+def _forces(forces: Mapping[str, Expression]) -> Equations:
+    return Equations(tuple(Row(Label("Q", (name,)), force) for name, force in forces.items()))
+
+
+def json(section: ConstraintForcesSection) -> Object:
+    """By constraint; the total and the forces on points have keys of their own."""
+    forces: Object = {
+        constraint: unless_none(by_coordinate, by_name)
+        for constraint, by_coordinate in section.forces.items()
+    }
+    result: Object = {"constraint_forces": forces}
+    if section.forces:
+        result["total_constraint_force"] = unless_none(section.total, by_name)
+    if section.on_points:
+        result["point_forces"] = {
+            constraint: {point: strings(force) for point, force in by_point.items()}
+            for constraint, by_point in section.on_points.items()
+        }
+    return result
+
+
+SECTION = Declaration(
+    name="constraint_forces",
+    heading="Constraint forces",
+    order=60,
+    derive=derive,
+    large=large,
+    blocks=blocks,
+    json=json,
+    schema=map_of({"type": ["object", "null"]}),
+    unasked=constrained,
+    content="forces",
+    abbreviated=True,
+)

@@ -1,0 +1,86 @@
+"""The Jacobi function h = sum q' dL/dq' - L."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from lagcli.answers import Answers, EnergySection
+from lagcli.document import Block, Label, Paragraph
+from lagcli.formatters.json_values import OR_NULL, Object, record_of, string
+from lagcli.statements.declaration import Declaration, always
+from lagcli.wording import not_found, one_row
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.large_statements import LargeStatements
+    from lagcli.mechanics.statements import Statements
+
+_CONSERVED = {True: "Conserved.", False: "Not conserved.", None: "Conservation undecided."}
+_TOTAL = {True: " It equals T + V.", False: " It does not equal T + V.", None: ""}
+
+
+def derive(statements: Statements) -> EnergySection:
+    """h, whether it is conserved, and whether it is T + V."""
+    energy = statements.derivation.energy
+    return EnergySection(
+        function=statements.by_terms(energy.readable_function, as_given=True),
+        conserved=energy.conserved,
+        is_total_energy=energy.is_total_energy,
+        reason=energy.reason,
+    )
+
+
+def large(statements: LargeStatements) -> EnergySection:
+    """As the structure has it, unless that is too long."""
+    charges = statements.charges
+    found = statements.written("the energy", [charges.energy])
+    return EnergySection(
+        function=None if found is None else found[0],
+        conserved=charges.energy_conserved,
+        is_total_energy=charges.is_total_energy,
+        reason=charges.energy_reason,
+    )
+
+
+def blocks(section: EnergySection, _: Answers) -> Iterator[Block]:
+    """h = …, and the sentence on its conservation."""
+    yield not_found() if section.function is None else one_row(Label("h"), section.function)
+    words = _CONSERVED[section.conserved] + _TOTAL[section.is_total_energy]
+    reason = section.reason.strip().rstrip(".")
+    if reason.startswith(("conserved", "not conserved", "whether it is conserved")):
+        yield Paragraph((f"{reason[0].upper()}{reason[1:]}.",))  # it says all of that, and why
+    else:
+        yield Paragraph((f"{words} {reason}.".replace(" .", ""),))
+
+
+def json(section: EnergySection) -> Object:
+    """The function and the verdicts."""
+    return {
+        "energy": {
+            "function": string(section.function),
+            "conserved": section.conserved,
+            "is_total_energy": section.is_total_energy,
+            "reason": section.reason,
+        }
+    }
+
+
+SECTION = Declaration(
+    name="energy",
+    heading="Energy",
+    order=90,
+    derive=derive,
+    large=large,
+    blocks=blocks,
+    json=json,
+    schema=record_of(
+        ("function", "conserved", "is_total_energy", "reason"),
+        {
+            "function": OR_NULL,
+            "conserved": {"type": ["boolean", "null"]},
+            "is_total_energy": {"type": ["boolean", "null"]},
+            "reason": {"type": "string"},
+        },
+    ),
+    unasked=always,
+)

@@ -1,0 +1,122 @@
+"""Lagrange's equations and the constraints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from lagcli.answers import Answers, EquationsSection, LagrangeEquation
+from lagcli.document import Block, Equations, Paragraph, Row
+from lagcli.expression import ZERO
+from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.json_values import FORMULA, Object, record_of, unless_none
+from lagcli.statements.declaration import Declaration, always
+from lagcli.wording import not_found
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.large_statements import LargeStatements
+    from lagcli.mechanics.statements import Statements
+
+
+def derive(statements: Statements) -> EquationsSection:
+    """d/dt(dL/dq') - dL/dq = Q - dD/dq' + sum lambda df/dq."""
+    from sympy import Add
+
+    system, dynamics = statements.system, statements.dynamics
+    constraints = dynamics.constraints.equations
+    sides = zip(system.names, dynamics.lagrange.left_sides, system.applied_forces, strict=True)
+    equations = tuple(
+        LagrangeEquation(
+            coordinate=name,
+            left=statements.by_terms(left),
+            right=statements.by_terms(Add(force, *(e.multiplier * e.row[j] for e in constraints))),
+        )
+        for j, (name, left, force) in enumerate(sides)
+    )
+    return EquationsSection(
+        equations=equations,
+        constraints={e.name: (statements.as_written(e.f), ZERO) for e in constraints},
+    )
+
+
+def large(statements: LargeStatements) -> EquationsSection:
+    """M q'' - (L_q - …) = Q - dD/dq' + A^T lambda."""
+    form, graph = statements.form, statements.form.graph
+    constraints = statements.problem.constraints
+    forces = [graph.symbol(c.multiplier) for c in constraints]
+    left = [
+        graph.sum(
+            [
+                *(graph.product(m, a) for m, a in zip(row, form.qddot, strict=True)),
+                graph.scaled(inertial, -1),
+            ]
+        )
+        for row, inertial in zip(form.mass_matrix, form.inertial, strict=True)
+    ]
+    right = [
+        graph.sum(
+            [
+                applied,
+                *(
+                    graph.product(row.row[i], force)
+                    for row, force in zip(form.constraints, forces, strict=True)
+                ),
+            ]
+        )
+        for i, applied in enumerate(form.applied_forces)
+    ]
+    found = statements.written("the equations", [*left, *right, *(r.f for r in form.constraints)])
+    if found is None:
+        return EquationsSection(equations=None)
+    n = len(form.q)
+    return EquationsSection(
+        equations=tuple(
+            LagrangeEquation(coordinate=q.name, left=one, right=other)
+            for q, one, other in zip(form.q, found[:n], found[n : 2 * n], strict=True)
+        ),
+        constraints={c.name: (f, ZERO) for c, f in zip(constraints, found[2 * n :], strict=True)},
+    )
+
+
+def blocks(section: EquationsSection, _: Answers) -> Iterator[Block]:
+    """An equation for each coordinate, then the constraints."""
+    if section.equations is None:
+        yield not_found()
+        return
+    yield Equations(tuple(Row(each.left, each.right) for each in section.equations))
+    if section.constraints:
+        yield Paragraph(("with the constraints",))
+        yield Equations(
+            tuple(Row(left, right, name) for name, (left, right) in section.constraints.items())
+        )
+
+
+def equation_json(equation: LagrangeEquation) -> Object:
+    """One equation with its coordinate."""
+    sides = f"{to_grammar(equation.left)} = {to_grammar(equation.right)}"
+    return {"coordinate": equation.coordinate, "equation": sides}
+
+
+def json(section: EquationsSection) -> Object:
+    """The equations without the constraints, which are the file's."""
+    return {
+        "equations": unless_none(section.equations, lambda each: [equation_json(e) for e in each])
+    }
+
+
+SECTION = Declaration(
+    name="equations",
+    heading="Equations of motion",
+    order=20,
+    derive=derive,
+    large=large,
+    blocks=blocks,
+    json=json,
+    schema={
+        "type": ["array", "null"],
+        "items": record_of(
+            ("coordinate", "equation"), {"coordinate": {"type": "string"}, "equation": FORMULA}
+        ),
+    },
+    unasked=always,
+)

@@ -1,0 +1,111 @@
+"""The states of rest, and whether each is stable."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from lagcli.answers import Answers, EquilibriaSection, Equilibrium
+from lagcli.document import Block, Formula, Paragraph
+from lagcli.expression import Name
+from lagcli.formatters.json_values import Object, above, inequalities, place, unless_none
+from lagcli.statements.declaration import Declaration, Told
+from lagcli.wording import conditions, holding, stability, state_blocks
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.explaining.teller import Teller
+    from lagcli.mechanics.large_statements import LargeStatements
+    from lagcli.mechanics.statements import Statements
+
+
+def derive(statements: Statements) -> EquilibriaSection:
+    """Where the generalized forces vanish along what the constraints allow."""
+    from lagcli.mechanics.oscillations.small_oscillations import equilibria
+
+    section = equilibria(statements.dynamics)
+    if section.equilibria is None:
+        statements.lacks("the equilibria", section.reason)
+    elif not section.complete:
+        statements.warnings.append("there may be equilibria that are not listed")
+    return section
+
+
+def large(statements: LargeStatements) -> EquilibriaSection:
+    """They are not derived."""
+    statements.lacks("the equilibria")
+    return EquilibriaSection(equilibria=None, reason=statements.why_missing)
+
+
+_NO_VALUE = " Without a value there: "
+
+
+def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
+    """Word each equilibrium with its stability."""
+    if section.equilibria is None:
+        yield Paragraph((f"Not found: {section.reason}.",))
+    elif not section.equilibria:
+        yield Paragraph(("There is none.",))
+    for equilibrium in section.equilibria or ():
+        yield from state_blocks(equilibrium.at, on=equilibrium.on)
+        yield Paragraph(_stability(equilibrium))
+    if section.equilibria is not None and not section.complete:
+        yield Paragraph(("There may be others.",))
+
+
+def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:
+    parts: list[str | Formula] = []
+    if equilibrium.where:
+        parts += ["It exists where ", *conditions(equilibrium.where), ". "]
+    parts += [holding(equilibrium.touching, sticking=equilibrium.sticking)]
+    parts += stability(equilibrium.verdict, equilibrium.free, equilibrium.on)
+    for lead, names in ((" Free: ", equilibrium.free), (_NO_VALUE, equilibrium.indeterminate)):
+        for position, name in enumerate(names):
+            parts += [", " if position else lead, Name(name)]
+        parts += ["."] if names else []
+    return tuple(parts)
+
+
+def json(section: EquilibriaSection) -> Object:
+    """The list; null where they were not found."""
+    found = unless_none(section.equilibria, lambda each: [_equilibrium(e) for e in each])
+    return {"equilibria": found}
+
+
+def _equilibrium(equilibrium: Equilibrium) -> Object:
+    verdict = equilibrium.verdict
+    result = place(equilibrium.at, equilibrium.on) | {"stable": verdict.stable}
+    if equilibrium.where:
+        result["condition"] = " and ".join(map(above, equilibrium.where))
+    if verdict.asymptotic:
+        result["asymptotic"] = True
+    for name in ("minimum", "hurwitz", "spectrum"):
+        found = getattr(verdict, name)
+        if found is not None and not (name == "minimum" and verdict.stable):
+            result[name] = inequalities(found)
+    if verdict.unstable:
+        result["unstable"] = inequalities(verdict.unstable)
+    for name in ("free", "touching", "indeterminate"):
+        if names := getattr(equilibrium, name):
+            result[name] = names
+    if equilibrium.sticking:
+        result["sticking"] = True
+    return result
+
+
+def tell(teller: Teller, section: EquilibriaSection) -> Iterator[Block]:
+    """The conditions, then each equilibrium."""
+    from lagcli.mechanics.explaining.further import equilibria
+
+    return equilibria(teller, section)
+
+
+SECTION = Declaration(
+    name="equilibria",
+    heading="Equilibria",
+    order=180,
+    derive=derive,
+    blocks=blocks,
+    json=json,
+    large=large,
+    told=Told(title="Equilibria", blocks=tell, order=20),
+)

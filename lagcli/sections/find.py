@@ -1,0 +1,138 @@
+"""The answers to the questions of the file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from lagcli.answers import Answers
+from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
+from lagcli.expression import Name
+from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.json_values import Object, string, strings, unless_none
+from lagcli.problem import Problem, Question, Rewrite, Where
+from lagcli.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
+from lagcli.statements.declaration import Declaration, Told
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.explaining.teller import Teller
+    from lagcli.mechanics.large_statements import LargeStatements
+    from lagcli.mechanics.statements import Statements
+
+_SIGNS = {">=": " ≥ ", ">": " > ", "<=": " ≤ ", "<": " < "}
+_TURNED = {">=": " ≤ ", ">": " < "}
+
+
+def derive(statements: Statements) -> FindSection:
+    """From the solved motion and what is conserved."""
+    from lagcli.mechanics.finding.find import answer_questions
+
+    section = answer_questions(statements.dynamics, statements.derivation.noether)
+    return statements.noted((section, section.unanswered))
+
+
+def large(statements: LargeStatements) -> FindSection:
+    """None is answered."""
+    questions = statements.problem.find
+    for question in questions:
+        statements.lacks(f"the answer to '{question.name}'")
+    return FindSection(answers={q.name: _unanswered(q, statements.why_missing) for q in questions})
+
+
+def _unanswered(question: Question, why: str) -> Answer:
+    if isinstance(question, Where):
+        return Solutions(unknown=str(question.unknown), solutions=None, note=why)
+    if isinstance(question, Rewrite):
+        return Rewritten(value=None, note=why)
+    return Ranges(unknown=str(question.unknown), ranges=None, note=why)
+
+
+def blocks(section: FindSection, _: Answers) -> Iterator[Block]:
+    """Say each question of the file with its answer."""
+    for name, answer in section.answers.items():
+        yield Heading(name, 2)
+        match answer:
+            case Solutions(solutions=None) | Ranges(ranges=None):
+                yield Paragraph(("Not found.",))
+            case Rewritten(value=None, values=()):
+                yield Paragraph(("Not found.",))
+            case Rewritten(values=tuple(values), subject=subject) if values:
+                left = Label(name) if subject is None else subject
+                yield Equations(tuple(Row(left, value) for value in values))
+            case Solutions(solutions=()):
+                yield Paragraph(("There is no solution that the motion can reach.",))
+            case Solutions(unknown=unknown, solutions=tuple(solutions)):
+                variable = unknown.rstrip("'")
+                left = Name(variable, len(unknown) - len(variable))
+                yield Equations(tuple(Row(left, root) for root in solutions))
+            case Rewritten(value=value, subject=subject) if value is not None:
+                yield Equations((Row(Label(name) if subject is None else subject, value),))
+            case Ranges(unknown=unknown, ranges=tuple(ranges)):
+                yield Paragraph(_ranges(unknown, ranges))
+        if answer.note:
+            yield Paragraph((f"{answer.note[0].upper()}{answer.note[1:].rstrip('.')}.",))
+
+
+def _ranges(unknown: str, ranges: Sequence[Range]) -> tuple[str | Formula, ...]:
+    """`a < v ≤ b, or v ≥ c`."""
+    if not ranges:
+        return ("For no value of ", Name(unknown), ".")
+    parts: list[str | Formula] = []
+    for range_ in ranges:
+        bounds = range_.bounds
+        parts += [", or "] if parts else []
+        if not bounds:
+            return ("For every value of ", Name(unknown), ".")
+        if range_.lower == range_.upper:
+            bounds = [("=", bounds[0][1])]
+        if len(bounds) == 2:
+            parts += [bounds[0][1], _TURNED[bounds[0][0]]]
+        how, bound = bounds[-1]
+        parts += [Name(unknown), _SIGNS.get(how, " = "), bound]
+    return (*parts, ".")
+
+
+def json(section: FindSection) -> Object:
+    """The answers by question."""
+    return {"find": {name: _answer(answer) for name, answer in section.answers.items()}}
+
+
+def _answer(answer: Answer) -> Object:
+    match answer:
+        case Solutions(solutions=solutions):
+            return {"solutions": unless_none(solutions, strings)}
+        case Ranges(unknown=unknown, ranges=ranges):
+            return {"ranges": unless_none(ranges, lambda each: [_range(unknown, r) for r in each])}
+        case Rewritten(value=value):
+            both = {"values": strings(answer.values)} if answer.values else {}
+            return {"value": string(value), **both}
+
+
+def _range(unknown: str, range_: Range) -> list[str]:
+    return [f"{unknown} {how} {to_grammar(bound)}" for how, bound in range_.bounds]
+
+
+def asked(problem: Problem) -> bool:
+    """Whether the file has questions."""
+    return bool(problem.find)
+
+
+def tell(teller: Teller, section: FindSection) -> Iterator[Block]:
+    """What is used, and the way to each answer."""
+    from lagcli.mechanics.explaining.questions import questions
+
+    return questions(teller, section)
+
+
+SECTION = Declaration(
+    name="find",
+    heading="Questions",
+    order=170,
+    derive=derive,
+    blocks=blocks,
+    json=json,
+    large=large,
+    unasked=asked,
+    told=Told(title="Questions", blocks=tell, order=10),
+    content="answers",
+)

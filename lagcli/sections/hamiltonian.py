@@ -1,0 +1,82 @@
+"""H(q, p, t)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from lagcli.answers import Answers, HamiltonianSection
+from lagcli.document import Block, Label
+from lagcli.formatters.json_values import OR_NULL, Object, string
+from lagcli.statements.declaration import Declaration
+from lagcli.wording import not_found, one_row
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.large_statements import LargeStatements
+    from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
+    from lagcli.mechanics.statements import Statements
+    from lagcli.mechanics.stating import Stating
+
+
+def derive(statements: Statements) -> HamiltonianSection:
+    """By the Legendre transform, with abbreviations where the inverse of M grew too long."""
+    hamiltonian = statements.derivation.hamiltonian
+    try:
+        function = hamiltonian.function
+    except ArithmeticError:  # the inverse of M grew too long
+        function = None
+    if function is not None:
+        written = statements.as_written(function)
+        return HamiltonianSection(hamiltonian=written, reason=hamiltonian.reason)
+    return _abbreviated(statements) or _none(statements, hamiltonian.reason)
+
+
+def large(statements: LargeStatements) -> HamiltonianSection:
+    """By elimination with abbreviations."""
+    return _abbreviated(statements) or _none(statements, statements.why_missing)
+
+
+def phase_space(statements: PhaseSpaceStatements) -> HamiltonianSection:
+    """As the file gives it."""
+    return HamiltonianSection(hamiltonian=statements.as_written(statements.hamiltonian.function))
+
+
+def _abbreviated(statements: Stating) -> HamiltonianSection | None:
+    found = statements.abbreviated(lambda form: form.hamiltonian)
+    return None if found is None else HamiltonianSection(hamiltonian=found.values[0])
+
+
+def _none(statements: Stating, reason: str) -> HamiltonianSection:
+    statements.lacks("the Hamiltonian", reason)
+    return HamiltonianSection(hamiltonian=None, reason=reason)
+
+
+def blocks(section: HamiltonianSection, _: Answers) -> Iterable[Block]:
+    """H = …."""
+    found = section.hamiltonian
+    return [not_found(section.reason) if found is None else one_row(Label("H"), found)]
+
+
+def json(section: HamiltonianSection) -> Object:
+    """One formula."""
+    return {"hamiltonian": string(section.hamiltonian)}
+
+
+def given(problem: Any) -> bool:
+    """Whether the file gives H."""
+    return problem.hamiltonian is not None
+
+
+SECTION = Declaration(
+    name="hamiltonian",
+    heading="Hamiltonian",
+    order=100,
+    derive=derive,
+    large=large,
+    phase_space=phase_space,
+    blocks=blocks,
+    json=json,
+    schema=OR_NULL,
+    unasked=given,
+    abbreviated=True,
+)

@@ -1,0 +1,60 @@
+"""L = T - V, or L as the file gives it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from lagcli.answers import Answers, LagrangianSection
+from lagcli.document import Block, Label
+from lagcli.formatters.json_values import OR_NULL, Object, string
+from lagcli.statements.declaration import Declaration, always
+from lagcli.wording import not_found, one_row
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.large_statements import LargeStatements
+    from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
+    from lagcli.mechanics.statements import Statements
+
+
+def derive(statements: Statements) -> LagrangianSection:
+    """Term by term, in the shape that the file gives it."""
+    L = statements.by_terms(statements.system.L, as_given=True)
+    return LagrangianSection(lagrangian=L)
+
+
+def large(statements: LargeStatements) -> LagrangianSection:
+    """As the structure has it, unless that is too long."""
+    found = statements.written("the Lagrangian", [statements.form.written_lagrangian])
+    return LagrangianSection(lagrangian=None if found is None else found[0])
+
+
+def phase_space(statements: PhaseSpaceStatements) -> LagrangianSection:
+    """There is none."""
+    statements.lacks("the Lagrangian")
+    return LagrangianSection(lagrangian=None)
+
+
+def blocks(section: LagrangianSection, _: Answers) -> Iterable[Block]:
+    """L = …."""
+    found = section.lagrangian
+    return [not_found() if found is None else one_row(Label("L"), found)]
+
+
+def json(section: LagrangianSection) -> Object:
+    """One formula."""
+    return {"lagrangian": string(section.lagrangian)}
+
+
+SECTION = Declaration(
+    name="lagrangian",
+    heading="Lagrangian",
+    order=10,
+    derive=derive,
+    large=large,
+    phase_space=phase_space,
+    blocks=blocks,
+    json=json,
+    schema=OR_NULL,
+    unasked=always,
+)

@@ -1,0 +1,80 @@
+"""The model that a numerical run of every coordinate integrates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from lagcli.answers import Answers, ModelSection
+from lagcli.document import Block, Paragraph
+from lagcli.expression import Name
+from lagcli.formatters.json_values import Object, by_name
+from lagcli.statements.declaration import Declaration, Told
+from lagcli.wording import listed, not_found, rows_by_name
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.explaining.teller import Teller
+    from lagcli.mechanics.stating import Stating
+
+
+def derive(statements: Stating) -> ModelSection:
+    """What a run keeps and drops, as `simulate` would."""
+    from lagcli.numerics.model import model_section
+    from lagcli.numerics.refusal import Refusal
+
+    try:
+        return model_section(statements.problem)
+    except Refusal as refusal:
+        statements.lacks("the model of a numerical run", str(refusal))
+        return ModelSection(kept=None)
+
+
+def blocks(section: ModelSection, _: Answers) -> Iterator[Block]:
+    """What is integrated, what is eliminated, what has no influence, and why."""
+    if section.kept is None:
+        yield not_found()
+        return
+    yield Paragraph(("Integrated: ", *listed(section.kept), "."))
+    if section.eliminated:
+        yield Paragraph(("Eliminated:",))
+        yield rows_by_name(section.eliminated)
+    if section.ignorable:
+        yield Paragraph(("Ignorable: ", *listed(section.ignorable), "."))
+    if section.dropped:
+        yield Paragraph(("Without influence: ", *listed(section.dropped), "."))
+    for name, reason in section.reason.items():
+        yield Paragraph((Name(name), f": {reason}."))
+
+
+def json(section: ModelSection) -> Object:
+    """Null where there is no such model."""
+    if section.kept is None:
+        return {"model": None}
+    return {
+        "model": {
+            "kept": section.kept,
+            "eliminated": by_name(section.eliminated),
+            "ignorable": section.ignorable,
+            "dropped": section.dropped,
+            "reason": dict(section.reason),
+        }
+    }
+
+
+def tell(teller: Teller, section: ModelSection) -> Iterator[Block]:
+    """The same in sentences."""
+    from lagcli.mechanics.explaining.quantities import model
+
+    return model(teller, section)
+
+
+SECTION = Declaration(
+    name="model",
+    heading="Model",
+    order=230,
+    derive=derive,
+    large=derive,
+    blocks=blocks,
+    json=json,
+    told=Told(title="The model of a numerical run", blocks=tell, order=130),
+)

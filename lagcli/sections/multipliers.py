@@ -1,0 +1,143 @@
+"""The multiplier of each constraint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from lagcli.answers import Answers, ConstraintKind, Multiplier, MultipliersSection
+from lagcli.document import Block, Equations, Paragraph, Row
+from lagcli.expression import Name
+from lagcli.formatters.json_values import OR_NULL, Object, map_of, record_of, string
+from lagcli.statements.declaration import Declaration
+from lagcli.wording import substituted
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.large_statements import LargeStatements
+    from lagcli.mechanics.statements import Statements
+    from lagcli.mechanics.stating import Stating
+
+
+def derive(statements: Statements) -> MultipliersSection:
+    """Those of the solved motion; None for one that redundancy leaves undetermined."""
+    dynamics = statements.dynamics
+    motion, kinds = dynamics.motion, dynamics.constraints.kinds
+    equations = dynamics.constraints.equations
+    if motion is None:
+        solved = _abbreviated(statements, [kinds[e.name] for e in equations])
+        if solved is not None:
+            return solved
+        statements.unsolved()
+    values = (None,) * len(equations) if motion is None else motion.multipliers
+    statements.note_redundant(dynamics.redundant)
+    return MultipliersSection(
+        multipliers={
+            equation.name: Multiplier(
+                symbol=equation.multiplier.name,
+                value=None if value is None else statements.on_surface(value),
+                kind=kinds[equation.name],
+                verified=None if motion is None or value is None else motion.verified,
+            )
+            for equation, value in zip(equations, values, strict=True)
+        },
+        redundant=dynamics.redundant,
+    )
+
+
+def large(statements: LargeStatements) -> MultipliersSection:
+    """By elimination with abbreviations; their kinds where not even that is possible."""
+    form, constraints = statements.form, statements.problem.constraints
+    kinds: list[ConstraintKind | None] = [
+        "holonomic" if row.holonomic else None for row in form.constraints
+    ]
+    solved = _abbreviated(statements, kinds)
+    if solved is not None:
+        return solved
+    statements.unsolved(statements.why_missing)
+    kept = set(form.independent)
+    redundant = tuple(c.name for k, c in enumerate(constraints) if k not in kept)
+    statements.note_redundant(redundant)
+    return MultipliersSection(
+        multipliers={
+            c.name: Multiplier(symbol=c.multiplier, value=None, kind=kind)
+            for c, kind in zip(constraints, kinds, strict=True)
+        },
+        redundant=redundant,
+    )
+
+
+def _abbreviated(
+    statements: Stating, kinds: Sequence[ConstraintKind | None]
+) -> MultipliersSection | None:
+    found = statements.abbreviated(lambda form: form.motion)
+    if found is None:
+        return None
+    rows = zip(statements.problem.constraints, found.multipliers, kinds, strict=True)
+    return MultipliersSection(
+        multipliers={
+            c.name: Multiplier(symbol=c.multiplier, value=value, kind=kind, verified="50 digits")
+            for c, value, kind in rows
+        }
+    )
+
+
+def blocks(section: MultipliersSection, _: Answers) -> Iterator[Block]:
+    """lambda = … with the kind of its constraint, and how that was verified."""
+    found = []
+    for constraint, each in section.multipliers.items():
+        note = f"{constraint}: {each.kind}"
+        if each.value is not None:
+            found.append(Row(Name(each.symbol), each.value, note))
+        else:
+            undetermined = "redundant, so not determined"
+            why = undetermined if section.redundant else "not found"
+            yield Paragraph((Name(each.symbol), f" ({note}): {why}."))
+    if found:
+        yield Equations(tuple(found))
+    elif not section.multipliers:
+        yield Paragraph(("There are no constraints.",))
+    if section.redundant:
+        yield Paragraph(("Redundant: " + ", ".join(section.redundant) + ".",))
+    for level in ("exact", "50 digits"):
+        symbols = [each.symbol for each in section.multipliers.values() if each.verified == level]
+        all_alike = len(symbols) == len(found)
+        if symbols:
+            yield from substituted(level, () if all_alike else symbols)
+
+
+def json(section: MultipliersSection) -> Object:
+    """By constraint; one more key where some are redundant."""
+    multipliers: Object = {
+        constraint: {"symbol": each.symbol, "value": string(each.value), "kind": each.kind}
+        for constraint, each in section.multipliers.items()
+    }
+    redundant: Object = {"redundant": section.redundant} if section.redundant else {}
+    return {"multipliers": multipliers, **redundant}
+
+
+def constrained(problem: Any) -> bool:
+    """Whether the file has constraints."""
+    return bool(problem.constraints)
+
+
+SECTION = Declaration(
+    name="multipliers",
+    heading="Multipliers",
+    order=50,
+    derive=derive,
+    large=large,
+    blocks=blocks,
+    json=json,
+    schema=map_of(
+        record_of(
+            ("symbol", "value", "kind"),
+            {
+                "symbol": {"type": "string"},
+                "value": OR_NULL,
+                "kind": {"enum": ["holonomic", "integrable", "nonholonomic", None]},
+            },
+        )
+    ),
+    unasked=constrained,
+    abbreviated=True,
+)

@@ -1,0 +1,1 @@
+"""What a section of the answers declares, and the sections by name."""

@@ -1,0 +1,121 @@
+"""The declaration of a section: everything that lagcli knows of it follows from here.
+
+The order on the page, the names after `--show` and `--also`, the completion, the JSON and its
+schema, the key of `expect` with its comparison: all of them read the declarations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any
+
+from lagcli.document import Block
+from lagcli.record import record
+
+Schema = Mapping[str, Any]
+
+
+def never(_: Any) -> bool:
+    """Shown only on request."""
+    return False
+
+
+def always(_: Any) -> bool:
+    """Shown without a request."""
+    return True
+
+
+@record(kw_only=True)
+class Told:
+    """The step of `lagcli explain --also` on a section.
+
+    Attributes
+    ----------
+    title : str
+        The heading of the step.
+    blocks : function (teller, statement) -> blocks
+        The sentences and formulas; `teller` is a `lagcli.mechanics.explaining.teller.Teller`.
+    order : int
+        The place among the further steps; that of the section where it is 0.
+    """
+
+    title: str
+    blocks: Callable[[Any, Any], Iterable[Block]]
+    order: int = 0
+
+
+@record(kw_only=True)
+class Expected:
+    """What `expect` may state of a section, and how it is compared.
+
+    Attributes
+    ----------
+    key : str
+        The key in `expect`.
+    schema : mapping
+        JSON Schema of its value, with the definitions of `lagcli.reader.schema`.
+    read : function (reader, node) -> value
+        Reads the value; `reader` is a `lagcli.reader.expectations.ExpectReader`.
+    compare : function (check, statement, value) -> findings
+        Compares; `check` is a `lagcli.check.expectations.Expectations`.  Yields a finding for
+        each expectation that does not hold, None for each that does.
+    """
+
+    key: str
+    schema: Schema
+    read: Callable[[Any, Any], Any]
+    compare: Callable[[Any, Any, Any], Iterator[Any]]
+
+
+@record(kw_only=True)
+class Declaration:
+    """One section of the answers.
+
+    A statement is the section's own record of plain values and expressions, or None where
+    there is none.
+
+    Attributes
+    ----------
+    name : str
+        As after `--show`, and its key in the answers.
+    heading : str
+        Its heading on a page.
+    order : int
+        Its place: sections are printed in ascending order.
+    derive : function (statements) -> statement
+        The derivation, from `lagcli.mechanics.statements.Statements`.
+    blocks : function (statement, answers) -> blocks
+        Its wording as blocks of `lagcli.document`.
+    json : function (statement) -> mapping
+        Its keys in the JSON.
+    schema : mapping or None
+        JSON Schema of its own key.
+    large, phase_space : function (statements) -> statement, or None
+        The derivation for a system too large for simplified formulas, and for an H that gives
+        no Lagrangian; None where the section is missing there.
+    unasked : function (problem) -> bool
+        Whether it is shown without a request.
+    told : Told or None
+        Its step in an explanation.
+    expected : tuple of Expected
+        Its keys in `expect`.
+    content : str
+        The field of the statement that `solution.<name>[...]` indexes; the name where empty.
+    abbreviated : bool
+        Whether long formulas of it get names for recurring parts.
+    """
+
+    name: str
+    heading: str
+    order: int
+    derive: Callable[[Any], Any]
+    blocks: Callable[[Any, Any], Iterable[Block]]
+    json: Callable[[Any], Mapping[str, Any]]
+    schema: Schema | None = None
+    large: Callable[[Any], Any] | None = None
+    phase_space: Callable[[Any], Any] | None = None
+    unasked: Callable[[Any], bool] = never
+    told: Told | None = None
+    expected: tuple[Expected, ...] = ()
+    content: str = ""
+    abbreviated: bool = False
