@@ -59,6 +59,10 @@ bench: $(READY) ## whole-process times as ratios, kept in .bench/
 	@$(BIN)/python -m compileall -q lagcli
 	$(BIN)/python tests/bench/bench.py $(ARGS)
 
+.PHONY: gallery
+gallery: $(READY) ## a page of every problem in .gallery; make gallery ARGS=pendulums
+	@$(BIN)/python tests/gallery.py .gallery $(ARGS)
+
 .PHONY: format
 format: $(READY) ## rewrite the code as ruff would have it
 	$(BIN)/ruff format .
@@ -66,5 +70,5 @@ format: $(READY) ## rewrite the code as ruff would have it
 
 .PHONY: clean
 clean: ## remove everything that was made here
-	rm -rf $(VENV) .bench .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache dist build
+	rm -rf $(VENV) .bench .gallery .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache dist build
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

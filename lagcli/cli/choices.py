@@ -51,7 +51,7 @@ def complete_format(incomplete: str) -> list[str]:
     """The formats that begin so."""
     from lagcli.formatters.registry import BUILT_IN
 
-    return [name for name in BUILT_IN if name.startswith(incomplete)]
+    return [name for name in (*BUILT_IN, "pdf") if name.startswith(incomplete)]
 
 
 def complete_report(incomplete: str) -> list[str]:
@@ -86,7 +86,7 @@ def complete_page_format(incomplete: str) -> list[str]:
     """The formats of an explanation that begin so."""
     from lagcli.formatters.explaining import FORMATS
 
-    return [name for name in FORMATS if name.startswith(incomplete)]
+    return [name for name in (*FORMATS, "pdf") if name.startswith(incomplete)]
 
 
 def complete_study(incomplete: str) -> list[str]:

@@ -43,7 +43,15 @@ def has_place(output: Path | None, *inputs: str) -> bool:
 
 def deliver(text: str, printing: Printing) -> bool:
     """Print the text or write it to the file; whether that was possible."""
-    return place(text.encode(printing.encoding, "replace"), printing.output)
+    if not printing.pdf:
+        return place(text.encode(printing.encoding, "replace"), printing.output)
+    from lagcli.cli.pdf import LatexError, to_pdf
+
+    try:
+        return place(to_pdf(text), printing.output)
+    except LatexError as error:
+        tell_line(f"lagcli: error: {error}")
+        return False
 
 
 def place(data: bytes, output: Path | None) -> bool:

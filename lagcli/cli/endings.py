@@ -10,7 +10,7 @@ import click
 #: Ending -> format, of pages and of tables.
 PAGES = {
     ".txt": "text", ".json": "json", ".tex": "latex", ".md": "markdown", ".html": "html",
-    ".htm": "html",
+    ".htm": "html", ".pdf": "pdf",
 }  # fmt: skip
 TABLES = {
     ".txt": "table", ".json": "json", ".csv": "csv", ".npz": "npz", ".parquet": "parquet",

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_page_format
-from lagcli.cli.options import Output
+from lagcli.cli.options import Latex, Output, WithMotion
 from lagcli.cli.solve import Files, NoCache, Set, Standalone, Width
 
 Format = Annotated[
@@ -16,7 +16,7 @@ Format = Annotated[
         "--format",
         "-f",
         metavar="NAME",
-        help="text, latex, markdown, html or json.  [default: by the ending of -o, else text]",
+        help="text, latex, markdown, html, json or pdf.  [default: by the ending of -o, else text]",
         autocompletion=complete_page_format,
     ),
 ]
@@ -39,6 +39,8 @@ def explain(
     also: Also = None,
     settings: Set = None,
     standalone: Standalone = False,
+    latex: Latex = None,
+    with_motion: WithMotion = False,
     width: Width = None,
     no_cache: NoCache = False,
 ) -> int:
@@ -55,10 +57,12 @@ def explain(
       lagcli explain hoop -f latex --standalone -o hoop.tex
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import PAGES, format_of
-    from lagcli.cli.printing import Printing
+    from lagcli.cli.printing import printing_of
     from lagcli.cli.repeating import Options, solve_or_repeat
 
     form = format_of(format_name, output, PAGES, "text")
-    printing = Printing(form, output, standalone, width)
+    printing = printing_of(
+        form, output, standalone=standalone, width=width, latex=latex, motion=with_motion
+    )
     options = Options(tuple(also or ()), tuple(settings or ()), numeric=False, command="explain")
     return solve_or_repeat(files, options, printing, cached=not no_cache)

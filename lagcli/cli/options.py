@@ -28,6 +28,19 @@ State = Annotated[
         "--at", metavar="X=VALUE", help='Begin with another coordinate or velocity: --at "x\'=1".'
     ),
 ]
+Latex = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--latex",
+        metavar="A,B",
+        help="Of LaTeX and PDF: labels or labels=PREFIX, equation (instead of align), varphi, "
+        "varepsilon, vartheta, varrho, varpi, varsigma.",
+    ),
+]
+WithMotion = Annotated[
+    bool,
+    typer.Option("--with-motion", help="Of HTML: plot and animation, where the file has an end."),
+]
 StudyFormat = Annotated[
     str | None,
     typer.Option(

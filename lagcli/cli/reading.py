@@ -74,11 +74,14 @@ def open_in_browser(page: Page | None) -> int:
 
 
 def _html(text: str) -> str:
-    """Markdown as HTML; links between pages lead to pages of HTML."""
+    """Markdown as HTML; links between pages lead to pages of HTML, others into the package."""
     import re
 
     from markdown_it import MarkdownIt
 
+    from lagcli.manual import NOTEBOOKS
+
+    text = text.replace("](notebooks/", f"]({NOTEBOOKS.as_uri()}/")
     linked = re.sub(r"\]\((?!https?:)([\w-]+)\.md(#[\w-]*)?\)", r"](\1.html\2)", text)
     made: str = MarkdownIt("commonmark", {"html": False}).enable("table").render(linked)
     return made

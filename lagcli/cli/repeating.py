@@ -78,7 +78,8 @@ def _key(inputs: Sequence[Input], options: Options, printing: Printing) -> str |
     contents = [(name, data) for name, data in inputs if isinstance(data, bytes)]
     if len(contents) < len(inputs):
         return None
-    form = [printing.format_name, printing.columns, printing.encoding, printing.standalone]
+    form = [printing.format_name, printing.columns, printing.encoding, printing.standalone,
+            printing.latex, printing.motion]  # fmt: skip
     try:
         return key({"options": options, "form": form}, contents)
     except (OSError, ImportError, ValueError):  # a program that cannot be told from others

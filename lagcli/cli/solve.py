@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_format, complete_problem, complete_section
-from lagcli.cli.options import Output
+from lagcli.cli.options import Latex, Output, WithMotion
 
 Files = Annotated[
     list[str],
@@ -74,6 +74,8 @@ def solve(
     numeric: Numeric = False,
     expand: Expand = False,
     standalone: Standalone = False,
+    latex: Latex = None,
+    with_motion: WithMotion = False,
     width: Width = None,
     no_cache: NoCache = False,
 ) -> int:
@@ -89,10 +91,12 @@ def solve(
       lagcli solve hoop --set R=1/2 --set "alpha=pi/6" -f json -o hoop.json
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import PAGES, format_of
-    from lagcli.cli.printing import Printing
+    from lagcli.cli.printing import printing_of
     from lagcli.cli.repeating import Options, solve_or_repeat
 
     form = format_of(format_name, output, PAGES, "text")
-    printing = Printing(form, output, standalone, width)
+    printing = printing_of(
+        form, output, standalone=standalone, width=width, latex=latex, motion=with_motion
+    )
     options = Options(tuple(show or ()), tuple(settings or ()), numeric, expand=expand)
     return solve_or_repeat(files, options, printing, cached=not no_cache)

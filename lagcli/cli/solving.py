@@ -66,15 +66,16 @@ def solve_files(
     problems = [_read(name, data, asked.request, tally) for name, data in inputs]
     text = None
     if not only_read and any(problems):
-        answers = [
-            answer
+        answered = [
+            (problem, answer)
             for (name, _), problem in zip(inputs, problems, strict=True)
             if problem is not None
             if (answer := _answer(name, problem, asked.request, work, tally)) is not None
         ]
-        if answers:
-            options = printing.options(several=len(inputs) > 1)
-            text = work.render(answers, printing.format_name, options)
+        if answered:
+            below = [_motion(problem, tally) for problem, _ in answered if printing.motion]
+            options = printing.options(several=len(inputs) > 1, below=tuple(below))
+            text = work.render([answer for _, answer in answered], printing.format_name, options)
     lasting = not (tally.missing or tally.unreadable or only_read)
     repeatable = lasting and printing.format_name in BUILT_IN
     return Outcome(tally.status, text, tuple(tally.said), repeatable)
@@ -103,6 +104,18 @@ def _read(name: str, data: bytes | OSError, request: Request, tally: Tally) -> P
 
         tally.said.append(tell(found.source, off_constraints(found.problem)))
     return found.problem
+
+
+def _motion(problem: Problem, tally: Tally) -> str:
+    """The motion as HTML; why there is none, or less, is a remark."""
+    from lagcli.cli.moving import motion_below
+
+    text, why = motion_below(problem)
+    if why:
+        remark = f"{problem.source.name}: no motion: {why}" if not text else why
+        tell_line(remark)
+        tally.said.append(remark)
+    return text
 
 
 def _answer(

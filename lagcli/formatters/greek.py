@@ -24,6 +24,9 @@ BY_NAME: dict[str, str] = {
 #: Spelled name by letter, for terminals with ASCII only.
 BY_LETTER: dict[str, str] = {letter: name for name, letter in BY_NAME.items()} | {"ϰ": "kappa"}
 
+#: Letters of LaTeX with a second shape.
+VARIANTS = tuple(name for name in BY_NAME if name.startswith("var"))
+
 # LaTeX has no macros for the capitals that look Latin, nor for omicron.
 _LATIN_SHAPES = dict(zip("ΑΒΕΖΗΙΚΜΝΟΡΤΧο", "ABEZHIKMNOPTXo", strict=True))
 

@@ -35,7 +35,17 @@ _HEAD = """<!DOCTYPE html>
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{title}</title>
 <style>
-body {{ max-width: 50rem; margin: 2rem auto; padding: 0 1rem; font-family: serif; }}
+:root {{ color-scheme: light dark; --paper: #ffffff; --ink: #1a1a1a; }}
+@media (prefers-color-scheme: dark) {{ :root {{ --paper: #121212; --ink: #ececec; }} }}
+body {{ max-width: 50rem; margin: 0 auto; padding: 1rem; background: var(--paper);
+  color: var(--ink); font: 1.0625rem/1.5 "Latin Modern Roman", "STIX Two Text", serif; }}
+h1, h2, h3 {{ line-height: 1.25; overflow-wrap: break-word; margin: 2rem 0 0.5rem; }}
+h1 {{ font-size: 1.75rem; margin-top: 0.5rem; }}
+h2 {{ font-size: 1.3rem; }}
+h3 {{ font-size: 1.1rem; }}
+p, ul {{ margin: 0.7rem 0; }}
+article + article {{ border-top: 1px solid #8886; margin-top: 3rem; padding-top: 1rem; }}
+img, iframe {{ display: block; margin: 0.7rem 0; }}
 </style>
 </head>
 <body>
@@ -44,7 +54,7 @@ _END = """</body>
 </html>
 """
 _DISPLAY = (
-    '<div style="overflow-x: auto"><math display="block">'
+    '<div style="overflow-x: auto; margin-bottom: 0.9em"><math display="block">'
     '<mtable displaystyle="true" columnalign="right center left">'
 )
 _END_DISPLAY = "</mtable></math></div>"
@@ -55,7 +65,7 @@ _WHOLE_ROW = (
     'style="text-align: -webkit-left; padding: {above} 0.2em 0.1em">{content}</mtd></mtr>'
 )
 #: Above the first line of an equation, and above those that go on with it.
-_NEXT, _GOES_ON = "0.9em", "0.1em"
+_NEXT, _GOES_ON = "0.9em", "0.4em"
 #: A side of an equation is broken where its terms reach so many operations.
 _LONG = 24
 
@@ -67,7 +77,9 @@ def render(answers: Sequence[Answers], options: Options) -> str:
 
 def pages(documents: Sequence[Document], options: Options) -> str:
     """Set documents, one under another."""
-    body = "\n".join(line for document in documents for line in _article(document)) + "\n"
+    below = [*options.below, *[""] * (len(documents) - len(options.below))]
+    articles = zip(documents, below, strict=True)
+    body = "\n".join(line for each, more in articles for line in _article(each, more)) + "\n"
     if not options.standalone:
         return body
     title = ", ".join(escaped(document.title) for document in documents)
@@ -79,12 +91,14 @@ def escaped(text: str) -> str:
     return html.escape(harmless(text))
 
 
-def _article(document: Document) -> Iterator[str]:
+def _article(document: Document, below: str) -> Iterator[str]:
     printer = MathmlPrinter()
     yield "<article>"
     yield f"<h1>{escaped(document.title)}</h1>"
     for block in document.blocks:
         yield from _block(block, printer)
+    if below:
+        yield below
     yield "</article>"
 
 

@@ -16,6 +16,7 @@ from lagcli.document import (
     Paragraph,
 )
 from lagcli.formatters.latex_display import LatexDisplay
+from lagcli.formatters.latex_environments import Environments
 from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.latex_text import latex_text
@@ -41,14 +42,16 @@ def render(answers: Sequence[Answers], options: Options) -> str:
 
 def pages(documents: Sequence[Document], options: Options) -> str:
     """Set documents, one under another."""
-    body = "\n".join(line for each in documents for line in _lines(each))
+    displays = Environments(options.latex)
+    body = "\n".join(line for each in documents for line in _lines(each, displays))
     if not options.standalone:
         return body + "\n"
     return _PREAMBLE + body + "\n" + _END
 
 
-def _lines(document: Document) -> Iterator[str]:
-    names = LatexNames(document.coordinates, document.symbols)
+def _lines(document: Document, displays: Environments) -> Iterator[str]:
+    variants = displays.options.variants
+    names = LatexNames(document.coordinates, document.symbols, variants)
     display = LatexDisplay(LatexPrinter(names))
     for macro, substitute in _BORROWED.items():
         if any(macro in symbol for symbol in document.symbols.values()):
@@ -58,13 +61,14 @@ def _lines(document: Document) -> Iterator[str]:
     for block in document.blocks:
         if isinstance(block, Paragraph) and isinstance(before, Paragraph):
             yield ""
-        yield from _block(block, display)
+        yield from _block(block, display, displays)
         before = block
 
 
-def _block(block: Block, display: LatexDisplay) -> Iterator[str]:
+def _block(block: Block, display: LatexDisplay, displays: Environments) -> Iterator[str]:
     match block:
         case Heading(text=text, level=level, formula=formula):
+            displays.enter(text, level)
             parts = (text,) if formula is None else (f"{text} ", formula)
             yield f"{_HEADINGS[level]}{{{_sentence(parts, display)}}}"
         case Paragraph(parts=parts):
@@ -75,19 +79,11 @@ def _block(block: Block, display: LatexDisplay) -> Iterator[str]:
                 yield r"\item " + _sentence(item, display)
             yield r"\end{itemize}"
         case Equations():
-            for lines in display.equations(block):
-                yield from _aligned(lines)
+            for each in display.equations(block):
+                yield from displays.set(each)
         case Matrix():
-            for lines in display.matrix(block):
-                yield from _aligned(lines)
-
-
-def _aligned(lines: Sequence[str]) -> Iterator[str]:
-    """Display equations that may go on on the next page."""
-    yield r"{\allowdisplaybreaks"
-    yield r"\begin{align*}"
-    yield " \\\\\n".join(lines)
-    yield r"\end{align*}}%"
+            for each in display.matrix(block):
+                yield from displays.set(each)
 
 
 def _sentence(parts: Sequence[str | Formula], display: LatexDisplay) -> str:

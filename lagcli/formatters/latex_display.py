@@ -28,6 +28,7 @@ _COLUMNS = 10
 
 @record
 class _Shown:
+    formula: Formula
     left: Layout
     right: Layout
     note: str
@@ -37,8 +38,24 @@ class _Shown:
         return width_of(self.left) <= _NARROW
 
 
+@record
+class Set:
+    """An equation as lines of LaTeX, the first with the left side, each with its `&`."""
+
+    left: Formula
+    lines: list[str]
+
+
+Display = list[Set]
+
+
+def lines_of(display: Display) -> list[str]:
+    """The lines of all equations of a display."""
+    return [line for each in display for line in each.lines]
+
+
 class LatexDisplay:
-    """Sets blocks of equations as the lines of one `aligned` or `align*` each."""
+    """Sets blocks of equations as displays, the rows of one `aligned` or `align*` each."""
 
     def __init__(self, printer: LatexPrinter) -> None:
         self.printer = printer
@@ -67,16 +84,16 @@ class LatexDisplay:
         sign = Piece(rf"{before}\int ", 14.0 + 5.0 * len(before))
         return (sign, *inner, Piece(rf"\,\mathrm{{d}}{name}", 8.0 + width))
 
-    def equations(self, block: Equations) -> Iterator[list[str]]:
+    def equations(self, block: Equations) -> Iterator[Display]:
         """Set the displays of a block: rows with narrow left sides share one."""
         shown = [self._shown(row) for row in block.rows]
         for narrow, rows in groupby(shown, key=lambda each: each.narrow):
             if narrow:
                 yield self._aligned(list(rows))
             else:
-                yield from ([*self._wide(row)] for row in rows)
+                yield from ([Set(row.formula, [*self._wide(row)])] for row in rows)
 
-    def matrix(self, matrix: Matrix) -> Iterator[list[str]]:
+    def matrix(self, matrix: Matrix) -> Iterator[Display]:
         """Set a matrix in brackets, or its entries one by one where it is too wide."""
         boxes = [[self.printer.show(entry) for entry in row] for row in matrix.entries]
         head = self.formula(matrix.label)
@@ -84,7 +101,8 @@ class LatexDisplay:
         total = width_of(head) + RELATION + sum(columns) + QUAD * len(columns) + 2 * QUAD
         if boxes and len(columns) <= _COLUMNS and total <= TEXT_WIDTH:
             rows = r" \\ ".join(" & ".join(box.text for box in row) for row in boxes)
-            yield [rf"{joined(head)} &= \begin{{pmatrix}} {rows} \end{{pmatrix}}"]
+            line = rf"{joined(head)} &= \begin{{pmatrix}} {rows} \end{{pmatrix}}"
+            yield [Set(matrix.label, [line])]
             return
         listed = [
             Row(matrix.entry_label(i, j), entry)
@@ -95,18 +113,18 @@ class LatexDisplay:
         yield from self.equations(Equations(tuple(listed)))
 
     def _shown(self, row: Row) -> _Shown:
-        return _Shown(self.formula(row.left), self.formula(row.right), row.note)
+        return _Shown(row.left, self.formula(row.left), self.formula(row.right), row.note)
 
-    def _aligned(self, rows: Sequence[_Shown]) -> list[str]:
+    def _aligned(self, rows: Sequence[_Shown]) -> Display:
         column = max(width_of(row.left) for row in rows)
-        lines = []
+        display = []
         for row in rows:
             room = TEXT_WIDTH - _MARGIN - column - RELATION
             broken = self._broken(row.right, row.note, room, room - QUAD)
             first, *others = broken
-            lines.append(f"{joined(row.left)} &= {first}")
-            lines += [f"&{line}" for line in others]
-        return lines
+            lines = [f"{joined(row.left)} &= {first}", *(f"&{line}" for line in others)]
+            display.append(Set(row.formula, lines))
+        return display
 
     def _wide(self, row: _Shown) -> Iterator[str]:
         equals = Piece(" = ", RELATION, rank=RELATION_RANK, broken="= ", broken_width=RELATION)

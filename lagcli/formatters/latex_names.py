@@ -26,13 +26,19 @@ class LatexNames:
         Their momenta `p_x` carry the whole coordinate as a subscript.
     symbols : mapping of str to str
         LaTeX that the file itself gives; the reader has let only harmless macros pass.
+    variants : collection of str
+        `varphi` where `phi` is to have that shape, and so on.
     """
 
     def __init__(
-        self, coordinates: Collection[str] = (), symbols: Mapping[str, str] | None = None
+        self,
+        coordinates: Collection[str] = (),
+        symbols: Mapping[str, str] | None = None,
+        variants: Collection[str] = (),
     ) -> None:
         self.coordinates = coordinates
         self.symbols = symbols or {}
+        self.variants = variants
 
     def name(self, name: str, primes: int = 0) -> str:
         """Set a name with its time derivatives as dots."""
@@ -81,7 +87,7 @@ class LatexNames:
             return self.name(text)
         if text.isascii() and text.isdigit():
             return text
-        letter = latex_of_name(text) or LATEX.get(text)
+        letter = self._letter(text) or LATEX.get(text)
         if letter or _PLAIN_WORD.fullmatch(text):
             return letter or (text if len(text) == 1 else rf"\mathrm{{{text}}}")
         parts = name_parts(text)
@@ -106,16 +112,20 @@ class LatexNames:
         shown = [self._multiplier(s) if word else self.subscript(s) for s in parts.subscripts]
         return self._base(parts.base), ",".join(shown)
 
+    def _letter(self, name: str) -> str | None:
+        """The macro of a spelled letter."""
+        return latex_of_name(f"var{name}" if f"var{name}" in self.variants else name)
+
     def _is_momentum(self, name: str) -> bool:
         return name.startswith("p_") and name[2:] in self.coordinates
 
     def _multiplier(self, constraint: str) -> str:
         if len(constraint) > 1 and _PLAIN_WORD.fullmatch(constraint):
-            return latex_of_name(constraint) or rf"\text{{{constraint}}}"
+            return self._letter(constraint) or rf"\text{{{constraint}}}"
         return self.subscript(constraint)
 
     def _base(self, base: str) -> str:
-        letter = latex_of_name(base) or LATEX.get(base)
+        letter = self._letter(base) or LATEX.get(base)
         if letter or (len(base) == 1 and base.isascii() and base.isalpha()):
             return letter or base
         if _PLAIN_WORD.fullmatch(base):

@@ -16,7 +16,7 @@ from lagcli.document import (
     Matrix,
     Paragraph,
 )
-from lagcli.formatters.latex_display import LatexDisplay
+from lagcli.formatters.latex_display import Display, LatexDisplay, lines_of
 from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.layout import joined
@@ -76,9 +76,9 @@ def _block(block: Block, display: LatexDisplay) -> Iterator[str]:
             yield from map(_display, display.matrix(block))
 
 
-def _display(lines: Sequence[str]) -> str:
+def _display(display: Display) -> str:
     """A display; no line in it starts with a sign that would start a list."""
-    body = _for_mathjax(" \\\\\n".join(lines))
+    body = _for_mathjax(" \\\\\n".join(lines_of(display)))
     return f"$$\n\\begin{{aligned}}\n{body}\n\\end{{aligned}}\n$$"
 
 

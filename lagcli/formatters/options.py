@@ -5,10 +5,29 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
 
-from lagcli.record import record
+from lagcli.record import field, record
 
 if TYPE_CHECKING:
     from lagcli.answers import Answers
+
+
+@record(kw_only=True)
+class LatexOptions:
+    r"""How the equations of `latex` are set.
+
+    Attributes
+    ----------
+    labels : str
+        What the labels of the equations begin with, which are then numbered; none where empty.
+    separate : bool
+        Each equation in an `equation`, not several in one `align`.
+    variants : tuple of str
+        Letters that stand for their other shape, such as `varphi` for `phi`.
+    """
+
+    labels: str = ""
+    separate: bool = False
+    variants: tuple[str, ...] = ()
 
 
 @record(kw_only=True)
@@ -25,12 +44,18 @@ class Options:
         `latex` and `html` print a whole document instead of a fragment.
     several : bool
         Several files were asked for: `json` prints an array, also of one answer.
+    latex : LatexOptions
+        Of `latex`.
+    below : tuple of str
+        HTML under the answers, one for each: plots and animations of `html`.
     """
 
     width: int = 80
     unicode: bool = True
     standalone: bool = False
     several: bool = False
+    latex: LatexOptions = field(default_factory=LatexOptions)
+    below: tuple[str, ...] = ()
 
 
 class Formatter(Protocol):

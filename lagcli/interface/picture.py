@@ -104,10 +104,14 @@ class Animation:
     def __repr__(self) -> str:
         return f"<Animation of {self.title!r}>"
 
-    def _repr_html_(self) -> str:
+    def to_frame(self) -> str:
+        """The page as a part of another page."""
         from lagcli.pictures.inline import frame
 
         return frame(self._scene)
+
+    def _repr_html_(self) -> str:
+        return self.to_frame()
 
 
 def plot(

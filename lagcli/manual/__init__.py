@@ -19,10 +19,14 @@ _HEAD = re.compile(r"# (?P<title>.+)\n\n(?P<topics>(?:`[^`]+` ?)+): (?P<summary>
 #: The pages in reading order.
 ORDER = (
     "tour", "problem-format", "solve", "explain", "simulate", "plot", "animate", "sweep",
-    "tradeoff", "extremes", "check", "export", "symmetries", "find", "forces", "equilibria",
-    "reduction", "phase-space", "units", "python", "conventions", "extending", "architecture",
-    "glossary",
+    "tradeoff", "extremes", "check", "export", "pages", "symmetries", "find", "forces",
+    "equilibria", "reduction", "phase-space", "units", "python",
+    "conventions", "extending", "architecture", "glossary",
 )  # fmt: skip
+
+
+#: Where the notebooks of the page `python` are.
+NOTEBOOKS = Path(__file__).resolve().parent / "notebooks"
 
 
 @record

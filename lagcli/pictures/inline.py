@@ -45,7 +45,7 @@ def image(picture: Picture, *, both: bool = False) -> str:
 
 def frame(scene: Scene) -> str:
     """The animation as an element of HTML."""
-    page = html.escape(to_html(scene), quote=True)
+    page = html.escape(to_html(scene, embedded=True), quote=True)
     return _FRAME.format(title=_quoted(f"Animation: {scene.title}"), page=page)
 
 

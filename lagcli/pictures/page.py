@@ -21,7 +21,7 @@ _ROWS = 11
 _EVENTS = 40
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
 _PAGE = """<!DOCTYPE html>
-<html lang="en">
+<html lang="en"{kind}>
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
@@ -69,10 +69,19 @@ _PAGE = """<!DOCTYPE html>
 """
 
 
-def to_html(scene: Scene) -> str:
-    """The page; the same scene gives the same bytes."""
+def to_html(scene: Scene, *, embedded: bool = False) -> str:
+    """The page; the same scene gives the same bytes.
+
+    Parameters
+    ----------
+    scene
+        What is shown.
+    embedded
+        In a frame of another page, which has the title already.
+    """
     first, last = scene.times[0], scene.times[-1]
     return _PAGE.format(
+        kind=' class="embedded"' if embedded else "",
         policy=_POLICY,
         title=_shown(scene.title),
         style=_part("animation.css"),

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from html.parser import HTMLParser
 from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 import pytest
 from rich.cells import cell_len
 
-import lagcli
 from lagcli.cli.reading import rendered
 from lagcli.cli.run import run
 from lagcli.manual import pages
@@ -44,9 +44,6 @@ def test_a_terminal_of_80_columns_shows_every_page(page, monkeypatch):
     assert max(map(cell_len, shown.splitlines())) <= 80
 
 
-NOTEBOOKS = Path(lagcli.__file__).parent / "manual" / "notebooks"
-
-
 class _Tags(HTMLParser):
     """The elements that are open; every closing tag must meet its own."""
 
@@ -69,6 +66,7 @@ def test_a_page_of_html_is_whole_and_its_links_are_pages(page):
     tags.feed(rendered(page.text, "html", page.title))
     assert tags.open == []
     names = {f"{each.name}.html" for each in pages()}
-    names |= {f"notebooks/{path.name}" for path in NOTEBOOKS.glob("*.ipynb")}
     local = [re.sub("#.*", "", link) for link in tags.links if not link.startswith("https:")]
-    assert set(local) <= names
+    files = {link for link in local if link.startswith("file:")}
+    assert set(local) - files <= names
+    assert all(Path(unquote(urlsplit(link).path)).is_file() for link in files)

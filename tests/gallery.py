@@ -1,0 +1,124 @@
+"""`make gallery`: a page of every problem of the library, and a list of them with pictures.
+
+    python tests/gallery.py FOLDER [WORD...]
+
+Each page is `lagcli explain --with-motion`; what has no motion has formulas alone.
+"""
+
+from __future__ import annotations
+
+import html
+import sys
+from collections.abc import Iterator
+from itertools import groupby
+from multiprocessing import Pool
+from pathlib import Path
+from typing import NamedTuple
+
+import lagcli
+from lagcli.diagnostics import ProblemError
+from lagcli.formatters import Options
+from lagcli.formatters.explaining import render
+from lagcli.formatters.mathml import MathmlPrinter
+from lagcli.library import Entry, entries
+from lagcli.numerics.refusal import Refusal
+from lagcli.pictures.drawing import CannotDraw
+from lagcli.pipeline import derive, explain
+
+_KINDS = ("path", "series")
+_STYLE = """
+:root { color-scheme: light dark; }
+body { margin: 2rem auto; max-width: 76rem; padding: 0 1rem; font-family: system-ui, sans-serif; }
+ul { display: grid; grid-template-columns: repeat(auto-fill, minmax(15rem, 1fr)); gap: 1rem;
+  padding: 0; list-style: none; }
+li { border: 1px solid #8886; border-radius: 6px; overflow: hidden; }
+a { display: block; padding: 0.7rem; color: inherit; text-decoration: none; }
+a:hover, a:focus-visible { outline: 3px solid #0072B2; outline-offset: -3px; }
+img, span { display: block; width: 100%; height: 11rem; object-fit: contain; }
+span { overflow: hidden; align-content: center; }
+h2 { margin: 2rem 0 0.7rem; }
+"""
+
+
+class Card(NamedTuple):
+    """What the list has of a problem: its picture, or else its Lagrangian."""
+
+    name: str
+    title: str
+    shown: str
+
+
+def made(entry: Entry, folder: Path) -> Card:
+    """Write the page and the picture of a problem."""
+    problem = lagcli.load(entry.path)
+    page = folder / f"{entry.name}.html"
+    page.parent.mkdir(parents=True, exist_ok=True)
+    below, picture = moved(problem)
+    options = Options(standalone=True, below=(below,))
+    page.write_text(render([explain(derive(problem))], "html", options), "utf-8")
+    return Card(entry.name, problem.title, shown(entry.name, problem, picture, folder))
+
+
+def shown(name, problem, picture, folder: Path) -> str:
+    """The picture of a problem, for a light and for a dark page, or its Lagrangian."""
+    if picture is None:
+        lagrangian = lagcli.solve(problem, ["lagrangian"]).lagrangian.lagrangian
+        if lagrangian is None:
+            return "<span></span>"
+        return f"<span><math>{MathmlPrinter().show(lagrangian.expression)}</math></span>"
+    picture.save(folder / f"{name}.svg")
+    picture.save(folder / f"{name}-dark.svg", dark=True)
+    return (
+        f"<picture><source media='(prefers-color-scheme: dark)' srcset='{name}-dark.svg'>"
+        f"<img src='{name}.svg' alt='' loading='lazy'></picture>"
+    )
+
+
+def moved(problem):
+    """The motion as HTML, and a picture of it."""
+    from lagcli.cli.moving import motion_below
+
+    below, _ = motion_below(problem)
+    if not below:
+        return "", None
+    motion = lagcli.simulate(problem, samples=601)
+    for kind in _KINDS:
+        try:
+            return below, motion.plot(kind)
+        except (CannotDraw, ProblemError, Refusal):
+            continue
+    return below, None
+
+
+def listed(cards: list[Card]) -> Iterator[str]:
+    """The page with all problems, by their folders."""
+    yield "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>"
+    yield "<meta name='viewport' content='width=device-width, initial-scale=1'>"
+    yield f"<title>Problems of lagcli</title>\n<style>{_STYLE}</style>\n</head>\n<body>"
+    yield f"<h1>{len(cards)} problems of lagcli</h1>"
+    for topic, group in groupby(cards, lambda card: card.name.rpartition("/")[0]):
+        yield f"<h2>{html.escape(topic or 'first')}</h2>\n<ul>"
+        for card in group:
+            yield f"<li><a href='{card.name}.html'>{card.shown}{html.escape(card.title)}</a></li>"
+        yield "</ul>"
+    yield "</body>\n</html>"
+
+
+def _one(work: tuple[Entry, Path]) -> Card:
+    return made(*work)
+
+
+def main(folder: Path, words: list[str]) -> None:
+    """Make the pages of the problems whose name has one of the words."""
+    chosen = [e for e in entries() if not words or any(word in e.name for word in words)]
+    cards = []
+    with Pool(maxtasksperchild=10) as pool:
+        for card in pool.imap(_one, [(entry, folder) for entry in chosen]):
+            cards.append(card)
+            print(card.name, flush=True)
+    folder.mkdir(exist_ok=True)
+    (folder / "index.html").write_text("\n".join(listed(cards)) + "\n", "utf-8")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), sys.argv[2:])
