@@ -59,6 +59,9 @@ Width = Annotated[
     int | None,
     typer.Option("--width", metavar="N", min=20, help="Columns.  [default: the terminal's, or 80]"),
 ]
+Watch = Annotated[
+    bool, typer.Option("--watch", help="Answer again whenever a file changes, until Ctrl-C.")
+]
 NoCache = Annotated[
     bool,
     typer.Option("--no-cache", help="Neither look up the answer nor keep it.  See: lagcli cache."),
@@ -77,6 +80,7 @@ def solve(
     latex: Latex = None,
     with_motion: WithMotion = False,
     width: Width = None,
+    watch: Watch = False,
     no_cache: NoCache = False,
 ) -> int:
     """Derive and print the equations of motion, multipliers and charges.
@@ -99,4 +103,12 @@ def solve(
         form, output, standalone=standalone, width=width, latex=latex, motion=with_motion
     )
     options = Options(tuple(show or ()), tuple(settings or ()), numeric, expand=expand)
-    return solve_or_repeat(files, options, printing, cached=not no_cache)
+
+    def answer() -> int:
+        return solve_or_repeat(files, options, printing, cached=not no_cache)
+
+    if not watch:
+        return answer()
+    from lagcli.cli.watching import watch as again
+
+    return again(files, answer)
