@@ -15,6 +15,7 @@ PAGES = {
 TABLES = {
     ".txt": "table", ".json": "json", ".csv": "csv", ".npz": "npz", ".parquet": "parquet",
 }  # fmt: skip
+PICTURES = {".svg": "svg", ".pdf": "pdf", ".png": "png"}
 STUDIES = {".txt": "text", ".json": "json", ".csv": "csv"}
 
 

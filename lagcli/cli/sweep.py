@@ -75,9 +75,10 @@ def sweep(
       lagcli sweep plane-pendulum --vary theta=0.1:3:30 --until 10 --show theta,energy
       lagcli sweep plane-pendulum --vary l=0.5,1,2 --vary theta=0.1:3:300 -o swings.parquet
       lagcli sweep kepler --random 1000 --seed 7 --vary "y'=0.5:1.2" -o orbits.csv
+      lagcli sweep plane-pendulum --vary theta=-3:3:99 --vary "theta'=-9:9:99" -o map.png
       lagcli sweep kepler --vary "y'=0.5:1.2:900" -o o.csv --scheduler tcp://host:8786
     """  # noqa: D301 - click reads the control character \b
-    from lagcli.cli.endings import TABLES, format_of
+    from lagcli.cli.endings import PICTURES, TABLES, format_of
     from lagcli.cli.simulating import Wish
     from lagcli.cli.sweeping import sweep_file
 
@@ -89,7 +90,7 @@ def sweep(
         settings=tuple(settings or ()),
         state=tuple(state or ()),
         show=tuple(show or ()),
-        format_name=format_of(format_name, output, TABLES, "table"),
+        format_name=format_of(format_name, output, TABLES | PICTURES, "table"),
         output=output,
         project=False,
         precision=None,

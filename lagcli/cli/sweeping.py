@@ -6,15 +6,16 @@ from collections.abc import Sequence
 from hashlib import sha256
 
 from lagcli.cli.checking import cores
-from lagcli.cli.choices import TABLES
+from lagcli.cli.choices import PICTURES, TABLES
 from lagcli.cli.delivering import has_place, place
+from lagcli.cli.plotting import is_drawn_as
 from lagcli.cli.running import counted, is_known, understood
 from lagcli.cli.simulating import Wish, asked_of, can_be_written
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line
 from lagcli.numerics.asked import Asked
 from lagcli.problem import Problem
-from lagcli.sweep import WRITERS, Plan, WrongPlan, plan_of, sweep
+from lagcli.sweep import WRITERS, Plan, Table, WrongPlan, plan_of, sweep
 from lagcli.sweep.journal import Journal
 from lagcli.sweep.workers import NoCluster
 
@@ -30,8 +31,8 @@ def sweep_file(
     scheduler: str | None,
 ) -> Status:
     """Run, write, and say how it ended."""
-    known = is_known("--format", wish.format_name, TABLES)
-    if not (known and can_be_written(wish)) & has_place(wish.output):
+    known = is_known("--format", wish.format_name, (*TABLES, *PICTURES))
+    if not (known and _can_be_written(wish)) & has_place(wish.output):
         return Status.USAGE
     found = understood(
         wish.file,
@@ -55,7 +56,8 @@ def sweep_file(
         except NoCluster as reason:
             tell_line(f"lagcli: error: {reason}")
             return _without_cluster(wish, journal)
-        if not place(WRITERS[wish.format_name](table), wish.output):
+        data = _written(table, problem, asked, plan, wish, along=along)
+        if data is None or not place(data, wish.output):
             return Status.USAGE
         journal.remove()
     if not table.complete:
@@ -63,6 +65,41 @@ def sweep_file(
         tell_line(f"{wish.file}: {missed} of {len(table.rows)} rows do not reach the accuracy")
         return Status.NOT_FOUND
     return Status.WELL
+
+
+def _can_be_written(wish: Wish) -> bool:
+    if wish.format_name not in PICTURES:
+        return can_be_written(wish)
+    if wish.output is None:
+        tell_line(f"lagcli: error: a picture goes to a file: -o sweep.{wish.format_name}")
+        return False
+    return is_drawn_as(wish.output, PICTURES)
+
+
+def _written(
+    table: Table, problem: Problem, asked: Asked, plan: Plan, wish: Wish, *, along: bool
+) -> bytes | None:
+    """The table or its picture; None where there is no such picture, which is reported."""
+    if wish.format_name not in PICTURES:
+        return WRITERS[wish.format_name](table)
+    from lagcli.pictures.drawing import CannotDraw
+    from lagcli.pictures.ensemble import Motions, ensemble
+    from lagcli.pictures.figure import to_bytes
+
+    count, reached = len(plan.names) + len(asked.columns), table.columns.index("reached")
+    motions = Motions(
+        varied=plan.names,
+        is_grid=plan.random is None,
+        columns=asked.columns,
+        rows=[row[:count] for row in table.rows],
+        are_right=[row[reached] == 1.0 for row in table.rows],
+        along=along,
+    )
+    try:
+        return to_bytes(ensemble(problem, motions), wish.format_name)
+    except CannotDraw as reason:
+        tell_line(f"{wish.file}: error: {reason}")
+        return None
 
 
 def _without_cluster(wish: Wish, journal: Journal) -> Status:

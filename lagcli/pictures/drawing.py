@@ -98,7 +98,26 @@ class Band:
     label: Label | None = None
 
 
-Item = Curve | Marks | Rule | Band
+@record(kw_only=True)
+class Cells:
+    """A value at each point of a grid, as a colour.
+
+    Attributes
+    ----------
+    x, y : tuple of float
+        The middles of the columns and of the rows, rising.
+    values : tuple of tuples
+        A row for each y; None is left blank.
+    label : Label
+    """
+
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+    values: tuple[tuple[float | None, ...], ...]
+    label: Label
+
+
+Item = Curve | Marks | Rule | Band | Cells
 
 
 @record(kw_only=True)
@@ -133,7 +152,7 @@ def drawn_by(panel: Panel) -> list[Curve | Marks | Rule]:
     """The parts that a key of the panel lists: those with a label, each label once."""
     found: dict[str, Curve | Marks | Rule] = {}
     for item in panel.items:
-        if not isinstance(item, Band) and item.label is not None:
+        if not isinstance(item, Band | Cells) and item.label is not None:
             found.setdefault(item.label.plain, item)
     return sorted(found.values(), key=lambda item: not isinstance(item, Curve))
 

@@ -12,18 +12,20 @@ from contextlib import contextmanager
 from io import BytesIO
 from typing import Any
 
+from lagcli.pictures.cells import draw_cells
 from lagcli.pictures.drawing import (
     Axis,
     Band,
+    Cells,
     Curve,
     Item,
-    Label,
     Marks,
     Panel,
     Picture,
     Rule,
     drawn_by,
 )
+from lagcli.pictures.mathtext import plainly, tex
 from lagcli.pictures.palette import DARK, DASHES, LIGHT, Style
 from lagcli.pictures.ticks import ticks
 
@@ -123,10 +125,10 @@ def drawn(picture: Picture, style: Style) -> Any:
         last = picture.beside or place == count - 1
         _Panel(ax, style).draw(panel, with_x=last)
     size = 12 if len(picture.title) <= _LONG_TITLE else 10
-    figure.suptitle(_text(picture.title), fontsize=size, wrap=True)
+    figure.suptitle(plainly(picture.title), fontsize=size, wrap=True)
     if picture.notes:
         figure.supxlabel(
-            _text("\n".join(picture.notes)), fontsize=7.5, color=style.second, ha="center"
+            plainly("\n".join(picture.notes)), fontsize=7.5, color=style.second, ha="center"
         )
     return figure
 
@@ -217,6 +219,8 @@ class _Panel:
                 ax.axvline(at, **self._rule(item))
             case Rule(at=at):
                 ax.axhline(at, **self._rule(item))
+            case Cells():
+                draw_cells(ax, item, style)
             case Band(low=low, high=high):
                 ax.axvspan(
                     low, high, facecolor=style.grey, edgecolor=style.faint, linewidth=0,
@@ -283,29 +287,3 @@ class _Panel:
                 look = self._rule(item)
         assert item.label is not None
         return Line2D([], [], label=tex(item.label), **look)
-
-
-def tex(label: Label) -> str:
-    """A label as mathtext reads it; what it cannot read is written plainly."""
-    return label.tex if _is_readable(label.tex) else _text(label.plain)
-
-
-def _text(words: str) -> str:
-    """Words in which nothing is a formula."""
-    return words.replace("$", r"\$")
-
-
-_readable: dict[str, bool] = {}
-
-
-def _is_readable(text: str) -> bool:
-    from matplotlib.mathtext import MathTextParser
-
-    if text not in _readable:
-        try:
-            MathTextParser("path").parse(text)
-        except (ValueError, RuntimeError):
-            _readable[text] = False
-        else:
-            _readable[text] = True
-    return _readable[text]
