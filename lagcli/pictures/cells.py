@@ -50,7 +50,10 @@ def _draw_kinds(
     ax.pcolormesh(
         *edges, placed, cmap=ListedColormap(colours), vmin=-0.5, vmax=top, rasterized=True
     )
-    handles = [Patch(color=c, label=f"{x:g}".replace("-", "\N{MINUS SIGN}")) for c, x in zip(colours, kinds, strict=False)]
+    handles = [
+        Patch(color=c, label=f"{x:g}".replace("-", "\N{MINUS SIGN}"))
+        for c, x in zip(colours, kinds, strict=False)
+    ]
     ax.legend(
         handles=handles, title=tex(cells.label), loc="upper left", bbox_to_anchor=(1.01, 1.0),
         fontsize=8, frameon=False, labelcolor=style.ink, borderaxespad=0.0,
