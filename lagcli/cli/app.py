@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from importlib import import_module
 from typing import Annotated, Any
 
@@ -9,39 +10,44 @@ import click
 import typer
 from typer.core import TyperGroup
 
-#: Command -> what `lagcli --help` says of it.  The module `lagcli.cli.<command>` has the
-#: function `<command>`; it is imported only when that command is called.
-COMMANDS = {
-    "solve": "Derive and print the equations of motion, multipliers and charges.",
-    "explain": "Tell the derivation step by step, with its reasons.",
-    "simulate": "Compute the motion to a stated accuracy, with a certificate.",
-    "plot": "Draw a motion over time, in space or in phase space.",
-    "animate": "Show a motion as a page to play, a GIF or an MP4.",
-    "sweep": "Compute an ensemble of motions over parameters and initial states.",
-    "tradeoff": "Measure what accuracy costs: every method against a known reference.",
-    "extremes": "Take a problem to its extremes and report where it breaks.",
-    "export": "Write the equations of motion as code in another language.",
-    "check": "Check problems against their known answers and against the mathematics.",
-    "diff": "Say whether two files mean the same physics.",
-    "new": "Write a first problem, to change into your own.",
-    "list": "List the problems of the library that comes with lagcli.",
-    "show": "Print the file of a problem of the library, to read or to change.",
-    "formats": "List the formats that `solve --format` knows.",
-    "schema": "Print the JSON Schema of problem files, or of the answers in JSON.",
-    "help": "Read the manual, or its page on a topic.",
-    "cache": "Show where the answers of earlier runs are kept, or remove them.",
-    "version": "Print the version.",
+#: What `lagcli --help` says of each command, on one line of a terminal, by groups.  The module
+#: `lagcli.cli.<command>` has the function `<command>`; it is imported only when it is called.
+GROUPS = {
+    "formulas": {
+        "solve": "Derive the equations of motion, multipliers and charges.",
+        "explain": "Tell the derivation step by step, with its reasons.",
+        "export": "Write the equations of motion as code.",
+    },
+    "motions": {
+        "simulate": "Compute the motion to a stated accuracy.",
+        "plot": "Draw a motion over time, in space or in phase space.",
+        "animate": "Show a motion as a page to play, a GIF or an MP4.",
+        "sweep": "Compute an ensemble of motions.",
+    },
+    "studies": {
+        "check": "Check problems against their known answers.",
+        "diff": "Say whether two files mean the same physics.",
+        "tradeoff": "Measure what accuracy costs.",
+        "extremes": "Take a problem to where it breaks.",
+    },
+    "problems": {
+        "new": "Write a first problem, to change into your own.",
+        "list": "List the problems of the library.",
+        "show": "Print the file of a problem of the library.",
+    },
+    "more": {
+        "help": "Read the manual, or its page on a topic.",
+        "formats": "List the formats that solve knows.",
+        "schema": "Print the JSON Schema of problem files, or of answers.",
+        "cache": "Show where earlier answers are kept, or remove them.",
+        "version": "Print the version.",
+    },
 }
-
-
+COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
+_ABOUT = "Lagrangian mechanics: from a YAML file to equations, charges and motions."
+_OPTIONS = "--version, --install-completion, --show-completion"
 #: For someone in an empty directory, to whom nobody has given a file.
-_FIRST_PROBLEM = """\b
-First steps:
-  lagcli new swing          a problem of your own, swing.yaml
-  lagcli solve swing.yaml
-  lagcli list pendulum      the library, whose problems are found by name
-  lagcli explain kepler
-"""
+_FIRST_STEPS = "lagcli new swing; lagcli solve swing.yaml"
 
 
 class DeferredCommand(click.Command):
@@ -67,6 +73,21 @@ class DeferredGroup(TyperGroup):
         for name, summary in COMMANDS.items():
             self.commands[name] = DeferredCommand(name, help=summary, short_help=summary)
 
+    def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Everything on one screen of 24 lines."""
+        formatter.write_usage(ctx.command_path, "COMMAND [OPTIONS] [ARGS]...")
+        formatter.write_text(_ABOUT)
+        formatter.write_paragraph()
+        formatter.write_dl([*_rows(), ("options", _OPTIONS), ("start", _FIRST_STEPS)])
+
+
+def _rows() -> Iterator[tuple[str, str]]:
+    """A line for each command, the first of a group with the group's name."""
+    for group, commands in GROUPS.items():
+        for place, (name, summary) in enumerate(commands.items()):
+            if name != "version":  # the option of that name stands below
+                yield f"{'' if place else group:8}  {name}", summary
+
 
 def load_command(name: str) -> click.Command:
     """Import a command's module and make the command of its function."""
@@ -84,7 +105,6 @@ def application() -> click.Command:
         pretty_exceptions_enable=False,
         no_args_is_help=True,
         context_settings={"help_option_names": ["-h", "--help"]},
-        epilog=_FIRST_PROBLEM,
     )
     app.callback()(lagcli)
     return typer.main.get_command(app)
@@ -107,4 +127,4 @@ Version = Annotated[
 
 
 def lagcli(version: Version = False) -> None:
-    """Lagrangian mechanics: from a problem in YAML to equations, multipliers and charges."""
+    """Lagrangian mechanics: from a YAML file to equations, charges and motions."""

@@ -12,7 +12,7 @@ Clear = Annotated[bool, typer.Option("--clear", help="Remove every answer that i
 
 
 def cache(clear: Clear = False) -> None:
-    """Show where the answers of earlier runs are kept, or remove them.
+    """Show where earlier answers are kept, or remove them.
 
     `lagcli solve` and `lagcli explain` print the answer of an earlier run again where the
     files, the options and the program are the same.  `LAGCLI_CACHE_DIR` names another

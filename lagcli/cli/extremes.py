@@ -43,7 +43,7 @@ def extremes(
     format_name: StudyFormat = None,
     output: Output = None,
 ) -> int:
-    """Take a problem to its extremes and report where it breaks.
+    """Take a problem to where it breaks.
 
     The cases follow from the problem: ratios of its parameters, angles beside 0, pi/2 and pi,
     zeros of the mass matrix, the energy of an unstable equilibrium, the speed of light, zero

@@ -8,7 +8,7 @@ _PDF = "PDF of that LaTeX, where LaTeX is installed."
 
 
 def formats() -> None:
-    """List the formats that `solve --format` knows, with those of other packages.
+    """List the formats that solve knows.
 
     Example: lagcli formats
     """

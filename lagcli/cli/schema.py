@@ -16,7 +16,7 @@ What = Annotated[
 
 
 def schema(what: What = "problem", output: Output = None) -> int:
-    """Print the JSON Schema of problem files, or of the answers in JSON.
+    """Print the JSON Schema of problem files, or of answers.
 
     An editor with a YAML language server completes and underlines problem files whose first
     line is

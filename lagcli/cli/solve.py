@@ -83,7 +83,7 @@ def solve(
     watch: Watch = False,
     no_cache: NoCache = False,
 ) -> int:
-    """Derive and print the equations of motion, multipliers and charges.
+    """Derive the equations of motion, multipliers and charges.
 
     The exit status is 0 when all was answered, 1 when an answer was not found, and 2 when
     the command line or a file is wrong; the other files are answered all the same.

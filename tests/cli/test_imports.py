@@ -83,6 +83,18 @@ def test_each_command_says_in_help_what_the_table_says():
         assert first.removesuffix(".").startswith(summary.removesuffix("."))
 
 
+def test_the_help_is_one_screen(capsys):
+    from lagcli.cli.app import COMMANDS
+    from lagcli.cli.run import run
+
+    assert run(["--help"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) < 24  # the prompt has the last line
+    assert max(map(len, lines)) <= 80
+    shown = " ".join(lines)
+    assert [name for name in COMMANDS if name not in shown] == []
+
+
 def test_the_help_names_every_section():
     from lagcli.statements.registry import built_in
 
