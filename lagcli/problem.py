@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal
+from typing import Any, Literal
 
 from lagcli.diagnostics import NOWHERE, Source, Span
 from lagcli.expression import Equation, Expression, Name, Negative, Number, Product, Sum
@@ -372,8 +372,13 @@ class Expect:
     brackets: Mapping[str, Expression] = field(default_factory=dict)
     canonical: Mapping[str, ExpectCanonical] = field(default_factory=dict)
     trajectory: Trajectory | None = None
+    others: Mapping[str, Any] = field(default_factory=dict)  # by the keys of any other section
     spans: Mapping[tuple[str, ...], Span] = field(default_factory=dict, compare=False)
     #: place of each expectation: ("accelerations", "x"), ("equations", "0"), …
+
+    def of(self, key: str) -> Any:
+        """What is expected under a key."""
+        return self.others[key] if key in self.others else getattr(self, key, None)
 
 
 @record(kw_only=True)

@@ -94,17 +94,21 @@ def test_the_readme_is_short():
     assert len(README.read_bytes()) <= 8192
 
 
+def install(name, group, folder):
+    """A package like the manual's, as an installer leaves it."""
+    code = next(body for body in blocks("python", EXTENDING) if body.startswith(f'"""{name}.py'))
+    declared = next(body for body in blocks("toml", EXTENDING) if group in body)
+    (folder / f"{name}.py").write_text(code, "utf-8")
+    info = folder / f"lagcli_{name}-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: lagcli-{name}\nVersion: 1.0\n")
+    points = declared.replace(f'project.entry-points."{group}"', group)
+    (info / "entry_points.txt").write_text(points.replace('"', ""))
+
+
 @pytest.fixture
 def plug_in(tmp_path):
-    """A package like the manual's, as an installer leaves it."""
-    code = next(body for body in blocks("python", EXTENDING) if body.startswith('"""charges.py'))
-    declared = next(body for body in blocks("toml", EXTENDING) if "lagcli.formatters" in body)
-    (tmp_path / "charges.py").write_text(code, "utf-8")
-    info = tmp_path / "lagcli_charges-1.0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: lagcli-charges\nVersion: 1.0\n")
-    points = declared.replace('project.entry-points."lagcli.formatters"', "lagcli.formatters")
-    (info / "entry_points.txt").write_text(points.replace('"', ""))
+    install("charges", "lagcli.formatters", tmp_path)
     environment = {**os.environ, "PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
 
     def run(*arguments):

@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import cast
 
-from lagcli.answers import AlgebraSection, Answers, SpecialValue
+from lagcli.answers import AlgebraSection, SpecialValue
 from lagcli.check.comparison import Comparison
 from lagcli.check.findings import Judged
 from lagcli.expression import Equation
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
-from lagcli.problem import Expect, ExpectAlgebra, ExpectSpecial
+from lagcli.problem import ExpectAlgebra, ExpectSpecial
 from lagcli.values import Values, substituted
 
 _PATH = ["algebra"]
 
 
-def expected_algebra(expect: Expect, answers: Answers, comparison: Comparison) -> Iterator[Judged]:
+def expected_algebra(
+    wanted: ExpectAlgebra, found: AlgebraSection, comparison: Comparison
+) -> Iterator[Judged]:
     """Every expectation of the section with its verdict."""
-    wanted = expect.algebra
-    if wanted is None:
-        return
-    found = cast(AlgebraSection, answers.sections["algebra"])
     yield from _plain(wanted, found)
     if wanted.special is not None:
         yield from _special(wanted.special, found, comparison)

@@ -32,7 +32,6 @@ def check_problem(name: str, data: bytes) -> Report:
 
 
 def _check(found: Read) -> Report:
-    from lagcli.check.comparison import Comparison
     from lagcli.check.expectations import Expectations, sections_expected
     from lagcli.check.initial import initial_mistakes
     from lagcli.check.laws import SECTIONS, Laws
@@ -41,7 +40,8 @@ def _check(found: Read) -> Report:
     source, problem = Source(found.source.name, ""), found.problem
     if problem is None:
         return Report(found.source, diagnostics=found.diagnostics)
-    sections = tuple(dict.fromkeys([*SECTIONS, *sections_expected(problem.expect)]))
+    expected = [declared.name for declared in sections_expected(problem.expect)]
+    sections = tuple(dict.fromkeys([*SECTIONS, *expected]))
     try:
         derivation = derive(problem)
         if derivation.no_lagrangian:
@@ -52,10 +52,9 @@ def _check(found: Read) -> Report:
         answers = state(derivation, Request(sections=sections))
         if answers.absent:
             return _without_sections(source, answers)
-        comparison = Comparison(derivation)
         results = list(
             chain(
-                Expectations(derivation, answers, comparison),
+                Expectations(derivation, answers),
                 Laws(derivation, answers),
                 TrajectoryCheck(derivation.problem),
             )
@@ -76,16 +75,15 @@ def _without_sections(source: Source, answers: Answers) -> Report:
 
 def _check_phase_space(derivation: Derivation, source: Source) -> Report:
     """A problem without a Lagrangian has no motion in q and q' to compare with."""
-    from lagcli.check.expectations import sections_expected
-    from lagcli.check.phase_space import PHASE_SPACE, PhaseSpace
+    from lagcli.check.expectations import Expectations, sections_expected
 
     expected = sections_expected(derivation.given.expect)
-    answers = state(derivation, Request(sections=tuple(PHASE_SPACE)))
-    results = list(PhaseSpace(derivation, answers))
+    possible = tuple(each.name for each in expected if each.phase_space is not None)
+    results = list(Expectations(derivation, state(derivation, Request(sections=possible))))
     results += [
-        Finding(Outcome.UNDECIDED, name, f"H gives no Lagrangian: {derivation.no_lagrangian}")
-        for name in expected
-        if name not in PHASE_SPACE
+        Finding(Outcome.UNDECIDED, each.name, f"H gives no Lagrangian: {derivation.no_lagrangian}")
+        for each in expected
+        if each.phase_space is None
     ]
     findings = tuple(result for result in results if result is not None)
     return Report(source, len(results), findings)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from importlib import import_module
-from typing import Annotated, Any
+from typing import Annotated, Any, cast
 
 import click
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 
 #: What `lagcli --help` says of each command, on one line of a terminal, by groups.  The module
 #: `lagcli.cli.<command>` has the function `<command>`; it is imported only when it is called.
@@ -89,12 +89,33 @@ def _rows() -> Iterator[tuple[str, str]]:
                 yield f"{'' if place else group:8}  {name}", summary
 
 
-def load_command(name: str) -> click.Command:
+class SectionsInHelp(TyperCommand):
+    """A command whose help names the sections, which are looked up when help is wanted."""
+
+    def fill_in(self) -> None:
+        """Put the names of the sections in for {sections} and {told}."""
+        wanting = [p for p in self.params if "{" in (getattr(p, "help", None) or "")]
+        if wanting:
+            from lagcli.statements.registry import every_section, told_in_order
+
+            lists = {"{sections}": every_section(), "{told}": told_in_order()}
+            for option in wanting:
+                for mark, declared in lists.items():
+                    names = ", ".join(each.name for each in declared)
+                    option.help = option.help.replace(mark, names)  # type: ignore[attr-defined]
+
+    def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the help with the names of the sections."""
+        self.fill_in()
+        super().format_help(ctx, formatter)
+
+
+def load_command(name: str) -> SectionsInHelp:
     """Import a command's module and make the command of its function."""
     function = getattr(import_module(f"lagcli.cli.{name}"), name)
     single = typer.Typer(rich_markup_mode=None, add_completion=False)
-    single.command(name)(function)
-    return typer.main.get_command(single)
+    single.command(name, cls=SectionsInHelp)(function)
+    return cast(SectionsInHelp, typer.main.get_command(single))
 
 
 def application() -> click.Command:

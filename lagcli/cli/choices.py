@@ -31,20 +31,10 @@ _SHOWN = (
 
 def complete_section(incomplete: str) -> list[str]:
     """The sections that the last word of `a,b,c` may become."""
-    from lagcli.statements.registry import every_section
+    from lagcli.statements.registry import section_names
 
     before, comma, word = incomplete.rpartition(",")
-    names = [each.name for each in every_section()]
-    return [before + comma + name for name in names if name.startswith(word)]
-
-
-def complete_told(incomplete: str) -> list[str]:
-    """The sections with a step of their own that the last word of `a,b,c` may become."""
-    from lagcli.statements.registry import told_in_order
-
-    before, comma, word = incomplete.rpartition(",")
-    names = [each.name for each in told_in_order()]
-    return [before + comma + name for name in names if name.startswith(word)]
+    return [before + comma + name for name in section_names() if name.startswith(word)]
 
 
 def complete_format(incomplete: str) -> list[str]:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.choices import complete_page_format
+from lagcli.cli.choices import complete_page_format, complete_section
 from lagcli.cli.options import Latex, Output, WithMotion
 from lagcli.cli.solve import Files, NoCache, Set, Standalone, Width
 
@@ -25,9 +25,8 @@ Also = Annotated[
     typer.Option(
         "--also",
         metavar="A,B",
-        help="Tell these as well: find, equilibria, modes, reduction, steady_motions, "
-        "canonical_equations, brackets, canonical, hamilton_jacobi, discovered, algebra, forces, "
-        "model, dimensions.",
+        help="Tell these as well: {told}.",
+        autocompletion=complete_section,
     ),
 ]
 

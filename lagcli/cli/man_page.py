@@ -25,7 +25,9 @@ def man_page() -> str:
         ".SH COMMANDS",
     ]
     for name in COMMANDS:
-        lines += _command(name, load_command(name))
+        command = load_command(name)
+        command.fill_in()
+        lines += _command(name, command)
     lines += [".SH EXIT STATUS"]
     for status, meaning in _STATUSES.items():
         lines += [".TP", status, meaning]

@@ -32,10 +32,7 @@ Show = Annotated[
     typer.Option(
         "--show",
         metavar="A,B,C",
-        help="Only these sections.  There are: lagrangian, equations, matrix_form, accelerations, "
-        "multipliers, constraint_forces, forces, momenta, energy, hamiltonian, "
-        "canonical_equations, brackets, canonical, charges, discovered, algebra, find, "
-        "equilibria, modes, reduction, steady_motions, hamilton_jacobi, model, dimensions.  "
+        help="Only these sections.  There are: {sections}.  "
         "Without it: those that a first look needs.",
         autocompletion=complete_section,
     ),

@@ -18,6 +18,7 @@ from lagcli.formatters.registry import BUILT_IN
 from lagcli.pipeline import Request, derive, read
 from lagcli.problem import Problem
 from lagcli.sparing import keep_what_is_there, spare_sympy
+from lagcli.statements.registry import is_built_in
 
 #: A file's name, and its bytes or why there are none.
 Input = tuple[str, bytes | OSError]
@@ -77,7 +78,8 @@ def solve_files(
             options = printing.options(several=len(inputs) > 1, below=tuple(below))
             text = work.render([answer for _, answer in answered], printing.format_name, options)
     lasting = not (tally.missing or tally.unreadable or only_read)
-    repeatable = lasting and printing.format_name in BUILT_IN
+    plain = all(map(is_built_in, asked.request.sections or ()))
+    repeatable = lasting and plain and printing.format_name in BUILT_IN
     return Outcome(tally.status, text, tuple(tally.said), repeatable)
 
 

@@ -9,8 +9,7 @@ from lagcli.reader.nodes import Node
 from lagcli.reader.scope import CONSTANTS, Role
 
 if TYPE_CHECKING:
-    from lagcli.diagnostics import Span
-    from lagcli.reader.sections import Sections
+    from lagcli.reader.expectations import ExpectReader
 
 _COUNTS = ("dimension", "independent", "in_involution")
 _KEYS = (*_COUNTS, "name", "integrable", "special")
@@ -19,19 +18,18 @@ _WORDS = {"yes": True, "no": False}
 _CHARGE = Role(order=1, why="an answer is free of accelerations")
 
 
-def read_algebra(
-    sections: Sections, node: Node, spans: dict[tuple[str, ...], Span]
-) -> ExpectAlgebra:
+def read_algebra(reader: ExpectReader, node: Node) -> ExpectAlgebra:
     """`expect: {algebra: {dimension, name, independent, in_involution, integrable, special}}`."""
+    sections, spans = reader.sections, reader.spans
     found: dict[str, Any] = {}
     for name, (key, value) in sections.attributes(node, "'algebra'", _KEYS).items():
         spans["algebra", name] = key.span
         if name in _COUNTS:
-            found[name] = read_count(sections, value, name)
+            found[name] = reader.count(value, name)
         elif name == "special":
             items = sections.items(value, "'special'", "write [] where there are none")
             found[name] = tuple(
-                _special(sections, item, ("algebra", name, str(place)), spans)
+                _special(reader, item, ("algebra", name, str(place)))
                 for place, item in enumerate(items)
             )
         elif (text := sections.scalar(value, f"'{name}'")) is not None:
@@ -45,22 +43,9 @@ def read_algebra(
     return ExpectAlgebra(**found)
 
 
-def read_count(sections: Sections, node: Node, name: str) -> int | None:
-    """A whole number, 0 or more."""
-    text = sections.scalar(node, f"'{name}'")
-    if text is None:
-        return None
-    value = text.value.strip()
-    if not (value.isascii() and value.isdigit() and len(value) < 10):
-        sections.error(f"'{name}' is a whole number, 0 or more", text.span)
-        return None
-    return int(value)
-
-
-def _special(
-    sections: Sections, node: Node, path: tuple[str, ...], spans: dict[tuple[str, ...], Span]
-) -> ExpectSpecial:
+def _special(reader: ExpectReader, node: Node, path: tuple[str, ...]) -> ExpectSpecial:
     """`{where: n = -1, charges: 4, discovered: {name: charge}}`."""
+    sections, spans = reader.sections, reader.spans
     spans[path] = node.span
     found: dict[str, Any] = {}
     entries = sections.attributes(node, "a special value", _SPECIAL)
@@ -71,7 +56,7 @@ def _special(
         if name == "where":
             found[name] = sections.equation(value, "the special value", CONSTANTS)
         elif name == "charges":
-            found[name] = read_count(sections, value, name)
+            found[name] = reader.count(value, name)
         else:
             found[name] = {}
             for label, charge in sections.entries(value, "'discovered'"):

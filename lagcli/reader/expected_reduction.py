@@ -12,9 +12,9 @@ from lagcli.reader.nodes import Node, Scalar, Sequence
 from lagcli.reader.scope import Role
 
 if TYPE_CHECKING:
-    from lagcli.diagnostics import Span
     from lagcli.expression import Expression
     from lagcli.problem import Inequality
+    from lagcli.reader.expectations import ExpectReader
     from lagcli.reader.sections import Sections
 
 #: What the answers call the constants of separation: alpha_1, alpha_2, …
@@ -50,10 +50,9 @@ def constants(sections: Sections) -> Iterator[None]:
             del kinds[name]
 
 
-def read_reduction(
-    sections: Sections, node: Node, spans: dict[tuple[str, ...], Span]
-) -> ExpectReduction:
+def read_reduction(reader: ExpectReader, node: Node) -> ExpectReduction:
     """`expect: {reduction: {routhian, effective_potential, …}}`."""
+    sections, spans = reader.sections, reader.spans
     found: dict[str, Any] = {}
     with constants(sections):
         entries = sections.attributes(node, "'reduction'", _KEYS)
@@ -77,10 +76,9 @@ def expressions(sections: Sections, node: Node, name: str, what: str) -> tuple[E
     return tuple(sections.expression(item, what, _REDUCED) for item in items)
 
 
-def read_steady_motions(
-    sections: Sections, node: Node, spans: dict[tuple[str, ...], Span]
-) -> tuple[ExpectSteady, ...]:
+def read_steady_motions(reader: ExpectReader, node: Node) -> tuple[ExpectSteady, ...]:
     """`expect: {steady_motions: [{at, rates, momenta, frequencies_squared, stable}]}`."""
+    sections, spans = reader.sections, reader.spans
     motions = []
     with constants(sections):
         for place, item in enumerate(sections.items(node, "'steady_motions'")):
@@ -89,10 +87,9 @@ def read_steady_motions(
     return tuple(motions)
 
 
-def read_equilibria(
-    sections: Sections, node: Node, spans: dict[tuple[str, ...], Span]
-) -> tuple[ExpectEquilibrium, ...]:
+def read_equilibria(reader: ExpectReader, node: Node) -> tuple[ExpectEquilibrium, ...]:
     """`expect: {equilibria: [{at, on, stable}]}`."""
+    sections, spans = reader.sections, reader.spans
     found = []
     for place, item in enumerate(sections.items(node, "'equilibria'")):
         spans["equilibria", str(place)] = item.span
@@ -136,10 +133,9 @@ def _stable(sections: Sections, node: Node) -> bool | tuple[Inequality, ...] | N
     return tuple(each for each in read if each is not None)
 
 
-def read_hamilton_jacobi(
-    sections: Sections, node: Node, spans: dict[tuple[str, ...], Span]
-) -> ExpectHamiltonJacobi:
+def read_hamilton_jacobi(reader: ExpectReader, node: Node) -> ExpectHamiltonJacobi:
     """`expect: {hamilton_jacobi: {separable: yes, derivatives: {x: …}, functions: {x: …}}}`."""
+    sections, spans = reader.sections, reader.spans
     found: dict[str, Any] = {}
     with constants(sections):
         entries = sections.attributes(node, "'hamilton_jacobi'", _SEPARATED)

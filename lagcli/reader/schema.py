@@ -7,14 +7,23 @@ declared, formulas that are wrong) the reader says.
 
 from __future__ import annotations
 
-from typing import Any, get_args
+from typing import get_args
 
 from lagcli.problem import METHODS, Assumption
-from lagcli.reader.expectations import KEYS as EXPECTED
-from lagcli.reader.phase_space import VERDICTS
+from lagcli.reader.schema_parts import (
+    COUNT,
+    FORMULA,
+    FORMULAS,
+    TEXT,
+    YES_OR_NO,
+    Schema,
+    list_of,
+    map_of,
+    record_of,
+    ref,
+)
 from lagcli.reader.trajectory import HAPPENINGS
-
-Schema = dict[str, Any]
+from lagcli.statements.registry import every_section
 
 _DRAFT = "http://json-schema.org/draft-07/schema#"
 _ANY_NAME = r"^[^\W\d]\w*$"
@@ -28,31 +37,18 @@ def problem_schema() -> Schema:
         "type": "object",
         "required": ["coordinates"],
         "additionalProperties": False,
-        "properties": {key: _described(key, part) for key, part in _PARTS.items()},
+        "properties": {
+            **{key: _described(key, part) for key, part in _PARTS.items()},
+            "expect": _described("expect", record_of((), **_expected())),
+        },
         "definitions": _DEFINITIONS,
     }
 
 
-def _ref(name: str) -> Schema:
-    return {"$ref": f"#/definitions/{name}"}
-
-
-def _map(values: Schema) -> Schema:
-    """Names to values; an empty value makes an empty map."""
-    return {"type": ["object", "null"], "additionalProperties": values}
-
-
-def _record(required: tuple[str, ...] = (), /, **properties: Schema) -> Schema:
-    return {
-        "type": "object",
-        "properties": properties,
-        "required": list(required),
-        "additionalProperties": False,
-    }
-
-
-def _list(items: Schema) -> Schema:
-    return {"type": "array", "items": items}
+def _expected() -> dict[str, Schema]:
+    """What the sections may be compared with, and two keys of no section."""
+    found = {e.key: dict(e.schema) for each in every_section() for e in each.expected}
+    return {"degrees_of_freedom": COUNT, **found, "trajectory": _TRAJECTORY}
 
 
 def _described(key: str, part: Schema) -> Schema:
@@ -60,15 +56,8 @@ def _described(key: str, part: Schema) -> Schema:
     return {"description": _MEANING[key], "allOf": [part]}
 
 
-_TEXT: Schema = {"type": ["string", "number", "boolean"]}
-_FORMULA = _ref("expression")
-_FORMULAS = _map(_FORMULA)
-_YES_OR_NO: Schema = {"enum": ["yes", "no", True, False]}
-_STABLE: Schema = {"anyOf": [_YES_OR_NO, _ref("inequality"), _list(_ref("inequality"))]}
-_ONE_OR_MORE: Schema = {"anyOf": [_FORMULA, _list({"anyOf": [_FORMULA, _list(_FORMULA)]})]}
-
-_POSITION: Schema = {**_list(_FORMULA), "minItems": 1, "maxItems": 3}
-_PAIR: Schema = {**_list(_TEXT), "minItems": 2, "maxItems": 2}
+_POSITION: Schema = {**list_of(FORMULA), "minItems": 1, "maxItems": 3}
+_PAIR: Schema = {**list_of(TEXT), "minItems": 2, "maxItems": 2}
 
 _QUANTITY: dict[str, Schema] = {
     "unit": {
@@ -76,7 +65,7 @@ _QUANTITY: dict[str, Schema] = {
         "description": "such as kg m^2/s^2; rad and 1 are numbers",
     },
     "symbol": {"type": "string", "description": "LaTeX for the name"},
-    "description": _TEXT,
+    "description": TEXT,
     "assume": {"enum": list(get_args(Assumption)), "description": "real without it"},
 }
 
@@ -91,154 +80,100 @@ _DEFINITIONS: dict[str, Schema] = {
     },
     "inequality": {"type": "string", "pattern": "[<>]", "description": "such as N >= 0"},
     "name": {"type": "string", "pattern": _ANY_NAME},
-    "coordinate": {"anyOf": [{"type": "null"}, _record((), **_QUANTITY)]},
+    "coordinate": {"anyOf": [{"type": "null"}, record_of((), **_QUANTITY)]},
     "parameter": {
         "anyOf": [
             {"type": "null"},
-            _FORMULA,
-            _record((), **_QUANTITY, integer=_YES_OR_NO, value=_FORMULA),
+            FORMULA,
+            record_of((), **_QUANTITY, integer=YES_OR_NO, value=FORMULA),
         ]
     },
     "constraint": {
         "anyOf": [
-            _ref("equation"),
-            _record(
+            ref("equation"),
+            record_of(
                 ("equation",),
-                equation=_ref("equation"),
-                multiplier=_ref("name"),
+                equation=ref("equation"),
+                multiplier=ref("name"),
                 acts_as={"enum": ["normal", "friction", "tension"]},
-                holds_while=_ref("inequality"),
+                holds_while=ref("inequality"),
                 on_loss={"enum": ["stop", "release"]},
-                restitution=_FORMULA,
+                restitution=FORMULA,
             ),
         ]
     },
     "contact": {
         "anyOf": [
-            _FORMULA,
-            _record(("gap",), gap=_FORMULA, restitution=_FORMULA, multiplier=_ref("name")),
+            FORMULA,
+            record_of(("gap",), gap=FORMULA, restitution=FORMULA, multiplier=ref("name")),
         ]
     },
-    "point": _record(
+    "point": record_of(
         ("position",),
         position=_POSITION,
-        mass=_FORMULA,
-        force={**_list(_FORMULA), "minItems": 1, "maxItems": 3},
+        mass=FORMULA,
+        force={**list_of(FORMULA), "minItems": 1, "maxItems": 3},
     ),
     "question": {
         "anyOf": [
-            _record(("where", "for"), where=_ref("equation"), **{"for": _TEXT}),
-            _record(("value", "in_terms_of"), value=_FORMULA, in_terms_of=_list(_TEXT)),
-            _record(("always", "for"), always=_ref("inequality"), **{"for": _TEXT}),
-            _record(("reaches", "for"), reaches=_ref("equation"), **{"for": _TEXT}),
+            record_of(("where", "for"), where=ref("equation"), **{"for": TEXT}),
+            record_of(("value", "in_terms_of"), value=FORMULA, in_terms_of=list_of(TEXT)),
+            record_of(("always", "for"), always=ref("inequality"), **{"for": TEXT}),
+            record_of(("reaches", "for"), reaches=ref("equation"), **{"for": TEXT}),
         ]
     },
-    "row": {"type": "object", "required": ["t"], "additionalProperties": _FORMULA},
+    "row": {"type": "object", "required": ["t"], "additionalProperties": FORMULA},
 }
 
 _TRAJECTORY: Schema = {
     "type": "object",
     "properties": {
-        "until": _FORMULA,
-        "tolerance": _FORMULA,
-        "at": _list(_ref("row")),
-        "events": _list(
+        "until": FORMULA,
+        "tolerance": FORMULA,
+        "at": list_of(ref("row")),
+        "events": list_of(
             {
                 "type": "object",
                 "properties": {"what": {"enum": list(HAPPENINGS)}},
-                "additionalProperties": _FORMULA,
+                "additionalProperties": FORMULA,
             }
         ),
     },
-    "additionalProperties": _FORMULA,
+    "additionalProperties": FORMULA,
 }
 
-_EXPECTED: dict[str, Schema] = {
-    "degrees_of_freedom": {"type": ["integer", "string"]},
-    "equations": _list(_ref("equation")),
-    "accelerations": _FORMULAS,
-    "multipliers": _FORMULAS,
-    "constraint_forces": _map(_FORMULAS),
-    "forces": _map(_map({"anyOf": [_FORMULA, _list(_FORMULA)]})),
-    "friction_needed": _FORMULAS,
-    "momenta": _FORMULAS,
-    "hamiltonian": _FORMULA,
-    "energy": _FORMULA,
-    "charges": _FORMULAS,
-    "discovered": _FORMULAS,
-    "equilibria": _list(_record(at=_FORMULAS, on=_ref("equation"), stable=_STABLE)),
-    "modes": _list(_FORMULA),
-    "find": _map(_ONE_OR_MORE),
-    "trajectory": _TRAJECTORY,
-    "reduction": _record(
-        routhian=_FORMULA,
-        effective_potential=_FORMULA,
-        reconstruction=_FORMULAS,
-        turning_points=_list(_FORMULA),
-        period=_FORMULA,
-    ),
-    "steady_motions": _list(
-        _record(
-            at=_FORMULAS, rates=_FORMULAS, momenta=_FORMULAS, frequencies_squared=_list(_FORMULA),
-            stable=_STABLE,
-        )
-    ),
-    "hamilton_jacobi": _record(separable=_YES_OR_NO, derivatives=_FORMULAS, functions=_FORMULAS),
-    "brackets": _FORMULAS,
-    "canonical": _map(
-        _record(
-            kind={"enum": list(VERDICTS)}, valence=_FORMULA, generates=_YES_OR_NO,
-            hamiltonian=_FORMULA,
-        )
-    ),
-    "algebra": _record(
-        dimension={"type": ["integer", "string"]},
-        independent={"type": ["integer", "string"]},
-        in_involution={"type": ["integer", "string"]},
-        name=_TEXT,
-        integrable=_YES_OR_NO,
-        special=_list(
-            _record(
-                ("where",), where=_ref("equation"), charges={"type": ["integer", "string"]},
-                discovered=_FORMULAS,
-            )
-        ),
-    ),
-}  # fmt: skip
-
 _PARTS: dict[str, Schema] = {
-    "title": _TEXT,
-    "source": _TEXT,
-    "description": _TEXT,
+    "title": TEXT,
+    "source": TEXT,
+    "description": TEXT,
     "coordinates": {
         "anyOf": [
-            {**_list(_ref("name")), "minItems": 1},
-            {**_map(_ref("coordinate")), "minProperties": 1, "type": "object"},
+            {**list_of(ref("name")), "minItems": 1},
+            {**map_of(ref("coordinate")), "minProperties": 1, "type": "object"},
         ]
     },
-    "parameters": {"anyOf": [_list(_ref("name")), _map(_ref("parameter"))]},
-    "functions": _map(_list(_TEXT)),
-    "definitions": _FORMULAS,
-    "points": _map(_ref("point")),
-    "T": _FORMULA,
-    "V": _FORMULA,
-    "L": _FORMULA,
-    "H": _FORMULA,
-    "forces": _FORMULAS,
-    "dissipation": _FORMULA,
-    "constraints": _map(_ref("constraint")),
-    "contacts": _map(_ref("contact")),
-    "symmetries": _map(_FORMULAS),
-    "observables": _FORMULAS,
-    "brackets": _map({**_list(_FORMULA), "minItems": 2, "maxItems": 2}),
-    "canonical_transformations": _map(_FORMULAS),
-    "initial": _FORMULAS,
-    "find": _map(_ref("question")),
-    "simulation": _record(until=_FORMULA, accuracy=_FORMULA, method={"enum": list(METHODS)}),
-    "picture": _record(
-        places=_map(_POSITION), rods=_list(_PAIR), springs=_list(_PAIR), trails=_list(_TEXT)
+    "parameters": {"anyOf": [list_of(ref("name")), map_of(ref("parameter"))]},
+    "functions": map_of(list_of(TEXT)),
+    "definitions": FORMULAS,
+    "points": map_of(ref("point")),
+    "T": FORMULA,
+    "V": FORMULA,
+    "L": FORMULA,
+    "H": FORMULA,
+    "forces": FORMULAS,
+    "dissipation": FORMULA,
+    "constraints": map_of(ref("constraint")),
+    "contacts": map_of(ref("contact")),
+    "symmetries": map_of(FORMULAS),
+    "observables": FORMULAS,
+    "brackets": map_of({**list_of(FORMULA), "minItems": 2, "maxItems": 2}),
+    "canonical_transformations": map_of(FORMULAS),
+    "initial": FORMULAS,
+    "find": map_of(ref("question")),
+    "simulation": record_of(until=FORMULA, accuracy=FORMULA, method={"enum": list(METHODS)}),
+    "picture": record_of(
+        places=map_of(_POSITION), rods=list_of(_PAIR), springs=list_of(_PAIR), trails=list_of(TEXT)
     ),
-    "expect": _record((), **{key: _EXPECTED[key] for key in EXPECTED}),
 }
 
 _MEANING = {

@@ -59,6 +59,8 @@ NUMBERS = Role(
 QUESTION = Role(order=2, why="no law needs a third derivative", multipliers=True, momenta=True)
 #: A column of a numerical run.
 ALONG = QUESTION._replace(contact_forces=True)
+#: An answer holds what is left when accelerations and multipliers have been eliminated.
+ANSWER = Role(order=1, why="an answer is free of accelerations", integrals=True)
 EQUATION = Role(order=2, why="the equations of motion are of second order", multipliers=True)
 PHASE_SPACE = Role(order=0, why="a Hamiltonian has momenta p_x, no velocities", momenta=True)
 MOTION = Role(order=CONSTANT, why="a trajectory depends on t and parameters")

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from lagcli.answers import AccelerationsSection, Answers
 from lagcli.document import Block, Paragraph
+from lagcli.expression import Expression
 from lagcli.formatters.json_values import FORMULA, Object, by_name, map_of, unless_none
-from lagcli.statements.declaration import Declaration, always
+from lagcli.reader.schema_parts import FORMULAS
+from lagcli.statements.declaration import Declaration, Expected, always
 from lagcli.wording import listed, not_found, rows_by_name, substituted
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.mechanics.stating import Stating
+    from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.nodes import Node
 
 
 def derive(statements: Statements) -> AccelerationsSection:
@@ -72,6 +77,18 @@ def json(section: AccelerationsSection) -> Object:
     return result
 
 
+def read(reader: ExpectReader, node: Node) -> dict[str, Expression]:
+    """Formulas by coordinate."""
+    return reader.by_coordinate(node, "accelerations", "the expected acceleration of '{}'")
+
+
+def compare(
+    check: Expectations, section: AccelerationsSection, expected: Mapping[str, Expression]
+) -> Found:
+    """Each is the same on the constraints."""
+    return check.compare_each(["accelerations"], section.accelerations, expected)
+
+
 SECTION = Declaration(
     name="accelerations",
     heading="Accelerations",
@@ -83,4 +100,5 @@ SECTION = Declaration(
     schema=map_of(FORMULA),
     unasked=always,
     abbreviated=True,
+    expected=(Expected(key="accelerations", schema=FORMULAS, read=read, compare=compare),),
 )

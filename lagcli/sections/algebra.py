@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -9,11 +10,15 @@ from lagcli.answers import AlgebraSection, Answers, SpecialValue
 from lagcli.document import Block, Heading, Paragraph
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, by_name, string
+from lagcli.problem import ExpectAlgebra
+from lagcli.reader.expected_algebra import read_algebra
+from lagcli.reader.schema_parts import COUNT, FORMULAS, TEXT, YES_OR_NO, list_of, record_of, ref
 from lagcli.record import replace
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.wording import rows_by_name
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
 
@@ -105,6 +110,14 @@ def tell(teller: Teller, section: AlgebraSection) -> Iterator[Block]:
     return algebra(teller, section)
 
 
+def compare(check: Expectations, section: AlgebraSection, expected: ExpectAlgebra) -> Found:
+    """The counts, the name, the verdict, and the special values."""
+    from lagcli.check.algebra import expected_algebra
+
+    judged = expected_algebra(expected, section, check.comparison)
+    yield from itertools.starmap(check.judge, judged)
+
+
 SECTION = Declaration(
     name="algebra",
     heading="Algebra of symmetries",
@@ -113,4 +126,21 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     told=Told(title="The algebra of the symmetries", blocks=tell, order=110),
+    expected=(
+        Expected(
+            key="algebra",
+            schema=record_of(
+                dimension=COUNT,
+                independent=COUNT,
+                in_involution=COUNT,
+                name=TEXT,
+                integrable=YES_OR_NO,
+                special=list_of(
+                    record_of(("where",), where=ref("equation"), charges=COUNT, discovered=FORMULAS)
+                ),
+            ),
+            read=read_algebra,
+            compare=compare,
+        ),
+    ),
 )

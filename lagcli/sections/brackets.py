@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from lagcli.answers import Answers
 from lagcli.document import Block, Bracket, Equations, Paragraph, Row
-from lagcli.expression import Name
+from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import Object, by_name, string, unless_none
 from lagcli.phase_space import BracketsSection, PoissonBracket
 from lagcli.problem import Problem
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.reader.phase_space import read_expected_brackets
+from lagcli.reader.schema_parts import FORMULAS
+from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.values import substituted
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
     from lagcli.mechanics.statements import Statements
+    from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.nodes import Node
 
 
 def derive(statements: Statements | PhaseSpaceStatements) -> BracketsSection:
@@ -85,6 +91,25 @@ def tell(teller: Teller, section: BracketsSection) -> Iterator[Block]:
     return brackets(teller, section)
 
 
+def read(reader: ExpectReader, node: Node) -> dict[str, Expression]:
+    """Formulas by bracket; observables may stand in them."""
+    known = reader.known(node, "brackets", reader.brackets, "bracket")
+    return read_expected_brackets(reader.sections, known)
+
+
+def compare(
+    check: Expectations, section: BracketsSection, expected: Mapping[str, Expression]
+) -> Found:
+    """Each is the same on the whole of phase space."""
+    found = {each.name: each.value for each in section.brackets}
+    known: dict[str, Expression] = {}
+    for name, formula in check.derivation.given.observables.items():
+        known[name] = substituted(formula, known)
+    for name, formula in expected.items():
+        wanted = substituted(formula, known)
+        yield check.compare(["brackets", name], found[name], wanted, check.free)
+
+
 SECTION = Declaration(
     name="brackets",
     heading="Poisson brackets",
@@ -95,4 +120,5 @@ SECTION = Declaration(
     phase_space=derive,
     unasked=given,
     told=Told(title="Poisson brackets", blocks=tell, order=70),
+    expected=(Expected(key="brackets", schema=FORMULAS, read=read, compare=compare),),
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -16,13 +16,21 @@ from lagcli.phase_space import (
     GeneratingFunction,
     TransformationsSection,
 )
-from lagcli.problem import Problem
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.problem import ExpectCanonical, Problem
+from lagcli.reader.phase_space import VERDICTS, read_expected_canonical
+from lagcli.reader.schema_parts import FORMULA as EXPRESSION
+from lagcli.reader.schema_parts import YES_OR_NO
+from lagcli.reader.schema_parts import map_of as names_to
+from lagcli.reader.schema_parts import record_of as record
+from lagcli.statements.declaration import Declaration, Expected, Told
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
     from lagcli.mechanics.statements import Statements
+    from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.nodes import Node
 
 _CHECKED = {"exact": "checked exactly", "50 digits": "checked at random states to 50 digits"}
 _ONE = Number(Fraction(1))
@@ -161,6 +169,32 @@ def tell(teller: Teller, section: TransformationsSection) -> Iterator[Block]:
     return transformations(teller, section)
 
 
+def read(reader: ExpectReader, node: Node) -> dict[str, ExpectCanonical]:
+    """What is known of each transformation."""
+    names = [each.name for each in reader.transformations]
+    known = reader.known(node, "canonical", names, "transformation")
+    return read_expected_canonical(reader.sections, known, reader.transformations, reader.spans)
+
+
+def compare(
+    check: Expectations, section: TransformationsSection, expected: Mapping[str, ExpectCanonical]
+) -> Found:
+    """The kind, the valence, the generating function, the new Hamiltonian."""
+    found = {each.name: each for each in section.transformations}
+    for name, wanted in expected.items():
+        each, path = found[name], ["canonical", name]
+        if wanted.kind is not None:
+            yield check.same([*path, "kind"], each.kind, wanted.kind)
+        if wanted.generates is not None:
+            generates = None if each.generator is None else each.generator.generates
+            yield check.same([*path, "generates"], generates, wanted.generates)
+        if wanted.valence is not None:
+            yield check.compare([*path, "valence"], each.valence, wanted.valence, check.free)
+        if wanted.hamiltonian is not None:
+            path = [*path, "hamiltonian"]
+            yield check.compare(path, each.hamiltonian, wanted.hamiltonian, check.free)
+
+
 SECTION = Declaration(
     name="canonical",
     heading="Canonical transformations",
@@ -171,4 +205,19 @@ SECTION = Declaration(
     phase_space=derive,
     unasked=given,
     told=Told(title="Canonical transformations", blocks=tell, order=80),
+    expected=(
+        Expected(
+            key="canonical",
+            schema=names_to(
+                record(
+                    kind={"enum": list(VERDICTS)},
+                    valence=EXPRESSION,
+                    generates=YES_OR_NO,
+                    hamiltonian=EXPRESSION,
+                )
+            ),
+            read=read,
+            compare=compare,
+        ),
+    ),
 )

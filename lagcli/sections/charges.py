@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from lagcli.answers import Answers, Charge, ChargesSection
 from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row
-from lagcli.expression import ZERO
+from lagcli.expression import ZERO, Expression
 from lagcli.formatters.json_values import (
     FORMULA,
     OR_NULL,
@@ -19,14 +19,20 @@ from lagcli.formatters.json_values import (
     string,
 )
 from lagcli.letters import own
-from lagcli.statements.declaration import Declaration, always
+from lagcli.problem import NOT_CONSERVED
+from lagcli.reader.nodes import Node, Scalar
+from lagcli.reader.schema_parts import FORMULAS
+from lagcli.reader.scope import ANSWER
+from lagcli.statements.declaration import Declaration, Expected, always
 from lagcli.wording import conditions
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.large_charges import LargeCharge
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.noether import NoetherCharge
     from lagcli.mechanics.statements import Statements
+    from lagcli.reader.expectations import ExpectReader
 
 _SOURCES = {
     "candidate": "candidate",
@@ -184,6 +190,40 @@ CHARGES = {
     ),
 }
 
+
+def read(reader: ExpectReader, node: Node) -> dict[str, Expression | str]:
+    """Formulas by symmetry, or `not conserved`."""
+    momenta = [f"p_{name}" for name in reader.sections.scope.of_kind("coordinate")]
+    known = [*reader.symmetries, "energy", *momenta]
+    entries = reader.known(node, "charges", known, "charge")
+    return {key.label: read_charge(reader, key, value) for key, value in entries}
+
+
+def read_charge(reader: ExpectReader, key: Scalar, value: Node) -> Expression | str:
+    """One formula, or `not conserved`."""
+    if isinstance(value, Scalar) and " ".join(value.value.split()) == NOT_CONSERVED:
+        return NOT_CONSERVED
+    return reader.sections.expression(value, f"the expected charge '{key.label}'", ANSWER)
+
+
+def compare(
+    check: Expectations,
+    section: ChargesSection,
+    expected: Mapping[str, Expression | str],
+    key: str = "charges",
+) -> Found:
+    """Each is conserved, and the same up to a factor and a constant; or it is not conserved."""
+    from lagcli.check.charges import conserved, not_conserved
+
+    charges = {charge.name: charge for charge in section.charges}
+    for name, formula in expected.items():
+        path = [key, name]
+        if isinstance(formula, str):
+            yield not_conserved(check, path, charges.get(name))
+        else:
+            yield conserved(check, path, charges, formula)
+
+
 SECTION = Declaration(
     name="charges",
     heading="Symmetries and conserved quantities",
@@ -194,4 +234,5 @@ SECTION = Declaration(
     large=large,
     schema=CHARGES,
     unasked=always,
+    expected=(Expected(key="charges", schema=FORMULAS, read=read, compare=compare),),
 )

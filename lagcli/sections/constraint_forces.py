@@ -9,13 +9,20 @@ from lagcli.answers import Answers, ConstraintForcesSection
 from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row
 from lagcli.expression import Expression
 from lagcli.formatters.json_values import Object, by_name, map_of, strings, unless_none
+from lagcli.reader.dynamics import read_by_coordinate
+from lagcli.reader.schema_parts import FORMULAS
+from lagcli.reader.schema_parts import map_of as names_to
+from lagcli.reader.scope import ANSWER
 from lagcli.sections.multipliers import constrained
-from lagcli.statements.declaration import Declaration
+from lagcli.statements.declaration import Declaration, Expected
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.mechanics.stating import Stating
+    from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.nodes import Node
 
 
 def derive(statements: Statements) -> ConstraintForcesSection:
@@ -119,6 +126,28 @@ def json(section: ConstraintForcesSection) -> Object:
     return result
 
 
+def read(reader: ExpectReader, node: Node) -> dict[str, dict[str, Expression]]:
+    """Formulas by constraint and coordinate."""
+    found = {}
+    for key, value in reader.known(node, "constraint_forces", reader.constraints, "constraint"):
+        what = f"the expected force of '{key.label}' along '{{}}'"  # no braces in a name
+        forces = read_by_coordinate(reader.sections, value, f"'{key.label}'", what, ANSWER)
+        found[key.label] = forces
+        reader.note(value, "constraint_forces", key.label)
+    return found
+
+
+def compare(
+    check: Expectations,
+    section: ConstraintForcesSection,
+    expected: Mapping[str, Mapping[str, Expression]],
+) -> Found:
+    """Each is the same on the constraints."""
+    for name, forces in expected.items():
+        path = ["constraint_forces", name]
+        yield from check.compare_each(path, section.forces.get(name), forces)
+
+
 SECTION = Declaration(
     name="constraint_forces",
     heading="Constraint forces",
@@ -131,4 +160,7 @@ SECTION = Declaration(
     unasked=constrained,
     content="forces",
     abbreviated=True,
+    expected=(
+        Expected(key="constraint_forces", schema=names_to(FORMULAS), read=read, compare=compare),
+    ),
 )

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from lagcli.answers import ChargesSection
 from lagcli.document import Block
+from lagcli.expression import Expression
 from lagcli.formatters.json_values import Object
+from lagcli.reader.schema_parts import FORMULAS
 from lagcli.record import replace
-from lagcli.sections.charges import CHARGES, blocks, charges_json, stated_charge
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.sections.charges import CHARGES, blocks, charges_json, read_charge, stated_charge
+from lagcli.sections.charges import compare as compare_charges
+from lagcli.statements.declaration import Declaration, Expected, Told
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
+    from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.nodes import Node
 
 
 def derive(statements: Statements) -> ChargesSection:
@@ -47,6 +53,20 @@ def tell(teller: Teller, section: ChargesSection) -> Iterator[Block]:
     return discovered(teller, section)
 
 
+def read(reader: ExpectReader, node: Node) -> dict[str, Expression | str]:
+    """Charges under any names: nobody listed their symmetries."""
+    reader.note(node, "discovered")
+    entries = reader.sections.entries(node, "'discovered'")
+    return {key.label: read_charge(reader, key, value) for key, value in entries}
+
+
+def compare(
+    check: Expectations, section: ChargesSection, expected: Mapping[str, Expression | str]
+) -> Found:
+    """Each charge is that of some symmetry; names are compared where there are."""
+    return compare_charges(check, section, expected, "discovered")
+
+
 SECTION = Declaration(
     name="discovered",
     heading="Discovered symmetries",
@@ -57,4 +77,5 @@ SECTION = Declaration(
     schema=CHARGES,
     told=Told(title="Discovered symmetries", blocks=tell, order=100),
     content="charges",
+    expected=(Expected(key="discovered", schema=FORMULAS, read=read, compare=compare),),
 )

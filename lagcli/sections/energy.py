@@ -7,13 +7,19 @@ from typing import TYPE_CHECKING
 
 from lagcli.answers import Answers, EnergySection
 from lagcli.document import Block, Label, Paragraph
+from lagcli.expression import Expression
 from lagcli.formatters.json_values import OR_NULL, Object, record_of, string
-from lagcli.statements.declaration import Declaration, always
+from lagcli.reader.schema_parts import FORMULA
+from lagcli.reader.scope import STATE
+from lagcli.statements.declaration import Declaration, Expected, always
 from lagcli.wording import not_found, one_row
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
+    from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.nodes import Node
 
 _CONSERVED = {True: "Conserved.", False: "Not conserved.", None: "Conservation undecided."}
 _TOTAL = {True: " It equals T + V.", False: " It does not equal T + V.", None: ""}
@@ -65,6 +71,16 @@ def json(section: EnergySection) -> Object:
     }
 
 
+def read(reader: ExpectReader, node: Node) -> Expression:
+    """One formula."""
+    return reader.sections.expression(node, "the expected energy", STATE)
+
+
+def compare(check: Expectations, section: EnergySection, expected: Expression) -> Found:
+    """It is the same on the constraints."""
+    yield check.compare(["energy"], section.function, expected)
+
+
 SECTION = Declaration(
     name="energy",
     heading="Energy",
@@ -83,4 +99,5 @@ SECTION = Declaration(
         },
     ),
     unasked=always,
+    expected=(Expected(key="energy", schema=FORMULA, read=read, compare=compare),),
 )

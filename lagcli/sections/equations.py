@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from lagcli.answers import Answers, EquationsSection, LagrangeEquation
 from lagcli.document import Block, Equations, Paragraph, Row
-from lagcli.expression import ZERO
-from lagcli.formatters.grammar import to_grammar
+from lagcli.expression import ZERO, Equation
+from lagcli.formatters.grammar import equation_to_grammar, to_grammar
 from lagcli.formatters.json_values import FORMULA, Object, record_of, unless_none
-from lagcli.statements.declaration import Declaration, always
+from lagcli.reader.schema_parts import list_of, ref
+from lagcli.reader.scope import EQUATION
+from lagcli.statements.declaration import Declaration, Expected, always
 from lagcli.wording import not_found
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
+    from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.nodes import Node
 
 
 def derive(statements: Statements) -> EquationsSection:
@@ -104,6 +109,32 @@ def json(section: EquationsSection) -> Object:
     }
 
 
+def read(reader: ExpectReader, node: Node) -> tuple[Equation, ...]:
+    """Equations that follow from those of motion."""
+    equations = []
+    for place, item in enumerate(reader.sections.items(node, "'equations'")):
+        reader.spans["equations", str(place)] = item.span
+        equations.append(reader.sections.equation(item, "an expected equation", EQUATION))
+    return tuple(equations)
+
+
+def compare(check: Expectations, _: object, expected: Sequence[Equation]) -> Found:
+    """Each follows from the derived equations."""
+    from lagcli.check.following import follows
+
+    for place, equation in enumerate(expected):
+        path, text = ["equations", str(place)], equation_to_grammar(equation)
+        verdict = follows(check.derivation, equation, check.comparison)
+        if verdict is None:
+            yield check.undecided(
+                path, f"nobody could decide whether {text} follows from the derived equations"
+            )
+        elif verdict:
+            yield None
+        else:
+            yield check.wrong(path, f"{text} does not follow from the derived equations")
+
+
 SECTION = Declaration(
     name="equations",
     heading="Equations of motion",
@@ -119,4 +150,7 @@ SECTION = Declaration(
         ),
     },
     unasked=always,
+    expected=(
+        Expected(key="equations", schema=list_of(ref("equation")), read=read, compare=compare),
+    ),
 )

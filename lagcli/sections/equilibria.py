@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import itertools
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from lagcli.answers import Answers, EquilibriaSection, Equilibrium
 from lagcli.document import Block, Formula, Paragraph
 from lagcli.expression import Name
 from lagcli.formatters.json_values import Object, above, inequalities, place, unless_none
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.problem import ExpectEquilibrium
+from lagcli.reader.expected_reduction import read_equilibria
+from lagcli.reader.schema_parts import FORMULAS, STABLE, list_of, record_of, ref
+from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.wording import conditions, holding, stability, state_blocks
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
@@ -99,6 +104,15 @@ def tell(teller: Teller, section: EquilibriaSection) -> Iterator[Block]:
     return equilibria(teller, section)
 
 
+def compare(
+    check: Expectations, section: EquilibriaSection, expected: Sequence[ExpectEquilibrium]
+) -> Found:
+    """Each is one of those found."""
+    from lagcli.check.reductions import equilibria
+
+    yield from itertools.starmap(check.judge, equilibria(check, section, expected))
+
+
 SECTION = Declaration(
     name="equilibria",
     heading="Equilibria",
@@ -108,4 +122,12 @@ SECTION = Declaration(
     json=json,
     large=large,
     told=Told(title="Equilibria", blocks=tell, order=20),
+    expected=(
+        Expected(
+            key="equilibria",
+            schema=list_of(record_of(at=FORMULAS, on=ref("equation"), stable=STABLE)),
+            read=read_equilibria,
+            compare=compare,
+        ),
+    ),
 )

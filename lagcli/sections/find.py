@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from lagcli.answers import Answers
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
-from lagcli.expression import Name
+from lagcli.expression import Expression, Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, string, strings, unless_none
-from lagcli.problem import Problem, Question, Rewrite, Where
+from lagcli.problem import Expect, Inequality, Lasting, Problem, Question, Reaching, Rewrite, Where
 from lagcli.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.reader.expected_ranges import read_ranges
+from lagcli.reader.nodes import Node
+from lagcli.reader.nodes import Sequence as ListNode
+from lagcli.reader.schema_parts import ONE_OR_MORE
+from lagcli.reader.schema_parts import map_of as names_to
+from lagcli.reader.scope import ANSWER
+from lagcli.statements.declaration import Declaration, Expected, Told
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
+    from lagcli.check.findings import Finding
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
+    from lagcli.reader.expectations import ExpectReader
 
 _SIGNS = {">=": " ≥ ", ">": " > ", "<=": " ≤ ", "<": " < "}
 _TURNED = {">=": " ≤ ", ">": " < "}
@@ -124,6 +133,70 @@ def tell(teller: Teller, section: FindSection) -> Iterator[Block]:
     return questions(teller, section)
 
 
+def read(reader: ExpectReader, node: Node) -> dict[str, tuple[Expression, ...]]:
+    """The answers by question; ranges are kept beside them."""
+    found = {}
+    for key, value in reader.known(node, "find", list(reader.questions), "question"):
+        items = value.items if isinstance(value, ListNode) else [value]
+        what = f"the expected answer to '{key.label}'"
+        question = reader.questions[key.label]
+        if isinstance(question, Lasting | Reaching):
+            ranges = read_ranges(reader.sections, items, question.unknown, what)
+            reader.ranges[key.label] = ranges
+            continue
+        found[key.label] = tuple(reader.sections.expression(item, what, ANSWER) for item in items)
+    return found
+
+
+def compare(
+    check: Expectations, section: FindSection, expected: Mapping[str, Sequence[Expression]]
+) -> Found:
+    """Each answer is the same, as a set where there are several; so is each range."""
+    for name, wanted in expected.items():
+        yield _compared(check, ["find", name], section.answers.get(name), wanted)
+    for name, bounds in check.expect.ranges.items():
+        answer = section.answers[name]
+        assert isinstance(answer, Ranges)
+        yield _compared_ranges(check, ["find", name], answer, bounds)
+
+
+def _compared(
+    check: Expectations, path: list[str], answer: Answer | None, expected: Sequence[Expression]
+) -> Finding | None:
+    found: Sequence[Expression] | None = None
+    if isinstance(answer, Solutions):
+        if answer.solutions is None:
+            return check.undecided(path, answer.note or "no answer")
+        found = answer.solutions
+    elif isinstance(answer, Rewritten) and answer.values:
+        found = answer.values
+    if found is None:
+        value = answer.value if isinstance(answer, Rewritten) else None
+        return check.compare(path, value, expected[0])
+    verdict = check.comparison.same_set(found, expected)
+    return check.judge(path, verdict, check.listed(expected), check.listed(found))
+
+
+def _compared_ranges(
+    check: Expectations,
+    path: list[str],
+    answer: Ranges,
+    expected: Sequence[Sequence[Inequality]],
+) -> Finding | None:
+    from lagcli.check.ranges import in_words, same_ranges
+
+    if answer.ranges is None:
+        return check.undecided(path, answer.note)
+    verdict = same_ranges(answer.ranges, expected, check.comparison.equal)
+    wanted = [[(each.comparison, each.right) for each in bounds] for bounds in expected]
+    return check.judge(path, verdict, in_words(wanted), in_words([r.bounds for r in answer.ranges]))
+
+
+def expects(expect: Expect) -> bool:
+    """Whether the file states an answer."""
+    return bool(expect.find or expect.ranges)
+
+
 SECTION = Declaration(
     name="find",
     heading="Questions",
@@ -135,4 +208,9 @@ SECTION = Declaration(
     unasked=asked,
     told=Told(title="Questions", blocks=tell, order=10),
     content="answers",
+    expected=(
+        Expected(
+            key="find", schema=names_to(ONE_OR_MORE), read=read, compare=compare, wanted=expects
+        ),
+    ),
 )

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from lagcli.answers import Answers
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
-from lagcli.expression import operation_count
+from lagcli.expression import Call, Expression, Product, operation_count, walk
 from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, by_name, string, strings
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.reader.nodes import Node, Sequence
+from lagcli.reader.schema_parts import FORMULA, FORMULAS, list_of
+from lagcli.reader.schema_parts import map_of as names_to
+from lagcli.reader.scope import ANSWER
+from lagcli.statements.declaration import Declaration, Expected, Told
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
+    from lagcli.reader.expectations import ExpectReader
 
 #: A vector whose components have so many operations in all stands within a sentence.
 _SHORT = 9
@@ -164,6 +170,78 @@ def tell(teller: Teller, section: ForcesSection) -> Iterator[Block]:
     return real_forces(teller, section)
 
 
+def read(
+    reader: ExpectReader, node: Node
+) -> dict[str, dict[str, Expression | tuple[Expression, ...]]]:
+    """By constraint and point: the signed force, or a list of components."""
+    found: dict[str, dict[str, Expression | tuple[Expression, ...]]] = {}
+    for key, value in reader.known(node, "forces", reader.constraints, "constraint"):
+        by_point = found[key.label] = {}
+        for point, force in reader.known(value, f"forces of {key.label}", reader.points, "point"):
+            reader.spans["forces", key.label, point.label] = point.span
+            what = f"the expected force of '{key.label}' on '{point.label}'"
+            by_point[point.label] = (
+                tuple(reader.sections.expression(item, what, ANSWER) for item in force.items)
+                if isinstance(force, Sequence)
+                else reader.sections.expression(force, what, ANSWER)
+            )
+    return found
+
+
+def read_friction(reader: ExpectReader, node: Node) -> dict[str, Expression]:
+    """The least coefficients by normal force."""
+    what = "the expected coefficient of friction at '{}'"
+    known = reader.known(node, "friction_needed", reader.constraints, "constraint")
+    return {
+        key.label: reader.sections.expression(value, what.format(key.label), ANSWER)
+        for key, value in known
+    }
+
+
+def compare(
+    check: Expectations,
+    section: ForcesSection,
+    expected: Mapping[str, Mapping[str, Expression | tuple[Expression, ...]]],
+) -> Found:
+    """Each signed force or component is the same on the constraints."""
+    found = {(each.constraint, each.point): each for each in section.forces or ()}
+    for constraint, by_point in expected.items():
+        for point, force in by_point.items():
+            path = ["forces", constraint, point]
+            yield from _compared(check, path, found.get((constraint, point)), force)
+
+
+def _compared(
+    check: Expectations,
+    path: list[str],
+    found: PointForce | None,
+    expected: Expression | tuple[Expression, ...],
+) -> Found:
+    force = None if found is None else found.force
+    if not isinstance(expected, tuple):
+        yield check.compare(path, force, expected)
+        return
+    for place, component in enumerate(expected):
+        product = None
+        if found is not None and force is not None and len(found.direction) == len(expected):
+            product = Product((force, found.direction[place]))
+        yield check.compare([*path, "xyz"[place]], product, component)
+
+
+def compare_friction(
+    check: Expectations, section: ForcesSection, expected: Mapping[str, Expression]
+) -> Found:
+    """Each coefficient is the same, its modulus where the file states that."""
+    needed = {each.normal: each for each in section.friction_needed}
+    for normal, wanted in expected.items():
+        each = needed.get(normal)
+        size = None if each is None else each.coefficient
+        modulus = any(isinstance(n, Call) and n.function == "abs" for n in walk(wanted))
+        if each is not None and each.where and size is not None and modulus:
+            size = Call("abs", (size,))
+        yield check.compare(["friction_needed", normal], size, wanted)
+
+
 SECTION = Declaration(
     name="forces",
     heading="Forces",
@@ -172,4 +250,15 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     told=Told(title="Forces", blocks=tell, order=120),
+    expected=(
+        Expected(
+            key="forces",
+            schema=names_to(names_to({"anyOf": [FORMULA, list_of(FORMULA)]})),
+            read=read,
+            compare=compare,
+        ),
+        Expected(
+            key="friction_needed", schema=FORMULAS, read=read_friction, compare=compare_friction
+        ),
+    ),
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -18,10 +19,14 @@ from lagcli.document import (
 from lagcli.expression import ZERO, Expression, Name, Negative, Product
 from lagcli.formatters.json_values import Object, by_name, inequalities, string, unless_none
 from lagcli.motions import ActionPart, HamiltonJacobiSection
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.problem import ExpectHamiltonJacobi
+from lagcli.reader.expected_reduction import read_hamilton_jacobi
+from lagcli.reader.schema_parts import FORMULAS, YES_OR_NO, record_of
+from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.wording import conditions, listed, not_found
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
 
@@ -160,6 +165,15 @@ def tell(teller: Teller, section: HamiltonJacobiSection) -> Iterator[Block]:
     return hamilton_jacobi(teller, section)
 
 
+def compare(
+    check: Expectations, section: HamiltonJacobiSection, expected: ExpectHamiltonJacobi
+) -> Found:
+    """Whether it separates, and the parts of S up to sign and constant."""
+    from lagcli.check.reductions import hamilton_jacobi
+
+    yield from itertools.starmap(check.judge, hamilton_jacobi(check, section, expected))
+
+
 SECTION = Declaration(
     name="hamilton_jacobi",
     heading="Hamilton-Jacobi",
@@ -168,4 +182,12 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     told=Told(title="The Hamilton-Jacobi equation", blocks=tell, order=90),
+    expected=(
+        Expected(
+            key="hamilton_jacobi",
+            schema=record_of(separable=YES_OR_NO, derivatives=FORMULAS, functions=FORMULAS),
+            read=read_hamilton_jacobi,
+            compare=compare,
+        ),
+    ),
 )

@@ -7,15 +7,22 @@ from typing import TYPE_CHECKING, Any
 
 from lagcli.answers import Answers, HamiltonianSection
 from lagcli.document import Block, Label
+from lagcli.expression import Expression
+from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import OR_NULL, Object, string
-from lagcli.statements.declaration import Declaration
+from lagcli.reader.schema_parts import FORMULA
+from lagcli.reader.scope import PHASE_SPACE
+from lagcli.statements.declaration import Declaration, Expected
 from lagcli.wording import not_found, one_row
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.mechanics.stating import Stating
+    from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.nodes import Node
 
 
 def derive(statements: Statements) -> HamiltonianSection:
@@ -67,6 +74,27 @@ def given(problem: Any) -> bool:
     return problem.hamiltonian is not None
 
 
+def read(reader: ExpectReader, node: Node) -> Expression:
+    """One formula of coordinates and momenta."""
+    return reader.sections.expression(node, "the expected Hamiltonian", PHASE_SPACE)
+
+
+def compare(check: Expectations, section: HamiltonianSection, expected: Expression) -> Found:
+    """H(q, p) is the same with p = dL/dq' put in; without a Lagrangian, everywhere."""
+    path, found = ["hamiltonian"], section.hamiltonian
+    if found is None:
+        yield check.undecided(path, "no Hamiltonian was found")
+        return
+    if check.derivation.no_lagrangian:
+        yield check.compare(path, found, expected, check.free)
+        return
+    system, lagrange = check.derivation.system, check.derivation.dynamics.lagrange
+    momenta = dict(zip(system.momenta, lagrange.momenta, strict=True))
+    difference = system.build(found) - system.build(expected)
+    verdict = check.comparison.vanishes(difference.xreplace(momenta))
+    yield check.judge(path, verdict, to_grammar(expected), to_grammar(found))
+
+
 SECTION = Declaration(
     name="hamiltonian",
     heading="Hamiltonian",
@@ -79,4 +107,5 @@ SECTION = Declaration(
     schema=OR_NULL,
     unasked=given,
     abbreviated=True,
+    expected=(Expected(key="hamiltonian", schema=FORMULA, read=read, compare=compare),),
 )

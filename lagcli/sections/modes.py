@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -11,13 +11,19 @@ from lagcli.document import Block, Equations, Label, Paragraph, Row
 from lagcli.expression import Expression, Number, Power
 from lagcli.formatters.json_values import Object, by_name, place, string, unless_none
 from lagcli.letters import own
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.problem import Expect
+from lagcli.reader.schema_parts import FORMULA, list_of
+from lagcli.reader.scope import CONSTANTS
+from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.wording import state_blocks
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
+    from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.nodes import Node
 
 
 def derive(statements: Statements) -> ModesSection:
@@ -94,6 +100,38 @@ def tell(teller: Teller, section: ModesSection) -> Iterator[Block]:
     return oscillations(teller, section)
 
 
+def read(reader: ExpectReader, node: Node) -> tuple[Expression, ...]:
+    """Angular frequencies."""
+    modes = []
+    for place_, item in enumerate(reader.sections.items(node, "'modes'", "write [sqrt(g/l)]")):
+        reader.spans["modes", str(place_)] = item.span
+        modes.append(reader.sections.expression(item, "an expected frequency", CONSTANTS))
+    return tuple(modes)
+
+
+def compare(check: Expectations, section: ModesSection, expected: Sequence[Expression]) -> Found:
+    """They are the angular frequencies about one equilibrium, or those about all of them."""
+    if section.modes is None:
+        yield check.undecided(["modes"], "no modes were found")
+        return
+    groups: dict[object, list[Expression]] = {}
+    for mode in section.modes:
+        frequencies = [] if mode.frequency is None else [mode.frequency] * mode.multiplicity
+        groups.setdefault((*mode.at.items(), mode.on), []).extend(frequencies)
+    every = [frequency for group in groups.values() for frequency in group]
+    yield check.judge_any(
+        ["modes"],
+        [check.comparison.same_set(found, expected) for found in (every, *groups.values())],
+        check.listed(expected),
+        check.listed(every),
+    )
+
+
+def wanted(expect: Expect) -> bool:
+    """Whether the file states the frequencies, if only that there is none."""
+    return expect.modes is not None
+
+
 SECTION = Declaration(
     name="modes",
     heading="Normal modes",
@@ -103,4 +141,7 @@ SECTION = Declaration(
     json=json,
     large=large,
     told=Told(title="Small oscillations", blocks=tell, order=30),
+    expected=(
+        Expected(key="modes", schema=list_of(FORMULA), read=read, compare=compare, wanted=wanted),
+    ),
 )

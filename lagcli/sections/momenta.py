@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from lagcli.answers import Answers, MomentaSection
 from lagcli.document import Block, Paragraph
+from lagcli.expression import Expression
 from lagcli.formatters.json_values import FORMULA, Object, by_name, map_of, unless_none
-from lagcli.statements.declaration import Declaration, always
+from lagcli.reader.schema_parts import FORMULAS
+from lagcli.statements.declaration import Declaration, Expected, always
 from lagcli.wording import listed, not_found, rows_by_name
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
+    from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.nodes import Node
 
 
 def derive(statements: Statements) -> MomentaSection:
@@ -52,6 +57,18 @@ def json(section: MomentaSection) -> Object:
     return {"momenta": unless_none(section.momenta, by_name)}
 
 
+def read(reader: ExpectReader, node: Node) -> dict[str, Expression]:
+    """Formulas by coordinate."""
+    return reader.by_coordinate(node, "momenta", "the expected momentum of '{}'")
+
+
+def compare(
+    check: Expectations, section: MomentaSection, expected: Mapping[str, Expression]
+) -> Found:
+    """Each is the same on the constraints."""
+    return check.compare_each(["momenta"], section.momenta, expected)
+
+
 SECTION = Declaration(
     name="momenta",
     heading="Momenta",
@@ -62,4 +79,5 @@ SECTION = Declaration(
     json=json,
     schema=map_of(FORMULA),
     unasked=always,
+    expected=(Expected(key="momenta", schema=FORMULAS, read=read, compare=compare),),
 )

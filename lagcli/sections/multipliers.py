@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from lagcli.answers import Answers, ConstraintKind, Multiplier, MultipliersSection
 from lagcli.document import Block, Equations, Paragraph, Row
-from lagcli.expression import Name
+from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import OR_NULL, Object, map_of, record_of, string
-from lagcli.statements.declaration import Declaration
+from lagcli.reader.schema_parts import FORMULAS
+from lagcli.reader.scope import ANSWER
+from lagcli.statements.declaration import Declaration, Expected
 from lagcli.wording import substituted
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.mechanics.stating import Stating
+    from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.nodes import Node
 
 
 def derive(statements: Statements) -> MultipliersSection:
@@ -120,6 +125,24 @@ def constrained(problem: Any) -> bool:
     return bool(problem.constraints)
 
 
+def read(reader: ExpectReader, node: Node) -> dict[str, Expression]:
+    """Formulas by constraint."""
+    return {
+        key.label: reader.sections.expression(
+            value, f"the expected multiplier of '{key.label}'", ANSWER
+        )
+        for key, value in reader.known(node, "multipliers", reader.constraints, "constraint")
+    }
+
+
+def compare(
+    check: Expectations, section: MultipliersSection, expected: Mapping[str, Expression]
+) -> Found:
+    """Each is the same on the constraints."""
+    found = {name: each.value for name, each in section.multipliers.items()}
+    return check.compare_each(["multipliers"], found, expected)
+
+
 SECTION = Declaration(
     name="multipliers",
     heading="Multipliers",
@@ -140,4 +163,5 @@ SECTION = Declaration(
     ),
     unasked=constrained,
     abbreviated=True,
+    expected=(Expected(key="multipliers", schema=FORMULAS, read=read, compare=compare),),
 )

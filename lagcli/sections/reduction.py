@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -26,11 +27,15 @@ from lagcli.formatters.json_values import (
 )
 from lagcli.letters import own
 from lagcli.motions import OneFreedom, PeriodSeries
+from lagcli.problem import ExpectReduction
+from lagcli.reader.expected_reduction import read_reduction
+from lagcli.reader.schema_parts import FORMULA, FORMULAS, list_of, record_of
 from lagcli.sections.equations import equation_json
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.wording import POTENTIAL, conditions, irreducible, state_blocks
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
 
@@ -197,6 +202,13 @@ def tell(teller: Teller, section: ReductionSection) -> Iterator[Block]:
     return reduction(teller, section)
 
 
+def compare(check: Expectations, section: ReductionSection, expected: ExpectReduction) -> Found:
+    """The Routhian, the effective potential and the quadrature."""
+    from lagcli.check.reductions import reduction
+
+    yield from itertools.starmap(check.judge, reduction(check, section, expected))
+
+
 SECTION = Declaration(
     name="reduction",
     heading="Reduction",
@@ -205,4 +217,18 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     told=Told(title="The reduction", blocks=tell, order=40),
+    expected=(
+        Expected(
+            key="reduction",
+            schema=record_of(
+                routhian=FORMULA,
+                effective_potential=FORMULA,
+                reconstruction=FORMULAS,
+                turning_points=list_of(FORMULA),
+                period=FORMULA,
+            ),
+            read=read_reduction,
+            compare=compare,
+        ),
+    ),
 )

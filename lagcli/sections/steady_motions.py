@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -21,10 +22,14 @@ from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.formatters.json_values import Object, by_name, inequalities, place, strings, unless_none
 from lagcli.letters import own
 from lagcli.motions import SteadyMotion, SteadySection
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.problem import ExpectSteady
+from lagcli.reader.expected_reduction import read_steady_motions
+from lagcli.reader.schema_parts import FORMULA, FORMULAS, STABLE, list_of, record_of
+from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.wording import conditions, place_rows, steady_stability
 
 if TYPE_CHECKING:
+    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
 
@@ -156,6 +161,13 @@ def tell(teller: Teller, section: SteadySection) -> Iterator[Block]:
     return steady(teller, section)
 
 
+def compare(check: Expectations, section: SteadySection, expected: Sequence[ExpectSteady]) -> Found:
+    """Each is one of those found."""
+    from lagcli.check.reductions import steady_motions
+
+    yield from itertools.starmap(check.judge, steady_motions(check, section, expected))
+
+
 SECTION = Declaration(
     name="steady_motions",
     heading="Steady motions",
@@ -165,4 +177,20 @@ SECTION = Declaration(
     json=json,
     told=Told(title="Steady motions", blocks=tell, order=50),
     content="motions",
+    expected=(
+        Expected(
+            key="steady_motions",
+            schema=list_of(
+                record_of(
+                    at=FORMULAS,
+                    rates=FORMULAS,
+                    momenta=FORMULAS,
+                    frequencies_squared=list_of(FORMULA),
+                    stable=STABLE,
+                )
+            ),
+            read=read_steady_motions,
+            compare=compare,
+        ),
+    ),
 )

@@ -59,12 +59,19 @@ class Expected:
     compare : function (check, statement, value) -> findings
         Compares; `check` is a `lagcli.check.expectations.Expectations`.  Yields a finding for
         each expectation that does not hold, None for each that does.
+    wanted : function (expect) -> bool, or None
+        Whether a file expects something; None: where the value is neither None nor empty.
     """
 
     key: str
     schema: Schema
     read: Callable[[Any, Any], Any]
     compare: Callable[[Any, Any, Any], Iterator[Any]]
+    wanted: Callable[[Any], bool] | None = None
+
+    def is_in(self, expect: Any) -> bool:
+        """Whether the `expect` of a file has this key."""
+        return bool(expect.of(self.key)) if self.wanted is None else self.wanted(expect)
 
 
 @record(kw_only=True)

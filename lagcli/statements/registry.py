@@ -45,6 +45,16 @@ def find_section(name: str) -> Declaration:
     raise LookupError(f"there is no section {name!r}")
 
 
+def is_built_in(name: str) -> bool:
+    """Whether a section comes with lagcli."""
+    return name in _rooms()
+
+
+def section_names() -> list[str]:
+    """The names of all sections in alphabetical order; nothing of a section is imported."""
+    return sorted({*_rooms(), *(point.name for point in _plug_ins())})
+
+
 def built_in() -> list[Declaration]:
     """The built-in sections in the order in which they are printed."""
     return _sorted(map(_built_in, _rooms()))
@@ -73,6 +83,12 @@ def told_in_order(names: Iterable[str] | None = None) -> list[Declaration]:
     return [each for _, each in sorted(ordered, key=lambda pair: (pair[0], pair[1].name))]
 
 
+def expected_keys(plug_ins: bool) -> list[str]:
+    """The keys of `expect` that belong to a section."""
+    declared = every_section() if plug_ins else built_in()
+    return [expected.key for each in declared for expected in each.expected]
+
+
 def find_expected(key: str) -> tuple[Declaration, Expected]:
     """The section that a key of `expect` belongs to.
 
@@ -81,10 +97,11 @@ def find_expected(key: str) -> tuple[Declaration, Expected]:
     LookupError
         When there is none.
     """
-    for declared in (*_found(key), *built_in()):
-        for expected in declared.expected:
-            if expected.key == key:
-                return declared, expected
+    for sections in (built_in, every_section):
+        for declared in sections():
+            for expected in declared.expected:
+                if expected.key == key:
+                    return declared, expected
     raise LookupError(f"nothing is expected under {key!r}")
 
 
