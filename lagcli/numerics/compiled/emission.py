@@ -137,6 +137,7 @@ class Series:
         self._rows: dict[tuple[int, str], int] = {}
         self._first: list[str] = []
         self._inverses: dict[int, str] = {}
+        self._watched: list[int] = []
         self._inputs = [place for place, op in enumerate(tape.ops) if op.name == "input"]
 
     def _row(self, place: int, kind: str) -> int:
@@ -148,12 +149,20 @@ class Series:
             self.rows += 1
         return self._rows[place, kind]
 
+    def kept(self, node: Node) -> int:
+        """The row in which all coefficients of a node are found."""
+        place = self._tape.place_of(self._tape.values[node])
+        self._watched.append(place)
+        return self._row(place, "F")
+
     def code(self) -> str:
         """Its definition."""
         text, n = self._text, self._n
         count = len(self._inputs)
         inputs = [text.loaded("%rows", i * STRIDE) for i in range(count)]
         zero = text.values(inputs, "%signs")
+        for place in self._watched:
+            text.stored(zero[place], "%rows", self._row(place, "F") * STRIDE)
         fine, accelerations = self._begun(zero)
         scale = text.loaded("%rows", 2 * n * STRIDE + 1)
         for j, a in enumerate(accelerations):

@@ -40,9 +40,12 @@ from lagcli.numerics.compiled.layout import (
     STRIDE,
     TOLERANCE,
     UNTIL,
+    WATCHED,
+    WIDTH,
     H,
     N,
 )
+from lagcli.numerics.compiled.unseen import unblocked
 
 SAFETY = 0.9
 FIRST = 1e-3
@@ -156,7 +159,9 @@ def raised(x: float, k: int) -> float:
     return result
 
 
-def coefficients(rows: Reals, small: Doubles, signs: Reals, counts: Ints, order: int) -> int:
+def coefficients(
+    rows: Reals, small: Doubles, signs: Reals, watch: Ints, counts: Ints, order: int
+) -> int:
     """As `series`; the later coefficients from doubles where these are good enough."""
     exact = counts[EXACT]
     if exact == 0 or exact >= order:
@@ -172,6 +177,11 @@ def coefficients(rows: Reals, small: Doubles, signs: Reals, counts: Ints, order:
     for i in range(both):
         for k in range(exact + 1, order + 1):
             rows[i * STRIDE + k] = small[i * STRIDE + k]
+    for i in range(counts[WATCHED]):
+        w = at(watch, i * WIDTH)
+        for k in range(exact + 1, order + 1):
+            rows[w[1] * STRIDE + k] = small[w[4] * STRIDE + k]
+            rows[w[2] * STRIDE + k] = small[w[5] * STRIDE + k]
     return 1
 
 
@@ -212,6 +222,7 @@ def expand(
     state: Reals,
     peaks: Reals,
     scales: Reals,
+    watch: Ints,
     facts: Reals,
     counts: Ints,
 ) -> int:
@@ -227,7 +238,7 @@ def expand(
     h = 0.0
     for _ in range(12):
         rows[both * STRIDE + 1] = facts[SCALE]
-        if coefficients(rows, small, signs, counts, order) == 0:
+        if coefficients(rows, small, signs, watch, counts, order) == 0:
             return PIVOT
         see(rows, peaks, scales, facts, counts, order)
         guess = 1.0
@@ -242,6 +253,9 @@ def expand(
                 break
         order = counts[ORDER]
         facts[SCALE] = near(facts[SCALE], h)
+    if counts[WATCHED] > 0:
+        scale = rows[both * STRIDE + 1]
+        h = unblocked(rows, watch, counts, order, h / scale) * scale
     facts[H] = h
     if not h > facts[SHORTEST] * max(state[both], 1e-3 * facts[UNTIL]):  # also where it is nan
         return STOPPED

@@ -8,6 +8,7 @@ Memory, as places from `Reals` on:
 - a state: q, q', t;
 - `peaks`, `scales`: as in `steps.Tolerance`; `held`: as in `surface.Surface`, the scales
   of all constraints and then their residuals;
+- `watch`: what may be passed over unseen, `WIDTH` numbers each;
 - `facts`, `counts`: single numbers, by the names of `layout`;
 - `small`: rows as the first ones, in doubles: see `expansion`.
 
@@ -230,6 +231,7 @@ def drive(
     peaks: Reals,
     scales: Reals,
     held: Reals,
+    watch: Ints,
     facts: Reals,
     counts: Ints,
     times: Reals,
@@ -240,7 +242,7 @@ def drive(
     work = at(ahead, 2 * both + 1)
     limit = counts[STEPS] + counts[LIMIT]
     while counts[STEPS] < limit:
-        status = expand(rows, small, signs, state, peaks, scales, facts, counts)
+        status = expand(rows, small, signs, state, peaks, scales, watch, facts, counts)
         if status != MORE:
             return status
         end = state[both] + facts[H]

@@ -30,7 +30,18 @@ PROBED = 7
 HOLONOMIC = 8
 CONSTRAINTS = 9
 EXACT = 10
-COUNTS = 11
+WATCHED = 11
+BLOCKED = 12
+COUNTS = 13
+
+# what is watched: its kind, the rows of its argument and of the whole, its power, and the
+# same rows in the doubles beside numbers of 80 bits
+WIDTH = 6
+DIVIDES = 0
+GROWS = 1
+FLAT = 2
+HIGH = 3
+JUMPS = 4
 
 # what a call comes back with
 MORE = 0

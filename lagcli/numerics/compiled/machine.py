@@ -34,14 +34,15 @@ from lagcli.numerics.compiled.numbers import Numbers
 from lagcli.numerics.compiled.tape import NoSeries, Tape
 from lagcli.numerics.compiled.text import values_function
 from lagcli.numerics.motion import Motion
+from lagcli.numerics.narrow import narrow_parts
 
 #: What the loop calls, made for each problem.
 _OWN = ("series", "positions", "velocities", "sizes")
 _GIVEN = (*_OWN, "in_doubles")
 #: name -> the C types of the result and of the arguments
 _KERNELS: dict[str, tuple[Any, ...]] = {
-    "drive": (c_int64, *[c_void_p] * 14),
-    "expand": (c_int64, *[c_void_p] * 8),
+    "drive": (c_int64, *[c_void_p] * 15),
+    "expand": (c_int64, *[c_void_p] * 9),
     "move": (c_int64, *[c_void_p] * 4, "real", *[c_void_p] * 3),
     "inside": (None, *[c_void_p] * 2, c_int64, c_int64, "real"),
     "slopes": (None, *[c_void_p] * 2, c_int64, c_int64, "real"),
@@ -171,7 +172,9 @@ class Machine:
         else:
             guards = eliminated.guards
             roots, _ = eliminated.motion(equations.forcing, equations.bias)
-        tape = self._tape(inputs, roots, guards, frozen=True)
+        narrow = narrow_parts(equations.graph, roots, mask)
+        watched = [node for each in narrow for node in each.nodes]
+        tape = self._tape(inputs, [*roots, *watched], guards, frozen=True)
         if len(tape.ops) > LARGEST:
             raise NotCompiled("the equations are too long")
         if any(op.name.endswith("_of") for op in tape.ops):
@@ -182,8 +185,18 @@ class Machine:
             )
         else:
             made = Series(self.numbers, tape, roots, guards)
+        self.narrow = [each for each in narrow if tape.values[each.argument].place is not None]
+        self._watch = [each.entry(made.kept) for each in self.narrow]
         self.ops = len(tape.ops)
         return made
+
+    @property
+    def watch(self) -> list[int]:
+        """What may be passed over, as the loop reads it."""
+        beside = [[0] * 4] * len(self._watch) if self.beside is None else self.beside._watch
+        return [
+            x for own, other in zip(self._watch, beside, strict=True) for x in (*own, *other[1:3])
+        ]
 
     def _tape(self, inputs: Any, roots: Any, guards: Any, *, frozen: bool = False) -> Tape:
         nodes: list[Node] = [*roots, *(node for pair in guards for node in pair)]
@@ -236,7 +249,7 @@ def _entries(mass: Matrix, rows: Matrix) -> list[Node]:
 def _kernels(numbers: Numbers, *, quickly: bool = False) -> Compiled:
     """The loop, which is the same for all problems."""
     outside, language = map(_source, ("intrinsics", "language"))
-    source = "\n".join(map(_source, ("layout", "expansion", "kernels")))
+    source = "\n".join(map(_source, ("layout", "unseen", "expansion", "kernels")))
 
     def text() -> str:
         from lagcli.numerics.compiled.language import functions_of, translated

@@ -78,6 +78,8 @@ class CompiledTaylor:
         self._held = self._zeros(max(1, 4 * motion.m))
         self._facts = self._zeros(k.FACTS)
         self._counts = (c_int64 * k.COUNTS)()
+        watch = machine.watch
+        self._watch = (c_int64 * max(1, len(watch)))(*watch)
         self._other[both * k.STRIDE + 1] = machine.numbers.cell(1.0)
 
     def _zeros(self, count: int) -> Any:
@@ -101,6 +103,7 @@ class CompiledTaylor:
             facts[place] = numbers.cell(fact)
         counts[k.N], counts[k.ORDER] = self.n, self.order
         counts[k.HOLONOMIC], counts[k.CONSTRAINTS] = len(motion.equations.holonomic), motion.m
+        counts[k.WATCHED] = len(self.machine.watch) // k.WIDTH
         counts[k.EXACT] = 0 if self.machine.beside is None else self.order
         n, peaks = self.n, bound.peaks
         for i, peak in enumerate(peaks):
@@ -176,6 +179,7 @@ class CompiledTaylor:
             state,
             self._peaks,
             self._scales,
+            self._watch,
             self._facts,
         )
         status = self.machine.kernel("expand")(*map(pointer, given), pointer(self._counts))
@@ -261,7 +265,8 @@ class CompiledTaylor:
         memmove(out, state, sizeof(state))
         counts[k.PENDING], counts[k.TIMES], counts[k.PROBES] = 1, len(times), probes
         given = [self._rows, self._small, self._other, self._signs, state, self._lost]
-        given += [self._ahead, self._peaks, self._scales, self._held, facts, counts, asked, out]
+        given += [self._ahead, self._peaks, self._scales, self._held, self._watch]
+        given += [facts, counts, asked, out]
         status, call = k.MORE, min(_FIRST, _CALL)
         limit = _LIMIT // (max(10, self.machine.ops) * self.machine.numbers.cost)
         limit = run.step_limit = limit if most is None else min(limit, most)

@@ -1,0 +1,144 @@
+"""How long a step may be that passes over nothing, in the language of `language`.
+
+Over a step of length h the argument u of what may be narrow lies within
+r = |u_1| h + |u_2| h^2 + ... of its value u_0 at the beginning, in the whole disc of complex
+times around it.  So nothing is passed over
+
+- where a u that divides, or stands in a root or a logarithm, has r < |u_0|: it has no zero in
+  the disc.  With a simple zero in the inner half, |u_0| + |u_2| h^2 + ... < |u_1| h, what it
+  divides is regular all the same if its own series settles (sin(x)/x): a pole would leave the
+  ratio of its coefficients at more than 2 / h;
+- where exp(u) changes by no more than what its series shows, r <= 8, or stays nothing;
+- where tanh(u) and 1/cosh(u) are shown by their series, r <= 4, or u stays far from 0;
+- where a high power of u changes in the same way by its logarithm, or its own series settles;
+- where the u of a sign or an absolute value has no zero, or one at the most: u' has none.
+
+References
+----------
+Moore, Kearfott, Cloud, *Introduction to Interval Analysis* (SIAM 2009), chapters 5 and 8.
+Rouche's theorem: Ahlfors, *Complex Analysis*, 3rd ed., section 4.5.2.
+"""
+
+from __future__ import annotations
+
+from lagcli.numerics.compiled.intrinsics import Ints, Reals, at, log
+from lagcli.numerics.compiled.layout import (
+    BLOCKED,
+    DIVIDES,
+    FLAT,
+    GROWS,
+    HIGH,
+    JUMPS,
+    STRIDE,
+    WATCHED,
+    WIDTH,
+)
+
+#: A zero at the very rim of the disc is passed in many steps.
+ROOM = 0.8
+GROWTH = 8.0
+VANISHED = 300.0
+TURN = 4.0
+FAR = 150.0
+#: The last terms of a series that settles are this part of the largest.
+SETTLED = 1e-6
+SHORTER = 0.75
+ATTEMPTS = 400
+#: A sign that only touches 0 shortens a step no more than this.
+LEAST = 0.015625
+
+
+def reach(c: Reals, first: int, order: int, part: float) -> float:
+    """The sum of |c_k| part^k from k = first on."""
+    total = 0.0
+    for k in range(order, first - 1, -1):
+        total = total * part + abs(c[k])
+    for _ in range(first):
+        total = total * part
+    return total
+
+
+def bend(c: Reals, order: int, part: float) -> float:
+    """The sum of k |c_k| part^k from k = 2 on."""
+    total = 0.0
+    for k in range(order, 1, -1):
+        total = total * part + k * abs(c[k])
+    return total * part * part
+
+
+def settles(c: Reals, order: int, part: float) -> int:
+    """Whether the last terms of a series are nothing beside its largest; 1 or 0."""
+    power = 1.0
+    top = 0.0
+    last = 0.0
+    for k in range(order + 1):
+        size = abs(c[k]) * power
+        top = max(top, size)
+        if k > order - 4:
+            last = max(last, size)
+        if not size <= top:
+            return 0
+        power = power * part
+    if last <= SETTLED * top:
+        return 1
+    return 0
+
+
+def divides(c: Reals, whole: Reals, has_whole: int, order: int, part: float) -> int:
+    """Whether what is divided by this is regular; 1 or 0."""
+    first = abs(c[0])
+    if reach(c, 1, order, part) <= ROOM * first:
+        return 1
+    linear = abs(c[1]) * part
+    if has_whole == 1 and 2 * first <= linear:
+        if first + reach(c, 2, order, part) <= ROOM * linear:
+            return settles(whole, order, part)
+    return 0
+
+
+def is_seen(kind: int, c: Reals, whole: Reals, power: int, order: int, part: float) -> int:
+    """Whether a step of this part of s passes over nothing of one kind; 1 or 0."""
+    first = abs(c[0])
+    rest = reach(c, 1, order, part)
+    if kind == GROWS:
+        if rest <= GROWTH or c[0] + rest <= -VANISHED:
+            return 1
+    if kind == FLAT:
+        if rest <= TURN or first - rest >= FAR:
+            return 1
+    if kind == HIGH:
+        if power * log(1 + rest / first) <= GROWTH or power * log(first + rest) <= -VANISHED:
+            return 1
+        if whole[0] != 0:
+            return settles(whole, order, part)
+    if kind == JUMPS:
+        if rest < first or bend(c, order, part) <= abs(c[1]) * part:
+            return 1
+    if kind == DIVIDES:
+        return divides(c, whole, power, order, part)
+    return 0
+
+
+def unblocked(rows: Reals, watch: Ints, counts: Ints, order: int, part: float) -> float:
+    """The part of s over which a step passes over nothing: this or less."""
+    before = part + 1
+    least = part * LEAST
+    counts[BLOCKED] = 0
+    attempts = 0
+    while part < before and attempts < ATTEMPTS:
+        before = part
+        for i in range(counts[WATCHED]):
+            w = at(watch, i * WIDTH)
+            c = at(rows, w[1] * STRIDE)
+            whole = at(rows, w[2] * STRIDE)
+            seen = is_seen(w[0], c, whole, w[3], order, part)
+            if w[0] == JUMPS and part < least:
+                seen = 1
+            while seen == 0 and attempts < ATTEMPTS:
+                attempts += 1
+                part = part * SHORTER
+                counts[BLOCKED] = i + 1
+                seen = is_seen(w[0], c, whole, w[3], order, part)
+                if w[0] == JUMPS and part < least:
+                    seen = 1
+    return part
