@@ -179,7 +179,7 @@ def coefficients(
             rows[i * STRIDE + k] = small[i * STRIDE + k]
     for i in range(counts[WATCHED]):
         w = at(watch, i * WIDTH)
-        for k in range(exact + 1, order + 1):
+        for k in range(exact, order):  # one less than of the state
             rows[w[1] * STRIDE + k] = small[w[4] * STRIDE + k]
             rows[w[2] * STRIDE + k] = small[w[5] * STRIDE + k]
     return 1
@@ -255,7 +255,7 @@ def expand(
         facts[SCALE] = near(facts[SCALE], h)
     if counts[WATCHED] > 0:
         scale = rows[both * STRIDE + 1]
-        h = unblocked(rows, watch, counts, order, h / scale) * scale
+        h = unblocked(rows, watch, counts, order - 1, h / scale) * scale
     facts[H] = h
     if not h > facts[SHORTEST] * max(state[both], 1e-3 * facts[UNTIL]):  # also where it is nan
         return STOPPED
