@@ -26,6 +26,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from math import isqrt
 
+from lagcli.graph.bounded import bounded
 from lagcli.graph.nodes import Call, Constant, Graph, Node, Product, Sum, Symbol, ancestry
 
 _NONE, _UNIT, _HALF, _TWO = Fraction(0), Fraction(1), Fraction(1, 2), Fraction(2)
@@ -188,6 +189,7 @@ def stable_dynamics(graph: Graph, roots: Sequence[Node]) -> list[Node]:
     What stands in abs and sign, the kinks of the motion, is left alone, and so are long
     equations, where to look for it costs more than a twentieth of a run.
     """
+    roots = bounded(graph, roots)
     if len(ancestry(roots)) > _LONG:
         return list(roots)
     stable = Stable(graph, kept=frozenset({"abs", "sign"}))

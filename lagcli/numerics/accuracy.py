@@ -156,7 +156,7 @@ class Controller:
             if finer <= self.finest or _both_stop(coarse, fine, found.good_rows, self.accuracy):
                 return found
             bound = max(found.errors)
-            before, apart = apart, bound / self.factor(finer)
+            before, apart = apart, bound / self.factor(finer, fine)
             gains = finer > self.rounded or apart <= _NO_GAIN * before
             if not gains and _FAR * self.accuracy < bound <= SATURATED:
                 return found
@@ -166,9 +166,12 @@ class Controller:
             else:
                 coarse, rows = self._run(tolerance, level, fine)
 
-    def factor(self, tolerance: float) -> float:
-        """Times the difference of two runs that bounds the error, by the finer tolerance."""
-        if tolerance <= self.finest:
+    def factor(self, tolerance: float, fine: Run) -> float:
+        """Times the difference of two runs that bounds the error, by the finer one.
+
+        What is narrow enlarges rounding, by which the two then differ at any tolerance.
+        """
+        if tolerance <= self.finest or fine.shortened:
             return CHANCE
         return self.chance if tolerance <= self.rounded else USUAL
 
@@ -199,7 +202,7 @@ class Controller:
     ) -> Outcome:
         """The difference of two runs, doubled at least, column by column and row by row."""
         count = len(fine_rows[0]) - self.charges
-        factor = self.factor(tolerances[1])
+        factor = self.factor(tolerances[1], fine)
         differences: list[list[float]] = []
         partner = Partners(coarse, fine)
         for mark, fine_row in zip(fine.marks, fine_rows, strict=True):

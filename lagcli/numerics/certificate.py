@@ -130,7 +130,7 @@ def _without_time(row: dict[str, float | None]) -> dict[str, float | None]:
 
 def _estimated_by(outcome: Outcome) -> str:
     coarse, fine = outcome.tolerances
-    factor = outcome.controller.factor(fine)
+    factor = outcome.controller.factor(fine, outcome.run)
     times = "twice" if factor == 2 else f"{factor:g} times"
     return (
         f"{times} the difference of two runs with local tolerances {coarse:.0e} and {fine:.0e}; "

@@ -162,13 +162,14 @@ def outcome_of(simulation: Simulation, modes: Modes, made: Prepared, first: floa
         n = len(simulation.equations.q)
         bound = Tolerance(tolerance, n, asked.until, longest, peaks, made.floor)
         nonlocal count
+        bound.moved = count % 2 == 0
         done = simulation.finished
 
         def told(part: float) -> None:
             if simulation.progress is not None:
                 simulation.progress((done + part) / max(total, done + 1))
 
-        run = made.run(bound, every, told, moved=count % 2 == 0)
+        run = made.run(bound, every, told, moved=bound.moved)
         count += 1
         simulation.finished += 1
         return run

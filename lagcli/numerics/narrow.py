@@ -12,9 +12,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
-from lagcli.graph.nodes import Call, Graph, Node, Product, ancestry
+from lagcli.graph.nodes import Call, Graph, Node, Product, Sum, ancestry
 from lagcli.numerics.compiled.layout import DIVIDES, FLAT, GROWS, HIGH, JUMPS
-from lagcli.record import record
+from lagcli.record import record, replace
 
 #: Powers up to this are seen: no series is shorter.
 _SEEN = 8
@@ -67,13 +67,31 @@ def narrow_parts(graph: Graph, roots: Sequence[Node], mask: int) -> list[Narrow]
     mask
         The symbols that vary along the motion.
     """
-    found: dict[tuple[int, Node, Node | None], Narrow] = {}
-    for node in ancestry(roots):
-        if node.mask & mask:
-            for each in _parts_of(graph, node):
-                if each.argument.mask & mask:
-                    found.setdefault((each.kind, each.argument, each.whole), each)
-    return list(found.values())
+    found: dict[Narrow, None] = {}
+    varying = [node for node in ancestry(roots) if node.mask & mask]
+    together = _together(graph, varying)
+    for node in varying:
+        for each in _parts_of(graph, node):
+            if each.argument.mask & mask:
+                whole = together.get((each.whole, each.argument), each.whole)
+                found.setdefault(replace(each, whole=whole))
+    return list(found)
+
+
+def _together(graph: Graph, nodes: Sequence[Node]) -> dict[tuple[Node | None, Node], Node]:
+    """The terms of a sum that one base divides, which may be regular together: (term, base)."""
+    found: dict[tuple[Node | None, Node], Node] = {}
+    for node in nodes:
+        terms = node.terms if isinstance(node, Sum) else ()
+        divided: dict[Node, list[tuple[Node, Fraction]]] = {}
+        for term, number in terms:
+            for base, exponent in term.factors if isinstance(term, Product) else ():
+                if exponent < 0:
+                    divided.setdefault(base, []).append((term, number))
+        for base, pairs in divided.items():
+            for term, _ in pairs:
+                found[term, base] = graph.combination(pairs)
+    return found
 
 
 def _parts_of(graph: Graph, node: Node) -> Iterator[Narrow]:

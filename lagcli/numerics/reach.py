@@ -39,7 +39,7 @@ def lost_bits(outcome: Outcome) -> float:
             return math.inf
         return (math.log2(SATURATED) + _DOUBLES) * span / outcome.lost_at
     # at rounding the bound is so much larger for chance, which more digits do not meet
-    chance = outcome.controller.factor(outcome.tolerances[1]) / USUAL
+    chance = outcome.controller.factor(outcome.tolerances[1], outcome.run) / USUAL
     return math.log2(max(max(outcome.errors) / chance, 2.0**-_DOUBLES)) + _DOUBLES
 
 

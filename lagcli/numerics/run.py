@@ -100,6 +100,8 @@ class Run:
         self.stop: CannotGoOn | None = None
         self.steps = 0
         self.defect = 0.0
+        #: steps that would have passed over something narrow
+        self.shortened = 0
         self.evaluations = 0
         self.method_name = ""
         self.apart: tuple[tuple[str, ...], ...] = ()

@@ -87,6 +87,8 @@ class Tolerance:
         floor: float = 0.0,
     ) -> None:
         self.value, self.n, self.span, self.longest = value, n, span, longest
+        #: whether the run is that of a problem a rounding beside
+        self.moved = False
         self.known = peaks is not None
         self.peaks = list(peaks) if peaks is not None else [0.0] * (2 * n)
         self._floor = floor

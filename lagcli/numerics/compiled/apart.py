@@ -101,6 +101,7 @@ class Apart:
             if bound.known:
                 peaks = [*part.state(bound.peaks[:n]), *part.state(bound.peaks[n:])]
             own = Tolerance(bound.value, part.motion.n, bound.span, bound.longest, peaks)
+            own.moved = bound.moved
             each = Run(run.transitions, own, 0.0)
             surface = Surface(part.motion, self.mode.modes.rounding) if part.motion.m else None
             each.phases.append(Phase(self.mode, surface, 0.0))
@@ -135,6 +136,7 @@ class Apart:
         run.method_name = made[0].method_name
         run.steps = sum(each.steps for each in made)
         run.evaluations = sum(each.evaluations for each in made)
+        run.shortened = sum(each.shortened for each in made)
         run.defect = max(each.defect for each in made)
         run.apart = tuple(tuple(x.name for x in part.equations.q) for part in self.parts)
         bound, counts = run.tolerance, [part.motion.n for part in self.parts]

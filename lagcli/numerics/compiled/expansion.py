@@ -178,10 +178,10 @@ def coefficients(
         for k in range(exact + 1, order + 1):
             rows[i * STRIDE + k] = small[i * STRIDE + k]
     for i in range(counts[WATCHED]):
-        w = at(watch, i * WIDTH)
         for k in range(exact, order):  # one less than of the state
-            rows[w[1] * STRIDE + k] = small[w[4] * STRIDE + k]
-            rows[w[2] * STRIDE + k] = small[w[5] * STRIDE + k]
+            for j in range(1, 3):
+                place = watch[i * WIDTH + j] * STRIDE
+                rows[place + k] = small[watch[i * WIDTH + j + 3] * STRIDE + k]
     return 1
 
 

@@ -39,9 +39,11 @@ from lagcli.numerics.compiled.layout import (
     DEFECT,
     DONE,
     HOLONOMIC,
+    KICK,
     LARGE,
     LIMIT,
     MORE,
+    NEAR,
     ORDER,
     PENDING,
     PIVOT,
@@ -56,6 +58,7 @@ from lagcli.numerics.compiled.layout import (
     H,
     N,
 )
+from lagcli.numerics.compiled.unseen import bend, reach
 
 PART = 0.999
 GOLDEN = 0.6180339887498949
@@ -119,11 +122,32 @@ def move(
         ahead[i] = s
         total += s - s
     ahead[both] = end
+    if counts[NEAR] > 0:
+        kick(rows, ahead, facts, counts, h)
     if total != 0:  # nan: something is not finite
         return STOPPED
     if counts[CONSTRAINTS] > 0:
         return hold(ahead, at(ahead, 2 * both + 1), held, facts, counts)
     return MORE
+
+
+def kick(rows: Reals, ahead: Reals, facts: Reals, counts: Ints, part: float) -> None:
+    """Change the velocities by what the rounding of the place changes a narrow force.
+
+    In one of two runs: |dF| h |q| eps / |dq| of a step in which q changes by dq and F by dF.
+    """
+    n = counts[N]
+    size = 0.0
+    way = 0.0
+    for j in range(n):
+        size = max(size, abs(ahead[j]))
+        way = max(way, reach(at(rows, j * STRIDE), 1, counts[ORDER], part))
+    if facts[KICK] > 0 and way > 0:
+        for j in range(n, 2 * n):
+            change = facts[KICK] * size / way * bend(at(rows, j * STRIDE), counts[ORDER], part)
+            if ahead[j] < 0:
+                change = -change
+            ahead[j] = ahead[j] + change
 
 
 def hold(state: Reals, work: Reals, held: Reals, facts: Reals, counts: Ints) -> int:

@@ -16,7 +16,8 @@ DEFECT = 6
 SHORTEST = 7
 ROUNDING = 8
 SCALE = 9
-FACTS = 10
+KICK = 10
+FACTS = 11
 
 # counts
 N = 0
@@ -32,7 +33,9 @@ CONSTRAINTS = 9
 EXACT = 10
 WATCHED = 11
 BLOCKED = 12
-COUNTS = 13
+SHORTENED = 13
+NEAR = 14
+COUNTS = 15
 
 # what is watched: its kind, the rows of its argument and of the whole, its power, and the
 # same rows in the doubles beside numbers of 80 bits

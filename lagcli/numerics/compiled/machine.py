@@ -186,17 +186,16 @@ class Machine:
         else:
             made = Series(self.numbers, tape, roots, guards)
         self.narrow = [each for each in narrow if tape.values[each.argument].place is not None]
-        self._watch = [each.entry(made.kept) for each in self.narrow]
+        self.watched = [each.entry(made.kept) for each in self.narrow]
         self.ops = len(tape.ops)
         return made
 
     @property
     def watch(self) -> list[int]:
         """What may be passed over, as the loop reads it."""
-        beside = [[0] * 4] * len(self._watch) if self.beside is None else self.beside._watch
-        return [
-            x for own, other in zip(self._watch, beside, strict=True) for x in (*own, *other[1:3])
-        ]
+        other = self if self.beside is None else self.beside
+        pairs = zip(self.watched, other.watched, strict=True)
+        return [x for own, beside in pairs for x in (*own, *beside[1:3])]
 
     def _tape(self, inputs: Any, roots: Any, guards: Any, *, frozen: bool = False) -> Tape:
         nodes: list[Node] = [*roots, *(node for pair in guards for node in pair)]

@@ -99,6 +99,7 @@ class CompiledTaylor:
             (k.SCALE, 0.0),
             (k.SHORTEST, 4 * numbers.rounding),
             (k.ROUNDING, _HELD * numbers.rounding),
+            (k.KICK, numbers.rounding if bound.moved else 0.0),
         ):
             facts[place] = numbers.cell(fact)
         counts[k.N], counts[k.ORDER] = self.n, self.order
@@ -292,6 +293,7 @@ class CompiledTaylor:
         ]
         run.method_name = self.name
         run.steps = int(counts[k.STEPS])
+        run.shortened = int(counts[k.SHORTENED])
         run.defect = min(float(facts[k.DEFECT]), math.inf)
         run.evaluations = run.steps * self.order
         run.tolerance.peaks[:] = [float(x) for x in self._peaks]

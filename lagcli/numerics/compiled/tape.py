@@ -18,7 +18,7 @@ from lagcli.numerics.arithmetic import Arithmetic, UndefinedFunction
 from lagcli.numerics.straight_line import straight_line
 
 #: Powers higher than this are not written as products.
-_HIGHEST = 64
+_HIGHEST = 4096
 
 
 class NoSeries(Exception):

@@ -5,9 +5,9 @@ r = |u_1| h + |u_2| h^2 + ... of its value u_0 at the beginning, in the whole di
 times around it.  So nothing is passed over
 
 - where a u that divides, or stands in a root or a logarithm, has r < |u_0|: it has no zero in
-  the disc.  With a simple zero in the inner half, |u_0| + |u_2| h^2 + ... < |u_1| h, what it
+  the disc.  With a simple zero in its inner part, |u_0| + |u_2| h^2 + ... < |u_1| h, what it
   divides is regular all the same if its own series settles (sin(x)/x): a pole would leave the
-  ratio of its coefficients at more than 2 / h;
+  ratio of its coefficients at more than 1.5 / h;
 - where exp(u) changes by no more than what its series shows, r <= 8, or stays nothing;
 - where tanh(u) and 1/cosh(u) are shown by their series, r <= 4, or u stays far from 0;
 - where a high power of u changes in the same way by its logarithm, or its own series settles;
@@ -29,6 +29,8 @@ from lagcli.numerics.compiled.layout import (
     GROWS,
     HIGH,
     JUMPS,
+    NEAR,
+    SHORTENED,
     STRIDE,
     WATCHED,
     WIDTH,
@@ -41,11 +43,15 @@ VANISHED = 300.0
 TURN = 4.0
 FAR = 150.0
 #: The last terms of a series that settles are this part of the largest.
-SETTLED = 1e-6
-SHORTER = 0.75
+SETTLED = 1e-4
+#: So many times as far as the zero does a step go that passes it.
+INNER = 1.5
+SHORTER = 0.8
 ATTEMPTS = 400
 #: A sign that only touches 0 shortens a step no more than this.
 LEAST = 0.015625
+#: Steps after one that was shortened that count as near something narrow.
+NEIGHBOURS = 40
 
 
 def reach(c: Reals, first: int, order: int, part: float) -> float:
@@ -90,9 +96,9 @@ def divides(c: Reals, whole: Reals, has_whole: int, order: int, part: float) -> 
     if reach(c, 1, order, part) <= ROOM * first:
         return 1
     linear = abs(c[1]) * part
-    if has_whole == 1 and 2 * first <= linear:
-        if first + reach(c, 2, order, part) <= ROOM * linear:
-            return settles(whole, order, part)
+    alone = first + reach(c, 2, order, part) <= ROOM * linear
+    if has_whole == 1 and INNER * first <= linear and alone:
+        return settles(whole, order, part)
     return 0
 
 
@@ -100,23 +106,30 @@ def is_seen(kind: int, c: Reals, whole: Reals, power: int, order: int, part: flo
     """Whether a step of this part of s passes over nothing of one kind; 1 or 0."""
     first = abs(c[0])
     rest = reach(c, 1, order, part)
-    if kind == GROWS:
-        if rest <= GROWTH or c[0] + rest <= -VANISHED:
-            return 1
-    if kind == FLAT:
-        if rest <= TURN or first - rest >= FAR:
-            return 1
+    if kind == GROWS and (rest <= GROWTH or c[0] + rest <= -VANISHED):
+        return 1
+    if kind == FLAT and (rest <= TURN or first - rest >= FAR):
+        return 1
     if kind == HIGH:
         if power * log(1 + rest / first) <= GROWTH or power * log(first + rest) <= -VANISHED:
             return 1
         if whole[0] != 0:
             return settles(whole, order, part)
-    if kind == JUMPS:
-        if rest < first or bend(c, order, part) <= abs(c[1]) * part:
-            return 1
+    if kind == JUMPS and (rest < first or bend(c, order, part) <= abs(c[1]) * part):
+        return 1
     if kind == DIVIDES:
         return divides(c, whole, power, order, part)
     return 0
+
+
+def is_clear(rows: Reals, watch: Ints, i: int, order: int, part: float, least: float) -> int:
+    """Whether the step passes over nothing of what is watched at a place of the list; 1 or 0."""
+    kind = watch[i * WIDTH]
+    if kind == JUMPS and part < least:
+        return 1
+    c = at(rows, watch[i * WIDTH + 1] * STRIDE)
+    whole = at(rows, watch[i * WIDTH + 2] * STRIDE)
+    return is_seen(kind, c, whole, watch[i * WIDTH + 3], order, part)
 
 
 def unblocked(rows: Reals, watch: Ints, counts: Ints, order: int, part: float) -> float:
@@ -128,17 +141,14 @@ def unblocked(rows: Reals, watch: Ints, counts: Ints, order: int, part: float) -
     while part < before and attempts < ATTEMPTS:
         before = part
         for i in range(counts[WATCHED]):
-            w = at(watch, i * WIDTH)
-            c = at(rows, w[1] * STRIDE)
-            whole = at(rows, w[2] * STRIDE)
-            seen = is_seen(w[0], c, whole, w[3], order, part)
-            if w[0] == JUMPS and part < least:
-                seen = 1
-            while seen == 0 and attempts < ATTEMPTS:
+            while attempts < ATTEMPTS and is_clear(rows, watch, i, order, part, least) == 0:
                 attempts += 1
                 part = part * SHORTER
-                counts[BLOCKED] = i + 1
-                seen = is_seen(w[0], c, whole, w[3], order, part)
-                if w[0] == JUMPS and part < least:
-                    seen = 1
+                if watch[i * WIDTH] != JUMPS:
+                    counts[BLOCKED] = i + 1
+    if counts[BLOCKED] > 0:
+        counts[SHORTENED] += 1
+        counts[NEAR] = NEIGHBOURS
+    elif counts[NEAR] > 0:
+        counts[NEAR] -= 1
     return part

@@ -1,0 +1,164 @@
+"""What lies between the places at which a run looks: found, or the run ends there.
+
+The references are integrals: of a force over the time, of 1/v over the path.
+"""
+
+import random
+
+import mpmath
+import pytest
+
+from lagcli.graph.nodes import Graph
+from lagcli.numerics.compiled.layout import DIVIDES, FLAT, GROWS, HIGH, JUMPS
+from lagcli.numerics.narrow import narrow_parts
+from tests.numerics.running import column, last, simulated
+
+BY_TIME = """
+coordinates: [x]
+T: x'^2/2
+forces: {{x: "{force}"}}
+initial: {{x: 0, x': 0}}
+"""
+BY_PLACE = """
+coordinates: [x]
+T: x'^2/2
+V: "{potential}"
+initial: {{x: 0, x': 1}}
+"""
+ACCURACIES = (1e-6, 1e-9, 1e-12)
+UNTIL = 10
+
+
+def drawn(seed, low=-6, high=-2):
+    """A height, a place and a width, as they are written."""
+    draw = random.Random(seed)
+    width = f"{draw.uniform(1, 9.9):.3g}e{draw.randint(low, high - 1)}"
+    return f"{draw.uniform(0.05, 0.2):.4g}", f"{draw.uniform(3, 6):.5g}", width
+
+
+def around(place, width):
+    """The place, and others on both sides of it, ever farther away."""
+    c, w = mpmath.mpf(place), mpmath.mpf(width)
+    return [c, *(c + s * w * mpmath.mpf(2) ** j / 8 for j in range(60) for s in (1, -1))]
+
+
+def integral(f, end, places):
+    ends = sorted({mpmath.mpf(0), end, *(p for p in places if 0 < p < end)})
+    return mpmath.quad(f, ends)
+
+
+def held(result, name, true):
+    """Whether a claim of the last row holds, with the bound that is printed."""
+    certificate = result.certificate
+    if not certificate.reached:
+        return bool(result.refusal)
+    scale = certificate.scales[result.columns.index(name)]
+    return abs(last(result, name) - true) <= certificate.global_error[name] * scale + 1e-16
+
+
+PULSES = {
+    "exp(-((t - {c})/{w})^2)/{w}": lambda u: mpmath.exp(-(u**2)),
+    "{h}/{w}/(1 + ((t - {c})/{w})^2)": lambda u: 1 / (1 + u**2),
+    "{h}*tanh((t - {c})/{w})/{w}": mpmath.tanh,
+    "{h}/cosh((t - {c})/{w})^2/{w}": lambda u: mpmath.sech(u) ** 2,
+}
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("text", PULSES)
+def test_a_pulse_in_time_is_not_stepped_over(text, seed):
+    h, c, w = drawn(f"{text} {seed}", -9 if text.startswith("exp") else -6)
+    mpmath.mp.dps = 25
+    factor = mpmath.mpf(h) if "{h}" in text else mpmath.mpf(1)
+    width = mpmath.mpf(w)
+
+    def force(t):
+        return factor * PULSES[text]((t - mpmath.mpf(c)) / width) / width
+
+    places = around(c, w)
+    end = mpmath.mpf(UNTIL)
+    speed = integral(force, end, places)
+    place = integral(lambda t: (end - t) * force(t), end, places)
+    for accuracy in ACCURACIES:
+        file = BY_TIME.format(force=text.format(h=h, c=c, w=w))
+        result = simulated(file, UNTIL, accuracy)
+        assert result.certificate.reached
+        assert held(result, "x'", speed)
+        assert held(result, "x", place)
+
+
+HILLS = {
+    "{h}*exp(-((x - {c})/{w})^2)": lambda u: mpmath.exp(-(u**2)),
+    "{h}/(1 + ((x - {c})/{w})^2)": lambda u: 1 / (1 + u**2),
+    "{h}*(x - {c})^2/((x - {c})^2 + {w}^2)": lambda u: u**2 / (1 + u**2),
+    "{h}*tanh((x - {c})/{w})": mpmath.tanh,
+    "{h}*atan((x - {c})/{w})/2": lambda u: mpmath.atan(u) / 2,
+    "{h}/cosh((x - {c})/{w})^2": lambda u: mpmath.sech(u) ** 2,
+}
+
+
+@pytest.mark.parametrize("text", HILLS)
+def test_a_hill_is_not_stepped_over(text):
+    h, c, w = drawn(text)
+    mpmath.mp.dps = 25
+
+    def potential(x):
+        return mpmath.mpf(h) * HILLS[text]((x - mpmath.mpf(c)) / mpmath.mpf(w))
+
+    energy = mpmath.mpf(1) / 2 + potential(0)
+
+    def speed(x):
+        return mpmath.sqrt(2 * (energy - potential(x)))
+
+    x = mpmath.mpf(UNTIL)
+    for _ in range(20):  # Newton, for the time at which it comes to x
+        x += (UNTIL - integral(lambda y: 1 / speed(y), x, around(c, w))) * speed(x)
+    for accuracy in ACCURACIES:
+        file = BY_PLACE.format(potential=text.format(h=h, c=c, w=w))
+        result = simulated(file, UNTIL, accuracy)
+        assert result.certificate.reached
+        assert held(result, "x", x)
+        assert held(result, "x'", speed(x))
+
+
+@pytest.mark.parametrize("width", ["1e-2", "1e-3", "1e-4", "1e-5", "1e-6"])
+def test_a_wall_is_not_passed_through(width):
+    file = BY_PLACE.format(potential=f"exp(-((x - 5)/{width})^2)")
+    result = simulated(file, UNTIL, 1e-9, samples=11)
+    assert result.certificate.reached
+    assert max(column(result, "x")) < 5
+    assert last(result, "x'") == pytest.approx(-1, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("formula", "kind"),
+    [
+        ("exp", GROWS),
+        ("tanh", FLAT),
+        ("sign", JUMPS),
+        ("tan", DIVIDES),
+        ("log", DIVIDES),
+        ("acos", DIVIDES),
+    ],
+)
+def test_functions_that_may_be_narrow(formula, kind):
+    graph = Graph()
+    x = graph.symbol("x")
+    [found] = narrow_parts(graph, [graph.call(formula, (x,))], x.mask)
+    assert found.kind == kind
+
+
+def test_powers_that_may_be_narrow():
+    graph = Graph()
+    x, k = graph.symbol("x"), graph.symbol("k")
+    of = graph.constant
+    assert not narrow_parts(graph, [graph.power(x, of(4)), graph.power(k, of(-1))], x.mask)
+    [high] = narrow_parts(graph, [graph.power(x, of(200))], x.mask)
+    assert (high.kind, high.power) == (HIGH, 200)
+    [pole] = narrow_parts(graph, [graph.power(x, of(-2))], x.mask)
+    assert (pole.kind, pole.argument) == (DIVIDES, x)
+
+
+def test_what_is_divided_by_0_is_passed_where_it_is_regular():
+    result = simulated(BY_PLACE.format(potential="-sin(x - 3)/(x - 3)/4"), UNTIL, 1e-9)
+    assert result.certificate.reached
