@@ -122,10 +122,14 @@ class EnergySection:
 
 @record(kw_only=True)
 class HamiltonianSection:
-    """H(q, p, t); None with a reason where the Legendre transform was not inverted."""
+    """H(q, p, t); None with a reason where the Legendre transform was not inverted.
+
+    `fold` vanishes where two branches of it meet.
+    """
 
     hamiltonian: Expression | None
     reason: str = ""
+    fold: Expression | None = None
 
 
 @record(kw_only=True)
@@ -138,10 +142,11 @@ class CanonicalPair:
 
 @record(kw_only=True)
 class CanonicalSection:
-    """The canonical equations by coordinate."""
+    """The canonical equations by coordinate; `fold` as in `HamiltonianSection`."""
 
     equations: Mapping[str, CanonicalPair] | None
     reason: str = ""
+    fold: Expression | None = None
 
 
 @record(kw_only=True)
@@ -237,12 +242,14 @@ class Equilibrium:
 class EquilibriaSection:
     """The equilibria found; None where none could be, with a `reason`.
 
-    `complete`: there can be no other.
+    `complete`: there can be no other.  Where there are none, there may be some for values of the
+    parameters for which each of `unless` vanishes.
     """
 
     equilibria: tuple[Equilibrium, ...] | None
     reason: str = ""
     complete: bool = True
+    unless: tuple[Expression, ...] = ()
 
 
 @record(kw_only=True)

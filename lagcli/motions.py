@@ -27,7 +27,8 @@ class Verdict:
     None: never, or not decided.  `unstable` is it where one of these inequalities holds.
     `asymptotic`: where it is stable by the first two, what is disturbed returns, to the family
     where it is stable `across` one.  `gyroscopic`: the spectrum is that of terms that damping
-    would outdo.  `theorem` is the name of the one that decides.
+    would outdo.  `theorem` is the name of the one that decides.  `critical` is the order of the
+    minimum at equality in the one condition of `minimum`: 0, it is unstable; None, not known.
     """
 
     stable: bool | None
@@ -42,6 +43,7 @@ class Verdict:
     unstable: tuple[Above, ...] = ()
     exact: bool = False
     gyroscopic: bool = False
+    critical: int | None = None
 
 
 @record(kw_only=True)
@@ -120,7 +122,9 @@ class SteadyMotion:
 class SteadySection:
     """The conditions that vanish, by coordinate or number, and the motions; None with a `reason`.
 
-    They are dU_eff/dq less what is `acting`: "forces", "constraints", along which they are taken.
+    They are dU_eff/dq minus what is `acting`: "forces", "constraints", along which they are taken.
+    `momenta` are the cyclic coordinates whose momenta are constant.  Where there are no motions,
+    there may be some for parameters for which each of `unless` vanishes.
 
     Under velocity constraints the conditions are those of constant velocities, where the
     `eliminated` ones follow from the constraints; each motion is then `rolling`.
@@ -132,6 +136,8 @@ class SteadySection:
     eliminated: tuple[str, ...] = ()
     acting: tuple[str, ...] = ()
     reason: str = ""
+    momenta: tuple[str, ...] = ()
+    unless: tuple[Expression, ...] = ()
 
 
 @record

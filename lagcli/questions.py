@@ -10,11 +10,15 @@ from lagcli.record import record
 
 @record(kw_only=True)
 class Solutions:
-    """The answer to `where ... for ...`: the roots the motion can reach; None: not found."""
+    """The answer to `where ... for ...`: the roots the motion can reach; None: not found.
+
+    `remarks` is the note with its formulas as trees.
+    """
 
     unknown: str
     solutions: tuple[Expression, ...] | None
     note: str = ""
+    remarks: tuple[str | Expression, ...] = ()
 
 
 @record(kw_only=True)

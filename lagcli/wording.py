@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 
 from lagcli.answers import QuantityUnit, Verification
 from lagcli.document import Block, Equations, Formula, Label, Paragraph, Row
@@ -11,11 +12,14 @@ from lagcli.expression import (
     Expression,
     Name,
     Negative,
+    Number,
+    Power,
     Product,
     Sum,
     operation_count,
 )
 from lagcli.motions import Above, Irreducible, SteadyMotion, Verdict
+from lagcli.questions import Answer, Solutions
 
 Part = str | Formula
 
@@ -66,6 +70,12 @@ def substituted(level: Verification | None, symbols: Iterable[str] = ()) -> Iter
         yield Paragraph((*head, how))
 
 
+def enumerated(words: Sequence[str], before: str = "") -> str:
+    """a, b and c; `before` stands before each but the first."""
+    parts = [f"{before if k else ''}{word}" for k, word in enumerate(words)]
+    return " and ".join([part for part in (", ".join(parts[:-1]), *parts[-1:]) if part])
+
+
 def conditions(where: Sequence[Above]) -> list[Part]:
     """Inequalities within a sentence, all of which hold."""
     return _joined(where, " and ")
@@ -74,12 +84,38 @@ def conditions(where: Sequence[Above]) -> list[Part]:
 def _joined(where: Sequence[Above], word: str) -> list[Part]:
     parts: list[Part] = []
     for position, each in enumerate(where):
-        below = each.left == ZERO
-        sides: list[Part] = (
-            [each.right, " < ", each.left] if below else [each.left, " > ", each.right]
-        )
-        parts += [word if position else "", *sides, *_order_of_three(each)]
+        parts += [word if position else "", *_sides(each), *_order_of_three(each)]
     return parts
+
+
+def _sides(each: Above) -> list[Part]:
+    base = _squared(each.left) if each.right == ZERO else None
+    if base is not None:
+        return _compared(base, " ≠ ")
+    if each.left == ZERO:
+        return [each.right, " < ", each.left]
+    return [each.left, " > ", each.right]
+
+
+def _compared(difference: Expression, sign: str) -> list[Part]:
+    """a = b + c of a - b - c, else that it is 0; or another sign than =."""
+    terms = difference.terms if isinstance(difference, Sum) else ()
+    minus = [term.operand for term in terms if isinstance(term, Negative)]
+    plus = [term for term in terms if not isinstance(term, Negative)]
+    if minus and plus:
+        sides = (side[0] if len(side) == 1 else Sum(tuple(side)) for side in (plus, minus))
+        return [next(sides), sign, next(sides)]
+    return [difference, f"{sign}0"]
+
+
+def _squared(expression: Expression) -> Expression | None:
+    """q B of q² B²; None of what is not a square."""
+    if isinstance(expression, Product):
+        bases = tuple(_squared(factor) for factor in expression.factors)
+        known = tuple(base for base in bases if base is not None)
+        return Product(known) if len(known) == len(bases) else None
+    square = isinstance(expression, Power) and expression.exponent == Number(Fraction(2))
+    return expression.base if square and isinstance(expression, Power) else None
 
 
 def _order_of_three(condition: Above) -> list[Part]:
@@ -180,6 +216,45 @@ def _potential(name: str) -> Part:
     return Label(letter, (index,) if index else ()) if name else "the potential of all forces"
 
 
+def fold(determinant: Expression | None) -> Iterator[Block]:
+    """Where two branches of the Legendre transform meet; nothing where there are none."""
+    if determinant is not None:
+        yield Paragraph(("Two branches meet where",))
+        yield Equations((Row(ZERO, determinant),))
+
+
+def unless(what: str, vanishing: Sequence[Expression]) -> list[Part]:
+    """That there is none, but for values of the parameters for which these vanish."""
+    parts: list[Part] = [f"there is no {what}"]
+    for position, each in enumerate(vanishing):
+        parts += [" and " if position else " unless ", *_compared(each, " = ")]
+    return parts
+
+
+def none_found(what: str, vanishing: Sequence[Expression], *, complete: bool) -> Paragraph:
+    """That there is none of what was sought, or that none is known."""
+    if not complete:
+        return Paragraph(("None was found.",))
+    if not vanishing:
+        return Paragraph(("There is none.",))
+    lead, *rest = unless(what, vanishing)
+    return Paragraph((f"T{str(lead)[1:]}", *rest, "."))
+
+
+def remark(answer: Answer) -> Iterator[Paragraph]:
+    """What is said beside an answer, as a sentence."""
+    remarks: tuple[Part, ...] = (answer.note,) if answer.note else ()
+    if isinstance(answer, Solutions) and answer.remarks:
+        remarks = answer.remarks
+    if remarks:
+        first, *rest = remarks
+        lead = f"{first[0].upper()}{first[1:]}" if isinstance(first, str) else first
+        parts: list[Part] = [lead, *rest]
+        if isinstance(parts[-1], str):
+            parts[-1] = parts[-1].rstrip(".")
+        yield Paragraph((*parts, "."))
+
+
 def holding(touching: Sequence[str], *, sticking: bool) -> str:
     """What holds it at rest beside smooth forces."""
     closed = f"In contact: {', '.join(touching)}. " if touching else ""
@@ -200,7 +275,18 @@ def _by_minimum(verdict: Verdict, stable: str) -> list[Part]:
     name = f" ({verdict.theorem})" if alone and verdict.theorem else ""
     parts: list[Part] = [f"{stable} where ", *conditions(verdict.minimum)]
     parts += [", a minimum of ", potential, name]
-    return [*parts, *(_opposite(verdict.unstable) if alone else [". "])]
+    return [*parts, *(_opposite(verdict.unstable) if alone else [". "]), *_critical(verdict)]
+
+
+def _critical(verdict: Verdict) -> list[Part]:
+    """What holds at equality in the one condition."""
+    if verdict.critical is None or verdict.minimum is None or len(verdict.minimum) != 1:
+        return []
+    [condition], potential = verdict.minimum, _potential(verdict.potential)
+    equality: list[Part] = ["For ", condition.left, " = ", condition.right, " it is "]
+    if verdict.critical == 0:
+        return [*equality, "unstable: ", potential, " has no minimum then. "]
+    return [*equality, "stable: ", potential, f" then has a minimum of order {verdict.critical}. "]
 
 
 def _by_roots(verdict: Verdict, stable: str) -> list[Part]:

@@ -23,6 +23,25 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
     """
     if expression.is_number:
         return _of_number(expression)
+    found = _sign(*_with_signed(expression, positive, sympy.Symbol))
+    if found is None and positive:
+        known = [*positive, *_factors_of_known_sign(positive)]
+        put_in = _with_signed(expression, known, (sympy.Symbol, sympy.Function))
+        return _sign(*put_in) if put_in[0] != expression else None
+    return found
+
+
+def _factors_of_known_sign(positive: Sequence[Expr]) -> list[Expr]:
+    """cos(x) where (a + cos(x)) cos(x) and a + cos(x) are positive."""
+    field = Field(positive)
+    try:
+        given = [field(each).numerator * field(each).denominator for each in positive]
+    except ZeroDivisionError:
+        return []
+    return [field.polynomial_to_sympy(factor) for factor in _known_factors(field, given)]
+
+
+def _sign(expression: Expr, positive: Sequence[Expr]) -> int | None:
     field = Field([expression, *positive])
     try:
         element = field(expression)
@@ -35,8 +54,8 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
         return None
     if element.is_zero():
         return 0
-    known = [factor for poly in given for factor in _open_factors(field, poly)]
-    result = 1
+    known = _known_factors(field, given)
+    result, open_ = 1, field.ring.one
     for poly in (element.numerator, element.denominator):
         content, factors = factorization(field.ring.lift(poly))
         result *= 1 if int(content) > 0 else -1
@@ -47,9 +66,53 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
                 continue
             # a square is positive where it is not 0, as what is divided by is not
             never_zero = poly is element.denominator or _is_nonzero(field, factor)
-            if exponent % 2 or not never_zero:
+            if exponent % 2:
+                open_ *= factor
+            elif not never_zero:
                 return None
-    return result
+    return _of_product(field, open_, given, result)
+
+
+def _of_product(field: Field, open_: Poly, given: Sequence[Poly], others: int) -> int | None:
+    """The sign of `others` times a product: one of the given ones may have just its factors."""
+    if open_ == field.ring.one:
+        return others
+    for each in given:
+        content, factors = factorization(field.ring.lift(each))
+        value, rest = 1 if int(content) > 0 else -1, field.ring.one
+        for factor, exponent in factors:
+            known = _of_factor(field, factor, ())
+            value *= known**exponent if known else 1
+            rest *= factor if known is None and exponent % 2 else field.ring.one
+        if rest in (open_, -open_):
+            return others * value * (1 if rest == open_ else -1)
+    return None
+
+
+def _known_factors(field: Field, given: Sequence[Poly]) -> list[Poly]:
+    """Factors that are positive, one after the other: of a (a + b) > 0 and a + b > 0 a is."""
+    known: list[Poly] = []
+    while True:
+        more = [x for poly in given for x in _open_factors(field, poly, known) if x not in known]
+        if not more:
+            return known
+        known += more
+
+
+def _with_signed(
+    expression: Expr, positive: Sequence[Expr], kinds: type | tuple[type, ...]
+) -> tuple[Expr, Sequence[Expr]]:
+    """Both with -k' for k where -k is positive: k' is a symbol that is."""
+    signs: dict[Expr, Expr] = {}
+    for each in positive:
+        others = [f for f in sympy.Mul.make_args(each) if f.is_positive is not True]
+        open_ = [f for f in others if f.is_negative is not True]
+        if len(open_) == 1 and isinstance(open_[0], kinds):
+            s, value = open_[0], 1 - 2 * (len(others) % 2 == 0)
+            signs[s] = value * sympy.Symbol(f"#{s}", positive=True)
+    if not signs:
+        return expression, positive
+    return expression.xreplace(signs), [each.xreplace(signs) for each in positive]
 
 
 def sign_beside_zero(expression: Expr) -> int | None:
@@ -80,7 +143,7 @@ def sign_of_circle(factor: Expr) -> int | None:
     return None
 
 
-def _open_factors(field: Field, poly: Poly) -> list[Poly]:
+def _open_factors(field: Field, poly: Poly, known: Sequence[Poly]) -> list[Poly]:
     """The one factor whose sign a positive product decides, made positive; none if several."""
     content, factors = factorization(field.ring.lift(poly))
     value = 1 if int(content) > 0 else -1
@@ -88,6 +151,10 @@ def _open_factors(field: Field, poly: Poly) -> list[Poly]:
     for factor, exponent in factors:
         # none of the factors is 0, as their product is not
         found = _by_terms(field, factor) or sign_of_circle(field.polynomial_to_sympy(factor))
+        if found is None and factor in known:
+            found = 1
+        if found is None and -factor in known:
+            found = -1
         if found is None:
             unknown.append((factor, exponent))
         else:

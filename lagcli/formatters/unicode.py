@@ -87,10 +87,19 @@ class UnicodePrinter(GrammarPrinter):
     def call(self, node: Call) -> Layout:
         if node.function in _ORDINARY_FUNCTIONS:
             return (*text(_ORDINARY_FUNCTIONS[node.function]), *self.arguments(node.arguments))
+        if node.function == "integral":
+            return self._definite(node)
         return (
             *text(_with_primes(self.spelled(node.function, 0), node.primes)),
             *self.arguments(node.arguments),
         )
+
+    def _definite(self, node: Call) -> Layout:
+        """Show the integral from a to b: `∫[a … b] f(x) dx`."""
+        integrand, variable, start, end = node.arguments
+        bounds = (*text("∫["), *self.show(start), *text(" … "), *self.show(end), *text("] "))
+        inner = self.at(integrand, Level.PRODUCT)
+        return (*bounds, *inner, *text(" d"), *self.show(variable))
 
     def partial_call(self, node: PartialCall) -> Layout:
         slots = "".join(f"∂{str(index).translate(_SUBSCRIPTS)}" for index in node.indices)
@@ -120,6 +129,8 @@ class UnicodePrinter(GrammarPrinter):
     def level(self, node: Expression) -> Level:
         if isinstance(node, Number) and node.decimal and decimal_parts(node.value).exponent:
             return Level.PRODUCT
+        if isinstance(node, Call) and node.function == "integral":
+            return Level.QUOTIENT
         return Level.QUOTIENT if isinstance(node, Diff) else super().level(node)
 
     def label(self, label: Label) -> Layout:

@@ -30,7 +30,7 @@ from lagcli.answers import Verification
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.record import record
-from lagcli.wording import CONSERVED
+from lagcli.wording import CONSERVED, enumerated
 
 
 @record
@@ -183,12 +183,12 @@ class EnergyFunction:
             return "whether it is conserved was not decided"
         if not self.conserved:
             deeds = (f"L {p.deed}" if p.of_lagrangian else p.deed for p in self.powers)
-            return "not conserved: " + " and ".join(deeds)
+            return f"not conserved: {enumerated(list(deeds))}"
         when = self.between_impacts
         conserved = f"conserved {when}" if when else "conserved"
         if not self.powers:
             return f"{conserved}: {CONSERVED}"
-        causes = " and of ".join(power.cause for power in self.powers)
+        causes = enumerated([power.cause for power in self.powers], "of ")
         together = "cancel" if len(self.powers) > 1 else "vanish"
         return f"{conserved}: on the motion the effects of {causes} {together}"
 

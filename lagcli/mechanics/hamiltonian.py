@@ -79,17 +79,19 @@ class Hamiltonian:
             return ""
         if self.dynamics.degenerate:
             return "the Hessian of L is singular: the momenta do not determine the velocities"
-        if self._fold is not None:
-            where = str(self._fold).replace("**", "^")
+        if self.fold is not None:
             return (
                 "the Legendre transform has several branches: the determinant of the Hessian of L "
-                f"changes its sign with {where}, so the momenta do not determine the velocities"
+                "takes both signs, so the momenta do not determine the velocities"
             )
-        return "p = dL/dq' could not be solved for the velocities in closed form"
+        return "the momenta could not be solved for the velocities in closed form"
 
     @cached_property
-    def _fold(self) -> Expr | None:
-        """What the determinant of d²L/dq'² has the sign of, where that depends on velocities."""
+    def fold(self) -> Expr | None:
+        """What the determinant of d²L/dq'² has the sign of, where that depends on velocities.
+
+        Where it is 0 two branches of the Legendre transform meet.
+        """
         whole = determinant([list(row) for row in self.dynamics.lagrange.mass_matrix])
         if whole is None:
             return None
@@ -127,6 +129,7 @@ class GivenHamiltonian:
     """
 
     reason = ""
+    fold: Expr | None = None
 
     def __init__(self, system: System, constraints: Sequence[ConstraintEquation]) -> None:
         assert system.H is not None

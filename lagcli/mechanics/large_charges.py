@@ -16,7 +16,7 @@ from lagcli.mechanics.identities import vanish
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.problem import Symmetry
 from lagcli.record import record
-from lagcli.wording import CHANGE_OF_L, CONSERVED
+from lagcli.wording import CHANGE_OF_L, CONSERVED, enumerated
 
 _NOT_SOLVED = "the system is too large to solve the motion in formulas"
 
@@ -208,6 +208,6 @@ class LargeCharges:
             rate = graph.sum(causes[cause] for cause in breaking)
             conserved = None if rate.mask & form.acceleration_mask else False
             rate = rate if conserved is False else None
-        broken_by = " and ".join(breaking) if conserved is False else ""
+        broken_by = enumerated(list(breaking)) if conserved is False else ""
         how: Verification | None = None if conserved is None else "50 digits"
         return LargeCharge(name, source, changes, gauge, charge, conserved, rate, how, broken_by)

@@ -39,11 +39,10 @@ from lagcli.mechanics.gauge import Gauge, GaugeSearch
 from lagcli.mechanics.translations import constant_nullspace
 from lagcli.problem import Symmetry
 from lagcli.record import record, replace
-from lagcli.wording import CHANGE_OF_L
+from lagcli.wording import CHANGE_OF_L, enumerated
 
 _NO_GAUGE_KNOWN = "no gauge was found, and whether there is one was not decided"
-_AND = " and "
-_OTHER_GAUGE = "the gauge given (left out, the right one is found)"
+_OTHER_GAUGE = "the gauge that the file gives (without it the right one is found)"
 
 
 @record
@@ -90,7 +89,7 @@ class Noether:
         candidates = [self._candidate(symmetry) for symmetry in self.system.problem.symmetries]
         evident = [
             charge
-            for charge in (*self._cyclic_charges(), self._energy_charge())
+            for charge in (*self.cyclic_momenta, self._energy_charge())
             if not self.is_trivial(charge)
             and not any(self._same_charge(charge, candidate) for candidate in candidates)
         ]
@@ -139,9 +138,8 @@ class Noether:
             found = self._gauge(change, transformation)
             return self._judged(name, source, transformation, found.term, change, found.exists)
         judged = self._judged(name, source, transformation, gauge, change)
-        causes = judged.broken_by.split(_AND)
-        if CHANGE_OF_L in causes and self._gauge(change, transformation).exists:
-            broken_by = _AND.join(_OTHER_GAUGE if c == CHANGE_OF_L else c for c in causes)
+        if CHANGE_OF_L in judged.broken_by and self._gauge(change, transformation).exists:
+            broken_by = judged.broken_by.replace(CHANGE_OF_L, _OTHER_GAUGE)
             return replace(judged, broken_by=broken_by)
         return judged
 
@@ -251,17 +249,28 @@ class Noether:
             return sympy.S.Zero, True, verdict.how
         return rate, verdict.holds, verdict.how
 
+    def working(self, charge: NoetherCharge) -> tuple[str, ...]:
+        """The forces that do work along a transformation: Q . (Dq - q' Dt) is not 0."""
+        change, boundary = sympy.S.Zero, sympy.S.Zero
+        works = self._contributions(charge.transformation, boundary, change)
+        return tuple(self._not_vanishing(works))
+
     def _broken_by(self, contributions: Mapping[str, Expr]) -> str:
+        return enumerated(self._not_vanishing(contributions))
+
+    def _not_vanishing(self, contributions: Mapping[str, Expr]) -> list[str]:
+        """The causes of what is not 0 on the motion."""
         causes = []
         for cause, part in contributions.items():
             on_motion = self.dynamics.rate_on_motion(part)
             if on_motion is None or self.dynamics.verifier.is_zero(on_motion).holds is not True:
                 causes.append(cause)
-        return _AND.join(causes)
+        return causes
 
     # -- evident symmetries ---------------------------------------------------------------
 
-    def _cyclic_charges(self) -> list[NoetherCharge]:
+    @cached_property
+    def cyclic_momenta(self) -> list[NoetherCharge]:
         """p_q of each cyclic coordinate: the translation Dq = 1."""
         zero, one = sympy.S.Zero, sympy.S.One
         n = len(self.system.q)
@@ -288,7 +297,7 @@ class Noether:
             energy.conserved,
             sympy.S.Zero if energy.conserved else energy.rate,
             energy.verified,
-            "" if energy.conserved is not False else _AND.join(p.cause for p in energy.powers),
+            "" if energy.conserved is not False else enumerated([p.cause for p in energy.powers]),
         )
 
     def _same_charge(self, evident: NoetherCharge, candidate: NoetherCharge) -> bool:
@@ -312,7 +321,7 @@ class Noether:
         of block and wedge, of masses that attract each other.
         """
         system, zero = self.system, sympy.S.Zero
-        alone = {c.transformation.changes for c in self._cyclic_charges() if c.conserved}
+        alone = {c.transformation.changes for c in self.cyclic_momenta if c.conserved}
         basis = range(len(system.q))
         unit = [tuple(sympy.S(int(i == j)) for j in basis) for i in basis]
         moved = [j for j, changes in enumerate(unit) if changes not in alone]

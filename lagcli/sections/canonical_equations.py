@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 from lagcli.answers import Answers, CanonicalPair, CanonicalSection
 from lagcli.document import Block, Equations, Row
-from lagcli.expression import Name
+from lagcli.expression import Expression, Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import FORMULA, Object, map_of, record_of, unless_none
-from lagcli.sections.hamiltonian import given
+from lagcli.sections.hamiltonian import fold_of, given
 from lagcli.statements.declaration import Declaration, Told
-from lagcli.wording import not_found
+from lagcli.wording import fold, not_found
 
 if TYPE_CHECKING:
     from sympy import Expr
@@ -29,7 +29,7 @@ def derive(statements: Statements) -> CanonicalSection:
     hamiltonian = statements.derivation.hamiltonian
     pairs = hamiltonian.canonical_equations
     if pairs is None:
-        return _none(statements, hamiltonian.reason)
+        return _none(statements, hamiltonian.reason, fold_of(statements))
     return _stated(statements, statements.system.names, pairs)
 
 
@@ -58,15 +58,16 @@ def _stated(
     )
 
 
-def _none(statements: Stating, reason: str) -> CanonicalSection:
+def _none(statements: Stating, reason: str, meeting: Expression | None = None) -> CanonicalSection:
     statements.lacks("the canonical equations", reason)
-    return CanonicalSection(equations=None, reason=reason)
+    return CanonicalSection(equations=None, reason=reason, fold=meeting)
 
 
 def blocks(section: CanonicalSection, _: Answers) -> Iterator[Block]:
     """The pair of each coordinate."""
     if section.equations is None:
         yield not_found(section.reason)
+        yield from fold(section.fold)
         return
     rows = []
     for name, pair in section.equations.items():

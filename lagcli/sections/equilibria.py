@@ -14,7 +14,7 @@ from lagcli.problem import ExpectEquilibrium
 from lagcli.reader.expected_reduction import read_equilibria
 from lagcli.reader.schema_parts import FORMULAS, STABLE, list_of, record_of, ref
 from lagcli.statements.declaration import Declaration, Expected, Told
-from lagcli.wording import conditions, holding, stability, state_blocks
+from lagcli.wording import conditions, holding, none_found, stability, state_blocks
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found
@@ -49,11 +49,11 @@ def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
     if section.equilibria is None:
         yield Paragraph((f"Not found: {section.reason}.",))
     elif not section.equilibria:
-        yield Paragraph(("There is none.",))
+        yield none_found("equilibrium", section.unless, complete=section.complete)
     for equilibrium in section.equilibria or ():
         yield from state_blocks(equilibrium.at, on=equilibrium.on)
         yield Paragraph(_stability(equilibrium))
-    if section.equilibria is not None and not section.complete:
+    if section.equilibria and not section.complete:
         yield Paragraph(("There may be others.",))
 
 

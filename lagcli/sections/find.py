@@ -19,6 +19,7 @@ from lagcli.reader.schema_parts import ONE_OR_MORE
 from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.scope import ANSWER
 from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.wording import remark
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found
@@ -78,8 +79,7 @@ def blocks(section: FindSection, _: Answers) -> Iterator[Block]:
                 yield Equations((Row(Label(name) if subject is None else subject, value),))
             case Ranges(unknown=unknown, ranges=tuple(ranges)):
                 yield Paragraph(_ranges(unknown, ranges))
-        if answer.note:
-            yield Paragraph((f"{answer.note[0].upper()}{answer.note[1:].rstrip('.')}.",))
+        yield from remark(answer)
 
 
 def _ranges(unknown: str, ranges: Sequence[Range]) -> tuple[str | Formula, ...]:

@@ -13,7 +13,7 @@ from lagcli.formatters.json_values import OR_NULL, Object, string
 from lagcli.reader.schema_parts import FORMULA
 from lagcli.reader.scope import PHASE_SPACE
 from lagcli.statements.declaration import Declaration, Expected
-from lagcli.wording import not_found, one_row
+from lagcli.wording import fold, not_found, one_row
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found
@@ -35,7 +35,8 @@ def derive(statements: Statements) -> HamiltonianSection:
     if function is not None:
         written = statements.as_written(function)
         return HamiltonianSection(hamiltonian=written, reason=hamiltonian.reason)
-    return _abbreviated(statements) or _none(statements, hamiltonian.reason)
+    meeting = fold_of(statements)
+    return _abbreviated(statements) or _none(statements, hamiltonian.reason, meeting)
 
 
 def large(statements: LargeStatements) -> HamiltonianSection:
@@ -53,15 +54,25 @@ def _abbreviated(statements: Stating) -> HamiltonianSection | None:
     return None if found is None else HamiltonianSection(hamiltonian=found.values[0])
 
 
-def _none(statements: Stating, reason: str) -> HamiltonianSection:
+def _none(
+    statements: Stating, reason: str, meeting: Expression | None = None
+) -> HamiltonianSection:
     statements.lacks("the Hamiltonian", reason)
-    return HamiltonianSection(hamiltonian=None, reason=reason)
+    return HamiltonianSection(hamiltonian=None, reason=reason, fold=meeting)
+
+
+def fold_of(statements: Statements) -> Expression | None:
+    """What vanishes where two branches of the Legendre transform meet."""
+    found = statements.derivation.hamiltonian.fold
+    return None if found is None else statements.as_written(found)
 
 
 def blocks(section: HamiltonianSection, _: Answers) -> Iterable[Block]:
     """H = …."""
     found = section.hamiltonian
-    return [not_found(section.reason) if found is None else one_row(Label("H"), found)]
+    if found is None:
+        return [not_found(section.reason), *fold(section.fold)]
+    return [one_row(Label("H"), found)]
 
 
 def json(section: HamiltonianSection) -> Object:

@@ -26,7 +26,7 @@ from lagcli.problem import ExpectSteady
 from lagcli.reader.expected_reduction import read_steady_motions
 from lagcli.reader.schema_parts import FORMULA, FORMULAS, STABLE, list_of, record_of
 from lagcli.statements.declaration import Declaration, Expected, Told
-from lagcli.wording import conditions, place_rows, steady_stability
+from lagcli.wording import conditions, none_found, place_rows, steady_stability
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found
@@ -60,11 +60,11 @@ def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
         yield Paragraph((f"Not found: {section.reason}.",))
         return
     if not section.motions:
-        yield Paragraph(("There is none.",))
+        yield none_found("steady motion", section.unless, complete=section.complete)
     for number, motion in enumerate(section.motions, 1):
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(motion)
-    if not section.complete:
+    if section.motions and not section.complete:
         yield Paragraph(("There may be others.",))
 
 

@@ -87,6 +87,12 @@ def test_decimals_of_numeric_answers(value, grammar, unicode):
     assert parse_text(grammar) == node
 
 
+def test_an_integral_has_its_sign_and_its_bounds():
+    node = times(TWO, Call("integral", (Call("F", (Name("s"),)), Name("s"), number(0), Name("t"))))
+    assert joined(UnicodePrinter().show(node)) == "2 ∫[0 … t] F(s) ds"
+    assert to_grammar(node) == "2*integral(F(s), s, 0, t)"
+
+
 def test_an_equation():
     assert equation_to_grammar(Equation(x, Negative(g))) == "x = -g"
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lagcli.formatters.grammar import to_grammar
 from lagcli.questions import Solutions
 
 from .formulas import formulas
@@ -33,6 +34,8 @@ def test_a_root_that_only_some_parameters_reach_is_listed_with_an_example():
     assert found.solutions is not None
     assert len(found.solutions) == 2
     assert "-pi/2 for some values of the parameters only, such as theta0 = -2" in found.note
+    formulas_in_it = [to_grammar(part) for part in found.remarks if not isinstance(part, str)]
+    assert {"-pi/2", "theta0"} <= set(formulas_in_it)
 
 
 def test_the_speed_that_a_turning_point_needs_is_a_function_of_the_place():

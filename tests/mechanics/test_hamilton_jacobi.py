@@ -93,7 +93,7 @@ def test_a_coupling_by_the_momenta_separates_beside_a_cyclic_coordinate():
 def test_a_frequency_that_changes_with_the_time_is_not_tried():
     found, missing = section("{coordinates: [x], parameters: [w], L: x'^2/2 - x^2*cos(w*t)}")
     assert found.separable is None
-    assert missing[0][1] == "H depends on the time, and not by forces F(t) alone"
+    assert missing[0][1] == "H depends on the time and is not linear in the coordinates"
 
 
 @pytest.mark.parametrize("force", ["m*A*t", "F*cos(w*t)", "F*t*exp(-w*t)"])

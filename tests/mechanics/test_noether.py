@@ -133,7 +133,7 @@ def test_a_general_lagrangian_conserves_its_energy_function():
     ("change", "cause"),
     [
         ("x: t, gauge: m*x", ""),
-        ("x: t, gauge: -m*x", "the gauge given (left out, the right one is found)"),
+        ("x: t, gauge: -m*x", "the gauge that the file gives (without it the right one is found)"),
         ("t: x, gauge: m*x", CHANGE_OF_L),
     ],
 )

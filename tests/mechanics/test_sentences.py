@@ -145,7 +145,7 @@ def test_contacts_are_named_and_what_follows_is_limited_to_between_impacts():
         "contacts:\n  floor: {gap: y >= 0, restitution: e}\n"
     )
     system = said(text, "The system")
-    assert "No constraint acts on them: the system has two degrees of freedom." in system
+    assert "No constraint acts: the system has two degrees of freedom." in system
     assert "One contact acts only while its gap is 0" in system
     assert "What follows holds between impacts, while the gap is open." in system
     assert "h is conserved between impacts." in said(text, "The energy")

@@ -125,7 +125,10 @@ def _commensurate(parameters: Sequence[Symbol], exponents: Sequence[Exponent]) -
         for one, other in combinations(squares, 2):
             total, product = simplify(one + other), simplify(one * other)
             relation = ratio**2 * total**2 - (1 + ratio**2) ** 2 * product
-            for factor, _ in sympy.factor_list(sympy.numer(sympy.together(relation)))[1]:
+            condition = sympy.expand(sympy.numer(sympy.together(relation)))
+            if condition.is_number:  # the ratio of the frequencies has no parameter in it
+                continue
+            for factor, _ in sympy.factor_list(condition)[1]:
                 if sign(factor) not in (1, -1):
                     yield from _solved(factor, parameters)
 

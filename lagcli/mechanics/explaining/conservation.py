@@ -11,9 +11,10 @@ from lagcli.algebra.build import free_of
 from lagcli.document import Block, Equations, Heading, Label, Row
 from lagcli.expression import Diff, Name, Product, Rate, Sum
 from lagcli.mechanics.explaining.teller import Teller
-from lagcli.mechanics.explaining.words import Part, says, shows
+from lagcli.mechanics.explaining.words import Part, listed, says, shows
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.noether import NoetherCharge
+from lagcli.wording import enumerated
 
 
 def energy(teller: Teller) -> Iterator[Block]:
@@ -31,12 +32,18 @@ def energy(teller: Teller) -> Iterator[Block]:
     yield shows(letters.h, teller.readable.by_terms(function.readable_function, as_given=True))
     yield says(*_total(teller))
     yield from _rate(teller)
-    if not teller.dynamics.degenerate:
+    if _has_hamiltonian(teller):
         yield says(
             "The Hamiltonian is ",
             letters.h,
             " as a function of the coordinates and momenta, so the same holds for it.",
         )
+
+
+def _has_hamiltonian(teller: Teller) -> bool:
+    """Whether the momenta determine the velocities."""
+    hamiltonian = teller.derivation.hamiltonian
+    return not teller.dynamics.degenerate and hamiltonian.fold is None
 
 
 def _total(teller: Teller) -> list[Part]:
@@ -79,10 +86,8 @@ def _rate(teller: Teller) -> Iterator[Block]:
         yield says(*_unchanged(teller), " So ", h, *_conserved(teller), ".")
         yield from _work_of_drive(teller)
         return
-    changes: list[Part] = []
-    for power in function.powers:
-        changes += [" and "] if changes else []
-        changes += [letters.L, " ", power.deed] if power.of_lagrangian else [power.deed]
+    deeds = [(letters.L, " ", p.deed) if p.of_lagrangian else (p.deed,) for p in function.powers]
+    changes = listed(deeds)
     total = sympy.Add(*(power.value for power in function.powers))
     yield says("It can change because ", changes, ". Its rate is")
     yield shows(Name(h.name, 1), teller.readable.by_terms(total))
@@ -191,8 +196,24 @@ def _acting(teller: Teller) -> str:
     if not forces:
         return ""
     several = len(forces) > 1 or forces[0].startswith(("the applied", "the forces"))
-    words = " and ".join(forces)
+    words = enumerated(forces)
     return f"{words[0].upper()}{words[1:]} {'do' if several else 'does'}"
+
+
+def _work(teller: Teller, charge: NoetherCharge, *, with_gauge: bool) -> Iterator[Block]:
+    """What forces do along a transformation whose Q is constant."""
+    working = teller.derivation.noether.working(charge)
+    if not working:
+        acting = _acting(teller)
+        if acting:
+            yield says(acting, " no work along this transformation.")
+        return
+    words = enumerated(working)
+    do = "do" if len(working) > 1 or words.endswith("s") else "does"
+    lead = f"{words[0].upper()}{words[1:]} {do} work along this transformation, which together "
+    letters = teller.letters
+    total: list[Part] = ["the total time derivative of ", letters.G] if with_gauge else ["0"]
+    yield says(lead, "with the change of ", letters.L, " is ", *total, ".")
 
 
 def _struck(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
@@ -228,7 +249,7 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
     elif is_zero(gauge) is True and charge.conserved:
         yield says("Under it the action does not change on the motion.")
     elif is_zero(gauge) is True:
-        yield says("Under it the action changes by more than a boundary term.")
+        yield says("Under it the action changes; the boundary term that the file gives is 0.")
     elif gauge is not None:
         on_motion = "" if same else " on the motion" if charge.conserved else " and something more"
         yield says(
@@ -245,9 +266,7 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
         why = f": {charge.broken_by}" if charge.broken_by else ""
         yield says(f"Whether it is conserved was not decided{why}.")
     elif charge.conserved:
-        acting = _acting(teller)
-        if acting:
-            yield says(acting, " no work along this transformation.")
+        yield from _work(teller, charge, with_gauge=bool(boundary != 0))
         yield from _struck(teller, charge)
     else:
         yield says(f"It is not conserved, because of {charge.broken_by}:")

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 from lagcli.answers import EquilibriaSection, Section
 from lagcli.document import Block, Equations, Heading, Row
 from lagcli.explanation import Step
 from lagcli.expression import ZERO, Expression
 from lagcli.mechanics.explaining.teller import Teller
-from lagcli.mechanics.explaining.words import names, says
-from lagcli.mechanics.reduction.routh import ALL_CYCLIC
+from lagcli.mechanics.explaining.words import Part, names, says
+from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.mechanics.statements import Statements
 from lagcli.statements.registry import find_section
 from lagcli.wording import conditions as inequalities
-from lagcli.wording import holding, place_rows, stability
+from lagcli.wording import holding, place_rows, stability, unless
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.oscillations.equilibria import RestPoints
+
+_ABSENT = "This was not found: see the warnings."
 
 
 def further(teller: Teller, also: Sequence[str]) -> tuple[list[Step], list[str]]:
@@ -26,9 +31,10 @@ def further(teller: Teller, also: Sequence[str]) -> tuple[list[Step], list[str]]
         told = find_section(name).told
         if told is None:
             raise LookupError(f"the section '{name}' has no step in an explanation")
-        section = statements.answers([name]).sections[name]
-        steps.append(Step(told.title, tuple(told.blocks(teller, section))))
-    missing = [each for each in statements.warnings if not each.endswith(ALL_CYCLIC)]
+        section = statements.answers([name]).sections.get(name)
+        blocks = [says(_ABSENT)] if section is None else told.blocks(teller, section)
+        steps.append(Step(told.title, tuple(blocks)))
+    missing = [each for each in statements.warnings if not each.endswith((ALL_CYCLIC, NONE_LEFT))]
     return steps, list(dict.fromkeys(missing))
 
 
@@ -64,7 +70,7 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
         yield says(f"These were not solved: {states.reason}.")
         return
     if not found:
-        yield says("These have no solution: there is no equilibrium.")
+        yield says(*_none(rest, states))
     for number, each in enumerate(found, 1):
         yield Heading(f"Equilibrium {number}", 2)
         yield _state(each.at, each.on)
@@ -77,8 +83,19 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
             yield says("It exists for ", *inequalities(each.where), ".")
         firm = holding(each.touching, sticking=each.sticking)
         yield says(firm, *stability(each.verdict, each.free, each.on))
-    if not states.complete:
+    if found and not states.complete:
         yield says("There may be others.")
+
+
+def _none(rest: RestPoints, states: EquilibriaSection) -> list[Part]:
+    """That there is no equilibrium, and why."""
+    if not states.complete:
+        return ["No solution was found."]
+    assert rest.points is not None
+    if rest.at_singular_coordinates:
+        where = "These hold only where the coordinates are singular"
+        return [f"{where}, and in regular coordinates that is not an equilibrium: there is none."]
+    return ["These have no solution: ", *unless("equilibrium", states.unless), "."]
 
 
 def _state(

@@ -32,7 +32,8 @@ def oscillations(teller: Teller, section: Section) -> Iterator[Block]:
     known = cast(ModesSection, section)
     found = known.modes
     if not found:
-        yield says(f"There are none: {known.reason}.")
+        lead = "They were not found" if found is None else "There are none"
+        yield says(f"{lead}: {known.reason}.")
         return
     small = SmallOscillations(teller.dynamics)
     by_place = {(tuple(mode.at.items()), mode.on): (mode.at, mode.on) for mode in found}
@@ -114,8 +115,10 @@ def _mode(mode: Mode, omega: Name) -> Iterator[Block]:
         again = "and independently of these, as the root is multiple,"
         yield says(again if number else "with the amplitudes in the ratio")
         yield _amplitudes(shape)
+    if mode.frequency is None:
+        yield says("It oscillates only where this is real and positive.")
     if value == ZERO:
-        yield says("This is not an oscillation but a uniform drift.")
+        yield says("To first order this is not an oscillation but a uniform drift.")
 
 
 def _amplitudes(shape: Mapping[str, Expression]) -> Equations:

@@ -19,7 +19,7 @@ from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
 from lagcli.motions import HamiltonJacobiSection
 from lagcli.phase_space import BracketsSection
-from lagcli.wording import conditions
+from lagcli.wording import conditions, fold
 
 
 def canonical_equations(teller: Teller, section: Section) -> Iterator[Block]:
@@ -39,7 +39,10 @@ def canonical_equations(teller: Teller, section: Section) -> Iterator[Block]:
     H = teller.letters.free("H")
     function = derivation.hamiltonian.function
     if function is None or found.equations is None:
-        yield says(f"There is no Hamiltonian: {found.reason or derivation.hamiltonian.reason}.")
+        none = teller.dynamics.degenerate or found.fold is not None
+        lead = "There is no Hamiltonian" if none else "The Hamiltonian was not found"
+        yield says(f"{lead}: {found.reason or derivation.hamiltonian.reason}.")
+        yield from fold(found.fold)
         return
     yield says(
         "Solved for the velocities, and substituted into the sum of momentum times velocity minus ",

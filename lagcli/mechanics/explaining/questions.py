@@ -13,6 +13,7 @@ from lagcli.mechanics.explaining.words import Part, difference, listed, says, sh
 from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
 from lagcli.problem import Lasting, Question, Reaching, Rewrite, Where
 from lagcli.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
+from lagcli.wording import remark
 
 _COMPARISONS = {"<": " < ", "<=": " ≤ ", ">": " > ", ">=": " ≥ "}
 
@@ -125,8 +126,7 @@ def _answer(answer: Answer, *, is_open: bool) -> Iterator[Block]:
                 *_ranges(unknown, ranges),
                 ".",
             )
-    if answer.note:
-        yield says(f"{answer.note[0].upper()}{answer.note[1:].rstrip('.')}.")
+    yield from remark(answer)
 
 
 def _ranges(unknown: str, ranges: tuple[Range, ...]) -> list[Part]:
@@ -136,10 +136,13 @@ def _ranges(unknown: str, ranges: tuple[Range, ...]) -> list[Part]:
     for each in ranges:
         parts += [" and for "] if parts else []
         bounds: list[Part] = []
-        if each.lower is not None:
-            bounds += [Name(unknown), " ≥ " if each.lower_included else " > ", each.lower]
-        if each.upper is not None:
-            bounds += [" with "] if bounds else []
-            bounds += [Name(unknown), " ≤ " if each.upper_included else " < ", each.upper]
+        below, above = (" ≤ " if closed else " < " for closed in
+                        (each.lower_included, each.upper_included))  # fmt: skip
+        if each.lower is not None and each.upper is not None:
+            bounds = [each.lower, below, Name(unknown), above, each.upper]
+        elif each.lower is not None:
+            bounds = [Name(unknown), " ≥ " if each.lower_included else " > ", each.lower]
+        elif each.upper is not None:
+            bounds = [Name(unknown), above, each.upper]
         parts += bounds or ["every value"]
     return parts

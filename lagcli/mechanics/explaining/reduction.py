@@ -13,7 +13,7 @@ from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says, shows
 from lagcli.mechanics.reduction.averaged import averaged
 from lagcli.mechanics.reduction.minimal import minimal
-from lagcli.mechanics.reduction.routh import ALL_CYCLIC
+from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.motions import OneFreedom, PeriodSeries
 from lagcli.wording import POTENTIAL, conditions, irreducible, place_rows
 
@@ -25,8 +25,9 @@ def reduction(teller: Teller, section: Section) -> Iterator[Block]:
     reduced = cast(ReductionSection, section)
     yield from _cyclic(teller, reduced)
     if reduced.routhian is None:
-        if reduced.reason == ALL_CYCLIC:
-            yield says("No other coordinate is left.")
+        if reduced.reason in (ALL_CYCLIC, NONE_LEFT):
+            other = " other" if reduced.reason == ALL_CYCLIC else ""
+            yield says(f"No{other} coordinate is left.")
         elif reduced.momenta:
             yield says(f"The reduction was not found: {reduced.reason}.")
         return
@@ -66,7 +67,7 @@ def _cyclic(teller: Teller, reduced: ReductionSection) -> Iterator[Block]:
         yield Equations(
             tuple(Row(Name(f"p_{name}"), value) for name, value in reduced.momenta.items())
         )
-    elif not reduced.irreducible:
+    elif not reduced.irreducible and reduced.reason != NONE_LEFT:
         which = "None of the others" if reduced.eliminated else "No coordinate"
         yield says(f"{which} is cyclic, so the Routhian is ", teller.letters.L, ".")
     for name, why in reduced.irreducible.items():

@@ -28,10 +28,7 @@ def scene(teller: Teller) -> Iterator[Block]:
     equations = dynamics.constraints.equations
     if not equations:
         count = len(coordinates)
-        yield says(
-            f"No constraint acts{'' if one else ' on them'}: "
-            f"the system has {counted(count, 'degree')} of freedom."
-        )
+        yield says(f"No constraint acts: the system has {counted(count, 'degree')} of freedom.")
         yield from _gaps(teller)
         return
     what = counted(len(equations), "constraint").capitalize()
@@ -141,6 +138,6 @@ def _freedom(teller: Teller) -> Iterator[Block]:
     left = counted(count - rank, "degree")
     yield says(
         f"{counted(count, 'velocity', 'velocities').capitalize()} minus "
-        f"{counted(rank, 'independent condition')} on them: "
+        f"{counted(rank, 'independent condition')} on {'it' if count == 1 else 'them'}: "
         f"{count} − {rank} = {count - rank}, so the system has {left} of freedom."
     )

@@ -19,9 +19,9 @@ from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.mechanics.explaining.given_momenta import two_rates
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, listed, names, says, shows
-from lagcli.mechanics.reduction.routh import ALL_CYCLIC
+from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.motions import SteadyMotion, SteadySection
-from lagcli.wording import POTENTIAL, conditions, place_rows, steady_stability
+from lagcli.wording import POTENTIAL, conditions, place_rows, steady_stability, unless
 
 _BALANCED = {
     (): "vanish",
@@ -32,6 +32,9 @@ _BALANCED = {
 }
 
 
+_NO_MOMENTUM = "No coordinate is cyclic with a constant momentum"
+
+
 def steady(teller: Teller, section: Section) -> Iterator[Block]:
     """The relative equilibria: cyclic velocities constant, the other coordinates at rest."""
     found = cast(SteadySection, section)
@@ -39,9 +42,9 @@ def steady(teller: Teller, section: Section) -> Iterator[Block]:
         yield says(
             "The constraints give ",
             names(found.eliminated, 1),
-            " in terms of the other velocities. With these substituted, the accelerations of the "
-            "other coordinates depend on few of the coordinates. In a steady motion these few are "
-            "constant and so are the velocities, and the accelerations vanish:",
+            " in terms of the other velocities. With these substituted, the accelerations depend "
+            "on some of the coordinates only. In a steady motion these are constant and so are the "
+            "velocities, and the accelerations vanish:",
         )
         yield from _steady_states(teller, found)
         return
@@ -49,11 +52,11 @@ def steady(teller: Teller, section: Section) -> Iterator[Block]:
         yield says("Every coordinate is cyclic, so all velocities are constant: every motion is "
                    "steady.")  # fmt: skip
         return
-    if found.motions and not any(motion.momenta for motion in found.motions):
-        yield says(
-            "No momentum of a cyclic coordinate is constant, so the steady motions "
-            "are the equilibria:"
-        )
+    if found.motions is None and found.reason == NONE_LEFT:
+        yield says("The constraints leave no coordinate: they prescribe the motion.")
+        return
+    if found.conditions and not found.momenta:
+        yield says(_NO_MOMENTUM, _steady_without_momenta(teller, found))
         yield from _steady_states(teller, found)
         return
     yield says(
@@ -67,6 +70,15 @@ def steady(teller: Teller, section: Section) -> Iterator[Block]:
     yield from _steady_states(teller, found)
 
 
+def _steady_without_momenta(teller: Teller, found: SteadySection) -> str:
+    """What is steady: the equilibria, under velocity constraints other states perhaps, too."""
+    if all(e.holonomic for e in teller.dynamics.constraints.equations):
+        return ", so in these coordinates the steady motions are the equilibria:"
+    if found.motions:
+        return ". The equilibria are steady motions:"
+    return ". In a steady motion these vanish:"
+
+
 def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
     wanted = dict.fromkeys(found.conditions.values())
     yield Equations(tuple(Row(ZERO, each) for each in wanted if each != ZERO or len(wanted) == 1))
@@ -74,25 +86,40 @@ def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
         yield says(f"These were not solved: {found.reason}.")
         return
     if not found.motions:
-        yield says("These have no solution: there is no steady motion.")
+        yield says(_none(teller, found))
     for number, motion in enumerate(found.motions, 1):
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(teller, motion)
-    if not found.complete:
+    if found.motions and not found.complete:
         yield says("There may be others.")
+
+
+def _none(teller: Teller, found: SteadySection) -> list[Part]:
+    """That no motion is steady, in what it was sought in."""
+    if not found.complete:
+        return ["No solution was found."]
+    where = "" if found.momenta or found.eliminated else " in these coordinates"
+    where += " while the contacts are open" if teller.problem.contacts else ""
+    return ["These have no solution: ", *unless(f"steady motion{where}", found.unless), "."]
 
 
 def _motion(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
     if motion.rolling:
         yield from _rolling(teller, motion)
         return
-    if motion.free:
-        yield says("For any value of ", _free(motion), ",")
-    if motion.at or motion.on is not None:
-        yield Equations(place_rows(motion.at, motion.on))
+    placed = bool(motion.at) or motion.on is not None
     rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
+    velocities = "velocities of the cyclic coordinates are"
+    if motion.free and placed:
+        yield says("For any value of ", _free(motion), ",")
+    elif motion.free:
+        known = f" the {velocities}" if rates else " it is in steady motion."
+        yield says("For any value of ", _free(motion), known)
+    if placed:
+        yield Equations(place_rows(motion.at, motion.on))
     if rates:
-        yield says("The velocities of the cyclic coordinates are then")
+        if placed or not motion.free:
+            yield says(f"The {velocities} then")
         yield Equations(tuple(Row(Name(name, 1), rate) for name, rate in rates.items()))
     momenta = {n: p for n, p in motion.momenta.items() if p != Name(f"p_{n}")}
     if momenta:
@@ -113,16 +140,21 @@ def _free(motion: SteadyMotion) -> list[Part]:
 
 
 def _rolling(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
-    if motion.free:
-        yield says("This holds for any value of ", _free(motion), " with")
     places = [Row(Name(name), value) for name, value in motion.at.items()]
     rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
-    yield Equations((*places, *(Row(Name(name, 1), rate) for name, rate in rates.items())))
+    rows = (*places, *(Row(Name(name, 1), rate) for name, rate in rates.items()))
+    if motion.free:
+        end = " with" if rows else "."
+        yield says("This holds for any value of ", _free(motion), end)
+    if rows:
+        yield Equations(rows)
     if motion.frequencies_squared:
-        yield says(
-            "The linearised equations have the root 0, of the dimension of the family of steady "
-            "motions; the other roots have the squared frequency below."
+        family = (
+            "The linearised equations have the root 0 once for each dimension of the family of "
+            "steady motions; the other roots have the squared frequency below."
         )
+        yield says(family if motion.free else "The roots of the linearised equations have the "
+                   "squared frequency below.")  # fmt: skip
     yield says(steady_stability(motion))
     if motion.frequencies_squared:
         yield _squares(teller, motion.frequencies_squared)
@@ -133,8 +165,9 @@ def _displaced(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
     M, C, K = (Label(letter, matrix=True) for letter in "MCK")
     turning = any(entry != ZERO for row in motion.velocity for entry in row)
     velocities: list[Part] = [C, " · velocities + "] if turning else []
+    unchanged = " at unchanged momenta" if motion.momenta else ""
     yield says(
-        "Small displacements at unchanged momenta obey to first order ",
+        f"Small displacements{unchanged} obey to first order ",
         *(M, " · accelerations + ", *velocities, K, " · displacements = 0 with"),
     )
     tags = tuple(str(n) for n in range(1, len(motion.mass) + 1))

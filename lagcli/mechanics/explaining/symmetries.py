@@ -178,7 +178,9 @@ def _integrability(found: AlgebraSection, n: int) -> list[Part]:
     """Liouville: n independent integrals in involution reduce the motion to quadratures."""
     count = found.in_involution
     if found.separates:
-        why = f"The Hamilton-Jacobi equation separates with {n} independent constants in involution"
+        constants = f"{n} independent constants" if n > 1 else "one constant"
+        why = f"The Hamilton-Jacobi equation separates with {constants}"
+        why += " in involution" if n > 1 else ""
         return [f"{why}: the motion is integrable by quadratures (Liouville)."]
     law = (
         "By Liouville's theorem the motion is integrable by quadratures with as many independent "

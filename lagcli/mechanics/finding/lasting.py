@@ -207,7 +207,7 @@ class LastingAnswer:
         if line.rate is not None and start.target is not None:
             if line.rate != 1:
                 raise Undecided(f"{u} stands in sines and cosines and is no angle")
-            self.notes.append(f"as an angle, {u} may reach this value after whole turns")
+            self.notes.append("the angle may reach this value after whole turns")
         wall = 1 if u.is_nonnegative else -1 if u.is_nonpositive else 0
         walk = Walk(line, start, strict=strict, wall=wall)
         events = self._events(line, start, wall)
@@ -230,7 +230,7 @@ class LastingAnswer:
     ) -> list[Bounds]:
         special = SpecialValues(self.p, events, self._positive)
         if special.angle:
-            self.notes.append(f"among the angles {self.p} in (-pi, pi]")
+            self.notes.append("angles are given to within whole turns")
         present = {symbol for function in functions for symbol in function.free_symbols}
         others = [q for q in self.system.parameters if q is not self.p and q in present]
         scaled = special.scales([*variables, self.p], others, functions)

@@ -12,11 +12,12 @@ from functools import cached_property
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Symbol
+from sympy import Expr, Rational, Symbol
 
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
 from lagcli.mechanics.finding.reach import DIGITS, LineOfMotion, Reach, real_value
+from lagcli.mechanics.finding.remarks import Remark
 from lagcli.mechanics.parameter_values import admissible_values, parameter_values
 from lagcli.record import record
 
@@ -24,6 +25,7 @@ _DRAWS = 160  # of random parameters, to find some at which a place is possible 
 _TESTED = 40  # of these, the ones with which the motion is followed at most
 _ENOUGH = 4  # when it came there
 _SMALL = mpf(10) ** -12
+_PARTLY = "for some values of the parameters only, such as "
 
 
 @record
@@ -42,7 +44,7 @@ class Passing:
         self.system = along.system
         self.u = u
         self.rate = self.system.symbol_of(u.name + "'")
-        self.notes: list[str] = []  # to the last answer of `passed`
+        self.notes: list[Remark] = []  # to the last answer of `passed`
         self.undecided: list[str] = []
         self._reaches: dict[tuple[int, bool], Reach | None] = {}
 
@@ -102,7 +104,7 @@ class Passing:
         """Those that the motion comes to; None where that was not decided."""
         self.notes = []
         kept: list[Passage] = []
-        partly: list[tuple[Passage, str]] = []
+        partly: list[tuple[Passage, Remark]] = []
         decided = len(self._draws) == 1
         for passage in passages:
             draws = self._informative(passage)
@@ -121,14 +123,16 @@ class Passing:
             if any(times):
                 kept.append(passage)
             elif times and len(self._draws) > 1:
-                self.notes.append(f"the root {_text(passage)} is not reached for the values tried")
+                self.notes.append(
+                    ("the root ", *_place(passage), " is not reached for the values tried")
+                )
             if any(times) and not (all(times) and draws == list(range(len(draws)))):
                 first = draws[times.index(True)]
                 partly.append((passage, self._example(first, passage, angle=angle)))
         apart = len({example for _, example in partly}) > 1 or len(partly) < len(kept)
         for passage, example in partly:
-            which = _text(passage) + " " if apart else ""
-            self.notes.append(f"{which}for some values of the parameters only, such as {example}")
+            which = (*_place(passage), " ") if apart else ()
+            self.notes.append((*which, _PARTLY, *example))
         self.notes += self.undecided
         if passages and not kept:
             if not decided:
@@ -185,7 +189,7 @@ class Passing:
         reach = self._reach(index, angle=angle)
         return reach is not None and _passed(reach, passage, self.u)
 
-    def _example(self, index: int, passage: Passage, *, angle: bool) -> str:
+    def _example(self, index: int, passage: Passage, *, angle: bool) -> tuple[str | Expr, ...]:
         """Values with which the motion comes there: 1 or of two digits where these do."""
         values, line = dict(self._draws[index]), self._line(angle=angle)
         given = parameter_values(self.system)
@@ -201,9 +205,12 @@ class Passing:
                         break
         others = [p for p in shown if values[p] != 1]
         if not others:
-            return "1 for all of them"
-        text = ", ".join(f"{p} = {mpmath.nstr(values[p], 6)}" for p in others)
-        return text if len(others) == len(shown) else f"{text} and 1 for the others"
+            return ("1 for all of them",)
+        parts: list[str | Expr] = []
+        for p in others:
+            parts += [", "] if parts else []
+            parts += [p, " = ", Rational(mpmath.nstr(values[p], 6))]
+        return tuple(parts) if len(others) == len(shown) else (*parts, " and 1 for the others")
 
 
 def _passed(reach: Reach, passage: Passage, u: Symbol) -> bool:
@@ -219,12 +226,11 @@ def _passed(reach: Reach, passage: Passage, u: Symbol) -> bool:
     return abs(velocity) < _SMALL or (1 if velocity > 0 else -1) in signs
 
 
-def _text(passage: Passage) -> str:
-    """The place, and the velocity where it counts, in the words of the grammar."""
-    text = str(passage.place)
-    if passage.velocity is not None and passage.velocity != 0:
-        text += f" with the velocity {passage.velocity}"
-    return text.replace("**", "^")
+def _place(passage: Passage) -> tuple[str | Expr, ...]:
+    """The place, and the velocity where it counts."""
+    if passage.velocity is None or passage.velocity == 0:
+        return (passage.place,)
+    return (passage.place, " with the velocity ", passage.velocity)
 
 
 def admissible(symbol: Symbol, value: mpf) -> bool:

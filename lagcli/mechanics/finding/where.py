@@ -16,6 +16,7 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
 from lagcli.mechanics.finding.passing import Passage, Passing, admissible
 from lagcli.mechanics.finding.reach import real_value
+from lagcli.mechanics.finding.remarks import Remark, as_parts, in_words
 from lagcli.mechanics.parameter_values import admissible_values, exact_values
 from lagcli.problem import Where as WhereQuestion
 from lagcli.questions import Solutions
@@ -38,7 +39,7 @@ class Where:
         self.unknown = self.system.symbol_of(str(question.unknown))
         build = self.system.build
         self.equation = build(question.equation.left) - build(question.equation.right)
-        self.notes: list[str] = []
+        self.notes: list[Remark] = []
 
     def solutions(self) -> Solutions:
         """The answer; `solutions` is None where none was found, with the reason in `note`."""
@@ -52,10 +53,14 @@ class Where:
             return self._answer(None, [self.along.why_not])
         return self._answer(roots, [*self.notes, *self.along.notes])
 
-    def _answer(self, roots: Sequence[Expr] | None, notes: Sequence[str]) -> Solutions:
+    def _answer(self, roots: Sequence[Expr] | None, notes: Sequence[Remark]) -> Solutions:
         trees = None if roots is None else tuple(map(self.along.tree, roots))
-        note = "; ".join(dict.fromkeys(n for n in notes if n))
-        return Solutions(unknown=self.unknown.name, solutions=trees, note=note)
+        return Solutions(
+            unknown=self.unknown.name,
+            solutions=trees,
+            note=in_words(notes),
+            remarks=as_parts(notes, self.along.tree),
+        )
 
     def _passing(self, u: Symbol) -> Passing:
         if u not in self._known:
@@ -126,7 +131,7 @@ class Where:
         negative = [r for r in roots if self._number(r) < 0]
         if not even or not negative:
             return roots
-        self.notes.append(f"{u} and -{u} are mirror images, the positive ones are listed")
+        self.notes.append("the roots are mirror images in pairs: the positive ones are listed")
         return [r for r in roots if r not in negative]
 
     # -- a velocity or a parameter ----------------------------------------------------------

@@ -23,8 +23,10 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import Field, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import is_decimal, rounded
+from lagcli.algebra.factors import factors_of
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.numeric import vanishes_at_random
+from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.family import Family, exists_where, family
@@ -62,6 +64,8 @@ class RestPoints:
         self.system = dynamics.system
         self.reason = ""
         self.complete = True
+        #: all solutions are where the coordinates are singular, and none is an equilibrium
+        self.at_singular_coordinates = False
 
     @cached_property
     def points(self) -> tuple[RestPoint, ...] | None:
@@ -85,7 +89,9 @@ class RestPoints:
                 return None
         from lagcli.mechanics.oscillations.singular import survives
 
-        return tuple(point for point in found if survives(self, point))
+        kept = tuple(point for point in found if survives(self, point))
+        self.at_singular_coordinates = bool(found) and not kept
+        return kept
 
     def _found(self, equations: list[Expr]) -> tuple[list[RestPoint], bool]:
         """The solutions that balance; whether a family was lost of which some members may."""
@@ -181,6 +187,11 @@ class RestPoints:
                 for vector in _polynomial(nullspace(constraints.jacobian))
             ]
         return [e for e in (*conditions, *forces) if is_zero(e) is not True]
+
+    @cached_property
+    def unless(self) -> tuple[Expr, ...]:
+        """What has no coordinate in it and is 0 for some values of the parameters only."""
+        return without_unknowns(self.equations, self.system.q)
 
     @property
     def _along_one(self) -> list[Expr]:
@@ -307,3 +318,10 @@ def _vanishes(expression: Expr) -> bool:
         return vanishes_at_random(expression)
     value = expression.evalf(50)
     return value is not sympy.nan and bool(abs(value) < sympy.Float("1e-40"))
+
+
+def without_unknowns(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[Expr, ...]:
+    """The conditions that no choice of the unknowns fulfils, but perhaps one of parameters."""
+    open_ = [simplify(e) for e in conditions if free_of(e, unknowns)]
+    deciding = [[f for f, _ in factors_of(e) if sign(f) not in (1, -1)] for e in open_]
+    return tuple(sympy.Mul(*each) for each in deciding) if all(deciding) else ()

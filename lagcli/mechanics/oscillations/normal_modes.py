@@ -71,7 +71,12 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
 def _frequency(
     linear: Linearization, square: Expr, choices: Sequence[Mapping[Symbol, mpf]]
 ) -> Expr | None:
-    """sqrt(W); None where W < 0.  Where the sign is open, the root stands for both cases."""
+    """sqrt(W); None where W < 0 or is not real.
+
+    Where the sign is open, the root stands for both cases.
+    """
+    if any(_is_complex(square, values) for values in choices):
+        return None
     known = sign(square, linear.point.positive)
     if known is None and all(_number(square, values) < 0 for values in choices):
         known = -1
@@ -182,6 +187,12 @@ def _number(expression: Expr | None, values: Mapping[Symbol, mpf]) -> mpf:
         return mpf("inf")
     [number] = Evaluator([expression], _DIGITS)(values)
     return mpf(number.real) if isinstance(number, mpmath.mpc) else number
+
+
+def _is_complex(expression: Expr, values: Mapping[Symbol, mpf]) -> bool:
+    with mpmath.workdps(_DIGITS):
+        [number] = Evaluator([expression], _DIGITS)(values)
+        return isinstance(number, mpmath.mpc) and abs(number.imag) > _ZERO * (1 + abs(number))
 
 
 def _is_root(characteristic: Characteristic, square: Expr, values: Mapping[Symbol, mpf]) -> bool:

@@ -30,12 +30,21 @@ from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
 from lagcli.mechanics.oscillations.singular import OnMeridians, is_singular
 from lagcli.mechanics.reduction.readable import conditions
-from lagcli.mechanics.stability.judge import GRAZES, Stability, judge, judge_on_meridians, undecided
+from lagcli.mechanics.stability.judge import (
+    EXCLUDED,
+    GRAZES,
+    Stability,
+    judge,
+    judge_on_meridians,
+    undecided,
+)
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.record import replace
 
 _STICKS = "static friction holds it with force to spare"
 _PRESSED = "it is pressed against what it touches"
+_SINGULAR = "the coordinates are singular at the equilibria"
+_NO_MODES = "the equilibria are singular, or do not exist for the values of the file"
 
 
 def equilibria(dynamics: Dynamics) -> EquilibriaSection:
@@ -47,6 +56,9 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     return EquilibriaSection(
         equilibria=tuple(map(oscillations.equilibrium, places)),
         complete=oscillations.complete,
+        unless=()
+        if places
+        else tuple(written(e, dynamics.system.order) for e in oscillations.rest.unless),
     )
 
 
@@ -62,13 +74,13 @@ def modes(dynamics: Dynamics) -> ModesSection:
         return ModesSection(modes=(), reason="there is no equilibrium to expand about")
     chosen = [p for p in places if p.verdict.stable is not False] or places
     found = [mode for place in chosen for mode in oscillations.modes(place)]
+    if not found and all(not place.linear.M and not place.held.firmly for place in places):
+        return ModesSection(modes=(), reason=EXCLUDED)
     if not found and all(place.held.firmly and not place.linear.M for place in places):
         return ModesSection(modes=(), reason="contacts or static friction hold what is at rest")
     if not found:
-        return ModesSection(
-            modes=None,
-            reason="the equilibria are singular, or do not exist for the values of the file",
-        )
+        singular = all(place.indeterminate for place in chosen)
+        return ModesSection(modes=None, reason=_SINGULAR if singular else _NO_MODES)
     return ModesSection(modes=tuple(found))
 
 

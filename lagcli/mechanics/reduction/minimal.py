@@ -18,20 +18,26 @@ from sympy import Expr
 
 from lagcli.algebra import shape, simplify
 from lagcli.algebra.build import free_of
+from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.derivation import Derivation
 from lagcli.problem import Constraint, Parameter, Problem
 
 
-def minimal(derivation: Derivation) -> Derivation:
-    """The derivation itself, or that of the problem without the coordinates that are solved."""
+def minimal(derivation: Derivation, *, rolling: bool = False) -> Derivation:
+    """The derivation itself, or that of the problem without the coordinates that are solved.
+
+    Under velocity constraints it is left alone, or with `rolling` these are kept.
+    """
     system, constraints = derivation.system, derivation.dynamics.constraints
     relations = constraints.relations
     if relations is None or relations.remaining:
         return derivation
-    if not all(equation.holonomic for equation in constraints.equations):
+    kept_constraints = [e for e in constraints.equations if not e.holonomic]
+    if kept_constraints and not rolling:
         return derivation
     solved = {q: relations.solved[q] for q in system.q if q in relations.solved}
-    if len(solved) != len(derivation.dynamics.independent_constraints):
+    independent = derivation.dynamics.independent_constraints
+    if not solved or len(solved) != sum(constraints.equations[k].holonomic for k in independent):
         return derivation
     while not all(free_of(value, solved) for value in solved.values()):
         solved = {q: value.xreplace(solved) for q, value in solved.items()}
@@ -54,9 +60,21 @@ def minimal(derivation: Derivation) -> Derivation:
         ).xreplace(put_in)
         for j in kept
     ]
-    return with_lagrangian(
-        derivation, kept, simplify(system.L.xreplace(put_in)), forces, derivation.problem.parameters
+    names = {c.name: c for c in derivation.problem.constraints}
+    left = [(e.name, simplify(e.f.xreplace(put_in))) for e in kept_constraints]
+    velocity = tuple(
+        Constraint(
+            name=name,
+            equation=Equation(shape(f, system.order), ZERO),
+            multiplier=names[name].multiplier,
+            holds_while=None,
+        )
+        for name, f in left
+        if f != 0
     )
+    parameters = derivation.problem.parameters
+    L = simplify(system.L.xreplace(put_in))
+    return with_lagrangian(derivation, kept, L, forces, parameters, velocity)
 
 
 def with_lagrangian(

@@ -157,7 +157,9 @@ def conditions(
     expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
 ) -> tuple[Above, ...]:
     """What must be positive, without what the others imply."""
-    return tuple(dict.fromkeys(each for each, _ in _without_implied(expressions, order, positive)))
+    split = [part for expression in expressions for part in _without_squares(expression)]
+    kept = _without_implied(sorted(split, key=_is_square), order, positive)
+    return tuple(dict.fromkeys(each for each, _ in kept))
 
 
 def opposites(
@@ -187,14 +189,26 @@ def _without_implied(
     return found
 
 
+def _without_squares(expression: Expr) -> list[Expr]:
+    """k p² > 0 is k > 0 and p² > 0, which is p ≠ 0."""
+    rest = deciding(expression)
+    squares = [f**p for f, p in factors_of(rest) if p % 2 == 0 and p > 0]
+    other = simplify(rest / sympy.Mul(*squares))
+    return [*([] if other == 1 else [other]), *squares] if squares else [expression]
+
+
+def _is_square(expression: Expr) -> bool:
+    return bool(expression.is_Pow and expression.exp % 2 == 0)
+
+
 def _implies(given: Expr, expression: Expr) -> bool:
     """Whether the expression is a positive multiple of what is positive, and something positive."""
+    if _is_square(expression) and expression.base.is_Symbol:  # given fails at x = 0
+        return weak_sign(given.xreplace({expression.base: S.Zero})) == -1 or given == expression
     own, other = (e.expand().as_coefficients_dict() for e in (expression, given))
     ratios = {own[term] / other[term] for term in own if term in other}
-    return any(
-        ratio.is_positive and sign(simplify(expression - ratio * given)) in (0, 1)
-        for ratio in ratios
-    )
+    rests = (simplify(expression - ratio * given) for ratio in ratios if ratio.is_positive)
+    return any(rest == 0 or weak_sign(rest) == 1 for rest in rests)
 
 
 def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ()) -> Above | None:
@@ -202,8 +216,10 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
     rest = deciding(expression, positive)
     if rest == 1:
         return None
+    if any(power % 2 == 0 for _, power in factors_of(rest)):
+        return Above(shape(rest, order), ZERO)
     differences = [factor for factor, _ in factors_of(rest) if factor.is_Add]
-    if len(differences) == 2 and all(len(f.args) == 2 for f in differences):  # (A - B) (A - C) > 0
+    if len(differences) == 2 and all(map(_is_difference, differences)):  # (A - B) (A - C) > 0
         return Above(shape(rest, order), ZERO)
     all_terms = rest.expand().as_ordered_terms()
     right = -sympy.Add(*(term for term in all_terms if term.could_extract_minus_sign()))
@@ -214,6 +230,11 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
         other = Above(shape(constant, order), shape(simplify(right - others), order))
         found = min(found, other, key=_operations)
     return found
+
+
+def _is_difference(factor: Expr) -> bool:
+    """A - B."""
+    return len(factor.args) == 2 and sum(t.could_extract_minus_sign() for t in factor.args) == 1
 
 
 def _operations(each: Above) -> int:

@@ -58,7 +58,7 @@ class RollingMotions:
     """
 
     def __init__(self, derivation: Derivation) -> None:
-        self.derivation = minimal(derivation)
+        self.derivation = minimal(derivation, rolling=True)
         self.dynamics = self.derivation.dynamics
         self.system = self.dynamics.system
         self.reason = ""
@@ -66,8 +66,9 @@ class RollingMotions:
 
     @staticmethod
     def applies(derivation: Derivation) -> bool:
-        """Whether a constraint on velocities is left that is none on positions."""
-        return "nonholonomic" in derivation.dynamics.constraints.kinds.values()
+        """Whether a constraint is on velocities: of these none need have a constant momentum."""
+        kinds = derivation.dynamics.constraints.kinds.values()
+        return any(kind != "holonomic" for kind in kinds)
 
     # -- the equations u' = F(r, u) ---------------------------------------------------------------
 

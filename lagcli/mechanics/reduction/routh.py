@@ -34,6 +34,8 @@ from lagcli.problem import Constraint, Parameter
 
 #: Why there is no reduced system where the momenta are all that there is.
 ALL_CYCLIC = "every coordinate is cyclic"
+#: Why there is none where the constraints prescribe the whole motion.
+NONE_LEFT = "the constraints leave no coordinate"
 
 
 class Routh:
@@ -70,13 +72,9 @@ class Routh:
     @cached_property
     def irreducible(self) -> dict[int, tuple[bool | None, str]]:
         """Coordinates that do not occur in L and are kept: is p_j constant, and why kept."""
-        charges = {c.name: c.conserved for c in self.full.noether.charges if c.source == "cyclic"}
-        found = {}
-        for j in self.full.noether.cyclic:
-            if j not in self.cyclic:
-                conserved = charges.get("p_" + self.system.names[j], True)
-                found[j] = (conserved, self._why_kept(j))
-        return found
+        noether = self.full.noether
+        momenta = zip(noether.cyclic, noether.cyclic_momenta, strict=True)
+        return {j: (p.conserved, self._why_kept(j)) for j, p in momenta if j not in self.cyclic}
 
     def _why_kept(self, j: int) -> str:
         """What `cyclic` demands and coordinate j does not meet."""
@@ -144,7 +142,7 @@ class Routh:
         if R is None or self.velocities is None:
             return None
         if not self.kept:
-            self.reason = ALL_CYCLIC
+            self.reason = ALL_CYCLIC if self.cyclic else NONE_LEFT
             return None
         put_in = self._back
         forces = [self.system.applied_forces[j].xreplace(put_in) for j in self.kept]

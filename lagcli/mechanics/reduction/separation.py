@@ -39,7 +39,7 @@ from lagcli.record import record
 MOST = 6
 #: What the constants of separation are called: the first with which no name of the file clashes.
 LETTERS = ("alpha", "beta", "gamma", "constant")
-_ON_TIME = "H depends on the time, and not by forces F(t) alone"
+_ON_TIME = "H depends on the time and is not linear in the coordinates"
 _REFERENCES = (S.Zero, S.One, S(2), S(3))
 
 
@@ -80,6 +80,8 @@ class Separation:
         dynamics, system = self.derivation.dynamics, self.system
         if dynamics.constraints.equations:
             self.reason = "there are constraints that are not solved"
+        elif not system.q:
+            self.reason = "the constraints leave no coordinate"
         elif any(is_zero(force) is not True for force in system.applied_forces):
             self.reason = "a force without a potential acts"
         elif len(system.q) > MOST:

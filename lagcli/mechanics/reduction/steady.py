@@ -28,15 +28,16 @@ from lagcli.algebra.factors import factors_of
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.oscillations.characteristic import determinant
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at, without_unknowns
 from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.held import held, one_sided
 from lagcli.mechanics.reduction.readable import deciding, weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.record import record, replace
 
-_AT_SINGULAR = "dU_eff/dq vanishes only where the coordinates are singular"
-_UNSOLVED = "the conditions dU_eff/dq = 0 could not be solved"
+_AT_SINGULAR = "the conditions hold only where the coordinates are singular"
+_UNSOLVED = "the conditions of a steady motion have no closed solution"
+_HIGHEST = 4  # derivative of U_eff at a singular place
 _ROOT_COST = 6  # operations that a root is worth
 
 
@@ -54,8 +55,8 @@ class Steady:
         It is there where each of these is > 0.
     mirrored
         It is there with all rates and momenta reversed, too.
-    curvature
-        The second derivative of U_eff, of a singular place; None elsewhere.
+    derivatives
+        The second and higher derivatives of U_eff, of a singular place; empty elsewhere.
     family
         What ties the coordinates where the values are one branch of a family.
     """
@@ -64,7 +65,7 @@ class Steady:
     rates: Mapping[int, Expr] | None
     positive: tuple[Expr, ...] = ()
     mirrored: bool = False
-    curvature: Expr | None = None
+    derivatives: tuple[Expr, ...] = ()
     family: Family | None = None
 
     @property
@@ -108,7 +109,7 @@ class SteadyMotions:
             found = [*self._families(), *self._at_singular_places()]
         else:
             found = self._by_momenta()
-        if given is not None and not any(g.values == given.values for g in found):
+        if given is not None and not any(_is_member(given, g) for g in found):
             found.insert(0, given)
         found = [each for motion in found if (each := self._standing(motion)) is not None]
         if not found and (self._singular or not self.complete):
@@ -123,8 +124,15 @@ class SteadyMotions:
         return (
             not self.dynamics.constraints.equations
             and self.routh.quadratic
+            and not self._fed_by_time
             and all(is_zero(f) is True for f in self.system.applied_forces)
         )
+
+    @property
+    def _fed_by_time(self) -> bool:
+        """Whether dg/dt, of the terms linear in the velocities, is a force beside -dU_eff/dq."""
+        t = self.system.t
+        return any(is_zero(g.diff(t)) is not True for g in self.routh.gyroscopic)
 
     @cached_property
     def conditions(self) -> tuple[Expr, ...]:
@@ -143,9 +151,16 @@ class SteadyMotions:
         return [simplify(-force) for force in self.rest.forces_at_rest]
 
     @property
+    def unless(self) -> tuple[Expr, ...]:
+        """What only values of the parameters make 0, so that there may be a steady motion."""
+        return without_unknowns(self.balance, (*self.system.q, *self.routh.momenta))
+
+    @property
     def acting(self) -> tuple[str, ...]:
         """What stands in the balance beside dU_eff/dq."""
-        forces = any(is_zero(f) is not True for f in self.system.applied_forces)
+        forces = self._fed_by_time or any(
+            is_zero(f) is not True for f in self.system.applied_forces
+        )
         constrained = bool(self.dynamics.constraints.equations)
         return ("forces",) * forces + ("constraints",) * constrained
 
@@ -430,17 +445,31 @@ class SteadyMotions:
         potential = self.routh.effective_potential.xreplace(dict(solution.values))
         try:
             near = simplify(potential.subs(q, place + 2 * half))
-            slope, bend = (at(near.diff(half, k), {half: S.Zero}) for k in (1, 2))
+            slope, *bends = (
+                simplify(at(near.diff(half, k), {half: S.Zero}) / 2**k)
+                for k in range(1, _HIGHEST + 1)
+            )
         except ZeroDivisionError:
             return []
-        if is_zero(slope) is not True or bend.has(sympy.zoo, sympy.nan):
+        if is_zero(slope) is not True or any(b.has(sympy.zoo, sympy.nan) for b in bends):
             return []
-        return [Steady({q: place, **solution.values}, None, curvature=simplify(bend / 4))]
+        return [Steady({q: place, **solution.values}, None, derivatives=tuple(bends))]
 
     def point(self, steady: Steady) -> RestPoint:
         """The same as an equilibrium of the reduced system."""
         free = tuple(q for q in self.system.q if q not in steady.values)
         return RestPoint(steady.values, free, steady.positive, steady.family)
+
+
+def _is_member(one: Steady, family: Steady) -> bool:
+    """Whether a motion is one of a family."""
+    try:
+        return all(
+            is_zero(one.values.get(s, s) - at(value, one.values)) is True
+            for s, value in family.values.items()
+        )
+    except ZeroDivisionError:
+        return False
 
 
 def _cost(value: Expr) -> int:

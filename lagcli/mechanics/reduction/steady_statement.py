@@ -56,6 +56,7 @@ class _Statement:
     def section(self) -> tuple[SteadySection, Missing]:
         steady = self.steady
         found = steady.motions
+        cyclic = tuple(steady.full.names[j] for j in self.routh.cyclic)
         conditions = (
             {str(k): self._shape(c) for k, c in enumerate(steady.balance)}
             if self.routh.quadratic
@@ -69,6 +70,7 @@ class _Statement:
                     complete=False,
                     reason=steady.reason,
                     acting=steady.acting,
+                    momenta=cyclic,
                 ),
                 [("the steady motions", steady.reason)],
             )
@@ -78,6 +80,8 @@ class _Statement:
                 motions=tuple(map(self._motion, found)),
                 complete=steady.complete,
                 acting=steady.acting,
+                momenta=cyclic,
+                unless=() if found else tuple(map(self._shape, steady.unless)),
             ),
             [],
         )
@@ -97,7 +101,7 @@ class _Statement:
         judged = undecided("the equations of motion are singular there")
         squares: tuple[Expr, ...] = ()
         try:
-            if motion.curvature is None:
+            if not motion.derivatives:
                 linear = Linearization(self.steady.rest, self.steady.point(motion))
                 judged, matrices = judge(linear), (linear.M, linear.C, linear.K)
                 squares, turning = squares_of(linear), held_by_gyroscopic_terms(linear)
@@ -106,8 +110,8 @@ class _Statement:
             else:
                 [[mass]] = self.steady.dynamics.lagrange.mass_matrix
                 mass = at(mass, motion.values)
-                squares = (simplify(motion.curvature / mass),)
-                judged = by_curvature(motion.curvature, mass, motion.positive)
+                squares = (simplify(motion.derivatives[0] / mass),)
+                judged = by_curvature(motion.derivatives, mass, motion.positive)
                 if not self.steady.rest.energy_never_grows:
                     judged = undecided("a force without a potential acts")
         except ZeroDivisionError:

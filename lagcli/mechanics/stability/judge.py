@@ -26,6 +26,11 @@ from lagcli.algebra import simplify
 from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.oscillations.singular import OnMeridians
+from lagcli.mechanics.stability.higher import (
+    order_at_critical_values,
+    order_of_minimum,
+    potential_derivatives,
+)
 from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
 from lagcli.mechanics.stability.near import Near, contradictory
 from lagcli.mechanics.stability.signs import is_positive, sign_of, weak_sign
@@ -41,13 +46,17 @@ from lagcli.record import record
 
 #: What the file leaves open, and how it would say it.
 NOT_DEFINITE = (
-    "the kinetic energy is not known to be positive definite (say which parameters are: "
-    "{assume: positive})"
+    "the kinetic energy is not known to be positive definite (a parameter is declared positive "
+    "by {assume: positive})"
 )
 #: Of contacts without a force.
 GRAZES = "nothing presses on the contact, which may open"
+_INDEFINITE = "the kinetic energy is not positive definite"
+#: Of a system without a degree of freedom.
+EXCLUDED = "the constraints exclude every displacement"
 _GROWING = "a root of the characteristic polynomial has a positive real part"
 _ALL_ROOTS = "all roots have negative real parts"
+_NO_SECOND = "{V} has no minimum of second order"
 _NEUTRAL = "neutral: no force to first order"
 _MAY_FEED = "a force that is not linear, or has no potential, may feed energy"
 _MOST_ROLLING = 4
@@ -76,6 +85,11 @@ class Stability:
         Stable up to displacements along a family of equilibria.
     growing
         It is unstable where this is positive, and it is nowhere negative.
+    opposed
+        It is unstable where one of these is negative, and they are nowhere all positive.
+    critical
+        The order of the minimum where the one condition of `minimum` is an equality; 0: it is no
+        minimum, and unstable.  None: not known.
     """
 
     stable: bool | None = None
@@ -89,6 +103,8 @@ class Stability:
     exact: bool = False
     across: bool = False
     growing: Expr | None = None
+    opposed: tuple[Expr, ...] = ()
+    critical: int | None = None
 
 
 def undecided(reason: str) -> Stability:
@@ -104,6 +120,8 @@ def unstable(reason: str) -> Stability:
 def judge(linear: Linearization, characteristic: Characteristic | None = None) -> Stability:
     """The stability of what was linearised about."""
     near = Near(linear, characteristic)
+    if not linear.M:
+        return Stability(stable=True, reason=EXCLUDED)
     try:
         reason = _not_to_be_judged(near)
         if reason:
@@ -133,8 +151,6 @@ def judge_on_meridians(linear: OnMeridians) -> Stability:
 
 
 def _not_to_be_judged(near: Near) -> str:
-    if not near.linear.M:
-        return "every displacement is excluded by the constraints"
     if not near.linear.regular:
         return "the mass matrix is singular there"
     if not near.smooth:
@@ -148,9 +164,15 @@ def _not_to_be_judged(near: Near) -> str:
 
 def _judged(near: Near) -> Stability:
     if len(near.others) == 1 and not near.linear.gyroscopic:
-        return undecided(_NEUTRAL)
+        return by_higher_order(near) or undecided(_NEUTRAL)
     if near.has_energy and not near.inertia_is_definite:
-        return undecided(NOT_DEFINITE)
+        roots = by_roots(near)
+        known = roots.stable is not None or roots.opposed or roots.exact
+        return (
+            roots
+            if known
+            else undecided(_INDEFINITE if near.inertia_is_indefinite else NOT_DEFINITE)
+        )
     energy = by_minimum(near) if near.has_energy else None
     if energy is not None and (energy.stable is not None or energy.reverses):
         return energy
@@ -158,7 +180,8 @@ def _judged(near: Near) -> Stability:
     if energy is not None and energy.minimum and roots.stable is None:
         keep = None if roots.hurwitz is not None else energy.minimum
         return replace(roots, minimum=keep)
-    if roots.stable is not None or roots.spectrum is not None or roots.hurwitz is not None:
+    found = roots.spectrum is not None or roots.hurwitz is not None or roots.opposed
+    if roots.stable is not None or found:
         return roots
     return energy if energy is not None and energy.reason else roots
 
@@ -237,17 +260,34 @@ def by_minimum(near: Near) -> Stability | None:
             continue
         pairs = zip(curvatures, signs, strict=True)
         left = tuple(e for e, known in pairs if known is None)
-        if not contradictory(left):
+        if not contradictory(left, near.positive):
             open_.append(left)
     if not open_:
         return None
     shortest = min(open_, key=_length)
+    derivatives = potential_derivatives(near.linear) if len(shortest) == 1 else []
     return Stability(
         by=KELVIN_TAIT_CHETAEV if near.complete else LAGRANGE_DIRICHLET,
         asymptotic=near.complete,
         minimum=shortest,
         reverses=decides and near.restoring is near.linear,
+        critical=order_at_critical_values(derivatives, near.positive),
     )
+
+
+def by_higher_order(near: Near) -> Stability | None:
+    """Of one coordinate whose potential has no second derivative there; None: not known."""
+    if not (near.has_energy and near.inertia_is_definite):
+        return None
+    order = order_of_minimum(potential_derivatives(near.linear), near.positive)
+    if order == 0:
+        return unstable("{V} has no minimum there")
+    return None if order is None else _minimum_of_order(order)
+
+
+def _minimum_of_order(order: int) -> Stability:
+    reason = f"{{V}} has a strict minimum of order {order} there ({LAGRANGE_DIRICHLET.name})"
+    return Stability(stable=True, reason=reason, by=LAGRANGE_DIRICHLET, minimum=())
 
 
 def _minimum(near: Near, neutral: int) -> Stability:
@@ -307,13 +347,11 @@ def by_roots(near: Near) -> Stability:
     signs = near.signs(conditions)
     if near.even and 0 in signs:
         return _multiple(near)
-    if (
-        0 in signs
-        or any(weak_sign(e, near.positive) == -1 for e in conditions)
-        or contradictory([e for e, s in zip(conditions, signs, strict=True) if s is None])
-    ):
+    if 0 in signs or any(weak_sign(e, near.positive) == -1 for e in conditions):
         return undecided("to first order it is at the limit of stability")
     open_ = tuple(e for e, s in zip(conditions, signs, strict=True) if s is None)
+    if contradictory(open_, near.positive):
+        return Stability(opposed=open_)
     if near.even:
         return _imaginary(near, open_)
     if near.zeros and not near.as_many_equilibria:
@@ -392,8 +430,11 @@ def by_polynomial(
     return found, squares
 
 
-def by_curvature(curvature: Expr, mass: Expr, positive: Sequence[Expr] = ()) -> Stability:
-    """The verdict on one coordinate with M and V'' given."""
+def by_curvature(
+    derivatives: Sequence[Expr], mass: Expr, positive: Sequence[Expr] = ()
+) -> Stability:
+    """The verdict on one coordinate with M, V'' and the next derivatives given."""
+    curvature = derivatives[0]
     if not is_positive(mass, positive):
         return undecided(NOT_DEFINITE)
     square = simplify(curvature / mass)
@@ -403,6 +444,12 @@ def by_curvature(curvature: Expr, mass: Expr, positive: Sequence[Expr] = ()) -> 
     if known == 1:
         reason = f"{{V}} has a strict minimum there ({LAGRANGE_DIRICHLET.name})"
         return Stability(stable=True, reason=reason, by=LAGRANGE_DIRICHLET, minimum=())
-    if known == 0 or weak_sign(square, positive) == -1:
-        return undecided("{V} has no minimum of second order")
-    return Stability(minimum=(square,), reverses=True, by=LAGRANGE_DIRICHLET)
+    if known == 0:
+        order = order_of_minimum(derivatives, positive)
+        if order:
+            return _minimum_of_order(order)
+        return undecided(_NO_SECOND) if order is None else unstable("{V} has no minimum there")
+    if weak_sign(square, positive) == -1:
+        return undecided(_NO_SECOND)
+    critical = order_at_critical_values(derivatives, positive)
+    return Stability(minimum=(square,), reverses=True, by=LAGRANGE_DIRICHLET, critical=critical)

@@ -12,6 +12,7 @@ from lagcli.mechanics.oscillations.equilibria import RestPoints
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.reduction.readable import conditions, opposites
 from lagcli.mechanics.stability.judge import Stability, always
+from lagcli.mechanics.system import System
 from lagcli.motions import Above, Verdict
 
 Stated = Callable[[Sequence[Expr]], tuple[Above, ...]]
@@ -37,8 +38,8 @@ def stated(
         if getattr(found, name) and where(getattr(found, name)) == ():
             found = always(found, name)
     decisive = found.hurwitz if found.hurwitz is not None else found.spectrum
-    if decisive is None and found.reverses:
-        decisive = found.minimum
+    if decisive is None:
+        decisive = found.minimum if found.reverses else found.opposed
     return Verdict(
         stable=found.stable,
         reason=found.reason,
@@ -54,6 +55,7 @@ def stated(
         else conditions([found.growing], order, positive),
         exact=found.exact,
         gyroscopic=gyroscopic and found.spectrum is not None,
+        critical=found.critical,
     )
 
 
@@ -63,10 +65,19 @@ def potential_of(rest: RestPoints, usual: str = "V_eff") -> str:
     at_rest = dict.fromkeys(system.qdot, S.Zero)
     if any(is_zero(force.xreplace(at_rest)) is not True for force in system.applied_forces):
         return ""
+    if _feeds_by_time(system):
+        return ""
     if usual != "V_eff" or system.V is None:
         return usual if usual != "V_eff" else "V"
     alone = is_zero(system.L.xreplace(at_rest) + system.V.xreplace(at_rest))
     return "V" if alone is True else usual
+
+
+def _feeds_by_time(system: System) -> bool:
+    """Whether terms of L linear in the velocities depend on t: they act at rest, too."""
+    at_rest = dict.fromkeys(system.qdot, S.Zero)
+    rates = (system.L.diff(v, system.t).xreplace(at_rest) for v in system.qdot)
+    return any(is_zero(rate) is not True for rate in rates)
 
 
 def held_by_gyroscopic_terms(linear: Linearization) -> bool:

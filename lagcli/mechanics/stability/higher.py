@@ -1,0 +1,68 @@
+"""A potential of one coordinate whose second derivative vanishes: the next ones decide.
+
+A strict minimum, where the first derivative that does not vanish is of even order and positive, is
+stable (Lagrange and Dirichlet).  Elsewhere the force drives the system away on one side, so it is
+unstable, with damping, too.
+
+References
+----------
+Landau, Lifshitz, *Mechanics*, 3rd ed., section 21.
+Merkin, *Introduction to the Theory of Stability*, section 3.3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sympy import Expr
+
+from lagcli.algebra import simplify
+from lagcli.algebra.build import free_of
+from lagcli.algebra.equations import solve_for
+from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.stability.signs import sign_of
+
+#: Of the potential; no textbook's equilibrium needs a higher one.
+_HIGHEST = 6
+
+
+def potential_derivatives(linear: Linearization) -> list[Expr]:
+    """V'', V''', … there, of a system with one coordinate and no constraints; empty of others."""
+    if len(linear.system.q) != 1 or linear.dynamics.constraints.equations or linear.point.free:
+        return []
+    [q], [force] = linear.system.q, linear.forces_at_rest
+    found = []
+    for _ in range(2, _HIGHEST + 1):
+        force = force.diff(q)
+        found.append(simplify(-at(force, linear.point.values)))
+    return found
+
+
+def order_of_minimum(derivatives: Sequence[Expr], positive: Sequence[Expr]) -> int | None:
+    """The order of the first derivative that is not 0, 0 where there is no minimum.
+
+    The first of the derivatives is the second one.  None where it is not known.
+    """
+    for order, derivative in enumerate(derivatives, 2):
+        sign = sign_of(derivative, positive)
+        if sign is None:
+            return None
+        if sign:
+            return order if sign == 1 and order % 2 == 0 else 0
+    return None
+
+
+def order_at_critical_values(derivatives: Sequence[Expr], positive: Sequence[Expr]) -> int | None:
+    """The same where a condition makes the second derivative vanish: one symbol is solved for."""
+    curvature = derivatives[0] if derivatives else None
+    for symbol in sorted(curvature.free_symbols, key=str) if curvature is not None else ():
+        roots = solve_for(curvature, symbol)
+        if roots is None or len(roots.values) != 1 or not free_of(roots.values[0], [symbol]):
+            continue
+        [root] = roots.values
+        if symbol.is_positive and sign_of(root, positive) in (0, -1):
+            continue
+        others = [simplify(each.xreplace({symbol: root})) for each in derivatives]
+        return order_of_minimum(others, [p.xreplace({symbol: root}) for p in positive])
+    return None

@@ -1,0 +1,253 @@
+"""Sentences about conditions, critical values, drives and forces, on random systems."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from lagcli.algebra import is_zero
+from lagcli.algebra.signs import sign
+from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.oscillations.small_oscillations import equilibria
+from lagcli.mechanics.reduction.routh import Routh
+from lagcli.mechanics.reduction.steady_statement import steady_motions
+from lagcli.pipeline import explain
+from lagcli.wording import enumerated
+
+from .derived import derive
+from .test_explanation import words
+
+SEEDS = range(5)
+RATE = "phi'"
+
+
+def said(text, title, *also):
+    return words(explain(derive(text), also), title)
+
+
+# -- conditions -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_no_condition_contradicts_where_it_exists(seed):
+    """Of x (A x + B y² + …): conditions of any sign, all of which some values fulfil."""
+    source = random.Random(seed)
+    V = f"A*x^2/2 + B*y^2/2 + C*x^2*y + {source.randint(1, 3)}*D*y^3/3"
+    text = f"coordinates: [x, y]\nparameters: [A, B, C, D]\nL: (x'^2 + y'^2)/2 - ({V})\n"
+    derivation = derive(text)
+    build, parameters = derivation.system.build, derivation.system.parameters
+    draws = [
+        {p: build_number(build, source.uniform(-2, 2)) for p in parameters} for _ in range(3000)
+    ]
+
+    def difference(each):
+        return build(each.left) - build(each.right)
+
+    def possible(*conditions):
+        return any(all(difference(c).xreplace(d) > 0 for c in conditions) for d in draws)
+
+    for state in equilibria(derivation.dynamics).equilibria:
+        assert possible(*state.where)
+        verdict = state.verdict
+        assert verdict.minimum is None or possible(*state.where, *verdict.minimum)
+        assert all(possible(*state.where, each) for each in verdict.unstable)
+
+
+def build_number(build, value):
+    from fractions import Fraction
+
+    from lagcli.expression import Negative, Number
+
+    number = Number(Fraction(abs(value)).limit_denominator(1000))
+    return build(Negative(number) if value < 0 else number)
+
+
+@pytest.mark.parametrize("name", ["k", "q", "charge"])
+def test_the_sign_of_one_parameter_decides_a_sum(name):
+    """m - 2 k/(c² r) of Weber's potential is positive where k is negative."""
+    system = derive(
+        f"{{coordinates: {{r: {{assume: positive}}}}, parameters: {{m: {{assume: positive}}, "
+        f"c: {{assume: positive}}, {name}: }}, L: m*r'^2/2 - {name}/r*(1 + r'^2/c^2)}}"
+    ).system
+    m, c, k, [r] = *system.parameters, system.q
+    mass = m - 2 * k / (c**2 * r)
+    assert sign(mass, [-k]) == 1
+    assert sign(mass, [-k / m]) == 1
+    assert sign(mass, [k]) is None
+    assert sign(-k, [k]) == -1
+
+
+def test_squares_that_are_not_zero_are_stated_so():
+    text = "coordinates: [x, y]\nparameters: [m, q, B]\nL: (x'^2 + y'^2)/2 + q*B*(x*y' - y*x')/2\n"
+    sentences = said(text, "Equilibria", "equilibria")
+    assert "where B ≠ 0 and q ≠ 0" in sentences.replace("\N{NO-BREAK SPACE}", " ")
+
+
+# -- critical values ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_at_a_critical_value_the_next_derivative_decides(seed):
+    source = random.Random(seed)
+    order, factor = source.choice([3, 4, 6]), source.choice([-3, -1, 2, 5])
+    text = (
+        f"coordinates: [x]\nparameters: [a]\n"
+        f"L: x'^2*(2 + sin(x))/2 - a*x^2/2 - ({factor})*x^{order}/{order}\n"
+    )
+    [state] = [
+        e for e in equilibria(derive(text).dynamics).equilibria if to_grammar(e.at["x"]) == "0"
+    ]
+    assert state.verdict.critical == (order if order % 2 == 0 and factor > 0 else 0)
+
+
+@pytest.mark.parametrize(
+    ("order", "factor", "stable"), [(4, 1, True), (6, 2, True), (4, -1, False), (3, 1, False)]
+)
+def test_a_potential_without_a_second_derivative(order, factor, stable):
+    """Landau and Lifshitz, section 21: an oscillation that is not harmonic."""
+    text = f"{{coordinates: [x], L: x'^2/2 - ({factor})*x^{order}}}"
+    [state] = equilibria(derive(text).dynamics).equilibria
+    assert state.verdict.stable is stable
+
+
+def test_the_sleeping_top_is_stable_at_its_critical_spin():
+    """Landau and Lifshitz, section 35, problem 2; U_eff is of fourth order at equality."""
+    [_, upright, _] = steady_motions(
+        derive("""
+coordinates: [theta, phi, psi]
+parameters: {I: {assume: positive}, J: {assume: positive}, k: {assume: positive}}
+T: I*(theta'^2 + phi'^2*sin(theta)^2)/2 + J*(psi' + phi'*cos(theta))^2/2
+V: k*cos(theta)
+""")
+    )[0].motions
+    assert to_grammar(upright.at["theta"]) == "0"
+    assert upright.verdict.critical == 4
+
+
+# -- what acts ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_steady_motions_under_a_drive_are_those_without_the_driven_coordinate(seed):
+    source = random.Random(seed)
+    V = f"{source.choice([2, -3])}*k*cos(theta) + {source.choice([0, 1])}*k*cos(theta)^2"
+    T = "m*(theta'^2 + (1 + sin(theta)^2)*phi'^2)/2"
+    head = "parameters: {m: {assume: positive}, k: {assume: positive}, w: {assume: positive}}\n"
+    driven = f"coordinates: [theta, phi]\n{head}T: {T}\nV: {V}\nconstraints: {{drive: phi' = w}}\n"
+    put_in = f"coordinates: [theta]\n{head}T: {T.replace(RATE, 'w')}\nV: {V}\n"
+    one, other = (steady_motions(derive(text))[0].motions for text in (driven, put_in))
+    places = [{to_grammar(m.at["theta"]) for m in motions} for motions in (one, other)]
+    assert places[0] == places[1]
+    verdicts = [{to_grammar(m.at["theta"]): m.verdict for m in motions} for motions in (one, other)]
+    for place in places[0]:
+        assert {v[place].stable for v in verdicts} != {True, False}
+        assert verdicts[0][place].unstable == verdicts[1][place].unstable
+
+
+@pytest.mark.parametrize("factor", ["1", "2*m", "-3"])
+def test_a_momentum_that_a_candidate_names_may_change(factor):
+    """x is cyclic, p_x is not constant, whatever multiple of it the file lists."""
+    derivation = derive(f"""
+coordinates: [x, phi]
+parameters: {{m: {{assume: positive}}, F: {{assume: positive}}}}
+L: m*(x'^2 + phi'^2)/2
+forces: {{x: -F*sin(phi)}}
+symmetries: {{push: {{x: {factor}}}}}
+""")
+    [(conserved, why)] = [Routh(derivation).irreducible[0]]
+    assert conserved is False
+    assert why == "a force without a potential acts along it"
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_forces_whose_work_a_boundary_term_balances_are_said_to_work(seed):
+    source = random.Random(seed)
+    n = source.choice([2, 3, 4])
+    text = f"""
+coordinates: [x, y]
+parameters: {{m: {{assume: positive}}, k: {{assume: positive}}}}
+L: m*(x'^2 + y'^2)/2
+forces: {{x: -k*x^{n - 1}}}
+symmetries: {{time: {{t: 1, gauge: k*x^{n}/{n}}}, across: {{y: 1}}}}
+"""
+    sentences = said(text, "Conserved quantities")
+    assert "The applied forces do work along this transformation" in sentences
+    assert "The applied forces do no work along this transformation." in sentences
+
+
+def test_a_gauge_of_the_file_that_is_wrong_is_named():
+    text = """
+coordinates: [s]
+parameters: {m: {assume: positive}, g: {assume: positive}}
+L: m*s'^2/2 + m*g*s
+symmetries: {fall: {s: 1, gauge: 0}}
+"""
+    sentences = said(text, "Conserved quantities")
+    assert "Under it the action changes; the boundary term that the file gives is 0." in sentences
+
+
+# -- what there is not ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("motion", ["A*sin(w*t)", "w*t^2", "w*t"])
+def test_a_prescribed_motion_is_not_called_steady(motion):
+    text = f"""
+coordinates: [y]
+parameters: {{m: {{assume: positive}}, A: {{assume: positive}}, w: {{assume: positive}}}}
+L: m*y'^2/2
+constraints: {{table: "y = {motion}"}}
+"""
+    assert "they prescribe the motion" in said(text, "Steady motions", "steady_motions")
+    assert "cyclic" not in said(text, "The reduction", "reduction")
+
+
+@pytest.mark.parametrize(("force", "vanishes"), [("(a - b)*k", "a = b"), ("k*sin(c)", "… = 0")])
+def test_an_equilibrium_for_special_parameters_is_not_denied(force, vanishes):
+    text = f"""
+coordinates: [x]
+parameters: {{a: {{assume: positive}}, b: {{assume: positive}}, c: , k: {{assume: positive}}}}
+L: x'^2/2 + {force}*x
+"""
+    sides = {vanishes, " = ".join(reversed(vanishes.split(" = ")))}
+    sentences = said(text, "Equilibria", "equilibria").replace("\N{NO-BREAK SPACE}", " ")
+    assert any(f"there is no equilibrium unless {side}." in sentences for side in sides)
+
+
+@pytest.mark.parametrize("power", [4, 6])
+def test_where_a_legendre_transform_folds(power):
+    """Henneaux, Teitelboim, Zanelli, Phys. Rev. A 36 (1987) 4417."""
+    text = f"{{coordinates: [x], L: x'^{power}/{power} - x'^2/2 - x^2/2}}"
+    derivation = derive(text)
+    [v] = derivation.system.qdot
+    assert is_zero(derivation.hamiltonian.fold - ((power - 1) * v ** (power - 2) - 1)) is True
+    assert "There is no Hamiltonian" in said(text, "Canonical equations", "canonical_equations")
+    assert "The Hamiltonian is h" not in said(text, "The energy")
+
+
+def test_a_kinetic_energy_without_a_sign_can_be_unstable():
+    """Bateman's pair of oscillators, Phys. Rev. 38 (1931) 815: one grows as the other decays."""
+    text = (
+        "coordinates: [x, y]\n"
+        "parameters: {m: {assume: positive}, c: {assume: positive}, k: {assume: positive}}\n"
+        "L: m*x'*y' + c*(x*y' - y*x')/2 - k*x*y\n"
+    )
+    [state] = equilibria(derive(text).dynamics).equilibria
+    assert state.verdict.stable is None
+    assert state.verdict.minimum is None
+    assert state.verdict.spectrum is None
+    assert {to_grammar(each.left) for each in state.verdict.unstable} == {"4*m*k", "c^2"} or (
+        len(state.verdict.unstable) == 2
+    )
+
+
+# -- enumerations ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4])
+def test_causes_are_enumerated_with_one_and(count):
+    words = [f"cause {k}" for k in range(count)]
+    text = enumerated(words)
+    assert text.count(" and ") == (count > 1)
+    assert text.count(", ") == max(0, count - 2)
+    assert all(word in text for word in words)
