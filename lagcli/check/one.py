@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from itertools import chain
 from typing import TYPE_CHECKING
 
 from lagcli.check.findings import Finding, Outcome, Report
@@ -32,10 +31,9 @@ def check_problem(name: str, data: bytes) -> Report:
 
 
 def _check(found: Read) -> Report:
-    from lagcli.check.expectations import Expectations, sections_expected
+    from lagcli.check.expectations import sections_expected
     from lagcli.check.initial import initial_mistakes
-    from lagcli.check.laws import SECTIONS, Laws
-    from lagcli.check.trajectory import TrajectoryCheck
+    from lagcli.check.laws import SECTIONS
 
     source, problem = Source(found.source.name, ""), found.problem
     if problem is None:
@@ -52,17 +50,27 @@ def _check(found: Read) -> Report:
         answers = state(derivation, Request(sections=sections))
         if answers.absent:
             return _without_sections(source, answers)
-        results = list(
-            chain(
-                Expectations(derivation, answers),
-                Laws(derivation, answers),
-                TrajectoryCheck(derivation.problem),
-            )
-        )
+        results = compared(derivation, answers)
     except ProblemError as error:
         return Report(error.source, diagnostics=error.diagnostics)
     findings = tuple(result for result in results if result is not None)
     return Report(source, len(results), findings)
+
+
+def compared(derivation: Derivation, answers: Answers) -> list[Finding | None]:
+    """Every comparison of the answers: with `expect`, with the laws, with the expected motion.
+
+    None stands for one that holds.
+    """
+    from lagcli.check.expectations import Expectations
+    from lagcli.check.laws import Laws
+    from lagcli.check.trajectory import TrajectoryCheck
+
+    expectations = Expectations(derivation, answers)
+    if derivation.no_lagrangian:  # there is no motion in q and q'
+        return list(expectations)
+    trajectory = TrajectoryCheck(derivation.problem)
+    return [*expectations, *Laws(derivation, answers), *trajectory]
 
 
 def _without_sections(source: Source, answers: Answers) -> Report:
@@ -75,11 +83,11 @@ def _without_sections(source: Source, answers: Answers) -> Report:
 
 def _check_phase_space(derivation: Derivation, source: Source) -> Report:
     """A problem without a Lagrangian has no motion in q and q' to compare with."""
-    from lagcli.check.expectations import Expectations, sections_expected
+    from lagcli.check.expectations import sections_expected
 
     expected = sections_expected(derivation.given.expect)
     possible = tuple(each.name for each in expected if each.phase_space is not None)
-    results = list(Expectations(derivation, state(derivation, Request(sections=possible))))
+    results = compared(derivation, state(derivation, Request(sections=possible)))
     results += [
         Finding(Outcome.UNDECIDED, each.name, f"H gives no Lagrangian: {derivation.no_lagrangian}")
         for each in expected
