@@ -13,7 +13,7 @@ FILE ?= problems/hoop.yaml
 
 .PHONY: help
 help: ## list the targets
-	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | awk -F '\t' '{printf "make %-8s %s\n", $$1, $$2}'
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | awk -F '\t' '{printf "make %-11s %s\n", $$1, $$2}'
 
 .PHONY: setup
 setup: $(READY) ## make .venv with lagcli and the developers' tools in it
@@ -31,7 +31,10 @@ solve: $(READY) ## the main job: make solve FILE=problems/hoop.yaml
 	@$(BIN)/lagcli solve $(FILE)
 
 .PHONY: check
-check: lint types layers test library ## everything that must hold before a commit
+check: lint types layers test ## what one runs before a commit; a few minutes
+
+.PHONY: check-all
+check-all: long certificate ## all the rest: long runs, the whole library, mutants, certificates
 
 .PHONY: lint
 lint: $(READY) ## format and style (ruff)
@@ -49,6 +52,14 @@ layers: $(READY) ## imports point one way (import-linter)
 .PHONY: test
 test: $(READY) ## the tests (pytest); make test ARGS="-k noether"
 	$(BIN)/pytest -q -n auto --dist worksteal $(ARGS)
+
+.PHONY: long
+long: $(READY) ## the tests that `make test` leaves out
+	$(BIN)/pytest -q -n auto --dist worksteal -m long $(ARGS)
+
+.PHONY: certificate
+certificate: $(READY) ## whether the errors of runs are what they claim, on some problems
+	$(BIN)/python -m tests.bench.certificate --workers 2 --limit 20 $(wildcard problems/central/*.yaml)
 
 .PHONY: library
 library: $(READY) ## every problem of the library against its known answers

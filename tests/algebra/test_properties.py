@@ -78,6 +78,7 @@ def rebuilt(expression: Expr) -> Expr:
     return build(to_expression(expression))
 
 
+@pytest.mark.long
 @quick
 @given(expressions)
 def test_simplify_gives_something_equal(expression: Expr) -> None:
@@ -98,6 +99,7 @@ def test_the_printed_tree_reads_back_as_something_equal(expression: Expr) -> Non
         assert close(before, after)
 
 
+@pytest.mark.long
 @quick
 @given(expressions)
 def test_the_shape_reads_back_as_something_equal(expression: Expr) -> None:
@@ -130,6 +132,7 @@ def test_what_is_certainly_not_zero_has_a_value(left: Expr, right: Expr) -> None
             assert abs(number) > mpf(10) ** -40
 
 
+@pytest.mark.long
 @quick
 @given(expressions)
 def test_relations_keep_the_value_on_them(expression: Expr) -> None:
@@ -145,6 +148,7 @@ def test_relations_keep_the_value_on_them(expression: Expr) -> None:
     assert close(before, after)
 
 
+@pytest.mark.long
 @settings(max_examples=40, deadline=None, derandomize=True)
 @given(st.lists(st.one_of(leaves, angles.map(sp.cos)), min_size=12, max_size=12))
 def test_solutions_satisfy_their_equations(entries: list[Expr]) -> None:

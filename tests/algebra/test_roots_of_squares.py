@@ -65,6 +65,7 @@ def _value(formula: Expr, point: dict[Expr, float]) -> float | None:
     return value.real if real else None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(40))
 def test_the_value_is_kept_on_either_side(seed):
     source = random.Random(seed)

@@ -138,6 +138,7 @@ print(shape(e, names), simplify(e))
 """
 
 
+@pytest.mark.long
 def test_the_hash_seed_does_not_matter() -> None:
     outputs = {
         subprocess.run(

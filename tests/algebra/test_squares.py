@@ -35,6 +35,7 @@ def random_sum(source: random.Random, *, of_squares: bool) -> sp.Expr:
     return sp.expand(sp.Add(*parts, *(s**2 for s in source.sample(SHAPES, 3))))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(40))
 def test_a_sign_that_is_claimed_is_that_of_random_values(seed: int) -> None:
     source = random.Random(f"squares {seed}")

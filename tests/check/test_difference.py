@@ -60,6 +60,7 @@ CHANGES = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("changed", "subject"), CHANGES)
 def test_what_changes_the_physics_is_named(changed, subject):
     found = differences(problem(), problem(**changed))

@@ -86,6 +86,7 @@ def test_the_unchanged_file_passes():
     assert report.outcome is Outcome.PASSED
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("old", "new", "subject"), SLIPS, ids=[slip[1][:30] for slip in SLIPS])
 def test_a_slip_is_found_where_it_stands(old, new, subject):
     text = changed(old, new)

@@ -80,6 +80,7 @@ def test_the_second_run_prints_the_same_and_loads_nothing(solve, here):
     assert len(entries(here)) == 1
 
 
+@pytest.mark.long
 def test_mistakes_of_a_file_are_repeated_with_their_status(solve):
     first, _ = solve("free.yaml", "wrong.yaml", "-f", "json")
     assert first[0] == 2
@@ -88,6 +89,7 @@ def test_mistakes_of_a_file_are_repeated_with_their_status(solve):
     assert solve("free.yaml", "wrong.yaml", "-f", "json") == (first, "")
 
 
+@pytest.mark.long
 def test_an_output_file_is_written_again(solve, here):
     solve("free.yaml", "-f", "json", "-o", "out.json")
     text = (here / "out.json").read_bytes()
@@ -99,6 +101,7 @@ def test_an_output_file_is_written_again(solve, here):
     assert "no directory" in said
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "change",
     [
@@ -115,6 +118,7 @@ def test_other_options_are_another_answer(solve, change):
     assert solve("free.yaml") == (plain, "")
 
 
+@pytest.mark.long
 def test_another_content_is_another_answer(solve, here):
     before, _ = solve("free.yaml")
     (here / "free.yaml").write_text(FREE.replace("/2", "/3"))
@@ -123,6 +127,7 @@ def test_another_content_is_another_answer(solve, here):
     assert after[1] != before[1]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("off", [(["--no-cache"], {}), ([], {"LAGCLI_NO_CACHE": "1"})])
 def test_the_cache_can_be_turned_off(solve, here, off):
     arguments, environment = off
@@ -145,6 +150,7 @@ def damages(data):
     yield b"lagcli result 1\n"
 
 
+@pytest.mark.long
 def test_damaged_entries_are_replaced(solve, here):
     right, _ = solve("free.yaml")
     [path] = entries(here)
@@ -209,6 +215,7 @@ def test_an_entry_under_a_wrong_name_is_not_believed(tmp_path):
     assert cache.find(other) is None
 
 
+@pytest.mark.long
 def test_processes_at_once_see_whole_entries(tmp_path):
     code = (
         "import sys; from lagcli.cache import Cache, Entry\n"
@@ -297,6 +304,7 @@ def test_a_shelf_that_is_a_link_is_not_used(tmp_path):
     assert not any((tmp_path / "elsewhere").iterdir())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("place", ["/dev/null/cache", "/proc/none", "free.yaml"])
 def test_a_place_that_cannot_be_used_is_no_mistake(solve, here, place):
     (status, text, said), _ = solve("free.yaml", LAGCLI_CACHE_DIR=place)
@@ -304,6 +312,7 @@ def test_a_place_that_cannot_be_used_is_no_mistake(solve, here, place):
     assert text
 
 
+@pytest.mark.long
 def test_a_folder_that_cannot_be_written_is_no_mistake(solve, here):
     (here / "cache").mkdir()
     (here / "cache").chmod(0o500)
@@ -349,6 +358,7 @@ def test_names_and_contents_cannot_be_confused():
     assert key({}, [("ab", b"1")]) != key({}, [("a", b"b1")])
 
 
+@pytest.mark.long
 def test_the_command_shows_the_place_and_clears_it(here, solve):
     solve("free.yaml")
 

@@ -38,6 +38,7 @@ def test_a_problem_is_found_by_its_name_alone_unless_two_have_it():
         find_problem("henon-heiles")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("command", ["solve", "explain", "check"])
 def test_commands_take_names_in_an_empty_directory(command, shown):
     assert shown(command, "atwood")[0] == 0
@@ -70,6 +71,7 @@ def test_a_problem_that_is_shown_can_be_solved(shown, tmp_path):
     assert shown("show", "nothing-like-it")[0] == 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", TEMPLATES)
 def test_a_template_is_a_problem_that_is_solved_and_simulated(name, shown):
     assert shown("new", f"my-{name}", "--template", name)[0] == 0
@@ -140,6 +142,7 @@ def test_several_runs_make_an_array_or_a_file_each(shown, tmp_path):
     ]  # fmt: skip
 
 
+@pytest.mark.long
 def test_check_reads_standard_input():
     done = subprocess.run(
         [sys.executable, "-m", "lagcli", "check", "-"],

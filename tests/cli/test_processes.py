@@ -30,6 +30,7 @@ def test_standard_input_is_named_with_a_dash(lagcli):
     assert done.stderr.startswith(b"-:2:11: error: unknown name 'q'")
 
 
+@pytest.mark.long
 def test_the_same_input_gives_the_same_bytes(lagcli):
     one, other = (
         lagcli("solve", "atwood.yaml", env={"PYTHONHASHSEED": seed, "COLUMNS": columns})
@@ -53,6 +54,7 @@ def test_a_reader_that_leaves_is_no_error(lagcli):
     assert (done.returncode, done.stderr) == (0, b"")
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="SIGINT is sent otherwise")
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="the device is Linux's")
 @pytest.mark.parametrize("command", [["solve", "pendulum.yaml"], ["version"], ["--help"]])
@@ -126,6 +128,7 @@ def test_closed_streams_are_no_bug(closed):
     assert (done.returncode, done.stdout, done.stderr) == (2, b"", told)
 
 
+@pytest.mark.long
 def test_text_is_ascii_where_the_terminal_is(lagcli):
     done = lagcli("solve", "pendulum.yaml", env={"PYTHONIOENCODING": "ascii"})
     assert done.returncode == 0

@@ -40,6 +40,7 @@ def extremes(tmp_path, capsys):
     return call
 
 
+@pytest.mark.long
 def test_a_pendulum(extremes):
     """Everything is right or refused; what is lost at 1e-9 is what mpmath says."""
     found = extremes(PENDULUM, "-f", "json", "--limit", "20")
@@ -79,6 +80,7 @@ def test_the_text_fits_a_terminal(extremes):
     assert lines[-1] == "7 cases: 5 right, 2 refused"
 
 
+@pytest.mark.long
 def test_csv_has_a_line_for_each_case(extremes):
     found = extremes(PENDULUM, "-f", "csv", "--cases", "th = *,spans", "--limit", "2")
     rows = list(csv.DictReader(io.StringIO(found.out)))
@@ -105,6 +107,7 @@ simulation: {until: 1}
     assert energy["rewritten"] < 1
 
 
+@pytest.mark.long
 def test_parameters_and_state_may_be_missing(extremes):
     text = "coordinates: [x, y]\nparameters: [m, k]\nL: m*(x'^2 + y'^2)/2 - k*x^2*y^2/2\n"
     found = extremes(text, "--cases", "given,ratios")
@@ -152,6 +155,7 @@ def outcomes(words=("given", "zero")):
     return made, {case.name: trial for case, trial in made.trials}
 
 
+@pytest.mark.long
 def test_a_wrong_claim_is_found(monkeypatch):
     """A certificate that holds for other numbers."""
     simulate = trials.simulate
@@ -169,6 +173,7 @@ def test_a_wrong_claim_is_found(monkeypatch):
     assert made.bad == 2  # g = 0 moves as well
 
 
+@pytest.mark.long
 def test_a_failure_and_a_hang_do_not_stop_the_others(monkeypatch):
     """Each is undecided; the process that hangs is ended."""
     simulate = trials.simulate
@@ -193,6 +198,7 @@ def test_a_failure_and_a_hang_do_not_stop_the_others(monkeypatch):
     assert made.bad == 2
 
 
+@pytest.mark.long
 def test_another_state_is_the_given_one(extremes):
     """From rest at the bottom nothing moves; x'' holds no large angle any more."""
     found = extremes(PENDULUM, "-f", "json", "--cases", "given", "--at", "th=0", "--limit", "20")

@@ -51,6 +51,7 @@ def test_a_four_bar_linkage_through_its_flat_positions(simulate, accuracy):
         assert row["u"] == pytest.approx(float(2 + mp.cos(1 + row["t"])), abs=accuracy)
 
 
+@pytest.mark.long
 def test_a_coupler_too_long_by_1e_15_turns_the_motion_at_the_flat_position(simulate):
     """It is never flat: the cranks go on as those of an antiparallelogram.
 
@@ -74,6 +75,7 @@ initial: {a: 0.9, b: 0.9, a': %s, b': %s, x: 2*cos(0.9), x': -2*%s*sin(0.9)}
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("rate", "options"), [("1", ["--precision", "30"]), ("1", []), ("1e-3", [])]
 )
@@ -99,6 +101,7 @@ def test_a_slider_crank_with_equal_arms_stays_on_its_branch(simulate, rate, opti
         assert row["x"] == pytest.approx(2 * math.cos(row["a"]), abs=1e-8)
 
 
+@pytest.mark.long
 def test_a_double_parallelogram_moves_in_spite_of_gruebler(lagcli, simulate):
     """Three equal cranks on one coupler: by count it is rigid, yet it is a pendulum."""
     text = """
@@ -189,6 +192,7 @@ def test_a_free_top_next_to_gimbal_lock(simulate):
     assert run.last["cos(th)"] == pytest.approx(float(exact), abs=1e-8)
 
 
+@pytest.mark.long
 def test_a_free_top_through_gimbal_lock_is_refused(simulate):
     """Its axis is vertical at t = pi, where sin(th)^2 is 0: told, and what is told is so."""
     state = "{th: 1, th': 0, ph': 1/(2*cos(1/2)), ps': 2*cos(1/2) - cos(1)/(2*cos(1/2))}"

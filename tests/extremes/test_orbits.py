@@ -31,6 +31,7 @@ def test_a_nearly_radial_ellipse_after_perihelion(simulate):
     assert [run.last["x"], run.last["y"]] == pytest.approx([float(x), float(y)], abs=1e-10)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", ["auto", "taylor"])
 @pytest.mark.parametrize("nearness", ["1e-6", "1e-9"])
 def test_a_nearly_radial_ellipse_with_30_digits(simulate, nearness, method):

@@ -25,6 +25,7 @@ def test_amplitude_1e_minus_8_over_1000(simulate):
     assert run.last["th*1e8"] == pytest.approx(float(exact), abs=1e-10)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("start", "known"), [("pi - 1e-12", 118.84185063), ("3.1415926535887932", None)]
 )
@@ -164,6 +165,7 @@ def test_the_double_pendulum_with_a_mass_ratio(simulate, ratio):
     assert [run.last["a"], run.last["b"]] == pytest.approx(exact[:2], abs=1e-11)
 
 
+@pytest.mark.long
 def test_the_double_pendulum_to_its_horizon(simulate):
     """Doubles say until when they hold, and it is so; with more digits the end is reached."""
     text = DOUBLE % (1, 3, "5/2")
@@ -177,6 +179,7 @@ def test_the_double_pendulum_to_its_horizon(simulate):
     assert f"until t = {until:g}" in doubles.err
 
 
+@pytest.mark.long
 def test_the_double_pendulum_beyond_the_horizon_of_doubles(simulate):
     """`auto` carries the digits that chaos costs."""
     run = simulate(DOUBLE % (1, 3, 3), 60, accuracy=1e-6)
@@ -219,6 +222,7 @@ def test_a_spring_of_1e16_with_its_stretch_as_variable(simulate):
     assert run.last["s*1e16"] == pytest.approx(float(1 + 2 * mp.cos(100)), abs=1e-8)
 
 
+@pytest.mark.long
 def test_a_spring_of_1e16_with_its_length_as_variable(simulate):
     """The stretch of 3e-16 is lost beside a length of 1 in doubles: more digits or a refusal."""
     text = "{coordinates: [r], L: r'^2/2 + r - 1e16*(r - 1)^2/2, initial: {r: 1 + 3e-16}}"

@@ -64,6 +64,7 @@ def test_brackets_are_where_they_must_be_and_nowhere_else(node, text):
     assert shape(parse_text(text)) == shape(node)
 
 
+@pytest.mark.long
 @settings(max_examples=300, deadline=None)
 @given(expressions)
 def test_what_is_printed_reads_back(node):
@@ -97,6 +98,7 @@ def test_an_equation():
     assert equation_to_grammar(Equation(x, Negative(g))) == "x = -g"
 
 
+@pytest.mark.long
 def test_no_formula_is_too_deep_or_number_too_long():
     node = x
     for _ in range(5000):

@@ -104,6 +104,7 @@ def test_a_symbol_of_the_file_is_used_as_it_is():
     assert latex(Name("w", 1), **names) == r"{\dot{\omega}_{0}}"
 
 
+@pytest.mark.long
 @settings(max_examples=300, deadline=None)
 @given(expressions)
 def test_what_is_printed_means_the_same(node):
@@ -116,6 +117,7 @@ def test_what_is_printed_means_the_same(node):
     assert cmath.isclose(read, expected, rel_tol=1e-6)
 
 
+@pytest.mark.long
 @settings(max_examples=100, deadline=None)
 @given(st.lists(expressions, min_size=4, max_size=8))
 def test_what_is_broken_over_lines_means_the_same(terms):

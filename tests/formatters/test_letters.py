@@ -25,6 +25,7 @@ def clashing(letter):
     return read("t.yaml", text.encode()).problem
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("letter", LETTERS)
 def test_no_left_side_is_a_letter_of_the_file(letter):
     answers = state(derive(clashing(letter)), Request(sections=SECTIONS))
@@ -33,6 +34,7 @@ def test_no_left_side_is_a_letter_of_the_file(letter):
     assert not {letter, f"{letter}^2", f"{letter}'"} & left
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("letter", ["L", "T", "H", "V"])
 def test_sentences_have_words_for_letters_of_the_file(letter):
     problem = clashing(letter)

@@ -73,6 +73,7 @@ def test_a_fragment_is_no_page():
     assert "<html" not in HTML
 
 
+@pytest.mark.long
 @settings(max_examples=200, deadline=None)
 @given(expressions)
 def test_mathml_is_well_formed_and_every_slot_is_filled(node):

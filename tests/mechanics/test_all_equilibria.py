@@ -58,6 +58,7 @@ WAVES = ("cos(x)", "cos(y)", "sin(x)", "sin(y)", "cos(x + y)", "cos(x - y)", "si
          "cos(2*x)", "cos(x)*cos(y)", "sin(x)*sin(y)")  # fmt: skip
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(12))
 def test_all_critical_points_of_a_trigonometric_polynomial(seed):
     source = random.Random(seed)

@@ -112,6 +112,7 @@ def solved(form, at):
     return [row[n] for row in rows], matrix
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_the_motion_and_the_hamiltonian_have_a_closed_form(name):
     problem, found = answers(SYSTEMS[name])
@@ -136,6 +137,7 @@ def test_the_motion_and_the_hamiltonian_have_a_closed_form(name):
     assert hamiltonian == pytest.approx(kinetic + graph_potential, rel=1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_an_abbreviation_uses_only_earlier_ones_and_no_name_of_the_file(name):
     problem, found = answers(SYSTEMS[name])
@@ -150,6 +152,7 @@ def test_an_abbreviation_uses_only_earlier_ones_and_no_name_of_the_file(name):
     assert not known & (given | {*problem.definitions})
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("text", [FOUR_BARS, MOVING_PIVOT])
 def test_linkages_have_their_accelerations_and_multipliers(text):
     problem, found = answers(text)
@@ -168,6 +171,7 @@ def test_a_letter_of_the_file_is_not_taken():
     assert not {"u1", "u11", "a2", "k1", "y"} & set(found.where) - {"y"}
 
 
+@pytest.mark.long
 def test_expand_writes_the_abbreviations_out():
     problem, short = answers(chain(4))
     _, long = answers(chain(4), expand=True)

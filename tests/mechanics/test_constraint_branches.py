@@ -74,6 +74,7 @@ def test_no_answer_has_a_jump_that_the_grammar_cannot_say(V):
 POSITIVE = "coordinates: [x, y]\nparameters: {m: {assume: positive}, a: {assume: positive}, l: {assume: positive}}\n"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(8))
 def test_constraints_that_hold_for_some_parameters_only_are_no_contradiction(seed):
     """x = n a on x^2 + y^2 = l^2: for l > n a, however large n is."""
@@ -95,6 +96,7 @@ def test_constraints_that_hold_for_some_parameters_only_are_no_contradiction(see
     assert d.dynamics.motion is not None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("first", "second", "proved"),
     [

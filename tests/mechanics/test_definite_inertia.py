@@ -29,6 +29,7 @@ SPEEDS = [
 ]  # fmt: skip
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(6))
 def test_a_minimum_of_V_is_stable_under_any_sum_of_squares(seed: int) -> None:
     source = random.Random(f"inertia {seed}")

@@ -88,6 +88,7 @@ SPECIAL = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SPECIAL)
 def test_special_parameters_are_told_with_the_charges_they_add(name):
     cases = {(c.parameter.name, str(c.value)): c for c in derived(name).discovery.special}
@@ -97,6 +98,7 @@ def test_special_parameters_are_told_with_the_charges_they_add(name):
         assert set(names.split()) <= {c.name for c in cases[key].charges}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("parameters", "coordinates", "L", "value", "number", "names"),
     [
@@ -151,6 +153,7 @@ def test_charges_say_where_they_are_real():
         assert where == ([("k", "m*w^2")] if charge in timed else [])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", KNOWN)
 def test_known_algebras_are_found_within_the_work_allowed(name):
     count, names, algebra, integrable = KNOWN[name]

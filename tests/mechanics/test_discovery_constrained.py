@@ -51,6 +51,7 @@ def derived(name):
     return Derivation(load(LIBRARY / f"{name}.yaml"))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", KNOWN)
 def test_what_is_known_is_found(name):
     names, changing, algebra, integrable = KNOWN[name]
@@ -82,6 +83,7 @@ EQUATIONS = {
 }  # fmt: skip
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EQUATIONS)
 def test_momentum_equations_are_those_of_the_textbook(name):
     derivation = derived(name)
@@ -94,6 +96,7 @@ def test_momentum_equations_are_those_of_the_textbook(name):
         assert is_zero(charge.rate - built(derivation, rate), relations) is True
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["nonholonomic/rolling-vertical-disk", "discovery/snakeboard"])
 def test_displacements_are_admissible(name):
     derivation = derived(name)
@@ -105,6 +108,7 @@ def test_displacements_are_admissible(name):
             assert is_zero(across, derivation.dynamics.constraints.relations) is True
 
 
+@pytest.mark.long
 def test_nothing_is_listed_twice():
     derivation = derived("discovery/triangle-of-points")
     charges = [c.charge for c in derivation.discovery.charges]

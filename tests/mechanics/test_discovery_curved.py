@@ -13,6 +13,7 @@ from lagcli.mechanics.discovery.summary import summary
 from .derived import derive
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("text", "algebra", "dimension"),
     [
@@ -28,6 +29,7 @@ def test_isometries_of_the_second_degree(text, algebra, dimension):
     assert (found.name, found.dimension, found.integrable) == (algebra, dimension, True)
 
 
+@pytest.mark.long
 def test_the_integral_of_uhlenbeck():
     """(a - b)(c - b) times y^2 + L_xy^2/(b - a) + L_yz^2/(b - c)."""
     derivation = derive("""
@@ -50,6 +52,7 @@ constraints: {sphere: x^2 + y^2 + z^2 = 1}
     assert is_zero(charge.charge - known, relations) is True
 
 
+@pytest.mark.long
 def test_the_functions_of_time_of_coupled_oscillators_are_taken_once():
     """Wilberforce's pendulum: the energy and two solutions for each frequency."""
     found = derive("""

@@ -48,6 +48,7 @@ LINEAR = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("letter", ["x", "s"])
 @pytest.mark.parametrize("name", LINEAR)
 def test_a_linear_equation_of_one_coordinate_has_five(name, letter):
@@ -57,6 +58,7 @@ def test_a_linear_equation_of_one_coordinate_has_five(name, letter):
     assert found.stopped == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("name", LINEAR)
 def test_their_charges_stay_on_an_independent_motion(name, seed):
@@ -71,6 +73,7 @@ def test_their_charges_stay_on_an_independent_motion(name, seed):
     assert {n: digits for n, digits in kept.items() if digits < 20} == {}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("L", [
     "m*(x'^2 + y'^2)/2 + q*B*(x*y' - y*x')/2 + q*E*x",
     "m*(x'^2 + y'^2)/2 + q*B*x*y' + q*E*y",
@@ -84,6 +87,7 @@ def test_crossed_fields_have_the_eight_of_the_drifting_frame(L):
     assert found.name.startswith("Schrödinger sch(2)")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("coordinates", "L"),
     [
@@ -100,6 +104,7 @@ def test_hyperbolic_space_has_its_name_in_other_coordinates(coordinates, L):
     assert (found.independent, found.integrable) == (5, True)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("L", "names"),
     [
@@ -115,6 +120,7 @@ def test_two_cyclic_coordinates_of_one_inertia_are_lengths(L, names):
     assert {c.name for c in found.point_charges} == set(names.split())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("x", "y", "z"), [("x - a", "y", ""), ("x - a", "y + b", ""), ("x + 2", "y - a*b", ""),
                       ("x - a", "y", "z + b"), ("x", "y + a", "z - b"), ("x - a", "y - b", "z - 1")]
@@ -143,6 +149,7 @@ def test_kepler_about_any_point_is_keplers(x, y, z):
             assert slope.is_positive, c.charge
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("V", ["k*R^3", "-k/R", "-k*exp(-R)"])
 def test_two_bodies_in_space_are_integrable(V):
     """E, P, L_rel^2 and L_rel,z: six in involution."""
@@ -161,6 +168,7 @@ V: {V.replace("R", R).replace("kexp", "k*exp")}
         assert found.dimension == 13
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("parameters", "coordinates", "L", "values"),
     [

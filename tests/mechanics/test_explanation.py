@@ -108,6 +108,7 @@ def slope(tree, at, along):
     return (value(tree, after) - value(tree, before)) / (2 * step)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SMOOTH)
 def test_every_derivative_is_that_of_the_formula_before_it(name):
     explanation = told(name)
@@ -263,6 +264,7 @@ def also(name, *sections):
     return explain(derive(load(PROBLEMS / f"{name}.yaml")), sections)
 
 
+@pytest.mark.long
 def test_the_further_steps_are_told_only_when_asked_for():
     titles = [step.title for step in told("pendulums/plane-pendulum").steps]
     more = also("pendulums/plane-pendulum", *(each.name for each in told_in_order()))
@@ -367,6 +369,7 @@ def test_a_large_system_is_solved_by_elimination_with_its_steps_named():
     assert explanation.complete
 
 
+@pytest.mark.long
 def test_sentences_end_and_no_word_stands_twice():
     for name in SMOOTH:
         explanation = told(name)

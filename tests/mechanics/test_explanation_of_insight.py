@@ -63,6 +63,7 @@ def test_a_bracket_that_is_wrong_is_shown_with_what_it_should_be():
     assert notes == {(Name("Y"), Name("p_Y")): ("nu", "should be 1")}
 
 
+@pytest.mark.long
 def test_the_brackets_of_the_charges_of_kepler():
     """Goldstein, 3rd ed., section 9.7: {A_x, A_y} = -2 m E L_z."""
     told = also("central/kepler", "discovered", "algebra")
@@ -83,6 +84,7 @@ def test_the_brackets_of_the_charges_of_kepler():
     assert "Nothing outside of the ansatz was searched." in words(told, DISCOVERED)
 
 
+@pytest.mark.long
 def test_a_momentum_equation_is_told_with_its_rate():
     told = also("nonholonomic/chaplygin-sleigh", "discovered")
     assert Name("Q", 1) in {row.left for row in rows(told, DISCOVERED)}
@@ -109,6 +111,7 @@ def test_units_go_from_those_given_to_those_of_momenta_and_forces():
     assert "It integrates x, y and theta." in words(told, "The model of a numerical run")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["central/kepler", "contact/car-in-loop"])
 def test_every_further_step_is_set_in_every_format(name):
     told = [also(name, *(each.name for each in told_in_order()))]
@@ -118,6 +121,7 @@ def test_every_further_step_is_set_in_every_format(name):
         assert explaining.render(told, format_name, Options())
 
 
+@pytest.mark.long
 def test_a_hoop_that_rolls_straight_on_has_the_frequency_that_its_stability_is_read_from():
     told = also("steady/rolling-hoop", "steady_motions")
     title = "Steady motions"

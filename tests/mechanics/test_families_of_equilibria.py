@@ -46,6 +46,7 @@ def states(text: str) -> list[tuple[str, dict[str, str], tuple[str, ...], bool |
     ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("text", "expected"),
     [

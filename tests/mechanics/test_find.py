@@ -62,11 +62,13 @@ def test_a_mass_leaves_a_sphere_at_cos_two_thirds():
     assert roots(SPHERE.replace("RATE", "0")) == formulas("acos(2/3)")
 
 
+@pytest.mark.long
 def test_a_mass_pushed_to_one_side_leaves_a_sphere_on_that_side_only():
     assert roots(SPHERE.replace("RATE", "w")) == formulas("acos((2*g + R*w^2)/(3*g))")
     assert roots(SPHERE.replace("RATE", "-w")) == formulas("-acos((2*g + R*w^2)/(3*g))")
 
 
+@pytest.mark.long
 def test_a_velocity_that_would_come_only_after_the_contact_is_lost_is_not_listed():
     assert roots(SPHERE.replace("RATE", "w"), "rate") == formulas("sqrt(g*(2 - sqrt(3))/R + w^2)")
 
@@ -89,6 +91,7 @@ find:
 """
 
 
+@pytest.mark.long
 def test_the_least_speed_at_the_top_of_a_loop_is_sqrt_g_R():
     """Morin, *Introduction to Classical Mechanics*, section 5.1: N = 0 for v^2 = g R."""
     text = LOOP.replace("SPEED", "POSITIVE").replace("START", "pi")
@@ -97,12 +100,14 @@ def test_the_least_speed_at_the_top_of_a_loop_is_sqrt_g_R():
     assert roots(text) == formulas("sqrt(g*R)")
 
 
+@pytest.mark.long
 def test_a_bead_leaves_the_loop_on_the_way_up_and_not_before():
     """m v^2/R = -m g cos(theta) with the energy gives 3 cos(theta) = 2 - v0^2/(g R)."""
     text = LOOP.replace("SPEED", "POSITIVE").replace("START", "0")
     assert roots(text, "leaves") == formulas("acos((2*g*R - v0^2)/(3*g*R))")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("speed", "leaves", "turns"),
     [(1, 0, 2), (3, 1, 0), (5, 0, 0)],
@@ -118,6 +123,7 @@ def test_the_values_of_the_file_decide_what_is_reached(speed, leaves, turns):
     assert len(roots(text, "turns") or []) == turns
 
 
+@pytest.mark.long
 def test_a_velocity_whose_sign_nothing_tells_is_given_by_both_roots():
     text = LOOP.replace("SPEED", "POSITIVE").replace("START", "0")
     found = answers(text)
@@ -167,6 +173,7 @@ find:
     assert value(text) == formula("m*g*(3*cos(theta) - 2*cos(theta0))")
 
 
+@pytest.mark.long
 def test_turning_points_of_the_spherical_pendulum():
     """Landau and Lifshitz, section 14, problem 1, started horizontally with phi' = w."""
     text = """

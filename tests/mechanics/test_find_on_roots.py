@@ -36,6 +36,7 @@ find:
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("surface", SURFACES)
 @pytest.mark.parametrize(
     ("start", "place"), [("x: 0, z: a", "2*a/3"), ("x: 0, z: a, x': v", "2*a/3 + v^2/(3*g)")]

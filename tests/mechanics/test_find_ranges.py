@@ -212,6 +212,7 @@ SIDES = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "unknown", "kept", "lost"), SIDES, ids=[side[0] for side in SIDES]
 )

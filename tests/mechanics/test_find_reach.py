@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from lagcli.formatters.grammar import to_grammar
 from lagcli.questions import Solutions
 
@@ -27,6 +29,7 @@ def test_a_ladder_leaves_the_wall_at_two_thirds_of_its_height():
     assert roots(LADDER.replace("FIRST", "POSITIVE")) == formulas("asin(2*sin(theta0)/3)")
 
 
+@pytest.mark.long
 def test_a_root_that_only_some_parameters_reach_is_listed_with_an_example():
     """Below the floor, -pi < theta0 < -pi/2, the contact lasts until the ladder hangs."""
     found = answers(LADDER.replace("FIRST", "{}"))["asked"]
@@ -52,6 +55,7 @@ find:
     assert roots(text) == formulas("sqrt(2*k*(1/R - 1/r))")
 
 
+@pytest.mark.long
 def test_the_values_of_the_file_are_used_where_no_general_root_is_found():
     """A bead leaves a hemisphere that slides: c^3/2 - 3 c + 2 = 0 for equal masses."""
     text = """

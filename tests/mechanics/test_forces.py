@@ -41,6 +41,7 @@ def answered(derivation: Derivation) -> tuple[ForcesSection, Answers]:
     return section, answers
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("path", WITH_POINTS, ids=lambda path: path.stem)
 def test_the_forces_of_the_library_do_the_work_of_their_multipliers(path: Path):
     """sum F e . dr/dq + torque = lambda df/dq at states on the constraints, and |e| = 1."""

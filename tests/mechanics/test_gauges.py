@@ -78,6 +78,7 @@ def gauge_is_right(d, found) -> bool:
         return abs(mpmath.diff(gauge, t) - by_action) < mpf(10) ** -8 * (1 + abs(by_action))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(14))
 def test_a_total_derivative_in_l_breaks_no_symmetry(seed):
     source = random.Random(seed)
@@ -94,6 +95,7 @@ def test_a_total_derivative_in_l_breaks_no_symmetry(seed):
     assert gauge_is_right(d, found)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("g", WITHOUT_ANTIDERIVATIVE)
 def test_a_gauge_that_is_not_elementary_is_an_integral(g):
     of_t, of_y = (re.sub(r"\bx\b", name, g) for name in ("t", "y"))

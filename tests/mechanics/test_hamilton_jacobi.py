@@ -234,6 +234,7 @@ V: D*(1 - exp(-a*x))^2
     assert abs(J - exact) < 1e-10
 
 
+@pytest.mark.long
 @mpmath.workdps(50)
 def test_the_relativistic_orbit_closes_after_more_than_a_turn():
     """Landau, Lifshitz, Fields, section 39: between perihelia 2 pi/sqrt(1 - k²/(c p)²)."""

@@ -109,6 +109,7 @@ forces: {q1: tau1}
 """
 
 
+@pytest.mark.long
 def test_canonical_equations_of_a_three_link_arm() -> None:
     """What has more terms than a shape is worth is written as it was differentiated."""
     derivation = derive(ARM)

@@ -247,6 +247,7 @@ def test_the_equations_of_a_large_system_hold():
         assert sides[0] - sides[1] == pytest.approx(inertia - row[-1] - reaction)
 
 
+@pytest.mark.long
 def test_usual_sections_of_a_large_system_are_null_where_not_found_and_say_so():
     shown = to_object(state(derive(problem(cartesian(20))), Request()))
     assert shown["accelerations"] is None

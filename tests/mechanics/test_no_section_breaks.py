@@ -67,12 +67,14 @@ def potential(source: random.Random) -> str:
     return " + ".join(term.format(a=argument, b=other) for term in source.sample(shapes, 2))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(4))
 def test_signs_and_absolute_values_in_the_potential_break_no_section(seed: int) -> None:
     source = random.Random(f"signs {seed}")
     assert_sound(answers(f"{HEAD}V: {potential(source)}\n", QUICK))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(3))
 def test_signs_and_absolute_values_in_constraints_break_no_section(seed: int) -> None:
     source = random.Random(f"wedges {seed}")
@@ -81,6 +83,7 @@ def test_signs_and_absolute_values_in_constraints_break_no_section(seed: int) ->
     assert_sound(answers(text, QUICK))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("given", "held"), [("k*abs(x)", 1), ("k*x^2*sign(x)", 1), ("k*sign(x)", 0), ("k*y", 2)]
 )
@@ -95,6 +98,7 @@ def test_what_jumps_on_the_motion_is_not_called_conserved(given: str, held: int)
     assert held or not conserved
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("links", [4, 5])
 @pytest.mark.parametrize("cart", [False, True])
 def test_a_chain_too_long_for_closed_accelerations_says_so(links: int, cart: bool) -> None:
@@ -150,6 +154,7 @@ def test_a_section_that_takes_too_much_work_is_null(monkeypatch: pytest.MonkeyPa
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("power", [201, 1000, 50_000])
 def test_a_high_power_ends_the_search_for_special_values_with_a_sentence(power: int) -> None:
     found = answers(f"{HEAD}V: k*x^{power} + c*y^2\n", ["algebra"])

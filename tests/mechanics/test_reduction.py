@@ -200,6 +200,7 @@ def series(U: Expr, M: Expr) -> list[Expr]:
     return ratio_series(alpha, beta)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("U", "M"),
     [

@@ -46,6 +46,7 @@ WRITTEN = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SINGULAR_ONLY_IN_COORDINATES)
 def test_the_answer_is_finite_where_the_motion_is_regular(name: str) -> None:
     known = SINGULAR_ONLY_IN_COORDINATES[name]

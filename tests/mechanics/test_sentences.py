@@ -79,6 +79,7 @@ def test_a_relativistic_particle_has_no_drive():
     assert "prescribed" not in sentences
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_magnetic_potential_drops_out_of_h(seed):
     source = random.Random(seed)
@@ -164,6 +165,7 @@ KEPT = (
 )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("acting", "conserved", "why"), KEPT)
 def test_a_cyclic_coordinate_is_kept_for_a_reason(acting, conserved, why):
     text = (
@@ -192,6 +194,7 @@ def test_what_the_constraints_eliminate_is_named_before_none_is_cyclic():
 # -- turning points -------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", SEEDS)
 def test_turning_points_are_real_just_between_the_energies_named(seed):
     source = random.Random(seed)
@@ -219,6 +222,7 @@ LINE = "coordinates: [x]\nparameters: {m: {}, k: {assume: positive}}\n"
 PLANE = "coordinates: [x, y]\nparameters: {m: {assume: positive}, k: {assume: positive}, g: {}}\n"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("text", "generators", "with_constants"),
     [
@@ -251,6 +255,7 @@ SEPARATING = (
 )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("one", "two", "potential"), SEPARATING)
 def test_what_separates_is_integrable(one, two, potential):
     """n constants of a complete integral are in involution (Arnold, section 47)."""
@@ -291,6 +296,7 @@ def test_henon_and_heiles_at_a_general_value_is_not_decided():
     assert "which does not decide it." in said(text, ALGEBRA, "algebra")
 
 
+@pytest.mark.long
 def test_special_values_are_symmetric_in_three_frequencies():
     text = (
         "coordinates: [x, y, z]\nparameters: {m: {assume: positive}, a: {assume: positive}, "
@@ -392,6 +398,7 @@ def test_a_multiplier_is_called_force_or_torque_by_its_coordinate(unit, kind):
     assert f"equals this {kind}" in said(text, "What the multipliers mean")
 
 
+@pytest.mark.long
 def test_regular_precession_needs_a_large_enough_spin():
     """Goldstein, section 5.7: p_psi^2 >= 4 I1 m g l cos(theta)."""
     text = (
@@ -488,6 +495,7 @@ def test_the_order_of_three_is_what_the_sign_of_a_product_says(seed):
         assert holds is (middle if "between" in place else not middle)
 
 
+@pytest.mark.long
 def test_the_frequency_has_a_letter_of_its_own():
     """A hoop that turns with omega: its bead does not oscillate with omega^2 = omega^2 - ..."""
     text = (

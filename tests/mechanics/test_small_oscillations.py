@@ -99,6 +99,7 @@ V: k*((x2 - x1 - b)^2 + (x3 - x2 - b)^2)/2
     assert equilibrium.verdict.stable is True
 
 
+@pytest.mark.long
 def test_coupled_pendulums():
     """Taylor, section 11.3 (method)."""
     text = """

@@ -34,6 +34,7 @@ V: k*cos(theta)
 """
 
 
+@pytest.mark.long
 def test_the_sleeping_top():
     """Landau and Lifshitz, section 35, problem 1(c)."""
     upright = next(m for m in motions(TOP) if m.rates is None and to_grammar(m.at["theta"]) == "0")
@@ -41,6 +42,7 @@ def test_the_sleeping_top():
     assert conditions(upright.verdict.minimum or ()) == ["p_psi^2 > 4*I1*k"]
 
 
+@pytest.mark.long
 def test_the_nutation_of_a_regular_precession():
     """Whittaker, section 71: the small nutation by the numeric curvature of U_eff."""
     precession = motions(TOP)[0]
@@ -169,6 +171,7 @@ def test_signs(expression, positive, expected):
     assert sign(built[0], built[1:]) == expected
 
 
+@pytest.mark.long
 def test_a_spring_and_a_rotation():
     """The linearised equations of a family against the Hessian of U_eff by finite differences."""
     text = """
@@ -218,6 +221,7 @@ def test_a_square_that_may_vanish_proves_nothing(potential, stable, minimum):
     )
 
 
+@pytest.mark.long
 def test_the_collinear_points_by_numbers():
     """Szebehely, Theory of Orbits, section 4.2: the zeros of the force along the axis."""
     found = motions("""

@@ -47,6 +47,7 @@ parameters: {m: {assume: positive}, g: {assume: positive}, a: {assume: positive}
 # -- reduction ---------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("kinetic", "potential"),
     [
@@ -201,6 +202,7 @@ constraints:
 """
 
 
+@pytest.mark.long
 def test_a_ball_goes_round_a_loop_of_any_radius_and_from_any_height():
     """v^2 = 27/7 g (R - b) at the lowest point, let go at a height of 27/10 (R - b)."""
     R, b, g = 1.0, 0.2, 9.8

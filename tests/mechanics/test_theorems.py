@@ -71,6 +71,7 @@ constraints: {{surface: z = X*Y}}
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(8))
 def test_no_verdict_changes_with_the_coordinates(seed):
     """The same system in Cartesian and in curved coordinates, and with a multiplier."""

@@ -46,6 +46,7 @@ def test_each_moves_as_it_does_by_itself():
     assert column(found, "u'") == pytest.approx([v for _, v in quick], abs=300e-9, rel=0)
 
 
+@pytest.mark.long
 def test_the_certificate_holds_against_thirty_digits():
     found = simulated(TWO, 10, accuracy=1e-10, samples=11)
     exact = simulated(TWO, 10, accuracy=1e-20, samples=11, method="taylor128", whole=True)

@@ -58,6 +58,7 @@ def test_both_assemblies_of_a_four_bar_linkage_are_listed(seed):
         assert any(_is_near(expected, each) for each in found)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(12))
 def test_what_is_listed_is_a_start(seed):
     bar = _four_bar(seed)
@@ -91,6 +92,7 @@ def test_one_transcendental_equation(seed):
     assert u - e * math.sin(u) == pytest.approx(m, abs=1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(4))
 def test_a_linkage_that_cannot_be_put_together_is_refused(seed):
     bar = _four_bar(seed) | {"d": 9.0}

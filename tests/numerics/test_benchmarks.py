@@ -23,6 +23,7 @@ def test_the_folder_is_there():
     ]  # fmt: skip
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", FILES)
 def test_the_matrix_form_is_written(name):
     problem = load(FOLDER / f"{name}.yaml")
@@ -33,6 +34,7 @@ def test_the_matrix_form_is_written(name):
     assert MatrixForm(problem).degrees_of_freedom == freedom
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", [name for name in FILES if name != "bricard"])
 def test_the_known_motion_is_met(name):
     findings = list(TrajectoryCheck(load(FOLDER / f"{name}.yaml")))

@@ -37,6 +37,7 @@ def held(result, frequency_squared):
     return worst <= claimed + 2.0**-53
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", METHODS)
 def test_parameters_that_are_almost_the_same_are_no_better_than_their_rounding(method):
     """k - c = 0.1 of two that are rounded at 1e-10: no run with doubles knows x to 1e-9."""

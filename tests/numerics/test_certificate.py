@@ -29,6 +29,7 @@ def goes_on(problem):
 LIBRARY = [p for p in sorted((ROOT / "problems").rglob("*.yaml")) if runnable(p)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("path", LIBRARY, ids=lambda p: p.stem)
 def test_the_true_error_is_at_most_the_one_asked_for(path):
     """Against power series with 30 digits, a method that has nothing in common but the equations.
@@ -63,7 +64,7 @@ initial: {a: 3, b: 3}
 """
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_chaos_is_refused_past_its_horizon_and_right_before():
     result = simulated(DOUBLE, 400, 1e-6, samples=401)
     assert not result.certificate.reached
@@ -89,6 +90,7 @@ initial: {x: 0.1, y: 0, x': 0, y': 4.358898943540674}
 """
 
 
+@pytest.mark.long
 def test_an_accuracy_that_is_lost_on_the_way_is_not_said_to_hold_to_the_end():
     """x' errs at each perihelion, more than at the end: 80 bits miss 1e-12 by a factor of 2."""
     until = 628.3185307179587
@@ -113,6 +115,7 @@ ROUNDED = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("method", "accuracy", "until", "text"), ROUNDED)
 def test_a_bound_at_the_rounding_of_doubles_holds(method, accuracy, until, text):
     """Two runs that differ by chance: against 34 digits, row by row."""

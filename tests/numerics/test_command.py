@@ -40,6 +40,7 @@ def test_json_is_the_contract():
     assert set(document["method"]) == {"name", "reason", "steps", "evaluations"}
 
 
+@pytest.mark.long
 def test_csv_holds_every_digit():
     done = run(PENDULUM, "--until", "1", "--samples", "3", "-f", "csv", "--show", "x,atan2(y, x)")
     header, *rows = csv.reader(io.StringIO(done.stdout))
@@ -48,22 +49,26 @@ def test_csv_holds_every_digit():
     assert len(rows[-1][1]) > 12
 
 
+@pytest.mark.long
 def test_the_same_input_gives_the_same_bytes():
     assert run(PENDULUM, "--samples", "3").stdout == run(PENDULUM, "--samples", "3").stdout
 
 
+@pytest.mark.long
 def test_written_whole_to_a_file(tmp_path):
     path = tmp_path / "run.json"
     assert run(PENDULUM, "--until", "1", "-f", "json", "-o", str(path)).returncode == 0
     assert len(json.loads(path.read_text())["rows"]) == 101
 
 
+@pytest.mark.long
 def test_groups_of_columns():
     done = run(PENDULUM, "--until", "1", "--samples", "2", "-f", "csv", "--show",
                "accelerations,multipliers,constraint_forces,momenta")  # fmt: skip
     assert done.stdout.splitlines()[0] == "t,x'',y'',lambda_rod,rod.x,rod.y,p_x,p_y"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("arguments", "word"),
     [
@@ -139,6 +144,7 @@ def test_a_pendulum_needs_no_algebra():
     assert done.stdout.splitlines()[-1] == "[]"
 
 
+@pytest.mark.long
 def test_another_state_is_begun_with():
     """The oscillator from x = 2, x' = 3: 2 cos t + 3 sin t."""
     text = "coordinates: [x]\nT: x'^2/2\nV: x^2/2\ninitial: {x: 1}\n"

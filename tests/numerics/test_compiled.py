@@ -134,6 +134,7 @@ def test_small_terms_from_doubles_are_as_good_as_80_bits(force):
         ctx.prec = usual
 
 
+@pytest.mark.long
 def test_a_long_chain_is_compiled_as_a_matrix():
     """The first coefficient against the elimination with numbers; then the energy."""
     text = chain(26)
@@ -235,6 +236,7 @@ initial: {x: 1/10, y: 0, x': 0, y': sqrt(19)}
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("accuracy", [1e-3, 1e-6, 1e-9, 1e-12])
 def test_kepler_returns_after_100_periods(accuracy):
     """e = 0.9: at 200 pi the state is the initial one, with r'' = -100 and y' = sqrt(19)."""
@@ -256,6 +258,7 @@ def test_kepler_returns_after_100_periods(accuracy):
     assert result.certificate.charges["energy"] <= max(1e-12, 1e-6 * accuracy)
 
 
+@pytest.mark.long
 def test_charges_over_many_periods():
     """1e6 periods are to cost 1e-12 at most: 2000 cost a five hundredth of it."""
     if not engine().extended:
@@ -292,6 +295,7 @@ initial: {x: 1, y: 0}
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("accuracy", [1e-6, 1e-12])
 def test_a_stiff_spring_against_many_digits(accuracy):
     true = simulated(SPRING, 0.25, 1e-14, digits=30, method="taylor")
@@ -386,6 +390,7 @@ def test_a_run_takes_up_where_a_call_of_the_loop_ends(monkeypatch):
     assert simulated(KEPLER, 10, 1e-9, samples=11).rows == whole.rows
 
 
+@pytest.mark.long
 def test_a_long_run_is_not_cut_short():
     """The steps of a run in Python end at 200,000; these are 5,000 periods of Kepler at e = 0.9."""
     result = simulated(KEPLER, 10_000 * math.pi, 1e-6)

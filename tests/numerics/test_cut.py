@@ -37,6 +37,7 @@ def two(tmp_path):
     return path
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("problem", "eliminated"),
     [
@@ -57,6 +58,7 @@ def test_the_same_motion_by_fewer_coordinates(problem, eliminated):
         assert ours == pytest.approx(theirs, rel=1e-8, abs=1e-8)
 
 
+@pytest.mark.long
 def test_what_no_column_depends_on_is_left_out(two):
     found = simulated(two, "--until", "2", "--samples", "3", "--show", "theta")
     assert set(found["model"]["dropped"]) == {"y"}

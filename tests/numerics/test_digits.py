@@ -29,6 +29,7 @@ def precession(theta, speed, phi_speed, psi_speed):
         return float(phi), float(s * speed * phi_speed - k * phi)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", ["auto", "dop853"])
 def test_the_acceleration_of_a_top_that_is_almost_upright(method):
     """M is singular to 1e-10 at the first row, alike in both runs: they agree in 8 wrong digits."""

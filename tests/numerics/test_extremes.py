@@ -46,6 +46,7 @@ def test_pi_as_a_decimal_falls_with_more_digits_and_is_refused_in_doubles():
     assert abs(last(fallen, "th") - math.pi) > 1
 
 
+@pytest.mark.long
 def test_the_period_next_to_the_separatrix():
     """4 K(sin(th0/2)) for th0 = pi - 1e-12 is 118.84185063, which doubles cannot tell."""
     text = PENDULUM % "pi - 1e-12"

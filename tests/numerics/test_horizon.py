@@ -24,6 +24,7 @@ def _rate(seed):
     return round(random.Random(seed).uniform(0.1, 9), 3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", ["auto", "taylor64"])
 @pytest.mark.parametrize("seed", range(6))
 def test_a_longer_span_never_holds_for_less(seed, method):
@@ -53,6 +54,7 @@ def test_a_stop_long_after_the_accuracy_is_lost_is_not_one_of_the_motion():
     assert not result.events
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(4))
 def test_chaos_holds_no_shorter_over_a_longer_span(seed):
     angles = random.Random(seed)
@@ -76,6 +78,7 @@ def test_the_rows_stay_where_they_were_asked_for():
     assert at[-1] == found.certificate.holds_until > 4.5
 
 
+@pytest.mark.long
 def test_the_double_pendulum_of_a_thousand_seconds_holds_as_long_as_one_of_thirty():
     """Over t = 1000 it held until 0, over t = 50 in doubles until 8.4; 128 bits hold until 34."""
     found = simulated(PENDULUMS % (2.0, 2.5), 1000, 1e-9, samples=101)

@@ -55,6 +55,7 @@ initial: {{{", ".join(start)}}}
 """
 
 
+@pytest.mark.long
 def test_the_fekete_points_are_those_of_the_test_set():
     """Its reference solution at t = 1000, from RADAU5 at 1e-12; the multipliers are -19/4."""
     show = "x1,y1,z1,x11,y11,z11,x20,y20,z20,lambda_s1,lambda_s20"
@@ -92,6 +93,7 @@ initial: {{{start}, a0': 1, a1': -1}}
 """
 
 
+@pytest.mark.long
 def test_the_loop_gives_the_accelerations_that_the_null_space_gives():
     n = 26
     equations = Equations(problem_of(closed_chain(n)))
@@ -114,6 +116,7 @@ def test_the_loop_gives_the_accelerations_that_the_null_space_gives():
     assert found == pytest.approx(known.accelerations, rel=1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("n", [6, 26])
 def test_a_closed_chain_keeps_its_energy_and_its_ends(n):
     result = simulated(closed_chain(n), 1, 1e-9, "a0,energy", samples=5)
@@ -124,6 +127,7 @@ def test_a_closed_chain_keeps_its_energy_and_its_ends(n):
     assert max(max(pair) for pair in result.certificate.constraints.values()) <= 1e-12
 
 
+@pytest.mark.long
 def test_numbers_of_80_bits_go_through_the_same_loop():
     text = closed_chain(6)
     more = simulated(text, 1, 5e-14, "a0,a3")

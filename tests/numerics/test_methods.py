@@ -79,6 +79,7 @@ LIBRARY = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("path", LIBRARY, ids=lambda p: p.stem)
 def test_accelerations_are_those_of_the_definitions(path):
     """Against jets and a numeric KKT system that share no code with the graph."""

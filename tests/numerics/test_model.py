@@ -24,6 +24,7 @@ def model_of(path):
     return json.loads(lagcli("solve", str(path), "--show", "model", "-f", "json"))["model"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "name",
     ["hoop", "pendulums/pendulum-with-rod", "pulleys/atwood-with-heavy-pulley", "central/kepler"],
@@ -39,6 +40,7 @@ def test_it_is_the_model_of_a_run(name):
     assert said["eliminated"] == run["eliminated"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "name",
     [
@@ -60,6 +62,7 @@ def test_ignorable_are_the_cyclic_coordinates_with_a_conserved_momentum(name):
     assert set(model_section(problem).ignorable) == cyclic
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["hoop", "pulleys/atwood"])
 def test_what_is_dropped_has_no_influence(name):
     path = f"problems/{name}.yaml"

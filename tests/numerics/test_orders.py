@@ -134,6 +134,7 @@ def test_what_oscillates_is_not_stiff():
     assert last(found, "x") == pytest.approx(math.cos(1e3), abs=1e-6)
 
 
+@pytest.mark.long
 def test_no_exact_derivatives_where_nothing_dies_away_quickly(monkeypatch):
     """Those of ten coordinates cost more than the motion; friction of 2 is far from 1e5."""
     from lagcli.numerics import stiffness
@@ -159,6 +160,7 @@ def test_certified_against_the_exact_motion(method, accuracy):
     assert last(found, "y'") == pytest.approx(math.cos(6), abs=accuracy)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", ["radau5", "gauss8"])
 def test_constraints_are_held(method):
     text = (ROOT / "problems/pendulums/pendulum-cartesian.yaml").read_text()
@@ -178,6 +180,7 @@ def test_what_does_not_separate_says_so():
     assert "not yoshida8: it does not separate" in found.reason
 
 
+@pytest.mark.long
 def test_a_short_push_is_not_stepped_over():
     """exp(-((t - 5)/0.02)^2): found, or told, and never passed in silence."""
     text = "{coordinates: [x], T: x'^2/2, forces: {x: exp(-((t - 5)/0.02)^2)}}"

@@ -78,6 +78,7 @@ def test_kepler_comes_back_to_its_beginning():
         assert abs(float(ball.mid()) - begin) < 1e-14 + float(ball.rad())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["kepler", "double-pendulum-equal", "pendulum-cartesian"])
 def test_certified_runs_lie_in_the_enclosures(name):
     """Within the bound of the certificate, which is another route to the same motion."""
@@ -92,6 +93,7 @@ def test_certified_runs_lie_in_the_enclosures(name):
             assert abs(float(ball.mid()) - x) <= bound
 
 
+@pytest.mark.long
 def test_the_energy_is_enclosed_thinly_all_the_way():
     problem = lagcli.load("double-pendulum-equal")
     rows = proof(problem, 4.0, show=["energy"]).rows
@@ -99,6 +101,7 @@ def test_the_energy_is_enclosed_thinly_all_the_way():
     assert max(float(row[1].rad()) for row in rows) < 1e-9
 
 
+@pytest.mark.long
 def test_a_collision_ends_the_proof_before_it(capsysbinary):
     """The fall takes pi/(2 sqrt 2) = 1.1107."""
     status = run(["simulate", "kepler", "--at", "y'=0", "--until", "2", "--samples", "9",

@@ -22,12 +22,6 @@ from .states import random_moments
 
 LIBRARY = Path(__file__).parents[2] / "problems"
 PROBLEMS = sorted(LIBRARY.rglob("*.yaml"))
-#: One of each kind; all of them are slow.
-SOME = (
-    "central/kepler", "discovery/calogero-moser", "discovery/ball-in-cylinder",
-    "discovery/kepler-in-slanted-plane", "nonholonomic/ball-on-turntable",
-    "nonholonomic/skate-on-incline", "discovery/snakeboard", "oscillations/damped-oscillator",
-)  # fmt: skip
 
 
 def stays(path: Path) -> None:
@@ -56,12 +50,7 @@ def seed_where(problem: Problem, conditions: Sequence[str]) -> int:
         )  # fmt: skip
 
 
-@pytest.mark.parametrize("name", SOME)
-def test_charges_stay_on_an_independent_motion(name: str) -> None:
-    stays(LIBRARY / f"{name}.yaml")
-
-
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("path", PROBLEMS, ids=lambda p: str(p.relative_to(LIBRARY)))
 def test_no_library_problem_gets_a_false_charge(path: Path) -> None:
     stays(path)

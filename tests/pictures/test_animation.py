@@ -135,6 +135,7 @@ def test_without_places_the_file_is_told_what_to_add(text):
         made(problem_of(text))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("path", [DOUBLE, BALL, SPHERE, "problems/classics/particle-on-helix.yaml"])
 def test_a_page_is_whole_and_needs_no_network(path, tmp_path, capsys):
     at = ["--until", "1", "--samples", "30"]
@@ -175,6 +176,7 @@ def test_the_end_of_the_certificate_is_stated():
     assert "The certificate ends" not in to_html(made(problem_of(text), until=0.5))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("words", [(), ("--dark",)])
 def test_a_gif_is_the_same_each_time(words, tmp_path):
     files = [tmp_path / f"{name}.gif" for name in "ab"]

@@ -67,6 +67,7 @@ def look(picture, *, written):
         assert to_bytes(picture, "svg").startswith(b"<?xml")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SAMPLE)
 def test_a_sample_of_the_library_is_drawn(name):
     entry = next(e for e in entries() if e.path.stem == name)

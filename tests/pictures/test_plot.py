@@ -25,6 +25,7 @@ def plot(capsysbinary):
     return call
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("kind", "ending"),
     [*((kind, "svg") for kind in KINDS), ("series", "pdf"), ("phase", "pdf"), ("series", "png")],
@@ -39,6 +40,7 @@ def test_the_same_picture_has_the_same_bytes(kind, ending, plot, tmp_path):
     assert not re.search(rb"CreationDate|<dc:date>|tIME", first)
 
 
+@pytest.mark.long
 def test_a_pdf_has_its_fonts_and_an_svg_needs_none(plot, tmp_path):
     plot(PENDULUM, "-o", tmp_path / "a.pdf", "--until", 2)
     plot(PENDULUM, "-o", tmp_path / "a.svg", "--until", 2)
@@ -55,6 +57,7 @@ def test_a_dark_picture_has_a_dark_page(plot, tmp_path):
     assert "#ffffff" not in svg
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("letters", [(), ("--ascii",)])
 def test_a_picture_in_characters_fits(kind, letters, plot):

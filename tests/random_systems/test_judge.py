@@ -61,6 +61,7 @@ def changed(sheet, path, how):
     return sheet
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("system", "paths"), [(BEAD, OF_BEAD), (PAIR, OF_PAIR)], ids=["bead", "pair"]
 )
@@ -79,6 +80,7 @@ def _put(text, how):
     return f"{how.format(left)} {equals} {right}" if equals else how.format(text)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kept", [True, False])
 def test_a_turned_verdict_is_noticed(kept):
     sheet = answer(BEAD)

@@ -41,11 +41,13 @@ MENDED = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", MENDED)
 def test_once_wrong(name: str) -> None:
     assert judged(MENDED[name]) == []
 
 
+@pytest.mark.long
 def test_a_corner_of_two_constraints_is_no_state() -> None:
     """z^2 = z y and sin(z) (z - 2 y) = 0 meet Newton's method where y and z are 0."""
     corner = System(

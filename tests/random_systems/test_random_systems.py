@@ -25,6 +25,7 @@ LARGE = {
 MILD = {"missing", "trivial"}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_is_said_of_some_is_true(kind: str) -> None:
     numbers = (0,) if kind in LARGE else (0, 1)
@@ -32,7 +33,7 @@ def test_what_is_said_of_some_is_true(kind: str) -> None:
     assert [each for each in found if each.verdict not in MILD] == []
 
 
-@pytest.mark.long
+@pytest.mark.hours
 @pytest.mark.timeout(4 * 3600)
 def test_what_is_said_of_all_is_true() -> None:
     wrong, missing = [], 0

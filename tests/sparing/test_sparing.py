@@ -32,6 +32,7 @@ def test_a_sum_a_product_and_a_derivative_import_no_matrices():
     assert told(code).strip() == "[]"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("expression", "value"),
     [
@@ -63,6 +64,7 @@ def test_what_is_asked_for_is_sympys_own(expression, value, whole):
     assert told(code, LAGCLI_WHOLE_SYMPY=whole).strip() == value
 
 
+@pytest.mark.long
 def test_every_name_of_every_package_is_the_one_that_sympy_hands_out():
     packages = (
         "sympy sympy.functions sympy.polys sympy.ntheory sympy.sets sympy.matrices sympy.series "
@@ -93,6 +95,7 @@ def test_every_name_of_every_package_is_the_one_that_sympy_hands_out():
     assert not different
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "problem",
     ["hoop", "central/kepler", "pendulums/double-pendulum", "nonholonomic/skate-on-incline"],
@@ -110,6 +113,7 @@ def test_the_answers_are_the_same_with_the_whole_of_sympy(problem, tmp_path):
     assert answered("") == answered("1")
 
 
+@pytest.mark.long
 def test_what_there_is_one_of_is_there_at_its_first_use():
     """Nobody asks for `S.Reals` by its module: each name alone, in a process of its own."""
     code = (

@@ -27,6 +27,7 @@ def table(*arguments, capture):
     return status, [{key: float(value) for key, value in row.items() if value} for row in rows]
 
 
+@pytest.mark.long
 def test_each_row_is_what_simulate_gives(capsysbinary):
     status, rows = table(
         "plane-pendulum", "--vary", "theta=0.3,1.7", "--vary", "l=0.5,2", "--until", "3",
@@ -102,6 +103,7 @@ def test_a_member_that_cannot_be_run_is_a_row_without_numbers(capsysbinary):
     assert (status, [row["reached"] for row in rows]) == (1, [0, 1])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("form", ["json", "npz", "parquet"])
 def test_every_format_has_the_same_numbers(form, tmp_path, capsysbinary):
     out = tmp_path / f"out.{form}"
@@ -172,6 +174,7 @@ def test_a_journal_that_is_cut_off_anywhere_keeps_what_is_whole(seed, tmp_path):
         assert fourth.done == {}
 
 
+@pytest.mark.long
 def test_a_sweep_that_is_killed_goes_on_to_the_same_bytes(tmp_path):
     command = [sys.executable, "-m", "lagcli", "sweep", "double-pendulum-equal",
                "--vary", "phi1=0.1:2:400", "--until", "5"]  # fmt: skip

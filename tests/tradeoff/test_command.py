@@ -40,6 +40,7 @@ def made(tmp_path_factory):
     return json.loads(done.stdout), plot.read_text()
 
 
+@pytest.mark.long
 def test_errors_are_against_the_exact_solution(made):
     document, _ = made
     assert document["reference"]["kind"].startswith("the exact solution")
@@ -70,6 +71,7 @@ def test_the_plot_shows_the_runs(made):
     assert lines == {name: runs.count(name) for name in ("dop853", "taylor")}
 
 
+@pytest.mark.long
 def test_a_wrong_formula_is_no_reference():
     text = OSCILLATOR.replace("EXPECTED", "cos(3*t)")
     done = run("-", "-f", "json", "--methods", "dop853", stdin=text)
@@ -112,6 +114,7 @@ def svg2png(bytestring, scale):
 """
 
 
+@pytest.mark.long
 def test_png_is_left_to_cairosvg_where_it_is_installed(tmp_path, monkeypatch):
     plot, text = tmp_path / "x.png", OSCILLATOR.replace("EXPECTED", "cos(w*t)")
     if importlib.util.find_spec("cairosvg") is None:
@@ -144,6 +147,7 @@ def test_no_values_is_told():
     assert "the parameter 'm' has no value" in done.stderr
 
 
+@pytest.mark.long
 def test_a_cut_model_is_weighed_against_the_whole():
     text = """
 coordinates: [x, y]
@@ -160,6 +164,7 @@ initial: {x: 0.5}
     assert all(each["residual"] is None for each in document["runs"])
 
 
+@pytest.mark.long
 def test_from_another_state_the_files_solution_is_not_the_reference():
     """From x = 2 the motion is 2 cos(w t), not the cos(w t) that the file expects of its own."""
     text = OSCILLATOR.replace("EXPECTED", "cos(w*t)")

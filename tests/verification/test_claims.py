@@ -37,6 +37,7 @@ SECTIONS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SECTIONS)
 def test_every_formula_is_examined(name: str) -> None:
     problem, answers = derived(name, SECTIONS[name])
@@ -59,6 +60,7 @@ PLACES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", PLACES)
 def test_places_frequencies_and_shapes_are_examined(name: str) -> None:
     problem, answers = derived(name, PLACES[name])
@@ -70,6 +72,7 @@ def test_places_frequencies_and_shapes_are_examined(name: str) -> None:
         assert sum(noticed) >= 0.3 * len(noticed), section
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["chains/coupled-pendulums", "classics/spherical-pendulum"])
 def test_a_verdict_of_stability_turned_round_is_withheld(name: str) -> None:
     problem, answers = derived(name, ("equilibria", "steady_motions"))
@@ -93,6 +96,7 @@ def test_a_verdict_of_stability_turned_round_is_withheld(name: str) -> None:
 REDUCED = {"classics/spherical-pendulum": "reduction", "hoop": "model"}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", REDUCED)
 def test_the_formulas_of_a_reduced_system_are_examined(name: str) -> None:
     section = REDUCED[name]
@@ -157,6 +161,7 @@ def test_a_boundary_term_has_the_rate_of_the_change_of_L(gauge: str, kept: bool)
     assert (checked(text, charge).charge is not None) is kept
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["hoop", "symmetry/projectile"])
 def test_the_answers_to_questions_are_examined(name: str) -> None:
     problem, answers = derived(name, ("charges", "find"))
@@ -172,6 +177,7 @@ def test_equal_frequencies_may_grow_in_proportion_to_the_time() -> None:
     assert verified(problem, answers) is answers
 
 
+@pytest.mark.long
 def test_an_equilibrium_that_is_left_out_is_found() -> None:
     problem, answers = derived("chains/coupled-pendulums", ("equilibria",))
     section = answers.sections["equilibria"]
