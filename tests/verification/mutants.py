@@ -2,260 +2,146 @@
 
     python -m tests.verification.mutants [--count 200] [--seed 1]
 
-A mutant is one change of one expression in `lagcli.mechanics` or `lagcli.algebra`, in a line
-that the problems below reach.  Each solves all of them in a process of its own, with and
-without the verification.  It *changes an answer* where a formula has another value than before
-at a random state, or a verdict is another; it is *noticed* where the verification withholds or
-warns of it.
+A mutant is one change of one expression in `lagcli.mechanics` or `lagcli.algebra`.  It solves
+some of the problems below that reach its line, without and with the verification.
+
+It *changes an answer* where a sheet claims something else than before (`tests.verification.meaning`:
+lists by what they hold, formulas by their values).  It is *noticed* where none of these claims
+is printed after the verification, which withholds it or warns of its section; otherwise it
+*escaped*.  Where the derivation itself refuses (null, undecided, not complete, with its
+sentence in the warnings or as the section's reason) nothing wrong is printed: such mutants are
+*refused*, and count neither as changed nor as noticed.  A null without a sentence escaped.
 """
 
 from __future__ import annotations
 
 import argparse
-import ast
-import copy
+import hashlib
 import json
 import os
 import resource
 import sys
+import tempfile
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from importlib.abc import Loader, MetaPathFinder
-from importlib.machinery import ModuleSpec
-from importlib.util import spec_from_loader
 from pathlib import Path
 from random import Random
-from types import ModuleType
 from typing import Any
 
-ROOT = Path(__file__).parents[2]
+from tests.verification.meaning import Difference, Meaning
+from tests.verification.sites import ROOT, Mutating, Site, sites
+
 PACKAGES = ("lagcli/mechanics", "lagcli/algebra")
 #: Explanations and numbers of runs are no answers of `solve`.
 LEFT_OUT = ("explaining", "float_states")
-#: CPU seconds after which a mutant is stopped: all problems take some four.
+#: CPU seconds after which a mutant is stopped: most problems take one or two.
 LIMIT = 60
+#: Problems that each mutant solves.
+EACH = 4
 
 ASKED: dict[str, tuple[str, ...]] = {
     "hoop": (
         "lagrangian", "equations", "matrix_form", "accelerations", "multipliers",
         "constraint_forces", "momenta", "energy", "hamiltonian", "canonical_equations",
-        "charges", "find", "equilibria",
+        "charges", "find", "equilibria", "dimensions",
     ),
-    "pendulums/pendulum-cartesian": ("accelerations", "multipliers", "constraint_forces", "charges"),
+    "pendulums/pendulum-cartesian": (
+        "accelerations", "multipliers", "constraint_forces", "charges", "equilibria",
+    ),
     "nonholonomic/chaplygin-sleigh": ("equations", "accelerations", "multipliers", "charges"),
-    "oscillations/damped-oscillator": ("accelerations", "energy", "charges", "canonical_equations"),
-    "central/kepler": ("accelerations", "hamiltonian", "charges", "reduction"),
+    "oscillations/damped-oscillator": (
+        "accelerations", "energy", "charges", "canonical_equations", "modes",
+    ),
+    "central/kepler": ("accelerations", "hamiltonian", "charges", "reduction", "dimensions"),
     "classics/spherical-pendulum": ("accelerations", "charges", "equilibria", "steady_motions"),
     "chains/coupled-pendulums": ("accelerations", "equilibria", "modes"),
     "pulleys/atwood-tension": ("accelerations", "multipliers", "forces"),
+    "steady/bead-on-rotating-hoop": ("accelerations", "equilibria", "reduction", "steady_motions"),
+    "hamilton-jacobi/kepler-polar": ("hamilton_jacobi", "hamiltonian"),
+    "hamilton-jacobi/anisotropic-oscillator": ("hamilton_jacobi",),
+    "hamiltonian/brackets-of-angular-momentum": ("brackets",),
+    "hamiltonian/oscillator-by-generating-function": ("canonical", "brackets"),
+    "symmetry/free-particle": ("discovered", "algebra", "dimensions", "charges"),
+    "particles/isotropic-oscillator": ("discovered", "algebra"),
+    "contact/mass-sliding-off-sphere": ("accelerations", "energy", "find"),
+    "driven/pendulum-horizontal-drive": ("equations", "accelerations", "energy", "charges"),
+    "rolling/disk-on-incline": ("equations", "accelerations", "multipliers", "charges", "model"),
+    "oscillations/coupled-oscillators": ("hamiltonian", "equilibria", "modes"),
+    "stability/ziegler-pendulum": ("accelerations", "equilibria"),
 }  # fmt: skip
-
-
-# -- sites ---------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Site:
-    """One change: the module's file, the number of the node in it, what is done, the line."""
-
-    file: str
-    node: int
-    change: str
-    line: int
-
-    def __str__(self) -> str:
-        return f"{self.file}:{self.line} {self.change}"
-
-
-def changes_of(node: ast.AST) -> list[str]:
-    """What can be done to a node."""
-    match node:
-        case ast.BinOp(op=ast.Add()):
-            return ["a + b -> a - b", "a + b -> a", "a + b -> b"]
-        case ast.BinOp(op=ast.Sub()):
-            return ["a - b -> a + b", "a - b -> a"]
-        case ast.BinOp(op=ast.Mult()):
-            return ["a*b -> a", "a*b -> b"]
-        case ast.BinOp(op=ast.Div()):
-            return ["a/b -> a", "a/b -> a*b"]
-        case ast.UnaryOp(op=ast.USub(), operand=operand) if not isinstance(operand, ast.Constant):
-            return ["-a -> a"]
-        case ast.Call(args=[ast.Starred(), *_]) if _name(node.func) in {"Add", "Mul"}:
-            return ["the first term is dropped"]
-        case ast.Call(args=[_, _, *_]) if _name(node.func) in {"Add", "Mul"}:
-            return ["the first term is dropped"]
-        case ast.Attribute(attr="One" | "NegativeOne" | "Half"):
-            return ["S.One -> -S.One"]
-    return []
-
-
-def _name(node: ast.AST) -> str:
-    match node:
-        case ast.Attribute(attr=name) | ast.Name(id=name):
-            return name
-    return ""
-
-
-def changed(node: Any, change: str) -> ast.AST:
-    """The node with the change made."""
-    left, right = getattr(node, "left", None), getattr(node, "right", None)
-    match change:
-        case "a + b -> a - b":
-            return ast.BinOp(left, ast.Sub(), right)
-        case "a - b -> a + b":
-            return ast.BinOp(left, ast.Add(), right)
-        case "a + b -> b" | "a*b -> b":
-            return right
-        case "a + b -> a" | "a - b -> a" | "a*b -> a" | "a/b -> a":
-            return left
-        case "a/b -> a*b":
-            return ast.BinOp(left, ast.Mult(), right)
-        case "-a -> a":
-            return node.operand
-        case "S.One -> -S.One":
-            return ast.UnaryOp(ast.USub(), node)
-    return _without_first(node)
-
-
-def _without_first(node: ast.Call) -> ast.Call:
-    call = copy.deepcopy(node)
-    first = call.args[0]
-    if isinstance(first, ast.Starred):
-        listed = ast.Call(ast.Name("list", ast.Load()), [first.value], [])
-        rest = ast.Subscript(listed, ast.Slice(ast.Constant(1), None, None), ast.Load())
-        call.args[0] = ast.Starred(rest, ast.Load())
-    else:
-        del call.args[0]
-    return call
-
-
-def sites(reached: dict[str, set[int]]) -> list[Site]:
-    """Every change of a line that is reached."""
-    found = []
-    for file in sorted(reached):
-        tree = ast.parse((ROOT / file).read_text())
-        skipped = set(_of_annotations(tree))
-        for number, node in enumerate(ast.walk(tree)):
-            line = getattr(node, "lineno", 0)
-            if line in reached[file] and id(node) not in skipped:
-                found += [Site(file, number, change, line) for change in changes_of(node)]
-    return found
-
-
-def _of_annotations(tree: ast.AST) -> Iterator[int]:
-    """Texts put together are no mathematics; neither are types."""
-    for node in ast.walk(tree):
-        texts = (ast.JoinedStr,)
-        if isinstance(node, ast.BinOp):
-            parts = list(ast.walk(node))
-            if any(isinstance(p, texts) or (isinstance(p, ast.Constant) and isinstance(p.value, str))
-                   for p in parts):  # fmt: skip
-                yield id(node)
-
-
-# -- a mutated program ------------------------------------------------------------------------
-
-
-class Mutating(MetaPathFinder, Loader):
-    """Imports one module with one node changed."""
-
-    def __init__(self, site: Site) -> None:
-        self.site = site
-        self.module = site.file.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
-
-    def find_spec(self, fullname: str, path: Any, target: Any = None) -> ModuleSpec | None:
-        del path, target
-        if fullname != self.module:
-            return None
-        file = str(ROOT / self.site.file)
-        package = file.endswith("__init__.py")
-        spec = spec_from_loader(fullname, self, origin=file, is_package=package)
-        if package and spec is not None:
-            spec.submodule_search_locations = [str(Path(file).parent)]
-        return spec
-
-    def exec_module(self, module: ModuleType) -> None:
-        file = ROOT / self.site.file
-        module.__file__ = str(file)
-        tree = ast.parse(file.read_text())
-        node = list(ast.walk(tree))[self.site.node]
-        new = ast.copy_location(changed(copy.deepcopy(node), self.site.change), node)
-        tree = ast.fix_missing_locations(_Replace(node, new).visit(tree))
-        exec(compile(tree, str(file), "exec"), module.__dict__)
-
-
-class _Replace(ast.NodeTransformer):
-    def __init__(self, old: ast.AST, new: ast.AST) -> None:
-        self.old, self.new = old, new
-
-    def visit(self, node: ast.AST) -> ast.AST:
-        return self.new if node is self.old else self.generic_visit(node)
 
 
 # -- answers ------------------------------------------------------------------------------------
 
 
-def solve_all(asked: dict[str, tuple[str, ...]]) -> dict[str, Any]:
-    """Each problem as it is derived, and as it is printed after the verification."""
+def solved(name: str, before: Any = None) -> dict[str, Any]:
+    """One problem as it is derived, and, where that is not as before, as it is then printed."""
+    from lagcli import pipeline
     from lagcli.formatters.json import to_object
-    from lagcli.pipeline import _statements, derive, load
     from lagcli.verification import verified
 
-    found: dict[str, Any] = {}
-    for name, sections in asked.items():
-        try:
-            derivation = derive(load(ROOT / f"problems/{name}.yaml"))
-            answers = _statements(derivation).answers(sections)
-            printed = verified(derivation.problem, answers)
-            found[name] = {"derived": to_object(answers), "printed": to_object(printed)}
-            found[name]["noticed"] = len(printed.warnings) > len(answers.warnings)
-        except Exception as error:  # noqa: BLE001 - a mutant may do anything
-            found[name] = {"error": f"{type(error).__name__}: {error}"[:200]}
-    return found
+    pipeline.VERIFYING = False
+    try:
+        derivation = pipeline.derive(pipeline.load(ROOT / f"problems/{name}.yaml"))
+        answers = pipeline.state(derivation, pipeline.Request(sections=ASKED[name]))
+        derived = json.loads(json.dumps(to_object(answers)))
+        if derived == before:
+            return {"derived": derived}
+        printed = verified(derivation.problem, answers)
+        warnings = [w for w in printed.warnings if w not in answers.warnings]
+        return {"derived": derived, "printed": to_object(printed), "warnings": warnings}
+    except Exception as error:  # noqa: BLE001 - a mutant may do anything
+        return {"error": f"{type(error).__name__}: {error}"[:200]}
 
 
-def in_a_process(site: Site | None, asked: dict[str, tuple[str, ...]]) -> dict[str, Any] | None:
-    """What `solve_all` gives in a process of its own; None where it did not end."""
+def in_a_process(work: Any) -> dict[str, Any]:
+    """What a generator of (name, found) gives in a process of its own, until its end or limit."""
     reading, writing = os.pipe()
     child = os.fork()
     if child == 0:
         os.close(reading)
         resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))
         sys.stderr = open(os.devnull, "w")  # noqa: PTH123, SIM115 - to the end of the process
-        if site is not None:
-            sys.meta_path.insert(0, Mutating(site))
         with os.fdopen(writing, "w") as out:
             try:
-                json.dump(solve_all(asked), out)
+                for name, found in work():
+                    print(json.dumps([name, found]), file=out, flush=True)
             except BaseException as error:  # noqa: BLE001
-                json.dump({name: {"error": repr(error)[:200]} for name in asked}, out)
+                print(json.dumps(["", {"error": repr(error)[:200]}]), file=out, flush=True)
         os._exit(0)
     os.close(writing)
     with os.fdopen(reading) as lines:
-        text = lines.read()
+        found = dict(json.loads(line) for line in lines if line.endswith("\n"))
     os.waitpid(child, 0)
-    return json.loads(text) if text else None
+    return found
 
 
-def reached_lines(asked: dict[str, tuple[str, ...]]) -> dict[str, set[int]]:
-    """The lines of each module that the problems reach (in a process of its own)."""
-    reading, writing = os.pipe()
-    child = os.fork()
-    if child == 0:
-        os.close(reading)
-        lines: dict[str, set[int]] = {}
-        _trace(lines)
-        solve_all(asked)
-        sys.settrace(None)
-        with os.fdopen(writing, "w") as out:
-            json.dump({file: sorted(each) for file, each in lines.items()}, out)
-        os._exit(0)
-    os.close(writing)
-    with os.fdopen(reading) as text:
-        found = json.load(text)
-    os.waitpid(child, 0)
-    return {file: set(lines) for file, lines in found.items()}
+# -- before any change ----------------------------------------------------------------------------
+
+
+def untouched() -> dict[str, Any]:
+    """Each problem's sheet and the lines that it reaches, kept between runs of one program."""
+    files = [p for p in sorted((ROOT / "lagcli").rglob("*.py")) if "verification" not in p.parts]
+    sources = "".join(p.read_text() for p in files) + repr(ASKED)
+    key = hashlib.sha256(sources.encode()).hexdigest()[:16]
+    kept = Path(tempfile.gettempdir()) / f"mutants-{key}.json"
+    if kept.exists():
+        return json.loads(kept.read_text())  # type: ignore[no-any-return]
+    found: dict[str, Any] = {}
+    for name in ASKED:
+        found |= in_a_process(lambda name=name: _traced(name))
+        assert "error" not in found[name], (name, found[name])
+    kept.write_text(json.dumps(found))
+    return found
+
+
+def _traced(name: str) -> Iterator[tuple[str, Any]]:
+    lines: dict[str, set[int]] = {}
+    _trace(lines)
+    found = solved(name)
+    sys.settrace(None)
+    yield name, {**found, "lines": {file: sorted(each) for file, each in lines.items()}}
 
 
 def _trace(lines: dict[str, set[int]]) -> None:
@@ -288,148 +174,109 @@ def _trace(lines: dict[str, set[int]]) -> None:
 
 # -- what a mutant did ------------------------------------------------------------------------------
 
-#: Prose, which no arithmetic verifies.
-PROSE = {"where", "reason", "warnings", "ansatz", "note", "title"}
-
-
-def differences(name: str, before: Any, after: Any) -> list[str]:
-    """Where the answers differ as mathematics, by paths; a null instead is no difference."""
-    return list(_differ(_Compared(name, before, after), "", before, after))
-
-
-def _differ(compared: _Compared, path: str, a: Any, b: Any) -> Iterator[str]:
-    if b is None or a == b:
-        return
-    if isinstance(a, dict) and isinstance(b, dict):
-        for key in a.keys() | b.keys():
-            if key not in PROSE:
-                yield from _differ(compared, f"{path}/{key}", a.get(key), b.get(key))
-    elif isinstance(a, list) and isinstance(b, list):
-        if len(a) != len(b):
-            yield path
-            return
-        for place, (one, other) in enumerate(zip(a, b, strict=True)):
-            yield from _differ(compared, f"{path}/{place}", one, other)
-    elif not (isinstance(a, str) and isinstance(b, str) and compared.equal(a, b)):
-        yield path
-
-
-class _Compared:
-    """Values of two formulas at two random states of a problem, by the tests' oracle."""
-
-    def __init__(self, name: str, before: Any, after: Any) -> None:
-        from lagcli.pipeline import load
-        from tests.oracle.examine import with_momenta
-        from tests.oracle.reference import Reference
-        from tests.oracle.states import random_states
-
-        self.reference = Reference(load(ROOT / f"problems/{name}.yaml"))
-        states = random_states(self.reference, 3)
-        self.moments = [with_momenta(self.reference, s) for s in states]
-        self.where = [each.get("where", {}) for each in (before, after)]
-        self.loose = [s.moment.shifted(2, {0: 1, len(s.accelerations) - 1: 2}) for s in states]
-
-    def equal(self, a: str, b: str) -> bool:
-        from lagcli.reader import parse_equation_text
-        from tests.oracle.examine import agree
-
-        try:
-            first, second = parse_equation_text(a), parse_equation_text(b)
-            pairs = [(first.left, second.left), (first.right, second.right)]
-            if "=" in a:
-                one = [self._values(side, 0) for side in (first.left, first.right)]
-                two = [self._values(side, 1) for side in (second.left, second.right)]
-                gaps = zip(*one, *two, strict=True)
-                return all(agree(p - q, r - s) for p, q, r, s in gaps)
-            return all(
-                agree(x, y)
-                for one, two in pairs
-                for x, y in zip(self._values(one, 0), self._values(two, 1), strict=True)
-            )
-        except Exception:  # noqa: BLE001 - no value, so not the same
-            return False
-
-    def _values(self, node: Any, which: int) -> list[Any]:
-        from dataclasses import replace
-
-        from mpmath import mpf
-
-        from lagcli.expression import Name, walk
-        from lagcli.reader import parse_text
-        from tests.oracle.jets import real_part
-
-        values = []
-        for moment in self.moments:
-            known = moment
-            for name, text in self.where[which].items():
-                value = real_part(self.reference.of(parse_text(text))(known))
-                known = replace(known, extra={**known.extra, name: value})
-            names = {p.name for p in walk(node) if isinstance(p, Name)}
-            free = names - set(self.reference.names) - {"t", "pi"} - set(known.extra)
-            extra = {n: mpf(len(n) * 7 + ord(n[-1]) % 11 + 13) / 19 for n in free}
-            there = replace(known, extra={**known.extra, **extra})
-            values.append(real_part(self.reference.of(node)(there)))
-        return values
-
 
 @dataclass
 class Outcome:
-    """What came of one mutant."""
+    """What came of one mutant: the problems that it solved, by what they show."""
 
     site: Site
-    ended: bool
-    wrong: dict[str, list[str]]
+    changed: dict[str, list[str]]
     escaped: dict[str, list[str]]
+    refused: list[str]
+    failed: list[str]
 
     @property
     def kind(self) -> str:
-        """Unchanged, noticed, escaped, or did not end."""
-        if not self.ended:
-            return "no end"
-        if not self.wrong:
-            return "unchanged"
-        return "escaped" if self.escaped else "noticed"
+        """Escaped before noticed before refused before failed; else unchanged."""
+        if self.escaped:
+            return "escaped"
+        if self.changed:
+            return "noticed"
+        return "refused" if self.refused else "failed" if self.failed else "unchanged"
 
 
-def outcome(site: Site, before: dict[str, Any], asked: dict[str, tuple[str, ...]]) -> Outcome:
-    """Solve with one mutant and compare: an answer that is wrong and still printed escaped."""
-    after = in_a_process(site, asked)
-    result = Outcome(site, after is not None, {}, {})
-    for name, found in (after or {}).items():
-        if "error" in found:
-            continue
-        was = before[name]["derived"]
-        wrong = differences(name, was, found["derived"])
-        if wrong:
-            result.wrong[name] = wrong
-            printed = differences(name, was, found["printed"])
-            if printed:
-                result.escaped[name] = printed
+def outcome(site: Site, before: dict[str, Any], names: Sequence[str]) -> Outcome:
+    """Solve with one mutant and compare."""
+
+    def work() -> Iterator[tuple[str, Any]]:
+        sys.meta_path.insert(0, Mutating(site))
+        for name in names:
+            yield name, solved(name, before[name]["derived"])
+
+    after = in_a_process(work)
+    result = Outcome(site, {}, {}, [], [])
+    for name in names:
+        if "printed" in after.get(name, {}):
+            judge(result, name, before[name]["derived"], after[name])
+        elif "derived" not in after.get(name, {}):
+            result.failed.append(name)
     return result
 
 
-def sampled(count: int, seed: int) -> Sequence[Site]:
-    """Random sites."""
-    every = sites(reached_lines(ASKED))
-    return Random(seed).sample(every, min(count, len(every)))
+def judge(result: Outcome, name: str, before: Any, after: Any) -> None:
+    """What one problem shows of a mutant."""
+    from lagcli.pipeline import load
+
+    problem = load(ROOT / f"problems/{name}.yaml")
+    derived = Meaning(problem, before, after["derived"]).differences()
+    wrong = [d for d in derived if d.kind == "wrong" or not _said(d, before, after["derived"])]
+    if not wrong:
+        result.refused += [name] if derived else []
+        return
+    result.changed[name] = [str(d) for d in wrong]
+    printed = Meaning(problem, before, after["printed"]).differences()
+    left = [
+        d
+        for d in printed
+        if (d.kind == "wrong" and not _warned(d, after["warnings"]))
+        or (d.kind == "weaker" and not _said(d, before, after["printed"]))
+    ]
+    if left:
+        result.escaped[name] = [str(d) for d in left]
 
 
-def run(count: int, seed: int) -> list[Outcome]:
+def _said(difference: Difference, before: Any, sheet: Any) -> bool:
+    """Whether a weaker answer has its sentence: a warning that is new, or a reason."""
+    if difference.kind == "wrong":
+        return False
+    section = sheet.get(difference.path.split("/")[0])
+    reasons = json.dumps(section).count('"reason": "') + json.dumps(section).count('"note": "')
+    return len(sheet["warnings"]) > len(before["warnings"]) or bool(reasons)
+
+
+#: The sentence that says that a list may not hold everything.
+_OTHERS = {"equilibria": "no other equilibrium", "steady_motions": "no other steady motion",
+           "discovered": "no other", "modes": "modes"}  # fmt: skip
+
+
+def _warned(difference: Difference, warnings: Sequence[str]) -> bool:
+    """Whether the verification says that a list does not hold everything."""
+    section, _, rest = difference.path.partition(":")
+    said = _OTHERS.get(section)
+    return bool(rest) and said is not None and any(said in each for each in warnings)
+
+
+def sampled(count: int, seed: int, before: dict[str, Any]) -> list[tuple[Site, list[str]]]:
+    """Random sites, each with some of the problems that reach it, those first that few share."""
+    reached: dict[str, set[int]] = {}
+    for each in before.values():
+        for file, lines in each["lines"].items():
+            reached.setdefault(file, set()).update(lines)
+    random, every = Random(seed), sites(reached)
+    found = []
+    for site in random.sample(every, min(count, len(every))):
+        names = [n for n, b in before.items() if site.line in b["lines"].get(site.file, ())]
+        found.append((site, random.sample(names, min(EACH, len(names)))))
+    return found
+
+
+def run(count: int, seed: int) -> Iterator[Outcome]:
     """The outcome of random mutants."""
     import sympy  # noqa: F401 - in all processes
 
-    before = in_a_process(None, ASKED)
-    assert before is not None
-    wrong = {name: each["error"] for name, each in before.items() if "error" in each}
-    assert not wrong, wrong
-    found = []
-    for site in sampled(count, seed):
-        each = outcome(site, before, ASKED)
-        found.append(each)
-        if __name__ == "__main__":
-            places = dict(list(each.escaped.items())[:3])
-            print(f"{each.kind:9} {site} {places or ''}", flush=True)
-    return found
+    before = untouched()
+    for site, names in sampled(count, seed, before):
+        yield outcome(site, before, names)
 
 
 def main() -> None:
@@ -438,8 +285,12 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
-    found = run(arguments.count, arguments.seed)
-    kinds = Counter(each.kind for each in found)
+    kinds: Counter[str] = Counter()
+    for each in run(arguments.count, arguments.seed):
+        kinds[each.kind] += 1
+        shown = {"escaped": each.escaped, "noticed": each.changed}.get(each.kind)
+        what = {n: places[:3] for n, places in (shown or {}).items()}
+        print(f"{each.kind:9} {each.site} {what or each.refused or each.failed or ''}", flush=True)
     changed = kinds["noticed"] + kinds["escaped"]
     print(dict(kinds), f"noticed {kinds['noticed']} of {changed} that change an answer")
 

@@ -1,0 +1,230 @@
+"""Where two answer sheets of one problem say different things.
+
+Formulas are compared by their values at random states, lists by what they hold, shapes of
+modes up to a factor, charges up to a constant, so that a rewritten or reordered answer is the
+same answer.  A difference is `wrong` where the second sheet claims something else, `weaker`
+where it claims less and says so: null, undecided, not complete.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from random import Random
+from typing import Any, Literal
+
+from mpmath import mpf
+
+#: Prose, which no arithmetic verifies.
+PROSE = {"reason", "warnings", "ansatz", "note", "title", "source", "name_of"}
+#: Lists whose entries have no order.
+SETS = {
+    "solutions", "values", "turning_points", "where", "minimum", "hurwitz", "spectrum",
+    "unstable", "frequencies_squared", "free", "constants", "cyclic", "indeterminate",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Where two sheets differ, and how."""
+
+    path: str
+    kind: Literal["wrong", "weaker"]
+
+    def __str__(self) -> str:
+        return self.path if self.kind == "wrong" else f"({self.path})"
+
+
+class Meaning:
+    """Two sheets (JSON objects) of one problem.
+
+    Parameters
+    ----------
+    problem
+        What they answer.
+    before, after
+        The sheets.
+    """
+
+    def __init__(self, problem: Any, before: Any, after: Any) -> None:
+        self.before, self.after = before, after
+        self.problem = problem
+        self.values = _Values(problem, [sheet.get("where") or {} for sheet in (before, after)])
+
+    def differences(self) -> list[Difference]:
+        """Everything in which the second differs from the first."""
+        keys = (self.before.keys() | self.after.keys()) - PROSE - {"where"}
+        found: list[Difference] = []
+        for key in sorted(keys):
+            found += self._differ(key, key, self.before.get(key), self.after.get(key))
+        return found
+
+    def _differ(self, path: str, key: str, a: Any, b: Any) -> Iterator[Difference]:
+        if a == b:
+            return
+        if b is None or (key in {"conserved", "stable"} and a is not None and b is None):
+            yield Difference(path, "weaker")
+        elif isinstance(a, dict) and isinstance(b, dict):
+            yield from self._differ_as_objects(path, a, b)
+        elif isinstance(a, list | tuple) and isinstance(b, list | tuple):
+            yield from self._differ_as_lists(path, key, list(a), list(b))
+        elif not (isinstance(a, str) and isinstance(b, str) and self._same_text(key, a, b)):
+            yield Difference(path, "wrong")
+
+    def _differ_as_objects(self, path: str, a: Any, b: Any) -> Iterator[Difference]:
+        skipped = set(PROSE)
+        if "charge" in a and a.get("conserved") and b.get("conserved") and self._same_charge(a, b):
+            skipped |= {"charge", "gauge", "transformation", "name"}
+        for key in sorted((a.keys() | b.keys()) - skipped):
+            if key == "shape" and self._parallel(a[key], b.get(key)):
+                continue
+            default = "0" if path.endswith(("transformation", "shape")) else None
+            one, other = a.get(key, default), b.get(key, default)
+            if key in {"condition", "on"} and other is None and one is not None:
+                yield Difference(f"{path}/{key}", "wrong")  # claimed everywhere
+            else:
+                yield from self._differ(f"{path}/{key}", key, one, other)
+
+    def _differ_as_lists(self, path: str, key: str, a: list[Any], b: list[Any]) -> Iterator[Difference]:
+        if key in SETS or all(isinstance(each, dict) for each in (*a, *b)):
+            yield from self._differ_as_sets(path, key, a, b)
+        elif len(a) != len(b):
+            yield Difference(path, "wrong")
+        else:
+            for place, (one, other) in enumerate(zip(a, b, strict=True)):
+                yield from self._differ(f"{path}/{place}", "", one, other)
+
+    def _differ_as_sets(self, path: str, key: str, a: list[Any], b: list[Any]) -> Iterator[Difference]:
+        left = list(b)
+        alone = []
+        for number, one in enumerate(a):
+            ways = [(list(self._differ(f"{path}/{number}", key, one, other)), other) for other in left]
+            best = min(ways, key=lambda way: (any(d.kind == "wrong" for d in way[0]), len(way[0])), default=None)
+            if best is not None and not any(d.kind == "wrong" for d in best[0]):
+                yield from best[0]
+                left.remove(best[1])
+            else:
+                alone.append(number)
+        if alone or left:
+            yield Difference(f"{path}: {len(alone)} of {len(a)} missing, {len(left)} others", "wrong")
+
+    # -- formulas ---------------------------------------------------------------------------
+
+    def _same_text(self, key: str, a: str, b: str) -> bool:
+        if " and " in a or " and " in b:
+            one, other = a.split(" and "), b.split(" and ")
+            return len(one) == len(other) and all(
+                any(self._same_text(key, x, y) for y in other) for x in one
+            )
+        return self.values.equal(a, b)
+
+    def _same_charge(self, a: Any, b: Any) -> bool:
+        """Whether two conserved charges differ by what is constant."""
+        return bool(a["charge"] and b["charge"]) and self.values.same_rate(a["charge"], b["charge"])
+
+    def _parallel(self, a: Any, b: Any) -> bool:
+        if not a or not b:
+            return a == b
+        return self.values.parallel([a[n] for n in a], [b.get(n, "0") for n in a])
+
+
+class _Values:
+    """The values of formulas of both sheets at random states, by the tests' oracle."""
+
+    def __init__(self, problem: Any, where: Sequence[Mapping[str, str]]) -> None:
+        from tests.oracle.examine import with_momenta
+        from tests.oracle.reference import Reference
+        from tests.oracle.states import random_states
+
+        self.reference = Reference(problem)
+        try:
+            states = random_states(self.reference, 4)
+            self.moments = [with_momenta(self.reference, s) for s in states]
+        except AssertionError:
+            self.moments = []
+        self.where = where
+
+    def equal(self, a: str, b: str) -> bool:
+        """Whether two formulas, equations or inequalities say the same."""
+        from tests.oracle.examine import agree
+
+        for sign in (">", "<", "=", "!="):
+            if f" {sign}" in a and f" {sign}" in b:
+                return self._same_relation(sign, a, b)
+        pairs = list(zip(self._of(a, 0), self._of(b, 1), strict=True))
+        known = [pair for pair in pairs if pair != (None, None)]
+        return bool(known) and all(
+            x is not None and y is not None and agree(x, y) for x, y in known
+        )
+
+    def _same_relation(self, sign: str, a: str, b: str) -> bool:
+        from tests.oracle.examine import agree
+
+        sides = [[part.strip(" =") for part in each.split(f" {sign}", 1)] for each in (a, b)]
+        values = [[self._of(s, which) for s in pair] for which, pair in enumerate(sides)]
+        gaps = [
+            [None if p is None or q is None else p - q for p, q in zip(*each, strict=True)]
+            for each in values
+        ]
+        known = [(x, y) for x, y in zip(*gaps, strict=True) if x is not None or y is not None]
+        if sign == "=":
+            return bool(known) and all(
+                x is not None and y is not None and (agree(x, y) or (agree(x, mpf(0)) and agree(y, mpf(0))))
+                for x, y in known
+            )
+        return bool(known) and all(
+            x is not None and y is not None and (x > 0) == (y > 0) for x, y in known
+        )
+
+    def same_rate(self, a: str, b: str) -> bool:
+        """Whether the difference of two formulas depends on parameters alone."""
+        from tests.oracle.examine import agree
+
+        one, other = self._of(a, 0, moving=True), self._of(b, 1, moving=True)
+        gaps = [x - y for x, y in zip(one, other, strict=True) if x is not None and y is not None]
+        return bool(gaps) and all(agree(gap, gaps[0]) for gap in gaps)
+
+    def parallel(self, a: Sequence[str], b: Sequence[str]) -> bool:
+        """Whether two vectors are multiples of each other."""
+        from tests.oracle.examine import agree
+
+        one = list(zip(*(self._of(each, 0) for each in a), strict=True))
+        other = list(zip(*(self._of(each, 1) for each in b), strict=True))
+        pairs = [(p, q) for p, q in zip(one, other, strict=True) if None not in (*p, *q)]
+        return bool(pairs) and all(
+            any(q) and agree(p[i] * q[j], p[j] * q[i])
+            for p, q in pairs
+            for i in range(len(p))
+            for j in range(i)
+        )
+
+    def _of(self, text: str, which: int, *, moving: bool = False) -> list[Any]:
+        """The value at each state, None where there is none."""
+        from lagcli.reader import parse_text
+
+        try:
+            node = parse_text(text)
+        except Exception:  # noqa: BLE001 - not a formula: its text counts
+            return [mpf(sum(ord(c) * 7**k for k, c in enumerate(text[:40])))] * len(self.moments)
+        moments = self.moments
+        if moving and moments:
+            moments = [replace(each, extra=moments[0].extra) for each in moments]
+        return [self._at(node, number, each, which) for number, each in enumerate(moments)]
+
+    def _at(self, node: Any, number: int, moment: Any, which: int) -> Any:
+        from lagcli.expression import Name, walk
+        from lagcli.reader import parse_text
+        from tests.oracle.jets import real_part
+
+        known = moment
+        try:
+            for name, text in self.where[which].items():
+                value = real_part(self.reference.of(parse_text(text))(known))
+                known = replace(known, extra={**known.extra, name: value})
+            names = {p.name for p in walk(node) if isinstance(p, Name)}
+            free = names - set(self.reference.names) - {"t", "pi"} - set(known.extra)
+            extra = {n: mpf(Random(f"{n}{number}").randint(-999, 1999)) / 700 for n in free}
+            there = replace(known, extra={**known.extra, **extra})
+            return real_part(self.reference.of(node)(there))
+        except Exception:  # noqa: BLE001 - no value there
+            return None
