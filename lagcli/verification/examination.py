@@ -7,6 +7,7 @@ and evaluated at random states.  A claim that a state refutes is retracted with 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import cast
 
 from flint import arb, ctx
 
@@ -17,7 +18,7 @@ from lagcli.problem import Problem
 from lagcli.reader import parse_text
 from lagcli.verification.comparison import Verdict, compare
 from lagcli.verification.reference import Reference
-from lagcli.verification.states import State, random_states
+from lagcli.verification.states import State, phase_states, random_states
 from lagcli.verification.sweeps import Unknown, Values
 
 #: States at which each claim is tried, and how many are looked at where it has no value.
@@ -77,7 +78,9 @@ class Examination:
         """The first states (as many as each claim is tried at), fewer where no more are found."""
         count = count or self._count
         found = self._found.setdefault(bits, [])
-        more = self._more.setdefault(bits, random_states(self.reference))
+        more = self._more.get(bits)
+        if more is None:
+            more = self._more[bits] = self._random_states()
         while len(found) < count:
             with ctx.workprec(bits):
                 state = next(more, None)
@@ -85,6 +88,11 @@ class Examination:
                 break
             found.append(state)
         return found[:count]
+
+    def _random_states(self) -> Iterator[State]:
+        if self.reference.of_phase_space:
+            return cast("Iterator[State]", phase_states(self.reference))
+        return random_states(self.reference)
 
     @property
     def regular(self) -> bool:

@@ -128,6 +128,11 @@ class Reference:
         """Whether q'' and the multipliers are not solved for at each state at once."""
         return len(self.names) + len(self.problem.constraints) > MANY
 
+    @property
+    def of_phase_space(self) -> bool:
+        """Whether there is an H alone, from which no Lagrangian follows."""
+        return self.problem.hamiltonian is not None and self.problem.lagrangian is None
+
     def values(self, environment: Environment) -> Values:
         """All formulas where the symbols have these values."""
         return Values(self.program, self.instances, environment)

@@ -18,6 +18,7 @@ from lagcli.expression import Expression
 from lagcli.problem import Coordinate, Parameter, Problem
 from lagcli.verification.functions import ball
 from lagcli.verification.linear import Unclear, least_step, size
+from lagcli.verification.phase_points import PhasePoint, PhaseState, with_momenta
 from lagcli.verification.reference import Dynamics, Reference
 from lagcli.verification.sweeps import Unknown, column
 
@@ -54,6 +55,13 @@ class State:
         found |= {(n, 2): a for n, a in zip(names, laws.accelerations, strict=True)}
         forces = zip(constraints, laws.multipliers, strict=True)
         return found | {(c.multiplier, 0): m for c, m in forces}
+
+    @cached_property
+    def phase(self) -> PhasePoint:
+        """Its point of phase space: dH/dq = -dL/dq, dH/dp = q'."""
+        slopes = [-slope for slope in self.laws.slopes], self.laws.velocities
+        known = {**self.environment, **self.following}
+        return PhasePoint(self.reference, known, self.laws.energy, slopes)
 
     @cached_property
     def loose(self) -> Loose:
@@ -123,6 +131,15 @@ def random_states(reference: Reference, seed: int = 1) -> Iterator[State]:
         if found is None:
             return
         yield found
+
+
+def phase_states(reference: Reference, seed: int = 1) -> Iterator[PhaseState]:
+    """States of a system whose H has no Lagrangian."""
+    given = (
+        _anywhere(reference.problem, Random(f"{seed} {number}"), 0.4 * (number % 2), wide=False)
+        for number in range(100)
+    )
+    return with_momenta(reference, given)
 
 
 def _state(reference: Reference, random: Random, number: int, attempt: int) -> State | None:

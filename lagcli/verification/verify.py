@@ -13,6 +13,7 @@ from lagcli.answers import (
     CanonicalSection,
     ChargesSection,
     ConstraintForcesSection,
+    DimensionsSection,
     EnergySection,
     EquationsSection,
     EquilibriaSection,
@@ -27,7 +28,8 @@ from lagcli.answers import (
     Section,
 )
 from lagcli.forces import ForcesSection
-from lagcli.motions import SteadySection
+from lagcli.motions import HamiltonJacobiSection, SteadySection
+from lagcli.phase_space import BracketsSection, TransformationsSection
 from lagcli.problem import Problem
 from lagcli.questions import FindSection
 from lagcli.record import replace
@@ -38,7 +40,10 @@ from lagcli.verification.claims import (
     find,
     forces,
     motion,
+    phase_space,
     reduction,
+    separation,
+    units,
 )
 from lagcli.verification.claims.given_hamiltonian import legendre_transform
 from lagcli.verification.examination import PRECISIONS, Examination
@@ -60,12 +65,16 @@ _CLAIMS: dict[type, Examine] = {
     EnergySection: energies.energy,
     HamiltonianSection: energies.hamiltonian,
     CanonicalSection: energies.canonical_equations,
+    BracketsSection: phase_space.brackets,
+    TransformationsSection: phase_space.transformations,
     ChargesSection: charges.charges,
     EquilibriaSection: equilibria.equilibria,
     ModesSection: equilibria.modes,
     ReductionSection: reduction.reduction,
     ModelSection: reduction.model,
     SteadySection: equilibria.steady_motions,
+    HamiltonJacobiSection: separation.hamilton_jacobi,
+    DimensionsSection: units.dimensions,
 }
 
 
@@ -79,13 +88,15 @@ def verified(problem: Problem, answers: Answers) -> Answers:
     answers
         What was derived from it.
     """
-    if problem.hamiltonian is not None and problem.lagrangian is None:
-        return answers  # no Lagrangian follows: what is printed is the file's own H
     examination = Examination(problem)
     with ctx.workprec(PRECISIONS[0]):
         examination.define("the abbreviations", answers.where)
         given = answers.sections
-        if problem.hamiltonian is not None and not legendre_transform(examination):
+        if (
+            problem.lagrangian is not None
+            and problem.hamiltonian is not None
+            and not legendre_transform(examination)
+        ):
             given = {}  # nothing of it describes the motion of H
         sections = {name: _examined(examination, name, each) for name, each in given.items()}
         if isinstance(asked := sections.get("find"), FindSection):

@@ -59,7 +59,7 @@ def _total(x: Examination, claim: bool | None) -> bool:
 def hamiltonian(x: Examination, section: HamiltonianSection) -> HamiltonianSection:
     """H(q, dL/dq', t) = h."""
     H = section.hamiltonian
-    if H is None or x.holds("the Hamiltonian", H, lambda s: s.laws.energy):
+    if H is None or x.holds("the Hamiltonian", H, lambda s: s.phase.energy):
         return section
     return replace(section, hamiltonian=None, reason=_DISAGREES)
 
@@ -71,6 +71,8 @@ def canonical_equations(x: Examination, section: CanonicalSection) -> CanonicalS
     pairs = [section.equations[name] for name in x.reference.names]
 
     def growth(s: State) -> list[arb]:
+        if x.reference.of_phase_space:
+            return _of_forces(x, s)
         laws = s.laws
         parts = (laws.slopes, laws.applied, laws.total_constraint_force)
         return [a + b + c for a, b, c in zip(*parts, strict=True)]
@@ -78,6 +80,12 @@ def canonical_equations(x: Examination, section: CanonicalSection) -> CanonicalS
     holds = x.hold(
         "the canonical equations of the coordinates",
         [pair.q for pair in pairs],
-        lambda s: s.laws.velocities,
+        lambda s: s.phase.by_p,
     ) and x.hold("the canonical equations of the momenta", [pair.p for pair in pairs], growth)
     return section if holds else replace(section, equations=None, reason=_DISAGREES)
+
+
+def _of_forces(x: Examination, s: State) -> list[arb]:
+    """-dH/dq + Q, where no Lagrangian follows from H."""
+    forces = [s.at(force) for force in x.reference.forces]
+    return [force - slope for force, slope in zip(forces, s.phase.by_q, strict=True)]

@@ -1,0 +1,265 @@
+"""Poisson brackets and canonical transformations, by gradients at random points of phase space.
+
+A transformation with the valence c is that of dQ/dt = dK/dP, dP/dt = -dK/dQ; a generating
+function obeys c sum p dq - sum P dQ = dF at constant t.
+
+Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., sections 9.1 (table 9.1), 9.4, 9.5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+from flint import arb
+
+from lagcli.expression import Expression, Name, walk
+from lagcli.phase_space import (
+    BracketsSection,
+    ExaminedTransformation,
+    FailingBracket,
+    GeneratingFunction,
+    PoissonBracket,
+    TransformationsSection,
+)
+from lagcli.problem import JACOBI_FUNCTION, Problem, Transformation, charge_of
+from lagcli.record import replace
+from lagcli.rewriting import rebuilt
+from lagcli.verification.examination import Examination
+from lagcli.verification.linear import dot
+from lagcli.verification.phase_points import PhasePoint
+from lagcli.verification.states import State
+from lagcli.verification.sweeps import Values, column
+
+_WHY = "its printed form was not confirmed at random states"
+
+
+# -- brackets ---------------------------------------------------------------------------------
+
+
+def brackets(x: Examination, section: BracketsSection) -> BracketsSection:
+    """Each {left, right} with its value, and the rates of the observables."""
+    given = {}
+    for name, each in x.problem.observables.items():  # each may use earlier ones
+        given[name] = x.reference.place(each)
+        x.reference.program.define(name, given[name])
+    printed = list(section.observables.values())
+    places = [given[name] for name in section.observables]
+    if not x.hold("the observables", printed, lambda s: [s.at(place) for place in places]):
+        section = replace(section, observables={})
+    found = tuple(_bracket(x, each) for each in section.brackets)
+    rates = section.rates
+    if rates and not x.hold(
+        "the rates of the observables",
+        list(rates.values()),
+        lambda s: [s.phase.rate(given[name]) for name in rates or ()],
+    ):
+        rates = None
+    reason = section.reason if rates is section.rates else _WHY
+    return replace(section, brackets=found, rates=rates, reason=reason)
+
+
+def _bracket(x: Examination, each: PoissonBracket) -> PoissonBracket:
+    what = f"the bracket '{each.name}'"
+    if each.value is None:
+        return each
+    asked = next((b for b in x.problem.brackets if b.name == each.name), each)
+    sides = [_in_momenta(x.problem, side) for side in (asked.left, asked.right)]
+    if None in sides:
+        x.unchecked.append(what)
+        return each
+    left, right = (x.reference.place(side) for side in sides if side is not None)
+    if not x.holds(what, each.value, lambda s: s.phase.bracket(left, right)):
+        return replace(each, value=None, named=None)
+    named = None if each.named is None else _in_momenta(x.problem, each.named)
+    if named is None:
+        return each
+    place = x.reference.place(named)
+    if x.vanishes(f"{what} by names", lambda s: s.phase.at(place) - s.phase.bracket(left, right)):
+        return each
+    return replace(each, named=None)
+
+
+def _in_momenta(problem: Problem, node: Expression) -> Expression | None:
+    """With the conserved quantities of the file's symmetries in q and p; None: not known."""
+    symmetries = {each.name: each for each in problem.symmetries}
+    known = {*problem.observables, *problem.definitions, *(p.name for p in problem.parameters)}
+    asked = {n.name for n in walk(node) if isinstance(n, Name)} & symmetries.keys() - known
+    if any(symmetries[name].gauge is None for name in asked):
+        return None  # the boundary term is not given
+
+    def put_in(part: Expression) -> Expression:
+        if isinstance(part, Name) and part.name in asked:
+            return put_in(charge_of(symmetries[part.name]))
+        return Name("H") if part == JACOBI_FUNCTION else rebuilt(part, put_in)
+
+    return put_in(node)
+
+
+# -- transformations ----------------------------------------------------------------------------
+
+
+def transformations(x: Examination, section: TransformationsSection) -> TransformationsSection:
+    """Each transformation, by what the file defines as the new variables."""
+    given = {each.name: each for each in x.problem.canonical_transformations}
+    found = tuple(Tested(x, given[e.name], e).examined() for e in section.transformations)
+    return replace(section, transformations=found)
+
+
+class Tested:
+    """One transformation and what is printed of it."""
+
+    def __init__(self, x: Examination, given: Transformation, each: ExaminedTransformation) -> None:
+        self.x, self.each = x, each
+        self.name = f"the transformation '{each.name}'"
+        names = list(given.coordinates)
+        functions = {**given.coordinates, **{f"p_{n}": given.momenta[n] for n in names}}
+        self.given = given
+        self.places = {name: x.reference.place(f) for name, f in functions.items()}
+        self.Q, self.P = names, [f"p_{n}" for n in names]
+        self.symbols = {name: x.reference.program.symbol(name) for name in self.places}
+
+    def examined(self) -> ExaminedTransformation:
+        """What of it is confirmed."""
+        each, x = self.each, self.x
+        places = [self.places[name] for name in each.variables]
+        written = list(each.variables.values())
+        if not x.hold(self.name, written, lambda s: [s.at(place) for place in places]):
+            each = replace(each, variables={})
+        if each.kind is not None and not self._is_of_kind(each):
+            return replace(
+                each, kind=None, valence=None, failing=(), generator=None, hamiltonian=None,
+                verified=None, hamiltonian_verified=None, reason=_WHY,
+            )  # fmt: skip
+        generator = each.generator
+        if generator is not None and not self._generates(generator):
+            each = replace(each, generator=None)
+        K = each.hamiltonian
+        if K is not None and not self._moves(K):
+            each = replace(each, hamiltonian=None, hamiltonian_verified=None, reason=_WHY)
+        return each
+
+    # -- brackets ---------------------------------------------------------------------------
+
+    def _pairs(self) -> Iterator[tuple[str, str, bool]]:
+        """Two new variables, and whether they are conjugate."""
+        names = [*self.Q, *self.P]
+        for k, one in enumerate(names):
+            for other in names[k + 1 :]:
+                yield one, other, other == f"p_{one}" and one in self.Q
+
+    def _brackets(self, s: State) -> list[arb]:
+        return [s.phase.bracket(self.places[a], self.places[b]) for a, b, _ in self._pairs()]
+
+    def _is_of_kind(self, each: ExaminedTransformation) -> bool:
+        x, pairs = self.x, list(self._pairs())
+        what = f"that '{each.name}' is {each.kind}"
+        if each.kind == "not canonical":
+            return self._fails(what, each.failing)
+        valence = each.valence
+        places = x.places(what, [valence] if valence is not None else [])
+        if not places:
+            return False
+        if each.kind == "canonical" and not x.vanishes(what, lambda s: s.at(places[0]) - 1):
+            return False
+        if each.kind != "canonical" and not x.constant(
+            what, claim=False, value=lambda s: s.at(places[0]) - 1
+        ):
+            return False
+        return x.decide(
+            what,
+            lambda s: (
+                self._brackets(s),
+                [s.at(places[0]) if conjugate else arb(0) for _, _, conjugate in pairs],
+            ),
+        )
+
+    def _fails(self, what: str, failing: Sequence[FailingBracket]) -> bool:
+        """Each listed bracket has its value, which is not the expected one; there is one."""
+        x = self.x
+        sides = x.places(what, [e for f in failing for e in (f.value, f.expected)])
+        if not failing or sides is None:
+            x.refute(what, "no bracket is listed that fails")
+            return False
+        named = [(self.places[f.left], self.places[f.right]) for f in failing]
+        values, expected = sides[::2], sides[1::2]
+        return x.decide(
+            what,
+            lambda s: ([s.phase.bracket(*pair) for pair in named], [s.at(v) for v in values]),
+        ) and all(
+            x.constant(what, claim=False, value=lambda s, v=v, e=e: s.at(v) - s.at(e))  # type: ignore[misc]
+            for v, e in zip(values, expected, strict=True)
+        )
+
+    # -- generating functions -------------------------------------------------------------------
+
+    def _new(self, point: PhasePoint) -> Values:
+        """Formulas of the old and the new variables."""
+        return point.with_values({(n, 0): point.at(place) for n, place in self.places.items()})
+
+    def _generates(self, printed: GeneratingFunction) -> bool:
+        x, what = self.x, f"the generating function of '{self.each.name}'"
+        places = x.places(what, [printed.function])
+        valence = x.places(what, [v for v in (self.each.valence,) if v is not None])
+        if not places or valence is None:
+            return False
+        given = self.given.generating
+        if printed.kind != "F" and given is not None:
+            known = x.reference.place(given)
+            new = lambda s: self._new(s.phase)  # noqa: E731 - a scene
+            if not x.holds(what, printed.function, lambda s: new(s)(known), new):
+                return False
+        if printed.generates is None:
+            return True
+        sides = self._relations(printed.kind, places[0], valence)
+        if printed.generates:
+            return x.decide(what, sides)
+        return x.constant(
+            f"that {what} does not generate it",
+            claim=False,
+            value=lambda s: sum((abs(a - b) for a, b in zip(*sides(s), strict=True)), arb(0)),
+        )
+
+    def _relations(
+        self, kind: str, F: int, valence: Sequence[int]
+    ) -> Callable[[State], tuple[list[arb], list[arb]]]:
+        """What the derivatives of F are, and what they must be."""
+        program, reference = self.x.reference.program, self.x.reference
+        q, p = reference.q, [program.symbol(f"p_{n}") for n in reference.names]
+
+        def sides(s: State) -> tuple[list[arb], list[arb]]:
+            at = self._new(s.phase)
+            c = at(valence[0]) if valence else arb(1)
+            by = at.gradient(F)
+            Q, P = ([at(self.places[n]) for n in names] for names in (self.Q, self.P))
+            if kind == "F":
+                return column(by, [*q, *p]), self._action_form(s.phase, c, P)
+            old, kept = ((q, [c * at(x) for x in p]), (p, [-c * at(x) for x in q]))[kind in {"F3", "F4"}]
+            new, made = ((self.Q, [-x for x in P]), (self.P, Q))[kind in {"F2", "F4"}]
+            return column(by, [*old, *(self.symbols[n] for n in new)]), [*kept, *made]
+
+        return sides
+
+    def _action_form(self, point: PhasePoint, c: arb, P: Sequence[arb]) -> list[arb]:
+        """c p - sum P dQ/dq, and -sum P dQ/dp."""
+        slopes = [point.slopes(self.places[n]) for n in self.Q]
+        momenta = [point.at(x) for x in point.momenta]
+        by_q = [c * m - dot(P, [d[0][j] for d in slopes]) for j, m in enumerate(momenta)]
+        return by_q + [-dot(P, [d[1][j] for d in slopes]) for j in range(len(momenta))]
+
+    # -- the new Hamiltonian ----------------------------------------------------------------------
+
+    def _moves(self, K: Expression) -> bool:
+        """Whether dQ/dt = dK/dP and dP/dt = -dK/dQ."""
+        what = f"the Hamiltonian in the variables of '{self.each.name}'"
+        places = self.x.places(what, [K])
+        if not places:
+            return False
+
+        def sides(s: State) -> tuple[list[arb], list[arb]]:
+            by = self._new(s.phase).gradient(places[0])
+            slopes = column(by, [self.symbols[n] for n in self.P])
+            slopes += [-d for d in column(by, [self.symbols[n] for n in self.Q])]
+            return slopes, [s.phase.rate(self.places[n]) for n in (*self.Q, *self.P)]
+
+        return self.x.decide(what, sides)
+
