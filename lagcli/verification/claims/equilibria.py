@@ -12,7 +12,6 @@ from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.motions import SteadyMotion, SteadySection, Verdict
 from lagcli.record import replace
-from lagcli.verification.claims.others import another
 from lagcli.verification.claims.rest import (
     BITS,
     NOTHING,
@@ -22,6 +21,7 @@ from lagcli.verification.claims.rest import (
     with_closed_contacts,
 )
 from lagcli.verification.claims.stability import refutes
+from lagcli.verification.claims.unlisted import Balance, shown, unlisted
 from lagcli.verification.examination import Examination
 
 #: Relative differences of eigenvalues: those of multiplicity 2 are right to 1e-19.
@@ -57,20 +57,66 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
 
 
 def _another(x: Examination, found: list[Equilibrium]) -> str:
-    what = "the equilibria"
-    places = [Place(x, what, each.at, {}, each.on, each.where) for each in found]
-    return another(x, found, places)
+    """An equilibrium that none of these is; empty where none was found."""
+    if x.reference.large or x.problem.contacts or any(each.sticking for each in found):
+        return ""
+    places = [Place(x, "the equilibria", each.at, {}, each.on, each.where) for each in found]
+    near = next(unlisted(Balance(x), places), None)
+    return "" if near is None else shown(near)
 
 
 def modes(x: Examination, section: ModesSection) -> ModesSection:
-    """Each frequency is one of the linear motion near its equilibrium, with its shapes."""
+    """Each frequency is one of the linear motion near its equilibrium, with its shapes.
+
+    There is one for each degree of freedom, about every stable equilibrium.
+    """
     if section.modes is None:
         return section
     with ctx.workprec(BITS):
         for each in section.modes:
             if not _is_mode(x, each):
                 return replace(section, modes=None, reason=_not_confirmed("a normal mode"))
+        groups: dict[object, list[Mode]] = {}
+        for each in section.modes:
+            groups.setdefault(repr((each.at, each.on)), []).append(each)
+        places = [_all_modes(x, about) for about in groups.values()]
+        if None in places:
+            return replace(section, modes=None, reason=_not_confirmed("the number of normal modes"))
+        _of_other_equilibria(x, [place for place in places if place is not None])
     return section
+
+
+def _all_modes(x: Examination, about: Sequence[Mode]) -> Place | None:
+    """The equilibrium, if it has as many modes as it must have."""
+    first = about[0]
+    what = f"the number of normal modes about {_named(first.at, first.on)}"
+    place = Place(x, what, first.at, {}, first.on, ())
+    if with_closed_contacts(x, place) is not x:
+        return place
+    count = sum(mode.multiplicity for mode in about)
+    for near in place.states():
+        if not (near.defined and near.regular):
+            continue
+        values = near.eigenvalues
+        zeros = sum(abs(z) < NOTHING ** 0.5 * max([1e-3, *map(abs, values)]) for z in values)
+        if not (len(values) - zeros) // 2 <= count <= (len(values) + 1) // 2:
+            x.refute(what, f"it is {count} as derived, with {len(values) // 2} degrees of freedom")
+            return None
+        break
+    return place
+
+
+def _of_other_equilibria(x: Examination, places: Sequence[Place]) -> None:
+    """Note a stable equilibrium about which no modes are listed."""
+    if not places or x.reference.large or x.problem.contacts:
+        return
+    if any(not row.holonomic for row in x.reference.rows):
+        return
+    for near in unlisted(Balance(x), places):
+        if near.is_bowl:
+            why = f"there is a stable equilibrium at {shown(near)}"
+            x.refute("that the normal modes about all stable equilibria are listed", why)
+            return
 
 
 def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
@@ -89,7 +135,27 @@ def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
             if verdict is None or not _with_momenta(x, what, place, each):
                 return replace(section, motions=None, reason=_not_confirmed("a steady motion"))
             found.append(each if verdict is each.verdict else replace(each, verdict=verdict))
+        other = _another_motion(x, section, found) if section.complete else ""
+    if other:
+        x.refute("that there is no other steady motion", f"there is one with {other}")
+        section = replace(section, complete=False)
     return replace(section, motions=tuple(found))
+
+
+def _another_motion(x: Examination, section: SteadySection, found: list[SteadyMotion]) -> str:
+    """A steady motion that none of these is; empty where none was found."""
+    if x.reference.large or x.reference.rows or section.eliminated or section.acting:
+        return ""
+    turning = sorted({name for each in found for name in each.momenta})
+    if not turning or x.problem.contacts:
+        return ""
+    places = [
+        Place(x, "the steady motions", each.at, each.rates or {}, each.on, each.where)
+        for each in found
+    ]
+    mirrored = [each.mirrored for each in found]
+    near = next(unlisted(Balance(x, turning), places, mirrored=mirrored), None)
+    return "" if near is None else shown(near, turning)
 
 
 def _not_confirmed(what: str) -> str:

@@ -285,6 +285,14 @@ class Near:
         ]
         return [value.real for value in eigenvalues(rows)]
 
+    @property
+    def is_bowl(self) -> bool:
+        """Whether V - T_0 surely has a minimum there, and nothing but L and constraints acts."""
+        given = self.x.problem
+        pushed = given.forces or given.dissipation or any(p.force for p in given.points)
+        definite = all(z.real > NOTHING for z in eigenvalues(self.laws.mass_matrix))
+        return not pushed and definite and all(k > 1e-8 for k in self.stiffness)
+
     def _tangent(self) -> list[tuple[arb, ...]]:
         jacobian = self.laws.jacobian
         return list(solve(jacobian, [arb(0)] * len(jacobian), self.size).kernel)

@@ -1,0 +1,184 @@
+"""Equilibria and steady motions that are not listed, searched for by Newton's method.
+
+Where q'' = 0 and the other velocities are constant,
+
+    dL/dq_j - d/dt(dL/dq_j') + Q_j - dD/dq_j' + sum_k lambda_k a_kj = 0
+
+with the constraints; for steady motions the rates of the cyclic coordinates are sought as well,
+with given momenta.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import pi
+from random import Random
+
+from flint import arb, ctx
+
+from lagcli.problem import Inequality
+from lagcli.verification.claims.rest import Near, Place, eigenvalues
+from lagcli.verification.examination import PRECISIONS, Examination
+from lagcli.verification.linear import Unclear, least_step, size
+from lagcli.verification.states import Environment, State
+from lagcli.verification.sweeps import column
+
+#: Starts of Newton's method at each of `_STATES` choices of the parameters.
+_STARTS = 10
+_STATES = 2
+_STEPS = 25
+_ARRIVED = 1e-24
+#: How near two places are the same.
+_SAME = 1e-9
+_SIGNS = {"positive": 1, "nonnegative": 1, "negative": -1}
+
+
+class Balance:
+    """The conditions of rest, or of steady motion.
+
+    Parameters
+    ----------
+    x
+        The examination.
+    turning
+        The coordinates that turn at constant rates: their momenta are given.
+    """
+
+    def __init__(self, x: Examination, turning: Sequence[str] = ()) -> None:
+        self.x, self.turning = x, tuple(turning)
+        program, reference = x.reference.program, x.reference
+        forces = list(reference.forces)
+        momenta = []
+        for j, (q, v) in enumerate(zip(reference.q, reference.v, strict=True)):
+            p = program.derivative(reference.lagrangian, {v: program.one})
+            seeds = {**dict(zip(reference.q, reference.v, strict=True)), reference.time: program.one}
+            slope = program.derivative(reference.lagrangian, {q: program.one})
+            terms = [slope, program.negative(program.derivative(p, seeds)), forces[j]]
+            if reference.dissipation is not None:
+                drag = program.derivative(reference.dissipation, {v: program.one})
+                terms.append(program.negative(drag))
+            for row in reference.rows:
+                arm = program.derivative(row.velocity, {v: program.one})
+                terms.append(program.product(program.symbol(row.constraint.multiplier), arm))
+            momenta.append(p)
+            forces[j] = program.sum(*terms)
+        names = reference.names
+        self.conditions = [f for n, f in zip(names, forces, strict=True) if n not in self.turning]
+        for name, p in zip(names, momenta, strict=True):
+            if name in self.turning:
+                given = program.negative(program.symbol(f"p_{name}"))
+                self.conditions.append(program.sum(p, given))
+        self.conditions += [row.value for row in reference.rows]
+        still = [n for n in names if n not in self.turning]
+        self.sought = [(n, 0) for n in still] + [(n, 1) for n in self.turning]
+        self.sought += [(row.constraint.multiplier, 0) for row in reference.rows]
+        self.symbols = [program.symbol(*key) for key in self.sought]
+
+    def found(self) -> Iterator[Near]:
+        """Regular places where it stays, from random starts."""
+        with ctx.workprec(PRECISIONS[0]):
+            random = Random(5)
+            for state in self.x.states(_STATES):
+                for _ in range(_STARTS):
+                    near = self._from(self._start(state, random))
+                    if near is not None and self._counts(near):
+                        yield near
+
+    def _start(self, state: State, random: Random) -> Environment:
+        environment = dict(state.environment)
+        for coordinate in self.x.problem.coordinates:
+            value = arb(random.randint(-3300, 3300)) / 1024
+            sign = _SIGNS.get(coordinate.assume)
+            environment[coordinate.name, 0] = value if sign is None else abs(value) * sign
+            environment[coordinate.name, 1] = arb(0)
+        for key in self.sought[len(self.x.reference.names) :]:
+            environment[key] = arb(random.randint(-1024, 1024)) / 1024
+        for name in self.turning:
+            environment[name, 1] = arb(random.randint(-2048, 2048)) / 1024
+            environment[f"p_{name}", 0] = arb(random.randint(-1536, 1536)) / 1024
+        return environment
+
+    def _from(self, environment: Environment) -> Near | None:
+        """Newton's method; the last step is no longer than rounding."""
+        reference = self.x.reference
+        for _ in range(_STEPS):
+            at = reference.values(environment)
+            residual = [at(place) for place in self.conditions]
+            if not all(each.is_finite() for each in residual):
+                return None
+            rows = [column(at.gradient(place), self.symbols) for place in self.conditions]
+            try:
+                step = least_step(rows, residual)
+            except Unclear:
+                return None
+            longest = max(map(size, step), default=0.0)
+            if max(map(size, residual)) < _ARRIVED and longest < _SAME:
+                return Near(self.x, environment)
+            if not longest < 1e6:
+                return None
+            shorter = arb(1 if longest < 1 else 1 / longest)
+            for key, d in zip(self.sought, step, strict=True):
+                environment[key] = (environment[key] + d * shorter).mid()
+        return None
+
+    def _counts(self, near: Near) -> bool:
+        """Whether it is a regular place that the file allows, within one turn."""
+        x = self.x
+        if any(size(near.environment[n, 0]) > pi for n in x.reference.names):
+            return False
+        if not near.defined or not near.regular:
+            return False
+        if any(abs(z) < _SAME for z in eigenvalues(near.laws.mass_matrix)):
+            return False
+        signs = all(
+            float(near.environment[c.name, 0]) * _SIGNS.get(c.assume, 0) >= 0
+            for c in x.problem.coordinates
+        )
+        held = (c.holds_while for c in x.problem.constraints)
+        return signs and all(h is None or _holds(x, near, h) for h in held)
+
+
+def _holds(x: Examination, near: Near, condition: Inequality) -> bool:
+    at = x.reference.values(near.environment)
+    gap = at(x.reference.place(condition.left)) - at(x.reference.place(condition.right))
+    return bool(gap > 0 if condition.comparison[0] == ">" else gap < 0)
+
+
+def unlisted(
+    balance: Balance, places: Sequence[Place], *, mirrored: Sequence[bool] = ()
+) -> Iterator[Near]:
+    """The places found that none of these is, up to whole turns and reversed rates."""
+    both = list(zip(places, mirrored or [False] * len(places), strict=True))
+    for near in balance.found():
+        if not any(_is_at(balance, near, place, mirror=mirror) for place, mirror in both):
+            yield near
+
+
+def _is_at(balance: Balance, near: Near, place: Place, *, mirror: bool) -> bool:
+    with ctx.workprec(PRECISIONS[0]):
+        listed = place.near(near.environment)
+    if listed is None:
+        return False
+    names = balance.x.reference.names
+    gaps = (_gap(near, listed, (n, 0)) for n in names)
+    if not all(abs(gap - 2 * pi * round(gap / (2 * pi))) < _SAME for gap in gaps):
+        return False
+    rates = [(n, 1) for n in balance.turning]
+    return all(abs(_gap(near, listed, key)) < _SAME for key in rates) or (
+        mirror and all(abs(_gap(near, listed, key, -1)) < _SAME for key in rates)
+    )
+
+
+def _gap(a: Near, b: Near, key: tuple[str, int], sign: int = 1) -> float:
+    return float((a.environment[key] - sign * b.environment[key]).mid())
+
+
+def shown(near: Near, turning: Sequence[str] = ()) -> str:
+    """Where a place is."""
+    names = near.x.reference.names
+    parts = [f"{n} = {float(near.environment[n, 0]):.6g}" for n in names if n not in turning]
+    parts += [f"{n}' = {float(near.environment[n, 1]):.6g}" for n in turning]
+    return ", ".join(parts)
+
+
+__all__ = ["Balance", "shown", "unlisted"]
