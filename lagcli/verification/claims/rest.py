@@ -86,12 +86,10 @@ class Place:
         resting = {(name, 1) for name in reference.names} - self.values.keys()
         environment = {**known, **{key: arb(0) for key in resting}}
         for name, p in zip(reference.names, ball_numbers(len(reference.names)), strict=True):
-            environment[f"p_{name}", 0] = p
+            environment.setdefault((f"p_{name}", 0), p)
         if not (self._put_in(environment) and self._tied(environment)):
             return None
-        if not self._put_in(environment):
-            return None
-        if self.eliminated and not self._rolling(environment):
+        if not self._put_in(environment) or not self._carried(environment):
             return None
         at = reference.values(environment)
         allowed = all(at(place) > 0 for place in self.where)
@@ -112,10 +110,16 @@ class Place:
         places = self.on + [row.value for row in reference.rows if row.holonomic]
         return not free or self._solved(environment, places, [(n, 0) for n in free])
 
-    def _rolling(self, environment: Environment) -> bool:
-        """Give the eliminated velocities the values that the constraints leave them."""
-        places = [row.velocity for row in self.x.reference.rows]
-        return self._solved(environment, places, [(n, 1) for n in self.eliminated])
+    def _carried(self, environment: Environment) -> bool:
+        """Give the velocities that are not given the values that the constraints leave them.
+
+        Those of a motor, as phi = w t, and those that follow from velocity constraints.
+        """
+        reference = self.x.reference
+        places = [row.velocity for row in reference.rows]
+        given = {name for name, _ in self.values} - set(self.eliminated)
+        free = [(n, 1) for n in reference.names if n not in given]
+        return not free or self._solved(environment, places, free)
 
     def _solved(
         self, environment: Environment, places: list[int], free: list[tuple[str, int]]

@@ -138,6 +138,21 @@ class Balance:
         return signs and all(h is None or _holds(x, near, h) for h in held)
 
 
+    def is_period(self, near: Near, listed: Near) -> bool:
+        """Whether the laws at places this far from each other are the same."""
+        reference = self.x.reference
+        with ctx.workprec(PRECISIONS[0]):
+            here = dict(near.environment)
+            for k, (name, primes) in enumerate(self.sought):
+                here[name, primes] = here[name, primes] + arb(2 * k + 3) / 16
+            there = dict(here)
+            for n in reference.names:
+                change = listed.environment[n, 0] - near.environment[n, 0]
+                there[n, 0] = here[n, 0] + change
+            one, other = reference.values(here), reference.values(there)
+            return all(size(one(f) - other(f)) < _SAME for f in self.conditions)
+
+
 def _holds(x: Examination, near: Near, condition: Inequality) -> bool:
     at = x.reference.values(near.environment)
     gap = at(x.reference.place(condition.left)) - at(x.reference.place(condition.right))
@@ -147,7 +162,7 @@ def _holds(x: Examination, near: Near, condition: Inequality) -> bool:
 def unlisted(
     balance: Balance, places: Sequence[Place], *, mirrored: Sequence[bool] = ()
 ) -> Iterator[Near]:
-    """The places found that none of these is, up to whole turns and reversed rates."""
+    """The places found that none of these is, up to periods and reversed rates."""
     both = list(zip(places, mirrored or [False] * len(places), strict=True))
     for near in balance.found():
         if not any(_is_at(balance, near, place, mirror=mirror) for place, mirror in both):
@@ -155,18 +170,21 @@ def unlisted(
 
 
 def _is_at(balance: Balance, near: Near, place: Place, *, mirror: bool) -> bool:
+    """Whether a listed motion is the one found, or with `mirror` that with opposite momenta."""
+    sign = -1 if mirror else 1
+    momenta = {(f"p_{n}", 0) for n in balance.turning}
+    known = {key: v * sign if key in momenta else v for key, v in near.environment.items()}
     with ctx.workprec(PRECISIONS[0]):
-        listed = place.near(near.environment)
+        listed = place.near(known)
     if listed is None:
-        return False
-    names = balance.x.reference.names
-    gaps = (_gap(near, listed, (n, 0)) for n in names)
-    if not all(abs(gap - 2 * pi * round(gap / (2 * pi))) < _SAME for gap in gaps):
-        return False
-    rates = [(n, 1) for n in balance.turning]
-    return all(abs(_gap(near, listed, key)) < _SAME for key in rates) or (
-        mirror and all(abs(_gap(near, listed, key, -1)) < _SAME for key in rates)
+        return mirror and _is_at(balance, near, place, mirror=False)
+    still = [n for n in balance.x.reference.names if n not in balance.turning]
+    gaps = [abs(_gap(near, listed, (n, 0))) for n in still]
+    turned = [abs(_gap(near, listed, (n, 1), sign)) for n in balance.turning]
+    same = all(gap < _SAME for gap in turned) and (
+        all(gap < _SAME for gap in gaps) or balance.is_period(near, listed)
     )
+    return same or (mirror and _is_at(balance, near, place, mirror=False))
 
 
 def _gap(a: Near, b: Near, key: tuple[str, int], sign: int = 1) -> float:
