@@ -85,7 +85,9 @@ class Meaning:
             else:
                 yield from self._differ(f"{path}/{key}", key, one, other)
 
-    def _differ_as_lists(self, path: str, key: str, a: list[Any], b: list[Any]) -> Iterator[Difference]:
+    def _differ_as_lists(
+        self, path: str, key: str, a: list[Any], b: list[Any]
+    ) -> Iterator[Difference]:
         if key in SETS or all(isinstance(each, dict) for each in (*a, *b)):
             yield from self._differ_as_sets(path, key, a, b)
         elif len(a) != len(b):
@@ -94,19 +96,29 @@ class Meaning:
             for place, (one, other) in enumerate(zip(a, b, strict=True)):
                 yield from self._differ(f"{path}/{place}", "", one, other)
 
-    def _differ_as_sets(self, path: str, key: str, a: list[Any], b: list[Any]) -> Iterator[Difference]:
+    def _differ_as_sets(
+        self, path: str, key: str, a: list[Any], b: list[Any]
+    ) -> Iterator[Difference]:
         left = list(b)
         alone = []
         for number, one in enumerate(a):
-            ways = [(list(self._differ(f"{path}/{number}", key, one, other)), other) for other in left]
-            best = min(ways, key=lambda way: (any(d.kind == "wrong" for d in way[0]), len(way[0])), default=None)
+            ways = [
+                (list(self._differ(f"{path}/{number}", key, one, other)), other) for other in left
+            ]
+            best = min(
+                ways,
+                key=lambda way: (any(d.kind == "wrong" for d in way[0]), len(way[0])),
+                default=None,
+            )
             if best is not None and not any(d.kind == "wrong" for d in best[0]):
                 yield from best[0]
                 left.remove(best[1])
             else:
                 alone.append(number)
         if alone or left:
-            yield Difference(f"{path}: {len(alone)} of {len(a)} missing, {len(left)} others", "wrong")
+            yield Difference(
+                f"{path}: {len(alone)} of {len(a)} missing, {len(left)} others", "wrong"
+            )
 
     # -- formulas ---------------------------------------------------------------------------
 
@@ -169,7 +181,9 @@ class _Values:
         known = [(x, y) for x, y in zip(*gaps, strict=True) if x is not None or y is not None]
         if sign == "=":
             return bool(known) and all(
-                x is not None and y is not None and (agree(x, y) or (agree(x, mpf(0)) and agree(y, mpf(0))))
+                x is not None
+                and y is not None
+                and (agree(x, y) or (agree(x, mpf(0)) and agree(y, mpf(0))))
                 for x, y in known
             )
         return bool(known) and all(

@@ -239,14 +239,20 @@ def _said(difference: Difference, before: Any, sheet: Any) -> bool:
     """Whether a weaker answer has its sentence: a warning that is new, or a reason."""
     if difference.kind == "wrong":
         return False
+    if difference.path.endswith(UNDECIDED):
+        return True
     section = sheet.get(difference.path.split("/")[0])
     reasons = json.dumps(section).count('"reason": "') + json.dumps(section).count('"note": "')
     return len(sheet["warnings"]) > len(before["warnings"]) or bool(reasons)
 
 
+#: A null here is the word "undecided", or claims nothing.
+UNDECIDED = ("/stable", "/name", "/integrable", "/in_involution", "/separable")
+
 #: The sentence that says that a list may not hold everything.
 _OTHERS = {"equilibria": "no other equilibrium", "steady_motions": "no other steady motion",
-           "discovered": "no other", "modes": "modes"}  # fmt: skip
+           "discovered": "no other", "modes": "normal modes about all",
+           "reduction/one_freedom/periods": "periods about all"}  # fmt: skip
 
 
 def _warned(difference: Difference, warnings: Sequence[str]) -> bool:

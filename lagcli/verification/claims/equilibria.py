@@ -1,23 +1,22 @@
-"""Equilibria with their stability, normal modes, and steady motions."""
+"""Equilibria and steady motions, with their stability."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from math import isqrt
 
 from flint import arb, arb_mat, ctx
 
-from lagcli.answers import EquilibriaSection, Equilibrium, Mode, ModesSection
+from lagcli.answers import EquilibriaSection, Equilibrium
 from lagcli.expression import Expression
-from lagcli.formatters.grammar import to_grammar
 from lagcli.motions import SteadyMotion, SteadySection, Verdict
 from lagcli.record import replace
+from lagcli.verification.claims.near import NOTHING, Near, eigenvalues, occur
 from lagcli.verification.claims.rest import (
     BITS,
-    NOTHING,
-    Near,
     Place,
-    eigenvalues,
+    named,
+    not_confirmed,
     with_closed_contacts,
 )
 from lagcli.verification.claims.stability import refutes
@@ -37,7 +36,7 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
     found = []
     with ctx.workprec(BITS):
         for each in section.equilibria:
-            what = f"the equilibrium {_named(each.at, each.on)}"
+            what = f"the equilibrium {named(each.at, each.on)}"
             if each.sticking:
                 x.unchecked.append(what)
                 found.append(each)
@@ -47,7 +46,7 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
             place = place if y is x else Place(y, what, each.at, {}, each.on, each.where)
             verdict = _stays(x, what, place, each.verdict, cyclic=0)
             if verdict is None:
-                return replace(section, equilibria=None, reason=_not_confirmed("an equilibrium"))
+                return replace(section, equilibria=None, reason=not_confirmed("an equilibrium"))
             found.append(each if verdict is each.verdict else replace(each, verdict=verdict))
         other = _another(x, found) if section.complete else ""
     if other:
@@ -65,60 +64,6 @@ def _another(x: Examination, found: list[Equilibrium]) -> str:
     return "" if near is None else shown(near)
 
 
-def modes(x: Examination, section: ModesSection) -> ModesSection:
-    """Each frequency is one of the linear motion near its equilibrium, with its shapes.
-
-    There is one for each degree of freedom, about every stable equilibrium.
-    """
-    if section.modes is None:
-        return section
-    with ctx.workprec(BITS):
-        for each in section.modes:
-            if not _is_mode(x, each):
-                return replace(section, modes=None, reason=_not_confirmed("a normal mode"))
-        groups: dict[object, list[Mode]] = {}
-        for each in section.modes:
-            groups.setdefault(repr((each.at, each.on)), []).append(each)
-        places = [_all_modes(x, about) for about in groups.values()]
-        if None in places:
-            return replace(section, modes=None, reason=_not_confirmed("the number of normal modes"))
-        _of_other_equilibria(x, [place for place in places if place is not None])
-    return section
-
-
-def _all_modes(x: Examination, about: Sequence[Mode]) -> Place | None:
-    """The equilibrium, if it has as many modes as it must have."""
-    first = about[0]
-    what = f"the number of normal modes about {_named(first.at, first.on)}"
-    place = Place(x, what, first.at, {}, first.on, ())
-    if with_closed_contacts(x, place) is not x:
-        return place
-    count = sum(mode.multiplicity for mode in about)
-    for near in place.states():
-        if not (near.defined and near.regular):
-            continue
-        values = near.eigenvalues
-        zeros = sum(abs(z) < NOTHING ** 0.5 * max([1e-3, *map(abs, values)]) for z in values)
-        if not (len(values) - zeros) // 2 <= count <= (len(values) + 1) // 2:
-            x.refute(what, f"it is {count} as derived, with {len(values) // 2} degrees of freedom")
-            return None
-        break
-    return place
-
-
-def _of_other_equilibria(x: Examination, places: Sequence[Place]) -> None:
-    """Note a stable equilibrium about which no modes are listed."""
-    if not places or x.reference.large or x.problem.contacts:
-        return
-    if any(not row.holonomic for row in x.reference.rows):
-        return
-    for near in unlisted(Balance(x), places):
-        if near.is_bowl:
-            why = f"there is a stable equilibrium at {shown(near)}"
-            x.refute("that the normal modes about all stable equilibria are listed", why)
-            return
-
-
 def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
     """Each stays as it is, and its stability is that of the linear motion near it."""
     if section.motions is None:
@@ -126,14 +71,14 @@ def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
     found = []
     with ctx.workprec(BITS):
         for each in section.motions:
-            what = f"the steady motion {_named(each.at, each.on)}"
+            what = f"the steady motion {named(each.at, each.on)}"
             if each.rates is None:
                 found.append(each)
                 continue
             place = Place(x, what, each.at, each.rates, each.on, each.where, section.eliminated)
             verdict = _stays(x, what, place, each.verdict, cyclic=len(each.rates))
             if verdict is None or not _with_momenta(x, what, place, each):
-                return replace(section, motions=None, reason=_not_confirmed("a steady motion"))
+                return replace(section, motions=None, reason=not_confirmed("a steady motion"))
             found.append(each if verdict is each.verdict else replace(each, verdict=verdict))
         other = _another_motion(x, section, found) if section.complete else ""
     if other:
@@ -156,17 +101,6 @@ def _another_motion(x: Examination, section: SteadySection, found: list[SteadyMo
     mirrored = [each.mirrored for each in found]
     near = next(unlisted(Balance(x, turning), places, mirrored=mirrored), None)
     return "" if near is None else shown(near, turning)
-
-
-def _not_confirmed(what: str) -> str:
-    return f"{what} that was derived does not hold at random states"
-
-
-def _named(at: Mapping[str, Expression], on: tuple[Expression, Expression] | None) -> str:
-    parts = [f"{name} = {to_grammar(value)}" for name, value in at.items()]
-    if on is not None:
-        parts.append(" = ".join(map(to_grammar, on)))
-    return ", ".join(parts) or "everywhere"
 
 
 def _stays(
@@ -218,7 +152,7 @@ def _with_momenta(x: Examination, what: str, place: Place, motion: SteadyMotion)
             x.refute(what, "the momenta are not those of its rates")
             return False
         known = near.regular and not place.eliminated
-        if known and not _occur(near, [near.at(square) for square in squares]):
+        if known and not occur(near, [near.at(square) for square in squares]):
             x.refute(what, "a frequency is not one of the linear motion near it")
             return False
         if known and not _same_motion(near, [[near.at(p) for p in m or ()] for m in matrices]):
@@ -254,61 +188,3 @@ def _same_motion(near: Near, flat: Sequence[Sequence[arb]]) -> bool:
 
 def _close(a: arb, b: arb) -> bool:
     return abs(float((a - b).mid())) <= _AGREE * (abs(float(a.mid())) + abs(float(b.mid())) + 1e-6)
-
-
-def _occur(near: Near, squares: Sequence[arb]) -> bool:
-    """Whether each omega^2 is minus the square of an eigenvalue, as often as it is there."""
-    left = [-(z**2) for z in near.eigenvalues]
-    scale = max([1e-6, *map(abs, left)])
-    for square in squares:
-        if not square.is_finite():
-            continue
-        W = float(square.mid())
-        equal = [z for z in left if abs(z - W) < _AGREE * scale]
-        if len(equal) < 2:
-            return False
-        left = [z for z in left if z not in equal[:2]] + equal[2:]
-    return True
-
-
-def _is_mode(x: Examination, mode: Mode) -> bool:
-    what = f"the normal modes about {_named(mode.at, mode.on)}"
-    place = Place(x, what, mode.at, {}, mode.on, ())
-    if with_closed_contacts(x, place) is not x:
-        x.unchecked.append(what)  # on one side only the motion is that of the equations
-        return True
-    square = x.places(what, [f for f in (mode.frequency_squared,) if f is not None])
-    frequency = x.places(what, [f for f in (mode.frequency,) if f is not None])
-    shapes = [s for s in (mode.shape, *mode.more_shapes) if s is not None]
-    flat = x.places(what, [shape[n] for shape in shapes for n in x.reference.names])
-    if not place.readable or square is None or frequency is None or flat is None:
-        return False
-    size = len(x.reference.names)
-    for near in place.states():
-        if not (near.defined and near.regular):
-            continue
-        W = [near.at(p) for p in square] + [near.at(p) ** 2 for p in frequency]
-        if not all(w.is_finite() for w in W):
-            continue
-        if not all(_occur(near, [w] * mode.multiplicity) for w in W):
-            x.refute(what, "a frequency is not one of the linear motion near it")
-            return False
-        values = [near.at(p) for p in flat]
-        for k in range(0, len(values), size):
-            if not _moves_so(near, W[0], values[k : k + size]):
-                x.refute(what, "a shape is not that of its frequency")
-                return False
-    return True
-
-
-def _moves_so(near: Near, W: arb, shape: Sequence[arb]) -> bool:
-    """Whether (dq''/dq) a = -omega^2 a, where velocities play no part."""
-    by_q, by_v = near.slopes
-    if any(abs(float(e.mid())) > NOTHING for row in by_v for e in row):
-        return True
-    if not all(a.is_finite() for a in shape):
-        return True
-    forces = [sum((e * a for e, a in zip(row, shape, strict=True)), arb(0)) for row in by_q]
-    scale = max([1e-6, *(abs(float(f.mid())) for f in forces)])
-    gaps = (abs(float((f + W * a).mid())) for f, a in zip(forces, shape, strict=True))
-    return max(gaps) < _AGREE * max(scale, 1.0)

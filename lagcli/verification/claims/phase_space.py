@@ -25,10 +25,13 @@ from lagcli.problem import JACOBI_FUNCTION, Problem, Transformation, charge_of
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt
 from lagcli.verification.examination import Examination
-from lagcli.verification.linear import dot
+from lagcli.verification.linear import dot, size
 from lagcli.verification.phase_points import PhasePoint
 from lagcli.verification.states import State
 from lagcli.verification.sweeps import Values, column
+
+#: Two lists of values at a state.
+Sides = Callable[[State], tuple[list[arb], list[arb]]]
 
 _WHY = "its printed form was not confirmed at random states"
 
@@ -181,10 +184,22 @@ class Tested:
             x.refute(what, "no bracket is listed that fails")
             return False
         named = [(self.places[f.left], self.places[f.right]) for f in failing]
+        first = self.places[self.Q[0]], self.places[self.P[0]]
+        paired = [f.right == f"p_{f.left}" for f in failing]
         values, expected = sides[::2], sides[1::2]
-        return x.decide(
-            what,
-            lambda s: ([s.phase.bracket(*pair) for pair in named], [s.at(v) for v in values]),
+
+        def right(s: State) -> list[arb]:
+            """0, or for a pair the valence: the first bracket of a pair, or 1."""
+            valence = [s.phase.bracket(*first), arb(1)]
+            found = []
+            for place, conjugate in zip(expected, paired, strict=True):
+                value = s.at(place)
+                known = valence if conjugate else [arb(0)]
+                found.append(min(known, key=lambda v, value=value: size(v - value)))  # type: ignore[misc]
+            return [*(s.phase.bracket(*pair) for pair in named), *found]
+
+        return x.hold(
+            what, [e for f in failing for e in (f.value,)] + [f.expected for f in failing], right
         ) and all(
             x.constant(what, claim=False, value=lambda s, v=v, e=e: s.at(v) - s.at(e))  # type: ignore[misc]
             for v, e in zip(values, expected, strict=True)
@@ -205,7 +220,10 @@ class Tested:
         given = self.given.generating
         if printed.kind != "F" and given is not None:
             known = x.reference.place(given)
-            new = lambda s: self._new(s.phase)  # noqa: E731 - a scene
+
+            def new(s: State) -> Values:
+                return self._new(s.phase)
+
             if not x.holds(what, printed.function, lambda s: new(s)(known), new):
                 return False
         if printed.generates is None:
@@ -213,15 +231,32 @@ class Tested:
         sides = self._relations(printed.kind, places[0], valence)
         if printed.generates:
             return x.decide(what, sides)
+        failing = x.places(what, [side for pair in printed.failing for side in pair])
+        if not failing:
+            x.refute(what, "no relation is listed that fails")
+            return False
+        pairs = list(zip(failing[::2], failing[1::2], strict=True))
         return x.constant(
             f"that {what} does not generate it",
             claim=False,
             value=lambda s: sum((abs(a - b) for a, b in zip(*sides(s), strict=True)), arb(0)),
-        )
+        ) and x.decide(what, lambda s: self._relations_listed(s, pairs, sides))
 
-    def _relations(
-        self, kind: str, F: int, valence: Sequence[int]
-    ) -> Callable[[State], tuple[list[arb], list[arb]]]:
+    def _relations_listed(
+        self, s: State, pairs: Sequence[tuple[int, int]], sides: Sides
+    ) -> tuple[list[arb], list[arb]]:
+        """Each listed relation beside that derivative of F which it is, but for both signs."""
+        at = self._new(s.phase)
+        printed = [(at(left), at(right)) for left, right in pairs]
+        known = [(sign * b, sign * a) for a, b in zip(*sides(s), strict=True) for sign in (1, -1)]
+
+        def apart(one: tuple[arb, arb], other: tuple[arb, arb]) -> float:
+            return sum(size(a - b) for a, b in zip(one, other, strict=True))
+
+        nearest = [min(known, key=lambda k, p=p: apart(k, p)) for p in printed]  # type: ignore[misc]
+        return [v for p in printed for v in p], [v for n in nearest for v in n]
+
+    def _relations(self, kind: str, F: int, valence: Sequence[int]) -> Sides:
         """What the derivatives of F are, and what they must be."""
         program, reference = self.x.reference.program, self.x.reference
         q, p = reference.q, [program.symbol(f"p_{n}") for n in reference.names]
@@ -233,7 +268,9 @@ class Tested:
             Q, P = ([at(self.places[n]) for n in names] for names in (self.Q, self.P))
             if kind == "F":
                 return column(by, [*q, *p]), self._action_form(s.phase, c, P)
-            old, kept = ((q, [c * at(x) for x in p]), (p, [-c * at(x) for x in q]))[kind in {"F3", "F4"}]
+            old, kept = ((q, [c * at(x) for x in p]), (p, [-c * at(x) for x in q]))[
+                kind in {"F3", "F4"}
+            ]
             new, made = ((self.Q, [-x for x in P]), (self.P, Q))[kind in {"F2", "F4"}]
             return column(by, [*old, *(self.symbols[n] for n in new)]), [*kept, *made]
 
@@ -262,4 +299,3 @@ class Tested:
             return slopes, [s.phase.rate(self.places[n]) for n in (*self.Q, *self.P)]
 
         return self.x.decide(what, sides)
-

@@ -13,6 +13,7 @@ from lagcli.answers import ModelSection, ReductionSection
 from lagcli.expression import Expression
 from lagcli.motions import OneFreedom
 from lagcli.record import replace
+from lagcli.verification.claims.periods import periods
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot
 from lagcli.verification.states import State
@@ -139,7 +140,7 @@ def _one_freedom(x: Examination, one: OneFreedom, R: Expression) -> bool:
     before = len(x.unchecked)
     holds = not turning or x.decide("the turning points", turns)
     del x.unchecked[before:]  # for no random energy are they real
-    return holds
+    return holds and periods(x, one, h)
 
 
 def model(x: Examination, section: ModelSection) -> ModelSection:

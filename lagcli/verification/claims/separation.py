@@ -10,7 +10,7 @@ sections 10.1 and 10.4.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 from random import Random
 
@@ -19,6 +19,7 @@ from flint import arb
 from lagcli.expression import Expression
 from lagcli.motions import Above, HamiltonJacobiSection
 from lagcli.record import replace
+from lagcli.verification.claims.driven import solves_in_time
 from lagcli.verification.claims.rest import conditions
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, dot, least_step, rank, size, solve
@@ -39,7 +40,7 @@ def hamilton_jacobi(x: Examination, section: HamiltonJacobiSection) -> HamiltonJ
     if not action.readable or not x.decide(what, action.energies):
         return _nothing(section)
     if section.time_rate is not None:
-        return section if action.solves_in_time() else _nothing(section)
+        return section if solves_in_time(action) else _nothing(section)
     if section.separable is not None and not action.levi_civita():
         return _nothing(section)
     if section.derivatives is None:
@@ -152,11 +153,19 @@ class Action:
         by = at.gradient(self.H)
         left, right = [], []
         for i, j in pairs:
-            di, dj, ui, uj = (by.get(k, arb(0)) for k in (self.q[i], self.q[j], self.p[i], self.p[j]))
+            di, dj, ui, uj = (
+                by.get(k, arb(0)) for k in (self.q[i], self.q[j], self.p[i], self.p[j])
+            )
             along_q = at.gradient_rates(self.H, by, {self.q[j]: arb(1)})
             along_p = at.gradient_rates(self.H, by, {self.p[j]: arb(1)})
-            first = [ui * uj * along_q.get(self.q[i], arb(0)), di * dj * along_p.get(self.p[i], arb(0))]
-            second = [di * uj * along_q.get(self.p[i], arb(0)), ui * dj * along_p.get(self.q[i], arb(0))]
+            first = [
+                ui * uj * along_q.get(self.q[i], arb(0)),
+                di * dj * along_p.get(self.p[i], arb(0)),
+            ]
+            second = [
+                di * uj * along_q.get(self.p[i], arb(0)),
+                ui * dj * along_p.get(self.q[i], arb(0)),
+            ]
             left.append(first[0] + first[1])
             right.append(second[0] + second[1])
         return left, right
@@ -168,7 +177,7 @@ class Action:
         x, what = self.x, "the parts of Hamilton's principal function"
         symbols = x.reference.program.symbols
         allowed = {key for key, _ in self.constants}
-        moving = {n for n in self.names}
+        moving = set(self.names)
         for name, place in zip(self.names, self.slopes, strict=True):
             others = {key for key, _ in symbols([place])} & (moving - {name})
             if others - allowed:
@@ -281,40 +290,3 @@ class Action:
             yield self.x.reference.values(
                 {**known, self.energy: known.get(self.energy, arb(1)) * scale}
             )
-
-    # -- forces of the time -------------------------------------------------------------------------
-
-    def solves_in_time(self) -> bool:
-        """sum p_i' q_i + f' + H(q, p, t) = 0, with d/dt of the integrals as printed."""
-        x, section, what = self.x, self.section, "Hamilton's principal function"
-        integrals = x.places(what, list(section.integrals.values()))
-        rates = [e for e in (section.time_rate, section.of_time) if e is not None]
-        of_time = x.places(what, rates)
-        if integrals is None or of_time is None:
-            return False
-        program = x.reference.program
-        named = [program.symbol(name) for name in section.integrals]
-
-        def rate(at: Values, place: int) -> arb:
-            by = at.gradient(place)
-            inner = [by.get(symbol, arb(0)) * at(f) for symbol, f in zip(named, integrals, strict=True)]
-            return sum(inner, by.get(x.reference.time, arb(0)))
-
-        def sides(s: State) -> tuple[list[arb], list[arb]] | None:
-            known = {**s.phase.environment, **self._chosen()}
-            at = x.reference.values(known)
-            p = [at(place) for place in self.slopes]
-            moving = {(f"p_{n}", 0): value for n, value in zip(self.names, p, strict=True)}
-            H = x.reference.values({**known, **moving})(self.H)
-            pushed = dot([rate(at, place) for place in self.slopes], [at(q) for q in self.q])
-            left, right = [pushed + at(of_time[0])], [-H]
-            if len(of_time) > 1:
-                left, right = [*left, rate(at, of_time[1])], [*right, at(of_time[0])]
-            return left, right
-
-        return x.decide(what, sides)
-
-    def _chosen(self) -> Mapping[tuple[str, int], arb]:
-        """Values of the constants and integrals."""
-        keys = [*self.constants, *((name, 0) for name in self.section.integrals)]
-        return {key: arb(5 + 3 * k) / 8 for k, key in enumerate(keys)}

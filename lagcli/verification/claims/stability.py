@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lagcli.motions import Above, Verdict
-from lagcli.verification.claims.rest import Near, conditions, eigenvalues
+from lagcli.verification.claims.near import Near, eigenvalues
+from lagcli.verification.claims.rest import conditions
 from lagcli.verification.examination import Examination
 
 

@@ -25,6 +25,10 @@ _SCALES = {
     "kg": Fraction(5, 4), "m": Fraction(7, 4), "s": Fraction(3, 4), "A": Fraction(9, 8),
     "K": Fraction(11, 8), "mol": Fraction(13, 16), "cd": Fraction(15, 8),
 }  # fmt: skip
+_GROUPS = (
+    "coordinates", "parameters", "functions", "definitions", "momenta", "forces",
+    "multipliers", "charges",
+)  # fmt: skip
 _UNKNOWN = QuantityUnit(unit=None, source="undetermined")
 
 
@@ -35,11 +39,12 @@ def dimensions(x: Examination, section: DimensionsSection) -> DimensionsSection:
         return section
     if scaled.agrees():
         return section
-    groups = {
-        name: {n: each if each.source == "given" else _UNKNOWN for n, each in getattr(section, name).items()}
-        for name in ("coordinates", "parameters", "functions", "definitions", "momenta", "forces", "multipliers", "charges")
-    }  # fmt: skip
+    groups = {name: _given(getattr(section, name)) for name in _GROUPS}
     return DimensionsSection(units_given=True, energy=_UNKNOWN, **groups)
+
+
+def _given(units: Mapping[str, QuantityUnit]) -> dict[str, QuantityUnit]:
+    return {n: each if each.source == "given" else _UNKNOWN for n, each in units.items()}
 
 
 class Scaled:
@@ -69,7 +74,9 @@ class Scaled:
                 found[name, primes] = value * self.second
             elif name in self.factors:
                 change = self.factors[name]
-                found[name, primes] = value * change / self.second ** (primes if name in names else 0)
+                found[name, primes] = (
+                    value * change / self.second ** (primes if name in names else 0)
+                )
         return found
 
     def agrees(self) -> bool:
@@ -91,7 +98,10 @@ class Scaled:
         pairs = [
             (new, old * factor(unit.unit))
             for (_, unit), new, old in zip(
-                self._units(what).items(), self._values(there, what), self._values(s, what), strict=True
+                self._units(what).items(),
+                self._values(there, what),
+                self._values(s, what),
+                strict=True,
             )
             if unit.unit is not None and old.is_finite()
         ]

@@ -17,7 +17,8 @@ from random import Random
 from flint import arb, ctx
 
 from lagcli.problem import Inequality
-from lagcli.verification.claims.rest import Near, Place, eigenvalues
+from lagcli.verification.claims.near import Near, eigenvalues
+from lagcli.verification.claims.rest import Place
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear, least_step, size
 from lagcli.verification.states import Environment, State
@@ -51,7 +52,10 @@ class Balance:
         momenta = []
         for j, (q, v) in enumerate(zip(reference.q, reference.v, strict=True)):
             p = program.derivative(reference.lagrangian, {v: program.one})
-            seeds = {**dict(zip(reference.q, reference.v, strict=True)), reference.time: program.one}
+            seeds = {
+                **dict(zip(reference.q, reference.v, strict=True)),
+                reference.time: program.one,
+            }
             slope = program.derivative(reference.lagrangian, {q: program.one})
             terms = [slope, program.negative(program.derivative(p, seeds)), forces[j]]
             if reference.dissipation is not None:
@@ -136,7 +140,6 @@ class Balance:
         )
         held = (c.holds_while for c in x.problem.constraints)
         return signs and all(h is None or _holds(x, near, h) for h in held)
-
 
     def is_period(self, near: Near, listed: Near) -> bool:
         """Whether the laws at places this far from each other are the same."""

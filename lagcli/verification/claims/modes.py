@@ -1,0 +1,120 @@
+"""Normal modes: frequencies and shapes of the linear motion near equilibria, and their number."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from flint import arb, ctx
+
+from lagcli.answers import Mode, ModesSection
+from lagcli.record import replace
+from lagcli.verification.claims.near import NOTHING, Near, occur
+from lagcli.verification.claims.rest import (
+    BITS,
+    Place,
+    named,
+    not_confirmed,
+    with_closed_contacts,
+)
+from lagcli.verification.claims.unlisted import Balance, shown, unlisted
+from lagcli.verification.examination import Examination
+
+#: Relative differences of eigenvalues: those of multiplicity 2 are right to 1e-19.
+_AGREE = 1e-9
+
+
+def modes(x: Examination, section: ModesSection) -> ModesSection:
+    """Each frequency is one of the linear motion near its equilibrium, with its shapes.
+
+    There is one for each degree of freedom, about every stable equilibrium.
+    """
+    if section.modes is None:
+        return section
+    with ctx.workprec(BITS):
+        for each in section.modes:
+            if not _is_mode(x, each):
+                return replace(section, modes=None, reason=not_confirmed("a normal mode"))
+        groups: dict[object, list[Mode]] = {}
+        for each in section.modes:
+            groups.setdefault(repr((each.at, each.on)), []).append(each)
+        places = [_all_modes(x, about) for about in groups.values()]
+        if None in places:
+            return replace(section, modes=None, reason=not_confirmed("the number of normal modes"))
+        _of_other_equilibria(x, [place for place in places if place is not None])
+    return section
+
+
+def _all_modes(x: Examination, about: Sequence[Mode]) -> Place | None:
+    """The equilibrium, if it has as many modes as it must have."""
+    first = about[0]
+    what = f"the number of normal modes about {named(first.at, first.on)}"
+    place = Place(x, what, first.at, {}, first.on, ())
+    if with_closed_contacts(x, place) is not x:
+        return place
+    count = sum(mode.multiplicity for mode in about)
+    for near in place.states():
+        if not (near.defined and near.regular):
+            continue
+        values = near.eigenvalues
+        zeros = sum(abs(z) < NOTHING**0.5 * max([1e-3, *map(abs, values)]) for z in values)
+        if not (len(values) - zeros) // 2 <= count <= (len(values) + 1) // 2:
+            x.refute(what, f"it is {count} as derived, with {len(values) // 2} degrees of freedom")
+            return None
+        break
+    return place
+
+
+def _of_other_equilibria(x: Examination, places: Sequence[Place]) -> None:
+    """Note a stable equilibrium about which no modes are listed."""
+    if not places or x.reference.large or x.problem.contacts:
+        return
+    if any(not row.holonomic for row in x.reference.rows):
+        return
+    for near in unlisted(Balance(x), places):
+        if near.is_bowl:
+            why = f"there is a stable equilibrium at {shown(near)}"
+            x.refute("that the normal modes about all stable equilibria are listed", why)
+            return
+
+
+def _is_mode(x: Examination, mode: Mode) -> bool:
+    what = f"the normal modes about {named(mode.at, mode.on)}"
+    place = Place(x, what, mode.at, {}, mode.on, ())
+    if with_closed_contacts(x, place) is not x:
+        x.unchecked.append(what)  # on one side only the motion is that of the equations
+        return True
+    square = x.places(what, [f for f in (mode.frequency_squared,) if f is not None])
+    frequency = x.places(what, [f for f in (mode.frequency,) if f is not None])
+    shapes = [s for s in (mode.shape, *mode.more_shapes) if s is not None]
+    flat = x.places(what, [shape[n] for shape in shapes for n in x.reference.names])
+    if not place.readable or square is None or frequency is None or flat is None:
+        return False
+    size = len(x.reference.names)
+    for near in place.states():
+        if not (near.defined and near.regular):
+            continue
+        W = [near.at(p) for p in square] + [near.at(p) ** 2 for p in frequency]
+        if not all(w.is_finite() for w in W):
+            continue
+        if not all(occur(near, [w] * mode.multiplicity) for w in W):
+            x.refute(what, "a frequency is not one of the linear motion near it")
+            return False
+        values = [near.at(p) for p in flat]
+        for k in range(0, len(values), size):
+            if not _moves_so(near, W[0], values[k : k + size]):
+                x.refute(what, "a shape is not that of its frequency")
+                return False
+    return True
+
+
+def _moves_so(near: Near, W: arb, shape: Sequence[arb]) -> bool:
+    """Whether (dq''/dq) a = -omega^2 a, where velocities play no part."""
+    by_q, by_v = near.slopes
+    if any(abs(float(e.mid())) > NOTHING for row in by_v for e in row):
+        return True
+    if not all(a.is_finite() for a in shape):
+        return True
+    forces = [sum((e * a for e, a in zip(row, shape, strict=True)), arb(0)) for row in by_q]
+    scale = max([1e-6, *(abs(float(f.mid())) for f in forces)])
+    gaps = (abs(float((f + W * a).mid())) for f, a in zip(forces, shape, strict=True))
+    return max(gaps) < _AGREE * max(scale, 1.0)

@@ -1,0 +1,177 @@
+"""One state that stays, and the linear motion near it.
+
+With x = (q, q') the motion near a state that stays is x' = J x, where J holds the derivatives of
+the accelerations, here by differences in 320 bits.  Constraints add eigenvalues 0 of motions
+that break them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+from flint import arb, arb_mat
+
+from lagcli.verification.examination import Examination
+from lagcli.verification.linear import Unclear, rank, size, solve
+from lagcli.verification.reference import Dynamics
+from lagcli.verification.states import Environment
+
+_STEP = arb(2) ** -100
+#: Real parts and differences below this are 0: an eigenvalue of multiplicity 4 is right to 1e-20.
+NOTHING = 1e-12
+#: Relative differences of eigenvalues: those of multiplicity 2 are right to 1e-19.
+_AGREE = 1e-9
+
+
+class Near:
+    """One state that stays, and the linear motion near it."""
+
+    def __init__(self, x: Examination, environment: Environment) -> None:
+        self.x = x
+        self.environment = environment
+        self.laws = self._laws(environment)
+        self.at = self.laws.at
+        self.size = len(x.reference.names)
+
+    def _laws(self, environment: Environment) -> Dynamics:
+        reference = self.x.reference
+        return Dynamics(reference, reference.values(environment))
+
+    # -- that it stays --------------------------------------------------------------------------
+
+    @cached_property
+    def defined(self) -> bool:
+        """Whether all forces have values there."""
+        return all(value.is_finite() for value in (*self.laws.drift, *self.laws.applied))
+
+    @cached_property
+    def pull(self) -> list[arb]:
+        """d/dt(dL/dq') - dL/dq - Q where q'' = 0."""
+        return [e - f for e, f in zip(self.laws.drift, self.laws.applied, strict=True)]
+
+    @cached_property
+    def residual(self) -> float:
+        """How far the state is from staying: constraints, and forces that none of them bears."""
+        at, laws = self.at, self.laws
+        reference = self.x.reference
+        gaps = [at(row.value) for row in reference.rows if row.holonomic]
+        gaps += [at(row.velocity) for row in reference.rows]
+        pull = self.pull
+        carried = list(zip(*laws.jacobian, strict=True)) or [()] * self.size
+        solution = solve([list(row) for row in carried], pull, len(laws.jacobian))
+        for j, row in enumerate(carried):
+            left = pull[j]
+            for a, m in zip(row, solution.x, strict=True):
+                left = left - a * m
+            gaps.append(left)
+        scale = max([1.0, *map(size, pull), *map(size, laws.slopes)])
+        return max([0.0, *map(size, gaps)]) / scale
+
+    # -- the linear motion near it ------------------------------------------------------------
+
+    @cached_property
+    def regular(self) -> bool:
+        """Whether the accelerations are determined there."""
+        try:
+            return self.laws.regular and all(a.is_finite() for a in self.laws.motion.x)
+        except Unclear:
+            return False
+
+    @cached_property
+    def slopes(self) -> tuple[list[list[arb]], list[list[arb]]]:
+        """dq''/dq and dq''/dq', rows by acceleration."""
+        columns: list[list[list[arb]]] = [[], []]
+        here = self.laws.accelerations
+        for primes in (0, 1):
+            for name in self.x.reference.names:
+                moved = {**self.environment}
+                moved[name, primes] = moved[name, primes] + _STEP
+                there = self._laws(moved).accelerations
+                gaps = [(b - a) / _STEP for a, b in zip(here, there, strict=True)]
+                columns[primes].append(gaps)
+        by_q, by_v = ([list(r) for r in zip(*c, strict=True)] for c in columns)
+        return by_q, by_v
+
+    @cached_property
+    def eigenvalues(self) -> list[complex]:
+        """Those of J that no constraint adds."""
+        n = self.size
+        by_q, by_v = self.slopes
+        rows = [[arb(0)] * n + [arb(int(i == j)) for j in range(n)] for i in range(n)]
+        rows += [[*a, *b] for a, b in zip(by_q, by_v, strict=True)]
+        found = eigenvalues(rows)
+        extra = self._added
+        return sorted(found, key=abs)[extra:]
+
+    @cached_property
+    def _added(self) -> int:
+        rows = self.x.reference.rows
+        pairs = list(zip(rows, self.laws.jacobian, strict=True))
+        holonomic = [a for row, a in pairs if row.holonomic]
+        return rank(self.laws.jacobian, self.size) + rank(holonomic, self.size)
+
+    @cached_property
+    def stiffness(self) -> list[float]:
+        """Eigenvalues of the second derivatives of V - T_0 along the constraints, at rest."""
+        n, tangent = self.size, self._tangent()
+        here = self._static(self.environment)
+        columns = []
+        for name in self.x.reference.names:
+            moved = {**self.environment}
+            moved[name, 0] = moved[name, 0] + _STEP
+            gaps = zip(here, self._static(moved), strict=True)
+            columns.append([(b - a) / _STEP for a, b in gaps])
+        K = [
+            [sum((columns[j][i] * v[j] for j in range(n)), arb(0)) for v in tangent]
+            for i in range(n)
+        ]
+        rows = [
+            [sum((u[i] * K[i][k] for i in range(n)), arb(0)) for k in range(len(tangent))]
+            for u in tangent
+        ]
+        return [value.real for value in eigenvalues(rows)]
+
+    @property
+    def is_bowl(self) -> bool:
+        """Whether V - T_0 surely has a minimum there, and nothing but L and constraints acts."""
+        given = self.x.problem
+        pushed = given.forces or given.dissipation or any(p.force for p in given.points)
+        definite = all(z.real > NOTHING for z in eigenvalues(self.laws.mass_matrix))
+        return not pushed and definite and all(k > 1e-8 for k in self.stiffness)
+
+    def _tangent(self) -> list[tuple[arb, ...]]:
+        jacobian = self.laws.jacobian
+        return list(solve(jacobian, [arb(0)] * len(jacobian), self.size).kernel)
+
+    def _static(self, environment: Environment) -> list[arb]:
+        """d(V - T_0)/dq - Q - sum lambda a with the multipliers of the state of rest."""
+        laws = self._laws(environment)
+        found = [e - f for e, f in zip(laws.drift, laws.applied, strict=True)]
+        for m, row in zip(self.laws.multipliers, laws.jacobian, strict=True):
+            found = [r - m * a for r, a in zip(found, row, strict=True)]
+        return found
+
+
+def eigenvalues(rows: Sequence[Sequence[arb]]) -> list[complex]:
+    """Approximate eigenvalues of a square matrix."""
+    if not rows:
+        return []
+    middle = [[entry.mid() for entry in row] for row in rows]
+    found = arb_mat(middle).eig(algorithm="approx", nonstop=True)
+    return [complex(float(z.real.mid()), float(z.imag.mid())) for z in found]
+
+
+def occur(near: Near, squares: Sequence[arb]) -> bool:
+    """Whether each omega^2 is minus the square of an eigenvalue, as often as it is there."""
+    left = [-(z**2) for z in near.eigenvalues]
+    scale = max([1e-6, *map(abs, left)])
+    for square in squares:
+        if not square.is_finite():
+            continue
+        W = float(square.mid())
+        equal = [z for z in left if abs(z - W) < _AGREE * scale]
+        if len(equal) < 2:
+            return False
+        left = [z for z in left if z not in equal[:2]] + equal[2:]
+    return True

@@ -1,0 +1,186 @@
+"""The period about a minimum of U_eff: its printed powers of the amplitude against the integral.
+
+    T = integral of sqrt(2 M/(E - U)) dq between the turning points q0 - a and q0 + a,
+
+with q = q0 + a sin s the integral over s of an analytic function of period 2 pi, which the
+trapezoidal rule gives to all digits (Trefethen, Weideman, SIAM Review 56 (2014) 385).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from random import Random
+
+from flint import arb, ctx
+
+from lagcli.motions import OneFreedom, PeriodSeries
+from lagcli.verification.claims.rest import BITS, conditions
+from lagcli.verification.examination import LOOKED_AT, Examination
+from lagcli.verification.linear import size
+from lagcli.verification.states import Environment
+
+#: Of the amplitude, where the powers of the series are told apart: a^5 is nothing beside a^4.
+_AMPLITUDE = arb(2) ** -24
+_NODES = 24
+_STEPS = 40
+_ARRIVED = 1e-60
+_SAME = 1e-9
+
+
+def periods(x: Examination, one: OneFreedom, energy: int) -> bool:
+    """Whether each is a minimum with its period, and none is left out; noted if not."""
+    well = Well(x, one, energy)
+    with ctx.workprec(BITS):
+        if not all(well.is_right(each) for each in one.periods):
+            return False
+        other = well.other()
+    if not other:
+        return True
+    what = "that the periods about all minima of the effective potential are listed"
+    x.refute(what, f"there is one at {one.coordinate} = {other}")
+    return False
+
+
+class Well:
+    """The energy E(q, q') = M q'^2/2 + U of one degree of freedom at random parameters."""
+
+    def __init__(self, x: Examination, one: OneFreedom, energy: int) -> None:
+        program = x.reference.program
+        self.x, self.one = x, one
+        self.q, self.v = (program.symbol(one.coordinate, k) for k in (0, 1))
+        unit = {self.v: program.one}
+        self.M = program.derivative(program.derivative(energy, unit), unit)
+        self.U = energy  # where q' = 0
+        self.slope = program.derivative(energy, {self.q: program.one})
+        self.curvature = program.derivative(self.slope, {self.q: program.one})
+
+    def scenes(self) -> Iterator[Environment]:
+        """The parameters and momenta of random states."""
+        for state in self.x.states(LOOKED_AT, BITS):
+            yield {**state.environment, **state.following, (self.one.coordinate, 1): arb(0)}
+
+    def _value(self, known: Environment, place: int, q: arb) -> arb:
+        return self.x.reference.values({**known, (self.one.coordinate, 0): q})(place)
+
+    # -- one series --------------------------------------------------------------------------
+
+    def is_right(self, series: PeriodSeries) -> bool:
+        """Whether it is the period about a minimum."""
+        x, what = self.x, f"the period of {self.one.coordinate}"
+        places = x.places(what, [series.period, *series.at.values()])
+        root = x.places(what, [series.root_of] if series.root_of is not None else [])
+        if places is None or root is None:
+            return False
+        above, tried = conditions(x, what, series.where), 0
+        for known in self.scenes():
+            at = x.reference.values(known)
+            if not all(at(place) > 0 for place in above):
+                continue
+            q0 = self._root(known, root[0]) if root else at(places[-1])
+            if q0 is None or not q0.is_finite() or (root and not self._is_minimum(known, q0)):
+                continue
+            tried += 1
+            if not self._is_minimum(known, q0):
+                x.refute(what, "there is no minimum of the effective potential")
+                return False
+            if not self._agrees(known, series, places[0], q0.mid()):
+                x.refute(what, "it is not that of the motion near the minimum")
+                return False
+            if tried > 1:
+                break
+        if not tried:
+            x.unchecked.append(what)
+        return True
+
+    def _is_minimum(self, known: Environment, q: arb) -> bool:
+        slope, curvature, M = (
+            self._value(known, place, q) for place in (self.slope, self.curvature, self.M)
+        )
+        return size(slope) < 1e-30 * (1 + size(curvature)) and curvature > 0 and M > 0
+
+    def _agrees(self, known: Environment, series: PeriodSeries, place: int, q0: arb) -> bool:
+        """The printed period at a small amplitude; without one that of small oscillations."""
+        if not series.amplitude:
+            M, k = (self._value(known, p, q0) for p in (self.M, self.curvature))
+            there = {**known, (self.one.coordinate, 0): q0}
+            true = 2 * arb.pi() * (M / k).sqrt()
+            return size(self.x.reference.values(there)(place) - true) < 1e-30 * size(true)
+        energy = self._value(known, self.U, q0 + _AMPLITUDE)
+        low = self._turning(known, q0 - _AMPLITUDE, energy)
+        if low is None:
+            return True
+        a, middle = (q0 + _AMPLITUDE - low) / 2, (q0 + _AMPLITUDE + low) / 2
+        true = self._integral(known, middle.mid(), a.mid(), energy)
+        printed = self.x.reference.values({**known, (series.amplitude, 0): a})(place)
+        near = 1e3 * size(a) ** (series.order + 1)
+        return not printed.is_finite() or size(printed - true) < near * size(true)
+
+    def _turning(self, known: Environment, q: arb, energy: arb) -> arb | None:
+        for _ in range(_STEPS):
+            gap = self._value(known, self.U, q) - energy
+            slope = self._value(known, self.slope, q)
+            step = (gap / slope).mid()
+            q = (q - step).mid()
+            if size(step) < _ARRIVED:
+                return q
+        return None
+
+    def _integral(self, known: Environment, middle: arb, a: arb, energy: arb) -> arb:
+        total = arb(0)
+        for k in range(_NODES):
+            s = arb.pi() * (2 * k + 1) / (2 * _NODES)  # by symmetry half of a turn
+            q = (middle - a * s.cos()).mid()
+            M, U = self._value(known, self.M, q), self._value(known, self.U, q)
+            total += (M / (2 * (energy - U))).sqrt() * a * s.sin()
+        return 2 * total * arb.pi() / _NODES
+
+    # -- all of them -----------------------------------------------------------------------------
+
+    def other(self) -> str:
+        """A minimum about which no period is given; empty where none was found."""
+        one = self.one
+        if one.reason or not one.periods or any(each.root_of is not None for each in one.periods):
+            return ""
+        places = [self.x.places("", list(each.at.values())) or [] for each in one.periods]
+        random = Random(9)
+        for known in list(self.scenes())[:2]:
+            at = self.x.reference.values(known)
+            listed = [at(p[0]) for p in places if p]
+            for _ in range(8):
+                start = arb(random.randint(-3200, 3200)) / 1024
+                q = self._root(known, self.slope, abs(start) if one.positive else start)
+                if q is None or size(q) > 3.2 or not self._is_minimum(known, q):
+                    continue
+                if (one.positive and not q > 0) or self._is_listed(known, q, listed):
+                    continue
+                return f"{float(q):.6g}"
+        return ""
+
+    def _is_listed(self, known: Environment, q: arb, listed: Sequence[arb]) -> bool:
+        """Whether it is one of these, up to a period of U and M."""
+        near = (q + arb(3) / 16, q - arb(5) / 16)
+        return any(
+            size(q - other) < _SAME
+            or all(
+                size(self._value(known, place, z) - self._value(known, place, z + other - q))
+                < _SAME
+                for place in (self.U, self.M)
+                for z in near
+            )
+            for other in listed
+            if other.is_finite()
+        )
+
+    def _root(self, known: Environment, place: int, q: arb | None = None) -> arb | None:
+        program = self.x.reference.program
+        slope = program.derivative(place, {self.q: program.one})
+        q = known[self.one.coordinate, 0] if q is None else q
+        for _ in range(_STEPS):
+            step = (self._value(known, place, q) / self._value(known, slope, q)).mid()
+            if not step.is_finite():
+                return None
+            longest = size(step)
+            q = (q - (step if longest < 1 else step / arb(longest))).mid()
+            if longest < _ARRIVED:
+                return q
+        return None

@@ -1,0 +1,79 @@
+"""Formulas of phase space, of the action and units, made wrong: they are withheld."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from lagcli.answers import QuantityUnit
+from lagcli.record import replace
+from lagcli.units import Unit, read_unit
+from lagcli.verification import verified
+
+from .sheets import derived, each_spoiled
+
+SECTIONS = {
+    "hamiltonian/brackets-of-angular-momentum": "brackets",
+    "hamiltonian/exchange-of-coordinates-and-momenta": "canonical",
+    "hamiltonian/oscillator-by-generating-function": "canonical",
+    "hamilton-jacobi/kepler-polar": "hamilton_jacobi",
+    "hamilton-jacobi/force-growing-with-time": "hamilton_jacobi",
+    "reduction/pendulum-period": "reduction",
+}
+
+
+@pytest.mark.parametrize("name", SECTIONS)
+def test_every_formula_is_examined(name: str) -> None:
+    section = SECTIONS[name]
+    problem, answers = derived(name, (section,))
+    assert verified(problem, answers) is answers
+    missed = [
+        place
+        for place, wrong in each_spoiled(answers, section)
+        if verified(problem, wrong).complete
+    ]
+    sides = sum(2 for _ in getattr(answers.sections[section], "brackets", ()))
+    assert len(missed) <= sides, missed  # the two sides of a bracket are those of the file
+
+
+@pytest.mark.parametrize("kind", ["canonical", "extended canonical", "not canonical"])
+def test_the_kind_of_a_transformation_is_examined(kind: str) -> None:
+    problem, answers = derived("hamiltonian/oscillator-by-generating-function", ("canonical",))
+    section = answers.sections["canonical"]
+    for place, each in enumerate(section.transformations):
+        other = replace(each, kind=kind)
+        changed = (*section.transformations[:place], other, *section.transformations[place + 1 :])
+        sheet = replace(answers, sections={"canonical": replace(section, transformations=changed)})
+        found = verified(problem, sheet).sections["canonical"].transformations[place]
+        assert found.kind == (kind if kind == each.kind else None)
+
+
+@pytest.mark.parametrize("name", ["angular-momentum", "henon-heiles"])
+def test_whether_the_equation_separates_is_examined(name: str) -> None:
+    problem, answers = derived(f"hamilton-jacobi/{name}", ("hamilton_jacobi",))
+    section = answers.sections["hamilton_jacobi"]
+    other = replace(
+        section, separable=not section.separable, obstacle=section.obstacle or problem_pair(problem)
+    )
+    found = verified(problem, replace(answers, sections={"hamilton_jacobi": other}))
+    assert found.sections["hamilton_jacobi"].separable is None
+
+
+def problem_pair(problem: object) -> tuple[str, ...]:
+    return tuple(c.name for c in problem.coordinates[:2])  # type: ignore[attr-defined]
+
+
+def test_each_unit_is_examined() -> None:
+    problem, answers = derived("hoop", ("dimensions",))
+    section = answers.sections["dimensions"]
+    assert verified(problem, answers) is answers
+    length = read_unit("m")
+    for group in ("momenta", "forces", "multipliers", "charges"):
+        for name, each in getattr(section, group).items():
+            if each.unit is None:
+                continue
+            unit = Unit((*each.unit.factors, ("m", Fraction(1))))
+            wrong = {**getattr(section, group), name: QuantityUnit(unit=unit, source="inferred")}
+            sheet = replace(answers, sections={"dimensions": replace(section, **{group: wrong})})
+            assert not verified(problem, sheet).complete, (group, name, length)
