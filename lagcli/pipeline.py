@@ -157,8 +157,10 @@ def state(derivation: Derivation, request: Request) -> Answers:
 
         answers = abbreviated(answers, _names_of(derivation.given))
     if VERIFYING and not derivation.no_lagrangian:
-        unverified = answers
-        answers = _ended(lambda: verified(derivation.problem, unverified))
+        unverified = _with_charges(derivation, answers)
+        answers = _without_charges(
+            request, _ended(lambda: verified(derivation.problem, unverified))
+        )
     if not request.numeric:
         return _with_given_decimals(derivation.given, request, answers)
     from lagcli.decimals import with_decimals
@@ -168,6 +170,21 @@ def state(derivation: Derivation, request: Request) -> Answers:
         sections=rewritten(answers.sections, with_decimals),
         where=rewritten(answers.where, with_decimals),
     )
+
+
+def _with_charges(derivation: Derivation, answers: Answers) -> Answers:
+    """With the discovered charges, of which the algebra is made, where they are not wanted."""
+    if "algebra" not in answers.sections or "discovered" in answers.sections:
+        return answers
+    charges = _ended(lambda: _statements(derivation)).answers(("discovered",)).sections
+    return replace(answers, sections={**answers.sections, **charges})
+
+
+def _without_charges(request: Request, answers: Answers) -> Answers:
+    if "discovered" in (request.sections or ()):
+        return answers
+    sections = {name: each for name, each in answers.sections.items() if name != "discovered"}
+    return replace(answers, sections=sections)
 
 
 def _with_words(problem: Problem, sections: Mapping[str, Section]) -> Mapping[str, Section]:

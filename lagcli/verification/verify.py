@@ -9,6 +9,7 @@ from flint import ctx
 
 from lagcli.answers import (
     AccelerationsSection,
+    AlgebraSection,
     Answers,
     CanonicalSection,
     ChargesSection,
@@ -34,6 +35,7 @@ from lagcli.problem import Problem
 from lagcli.questions import FindSection
 from lagcli.record import replace
 from lagcli.verification.claims import (
+    algebra,
     charges,
     energies,
     equilibria,
@@ -104,6 +106,12 @@ def verified(problem: Problem, answers: Answers) -> Answers:
             known = find.printed_charges(sections.get("charges"))
             sections["find"] = _tried(
                 examination, "find", asked, lambda x, s: find.find(x, s, known)
+            )
+        if isinstance(counted := sections.get("algebra"), AlgebraSection):
+            listed = sections.get("discovered")
+            found = listed.charges if isinstance(listed, ChargesSection) else ()
+            sections["algebra"] = _tried(
+                examination, "algebra", counted, lambda x, s: algebra.algebra(x, s, found)
             )
     warnings = examination.warnings()
     if not warnings:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 from flint import arb
 
-from lagcli.answers import AlgebraSection, Charge, ChargesSection
+from lagcli.answers import Charge, ChargesSection
 from lagcli.expression import ONE, ZERO
 from lagcli.record import replace
 from lagcli.verification.claims.boundary import boundary_term
@@ -128,9 +128,3 @@ def _rate(x: Examination, charge: Charge, place: int) -> Callable[[State], arb] 
         return s.loose.rate(place) - sign * dot(s.loose.residuals, moved)
 
     return off_the_motion
-
-
-def algebra(x: Examination, section: AlgebraSection) -> AlgebraSection:
-    """Nothing is claimed of one state."""
-    del x
-    return section

@@ -7,6 +7,8 @@ R = T_2 + sum g_j q_j' - U_eff where it is quadratic in them (Routh; Goldstein, 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from flint import arb
 
 from lagcli.answers import ModelSection, ReductionSection
@@ -140,7 +142,27 @@ def _one_freedom(x: Examination, one: OneFreedom, R: Expression) -> bool:
     before = len(x.unchecked)
     holds = not turning or x.decide("the turning points", turns)
     del x.unchecked[before:]  # for no random energy are they real
-    return holds and periods(x, one, h)
+    return holds and _real_between(x, one, turning) and periods(x, one, h)
+
+
+def _real_between(x: Examination, one: OneFreedom, turning: Sequence[int]) -> bool:
+    """Whether all turning points are real for energies between the printed bounds."""
+    what = "the energies at which the turning points are real"
+    places = x.places(what, [bound for pair in one.turning_energies for bound in pair])
+    if places is None:
+        return False
+    for state in x.states():
+        known = {**state.environment, **state.following}
+        at = x.reference.values(known)
+        for low, high in zip(places[::2], places[1::2], strict=True):
+            gap = at(high) - at(low)
+            for part in (arb(1) / 64, arb(1) / 2, arb(63) / 64) if gap > 0 else ():
+                energy = (at(low) + part * gap).mid()
+                there = x.reference.values({**known, (one.constant, 0): energy})
+                if not all(there(place).is_finite() for place in turning):
+                    x.refute(what, f"at {float(energy):.6g} one is not")
+                    return False
+    return True
 
 
 def model(x: Examination, section: ModelSection) -> ModelSection:

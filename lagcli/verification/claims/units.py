@@ -112,7 +112,9 @@ class Scaled:
         if what == "momenta":
             return laws.momenta
         if what == "forces":
-            return [a + b for a, b in zip(laws.slopes, laws.applied, strict=True)]
+            t = s.at(reference.time)  # what is 0 has any unit, a momentum over a time has not
+            parts = zip(laws.slopes, laws.applied, laws.momenta, strict=True)
+            return [a + b + p / t for a, b, p in parts]
         if what == "definitions":
             return [s.at(reference.place(e)) for e in self.x.problem.definitions.values()]
         if what == "multipliers":

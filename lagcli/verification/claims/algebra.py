@@ -1,0 +1,233 @@
+"""The Lie algebra of the listed charges: counts, structure constants, invariants of its name.
+
+The brackets of the charges are fitted by combinations of them and of 1 at random states with the
+same parameters, and tried at others.  A name stands for a dimension and a signature of the
+Killing form tr(ad_a ad_b), which a basis does not change.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from flint import arb, arb_mat
+
+from lagcli.answers import AlgebraSection, Charge
+from lagcli.expression import Name, walk
+from lagcli.record import replace
+from lagcli.verification.claims.canonical_samples import Sample, samples
+from lagcli.verification.claims.near import eigenvalues
+from lagcli.verification.examination import Examination
+from lagcli.verification.linear import Unclear, dot, rank, size
+
+_MOST = 21  # charges
+_SMALL = 1e-12
+Signature = tuple[int, int, int]
+#: Dimension, and how many positive and negative eigenvalues the Killing form has.
+_KNOWN: dict[str, Signature] = {
+    "so(3)": (3, 0, 3), "sl(2,R)": (3, 2, 1), "so(4)": (6, 0, 6), "so(3,1)": (6, 3, 3),
+    "so(2,2)": (6, 4, 2), "su(3)": (8, 0, 8), "e(2)": (3, 0, 1), "R": (1, 0, 0),
+    "Poincaré iso(1,1)": (3, 1, 0), "oscillator algebra": (3, 0, 1), "so(1,1)": (0, 1, 0),
+    "oscillator algebra (hyperbolic)": (3, 1, 0),
+}  # fmt: skip
+
+
+def algebra(x: Examination, section: AlgebraSection, charges: Sequence[Charge]) -> AlgebraSection:
+    """Every number and the name."""
+    known = [c.charge for c in charges if c.charge is not None]
+    places = x.places("the algebra", known)
+    if places is None or not 0 < len(known) <= _MOST or x.reference.rows or x.reference.large:
+        return section
+    points = sum(_is_point(charge) for charge in charges)
+    found = samples(x, places, 2 * len(known) + 6)
+    if len(found) < 2 * len(known) + 6:
+        x.unchecked.append("the algebra of the conserved quantities")
+        return section
+    return Counted(x, section, found, places, points).examined()
+
+
+def _is_point(charge: Charge) -> bool:
+    """Whether its transformation has no velocities."""
+    return not any(
+        isinstance(node, Name) and node.primes
+        for change in charge.transformation.values()
+        for node in walk(change)
+    )
+
+
+class Counted:
+    """A section beside what the samples say."""
+
+    def __init__(
+        self,
+        x: Examination,
+        section: AlgebraSection,
+        found: Sequence[Sample],
+        places: Sequence[int],
+        points: int,
+    ) -> None:
+        self.x, self.section, self.samples = x, section, found
+        self.places, self.count, self.points = places, len(places), points
+
+    def examined(self) -> AlgebraSection:
+        """The section without what does not hold."""
+        section, x = self.section, self.x
+        if section.dimension not in {self.count, self.points}:
+            x.refute("the dimension of the algebra", f"{self.count} charges are listed")
+            return _nothing(section)
+        if self._rank_of_values() < self.count:
+            x.refute("the dimension of the algebra", "the listed charges depend on each other")
+            return _nothing(section)
+        independent = self._rank_of_slopes(range(self.count))
+        given_up = "brackets were not worked out" in section.ansatz  # then it is at least 1
+        if independent != section.independent and not given_up:
+            why = f"{independent} are independent, not {section.independent}"
+            x.refute("the number of independent charges", why)
+            return _nothing(section)
+        if section.name is not None and not self._has_name(section.name):
+            x.refute(f"that the algebra is {section.name}", "its structure constants are others")
+            section = replace(section, name=None)
+        if section.in_involution is not None and not self._in_involution(section.in_involution):
+            x.refute("the number of charges in involution", "their brackets say otherwise")
+            section = replace(section, in_involution=None, integrable=None)
+        return section
+
+    # -- counts ---------------------------------------------------------------------------------
+
+    def _rank_of_values(self) -> int:
+        """Of the charges and 1, without the 1."""
+        rows = [[*s.values, arb(1)] for s in self.samples]
+        return _rank(rows, self.count + 1) - 1
+
+    def _rank_of_slopes(self, which: Sequence[int]) -> int:
+        return max(
+            _rank([[*s.slopes[i][0], *s.slopes[i][1]] for i in which], 2 * len(s.slopes[0][0]))
+            for s in self.samples[:3]
+        )
+
+    def _in_involution(self, claimed: int) -> bool:
+        """Whether no more than so many of the charges are in involution, and integrable if n."""
+        n = len(self.x.reference.names)
+        if claimed > n or (self.section.integrable and not self.section.separates and claimed < n):
+            return False
+        t = self.x.reference.time
+        fixed = [k for k, place in enumerate(self.places) if self._still(place, t)]
+        commuting = {(i, j) for i in fixed for j in fixed if self._commute(i, j)}
+        return self._largest([], fixed, commuting) <= claimed
+
+    def _still(self, place: int, t: int) -> bool:
+        """Whether a charge does not contain the time."""
+        slopes = (s.state.at.gradient(place).get(t, arb(0)) for s in self.samples[:2])
+        return all(size(slope) < _SMALL for slope in slopes)
+
+    def _commute(self, i: int, j: int) -> bool:
+        return all(size(s.bracket(i, j)) < _SMALL for s in self.samples[:3])
+
+    def _largest(self, chosen: list[int], left: list[int], commuting: set[tuple[int, int]]) -> int:
+        """The largest number of independent charges in involution, by trying."""
+        best = self._rank_of_slopes(chosen) if chosen else 0
+        for place, k in enumerate(left):
+            rest = [j for j in left[place + 1 :] if (k, j) in commuting]
+            if best < len(chosen) + 1 + len(rest):
+                best = max(best, self._largest([*chosen, k], rest, commuting))
+        return best
+
+    # -- structure ------------------------------------------------------------------------------
+
+    def _has_name(self, name: str) -> bool:
+        """Whether the Killing form has the signature that the name stands for; True if unknown."""
+        expected = signature_of(name)
+        if expected is None:
+            return True
+        size_ = self.section.dimension
+        constants = self._structure(size_)
+        if constants is None:
+            return False
+        form = [[_trace(one, other) for other in constants] for one in constants]
+        values = [z.real for z in eigenvalues(form)]
+        scale = max([1e-9, *map(abs, values)])
+        plus = sum(v > 1e-9 * scale for v in values)
+        minus = sum(v < -1e-9 * scale for v in values)
+        if plus == minus == 0 and expected[1:] != (0, 0):
+            return False
+        return (size_, plus, minus) == expected
+
+    def _structure(self, count: int) -> list[list[list[arb]]] | None:
+        """C with {Q_a, Q_b} = sum_c C_abc Q_c + a constant; None where there is none."""
+        fitted, tried = self.samples[: count + 1], self.samples[count + 1 :]
+        matrix = arb_mat([[*s.values[:count], arb(1)] for s in fitted])
+        pairs = [(a, b) for a in range(count) for b in range(a)]
+        right = arb_mat([[s.bracket(a, b) for a, b in pairs] or [arb(0)] for s in fitted])
+        try:
+            solution = matrix.solve(right)
+        except ZeroDivisionError:
+            return None
+        constants = [[[arb(0)] * count for _ in range(count)] for _ in range(count)]
+        for column, (a, b) in enumerate(pairs):
+            found = [solution[row, column].mid() for row in range(count + 1)]
+            for s in tried[:4]:
+                terms = zip(found[:-1], s.values[:count], strict=True)
+                value = sum((c * v for c, v in terms), found[-1])
+                if size(value - s.bracket(a, b)) > 1e-9 * (1 + size(value)):
+                    return None
+            constants[a][b] = found[:-1]
+            constants[b][a] = [-c for c in found[:-1]]
+        return constants
+
+
+def _trace(one: Sequence[Sequence[arb]], other: Sequence[Sequence[arb]]) -> arb:
+    """tr(ad_a ad_b)."""
+    rows, columns = one, list(zip(*other, strict=True))
+    return sum((dot(row, column) for row, column in zip(rows, columns, strict=True)), arb(0))
+
+
+def _rank(rows: Sequence[Sequence[arb]], columns: int) -> int:
+    try:
+        return rank(rows, columns)
+    except Unclear:
+        return -1
+
+
+def _nothing(section: AlgebraSection) -> AlgebraSection:
+    return replace(
+        section, dimension=0, name=None, independent=0, in_involution=None, integrable=None
+    )
+
+
+def signature_of(name: str) -> Signature | None:
+    """Of a name, or of the parts of a direct sum; None where it is not known."""
+    name = name.removesuffix(", modulo constants")
+    if "energy" in name or " with " in name:
+        return _with_heisenberg(name)
+    parts = [_one(part) for part in name.split(" + ")]
+    if any(part is None for part in parts):
+        return None
+    known = [part for part in parts if part is not None]
+    return (sum(p[0] for p in known), sum(p[1] for p in known), sum(p[2] for p in known))
+
+
+def _with_heisenberg(name: str) -> Signature | None:
+    found = re.fullmatch(r"Schrödinger sch\((\d)\): .*", name)
+    if found is None:
+        return None
+    d = int(found[1])
+    turns = d * (d - 1) // 2
+    return (3 + turns + 2 * d, 2, 1 + turns)
+
+
+def _one(name: str) -> Signature | None:
+    if name in _KNOWN:
+        return _KNOWN[name]
+    found = re.fullmatch(r"(Heisenberg h\(|e\(|Galilei in |Poincaré iso\()(\d)\D.*|R\^(\d+)", name)
+    if found is None:
+        return None
+    if found[3]:
+        return (int(found[3]), 0, 0)
+    d = int(found[2])
+    turns = d * (d - 1) // 2
+    return {
+        "Heisenberg h(": (2 * d, 0, 0),
+        "e(": (turns + d, 0, turns),
+        "Galilei in ": (1 + turns + 2 * d, 0, turns),
+        "Poincaré iso(": (turns + 2 * d + 1, d, turns),
+    }.get(found[1])

@@ -1,0 +1,81 @@
+"""Functions of q, q' and t as functions on phase space, at states that share their parameters.
+
+With p = dL/dq', dp = P dq + M dq', so that at constant p and q
+
+    df/dq = f_q - P^T M^-1 f_q',    df/dp = M^-1 f_q'.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from random import Random
+
+from flint import arb
+
+from lagcli.verification.examination import Examination
+from lagcli.verification.linear import Unclear, dot, solve
+from lagcli.verification.phase_points import poisson
+from lagcli.verification.states import State
+from lagcli.verification.sweeps import column
+
+#: Attempts for each sample: a root may have no value there.
+_ATTEMPTS = 8
+
+
+class Sample:
+    """One state, with the values of functions and their derivatives by q and p."""
+
+    def __init__(self, state: State, functions: Sequence[int]) -> None:
+        reference, laws = state.reference, state.laws
+        self.state = state
+        self.values = [state.at(f) for f in functions]
+        one = arb(1)
+        along = [laws.hessian({q: one}) for q in reference.q]
+        P = [column(each, reference.v) for each in along]  # row j: dp/dq_j
+        self.slopes: list[tuple[list[arb], list[arb]]] = []
+        for f in functions:
+            found = state.at.gradient(f)
+            by_p = list(solve(laws.mass_matrix, column(found, reference.v), laws.size).x)
+            by_q = [
+                a - dot(row, by_p) for a, row in zip(column(found, reference.q), P, strict=True)
+            ]
+            self.slopes.append((by_q, by_p))
+
+    @property
+    def finite(self) -> bool:
+        """Whether everything has a value."""
+        flat = [e for by_q, by_p in self.slopes for e in (*by_q, *by_p)]
+        return all(e.is_finite() for e in (*self.values, *flat))
+
+    def bracket(self, i: int, j: int) -> arb:
+        """{f_i, f_j}."""
+        return poisson(self.slopes[i], self.slopes[j])
+
+
+def samples(x: Examination, functions: Sequence[int], count: int) -> list[Sample]:
+    """So many samples, fewer where no more are found."""
+    states = x.states()
+    found: list[Sample] = []
+    if not states:
+        return found
+    for state in _nearby(states[0], count * _ATTEMPTS):
+        try:
+            sample = Sample(state, functions)
+        except Unclear:
+            continue
+        if sample.finite:
+            found.append(sample)
+        if len(found) == count:
+            break
+    return found
+
+
+def _nearby(first: State, count: int) -> Iterator[State]:
+    """States with the parameters of the first and other t, q and q'."""
+    random, reference = Random(23), first.reference
+    for _ in range(count):
+        known = dict(first.environment)
+        for key in [("t", 0), *((n, k) for n in reference.names for k in (0, 1))]:
+            change = arb(random.randint(-512, 512)) / 1024
+            known[key] = known[key] * (1 + change) + (change / 8 if key[1] else 0)
+        yield State(reference, known)
