@@ -87,7 +87,7 @@ def test_each_unit_is_examined() -> None:
 
 @pytest.mark.parametrize(
     "change",
-    [{"dimension": 4}, {"independent": 3}, {"name": "so(3)"}, {"in_involution": 2}],
+    [{"dimension": 4}, {"independent": 3}, {"name": "so(3)"}, {"in_involution": 1}],
 )
 def test_the_algebra_is_examined(change: dict[str, object]) -> None:
     problem, answers = derived("particles/isotropic-oscillator", ("discovered", "algebra"))
