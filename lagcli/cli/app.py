@@ -15,7 +15,7 @@ from typer.core import TyperCommand, TyperGroup
 GROUPS = {
     "formulas": {
         "solve": "Derive the equations of motion, multipliers and charges.",
-        "explain": "Tell the derivation step by step, with its reasons.",
+        "explain": "Print the derivation step by step, with its reasons.",
         "export": "Write the equations of motion as code.",
     },
     "motions": {

@@ -44,6 +44,6 @@ def format_of(
     if given is None:
         return by_ending or usual
     if by_ending is not None and given != by_ending and given in endings.values():
-        message = f"-o {output} asks for {by_ending}, but --format for {given}: change one of them"
+        message = f"-o {output} requires {by_ending}, but --format {given}: change one of them"
         raise click.UsageError(message)
     return given

@@ -25,7 +25,7 @@ Also = Annotated[
     typer.Option(
         "--also",
         metavar="A,B",
-        help="Tell these as well: {told}.",
+        help="Print these steps as well: {told}.",
         autocompletion=complete_section,
     ),
 ]
@@ -43,7 +43,7 @@ def explain(
     width: Width = None,
     no_cache: NoCache = False,
 ) -> int:
-    """Tell the derivation step by step, with its reasons.
+    """Print the derivation step by step, with its reasons.
 
     Coordinates and constraints, the Lagrangian, its partial derivatives, Lagrange's
     equations, how the multipliers are eliminated, what they mean, the check, and what is

@@ -45,7 +45,7 @@ def extremes(
 ) -> int:
     """Take a problem to where it breaks.
 
-    The cases follow from the problem: ratios of its parameters, angles beside 0, pi/2 and pi,
+    The cases follow from the problem: ratios of its parameters, angles near 0, pi/2 and pi,
     zeros of the mass matrix, the energy of an unstable equilibrium, the speed of light, zero
     masses and forces, a long span.  Each is told with the digits that the printed formulas
     lose in doubles, before and after they are rewritten, the condition of the mass matrix, and

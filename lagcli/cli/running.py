@@ -81,7 +81,7 @@ class Numbers:
         return self.until(text, given)
 
     def accuracy(self, text: str | None, given: Expression | None) -> float:
-        """The accuracy asked for, or the usual one."""
+        """The requested accuracy, or the usual one."""
         accuracy = self._number(text, given, "--accuracy")
         if accuracy is not None and not 0 < accuracy < 1:
             self._wrong("--accuracy", text, given, f"it lies between 0 and 1{_not(accuracy)}")

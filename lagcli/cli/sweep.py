@@ -67,7 +67,7 @@ def sweep(
     `error`, the bound on the global error.  The rows are in the order of the ranges, the
     last parameter or state varying fastest; `theta(0)` is an initial value.
 
-    With -o, finished parts are kept beside the output: a sweep that was killed goes on
+    With -o, finished parts are kept next to the output: a sweep that was killed goes on
     where it ended when the same command is given again.
 
     \b

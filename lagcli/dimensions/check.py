@@ -224,7 +224,7 @@ class _Checker:
         name, factor = found.named.name, f"{found.factor:.6g}"
         if found.other is not None:
             other = found.other.name
-            what = f"'{name}' beside '{other}': numbers would be off by a factor of {factor}"
+            what = f"'{name}' together with '{other}': numbers would be off by a factor of {factor}"
             return what, f"give all of them in {other}, or all in {name}"
         dimension = dimension_of(read_unit(name))
         base = str(self.inference.system.unit(dimension)) if dimension else "rad"

@@ -13,9 +13,9 @@ from lagcli.record import field, record
 KINDS = {
     "given": "the file as it stands",
     "ratios": "parameters of one dimension in the ratio 1e±12, others times 1e±12",
-    "angles": "1e-9 beside 0, pi/2 and pi",
-    "singular": "at and beside the zeros of the mass matrix's determinant",
-    "separatrix": "beside an unstable equilibrium, and with its energy",
+    "angles": "1e-9 away from 0, pi/2 and pi",
+    "singular": "at and near the zeros of the mass matrix's determinant",
+    "separatrix": "near an unstable equilibrium, and with its energy",
     "light": "at, next to and far below the speed at which a root of velocities ends",
     "zero": "a mass, the gravity or another parameter that is 0",
     "spans": "a hundred times the span",

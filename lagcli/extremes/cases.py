@@ -233,7 +233,7 @@ def _angle_text(k: int) -> str:
 
 
 def _separatrix(scene: Scene) -> Iterator[Case]:
-    """At rest 1e-9 beside an unstable equilibrium, and with its energy but for 1e-12."""
+    """At rest 1e-9 near an unstable equilibrium, and with its energy but for 1e-12."""
     names = [c.name for c in scene.problem.coordinates]
     e = scene.equations
     energy = scene.motion.function([e.energy])
@@ -243,7 +243,7 @@ def _separatrix(scene: Scene) -> Iterator[Case]:
         most = max(range(scene.n), key=lambda j: abs(direction[j]))
         q = [x + float(_BESIDE) * d / abs(direction[most])
              for x, d in zip(rest, direction, strict=True)]  # fmt: skip
-        yield from _stated(scene, "separatrix", f"at rest 1e-9 beside {where}", q, zero, {})
+        yield from _stated(scene, "separatrix", f"at rest 1e-9 away from {where}", q, zero, {})
         top = float(energy(0.0, *rest, *zero)[0])
         for side in (-1, 1):
             v = _velocity(scene, top, side)

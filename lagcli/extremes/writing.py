@@ -138,7 +138,7 @@ def _short(value: float | None) -> str:
 def _legend() -> list[str]:
     text = (
         "cond: of the mass matrix, scaled. acc., mult., charges: decimal digits of 16 that the "
-        "printed formulas lose in doubles against 50 digits; 9.1>0.2: so many when they are "
+        "printed formulas lose in doubles against 50 digits; 9.1>0.2: 9.1 as printed, 0.2 as "
         "rewritten. run: those lost by the accelerations of a run. drift: of a charge over a "
         "certified run. right: the claim was confirmed with more digits."
     )

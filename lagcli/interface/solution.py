@@ -54,13 +54,15 @@ class Solution:
     def __getitem__(self, name: str) -> Part:
         if name not in self._answers.sections:
             known = ", ".join(self)
-            raise KeyError(f"no section {name!r} was asked for: there are {known}")
+            raise KeyError(f"no section {name!r} was requested: available are {known}")
         one = replace(self._answers, sections={name: self._answers.sections[name]}, warnings=())
         return Part(self._answers.sections[name], self._problem, name, one)
 
     def __getattr__(self, name: str) -> Part:
         if name.startswith("_") or name not in self._answers.sections:
-            raise AttributeError(f"no section {name!r} was asked for: there are {', '.join(self)}")
+            raise AttributeError(
+                f"no section {name!r} was requested: available are {', '.join(self)}"
+            )
         return self[name]
 
     def __dir__(self) -> list[str]:

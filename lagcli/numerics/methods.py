@@ -234,7 +234,11 @@ def _yoshida8(simulation: Simulation, modes: Modes) -> Prepared | str:
 
 
 def _without_kinks(simulation: Simulation) -> str:
-    return "it does not stop at the kinks of abs and sign" if simulation.equations.kinks else ""
+    return (
+        "it does not stop at the zeros of switching functions (abs, sign)"
+        if simulation.equations.kinks
+        else ""
+    )
 
 
 def _taylor64(simulation: Simulation, modes: Modes) -> Prepared | str:

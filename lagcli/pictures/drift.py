@@ -56,7 +56,7 @@ def drift(
         label = words(f"{name}, at most {short(drifts[name])} of its terms")
         items.append(Curve(pieces=pieces, role="series", colour=colour, label=label))
     bound = asked.accuracy
-    items.append(Rule(at=bound, of="y", role="bound", colour=6, label=words("accuracy asked for")))
+    items.append(Rule(at=bound, of="y", role="bound", colour=6, label=words("requested accuracy")))
     y = Axis(
         label=words("largest change so far, relative"),
         low=FLOOR,

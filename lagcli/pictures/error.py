@@ -78,7 +78,7 @@ def _bounds(run: Run) -> list[Rule]:
              label=words(f"bound of the certificate, {short(bound)}")),
     ]  # fmt: skip
     if bound < held.accuracy:
-        text = words(f"accuracy asked for, {short(held.accuracy)}")
+        text = words(f"requested accuracy, {short(held.accuracy)}")
         rules.append(Rule(at=held.accuracy, of="y", role="energy", colour=7, label=text))
     return rules
 

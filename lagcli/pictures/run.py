@@ -129,7 +129,7 @@ class Run:
         held = self.result.certificate
         bound = max(held.global_error.values(), default=0.0)
         if held.reached:
-            return (f"Global error below {_above(bound)}; asked for: {short(held.accuracy)}.",)
+            return (f"Global error below {_above(bound)}; requested: {short(held.accuracy)}.",)
         until = f"Certified to {short(held.accuracy)} until t = {held.holds_until:.6g}"
         return (f"{until}; nothing is drawn beyond.",)
 

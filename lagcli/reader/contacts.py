@@ -37,7 +37,7 @@ def declare_contacts(
         wrong = name_mistake(f"a{key.label}")
         if wrong is not None or not key.label:
             hint = "a name has letters, digits and underscores"
-            sections.error(f"'{key.label}' is no name for a contact", key.span, hint)
+            sections.error(f"'{key.label}' is not a valid name for a contact", key.span, hint)
             continue
         if key.label in constraints:
             sections.error(f"'{key.label}' is a constraint already", key.span)

@@ -26,7 +26,7 @@ AMPLITUDE_NAMES = ("a", "A", "a_0", "A_0")
 CONSTANT_NAMES = (*ENERGY_NAMES, *AMPLITUDE_NAMES, *SEPARATION_NAMES)
 
 _REDUCED = Role(order=1, why="an answer is free of accelerations", momenta=True)
-_PLACE = Role(order=0, why="a state of rest is a place")
+_PLACE = Role(order=0, why="an equilibrium is given by its coordinates")
 _STEADY = ("at", "rates", "momenta", "frequencies_squared", "stable")
 _OF_W = {
     "derivatives": "the expected derivative of W by '{}'",

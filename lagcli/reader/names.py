@@ -253,7 +253,7 @@ def _partial_call(node: PartialCall, scope: Scope) -> Iterator[Diagnostic]:
     if scope.kinds.get(name) != "function":
         functions = list(scope.of_kind("function"))
         hint = did_you_mean(name, functions) or "declare it under 'functions'"
-        yield Diagnostic(f"'{name}' is no function of this problem", node.span, hint)
+        yield Diagnostic(f"'{name}' is not a function of this problem", node.span, hint)
         return
     arity = scope.arity[name]
     if len(node.arguments) != arity:

@@ -230,5 +230,5 @@ def _word(sections: Sections, node: Node, words: tuple[str, ...]) -> str | None:
     if found in words:
         return found
     hint = did_you_mean(found, words) or f"write {' or '.join(words)}"
-    sections.error(f"'{found}' is none of {', '.join(words)}", text.span, hint)
+    sections.error(f"'{found}' is not one of {', '.join(words)}", text.span, hint)
     return None

@@ -29,7 +29,9 @@ _SIMULATION_ATTRIBUTES = ("until", "accuracy", "method")
 _REACHES = "as in reaches: theta = pi"
 
 #: What a question can be answered for.
-_UNKNOWN = Role(order=1, time=False, why="it asks for a coordinate, a velocity or a parameter")
+_UNKNOWN = Role(
+    order=1, time=False, why="a question is about a coordinate, a velocity or a parameter"
+)
 _VARIABLE = Role(order=1, momenta=True, why="velocities are removed, accelerations never needed")
 
 
@@ -53,7 +55,7 @@ def _state_name(sections: Sections, key: Scalar, coordinates: list[str]) -> Name
     letters = key.label.rstrip("'’′″")
     if letters not in coordinates:
         hint = did_you_mean(letters, coordinates) or "give coordinates x and velocities x'"
-        sections.error(f"'{key.label}' in initial is no coordinate", key.span, hint)
+        sections.error(f"'{key.label}' in initial is not a coordinate", key.span, hint)
         return None
     primes = sum(2 if prime == "″" else 1 for prime in key.label[len(letters) :])
     if primes > 1:
@@ -87,7 +89,7 @@ def read_find(sections: Sections, node: Node) -> tuple[Question, ...]:
         elif missing := _PARTNERS.get(next(iter(parts), "")):
             sections.error(f"{what} has no '{missing}'", key.span, hint)
         elif isinstance(value, Mapping) and not value.entries:
-            sections.error(f"{what} asks nothing", key.span, hint)
+            sections.error(f"{what} is empty", key.span, hint)
     return tuple(questions)
 
 
@@ -97,7 +99,7 @@ def _where(sections: Sections, key: Scalar, where: Node, unknown: Node) -> list[
     if name is None:
         return []
     if sections.scope.kinds.get(name.name) not in {"coordinate", "parameter"}:
-        sections.error(f"'{name}' is no coordinate, velocity or parameter", name.span)
+        sections.error(f"'{name}' is not a coordinate, a velocity or a parameter", name.span)
     return [Where(name=key.label, equation=equation, unknown=name, span=key.span)]
 
 
@@ -131,8 +133,8 @@ def _reaching(sections: Sections, key: Scalar, place: Node, unknown: Node) -> li
 def _parameter(sections: Sections, node: Node) -> Name | None:
     name = sections.name(node, "'for'", _UNKNOWN)
     if name is not None and sections.scope.kinds.get(name.name) != "parameter":
-        message = f"'{name}' is no parameter"
-        sections.error(message, node.span, "what holds all the time is asked for a parameter")
+        message = f"'{name}' is not a parameter"
+        sections.error(message, node.span, "a condition for all times is solved for a parameter")
         return None
     return name
 

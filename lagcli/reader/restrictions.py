@@ -45,7 +45,7 @@ def declare_constraints(sections: Sections, node: Node) -> list[Declared]:
         wrong = name_mistake(f"a{key.label}")  # `lambda_<name>` must be a name
         if wrong is not None or not key.label:
             hint = "a name has letters, digits and underscores"
-            sections.error(f"'{key.label}' is no name for a constraint", key.span, hint)
+            sections.error(f"'{key.label}' is not a valid name for a constraint", key.span, hint)
             continue
         multiplier, place = f"lambda_{key.label}", key.span
         if isinstance(value, Mapping):
@@ -165,7 +165,7 @@ def read_symmetries(sections: Sections, node: Node) -> tuple[Symmetry, ...]:
             else:
                 hint = did_you_mean(name.label, [*coordinates, "t", "gauge"])
                 hint = hint or "a key is a coordinate, t or gauge"
-                message = f"'{name.label}' in {what} is no coordinate"
+                message = f"'{name.label}' in {what} is not a coordinate"
                 sections.error(message, name.span, hint)
         time, gauge = changes.pop("t", None), changes.pop("gauge", None)
         if gauge is not None and time is None and not changes:

@@ -195,11 +195,11 @@ _MEANING = {
     "contacts": "one-sided contacts of a numerical run, name -> gap",
     "symmetries": "candidate transformations: the change of each coordinate, of t, and the gauge",
     "observables": "functions of coordinates, momenta p_x and t",
-    "brackets": "Poisson brackets that are asked for, name -> [A, B]",
+    "brackets": "requested Poisson brackets, name -> [A, B]",
     "canonical_transformations": "name -> new variables {Q: ..., p_Q: ..., F1: ...}",
     "initial": "the state at t = 0: {theta: 0.1, theta': 0}",
     "find": "questions about the motion",
     "simulation": "defaults of a numerical run",
-    "picture": "what an animation draws beside the points: places, rods, springs, trails",
+    "picture": "what an animation draws in addition to the points: places, rods, springs, trails",
     "expect": "the known answers, for lagcli check",
 }

@@ -32,7 +32,7 @@ _INSTEAD = {
     "!": "there is no factorial",
     "%": "there is no remainder",
     "\\": "write names without a backslash; LaTeX goes into 'symbol'",
-    ".": "a number has a digit beside its point",
+    ".": "a number needs a digit before or after its point",
     ":": "division is written with '/'",
     "&": "write one condition",
     "≠": "write an equation with '='",

@@ -46,7 +46,7 @@ def _cut(study: Study) -> Trade | None:
         ratio = full.integration / less.integration
         return Trade(
             name="minimal coordinates against multipliers",
-            told=f"at {accuracy:.0e} {full.method} integrates\n  the model cut to what is asked "
+            told=f"at {accuracy:.0e} {full.method} integrates\n  the model reduced to the requested columns "
             f"{ratio:.3g} times faster than the one of the file",
             numbers={"accuracy": accuracy, "faster": ratio},
         )

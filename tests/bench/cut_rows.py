@@ -1,4 +1,4 @@
-"""What the model cut to what is asked saves: whole runs, certificate included, cut against uncut.
+"""What the model reduced to the requested columns saves: whole runs, certificate included, cut against uncut.
 
 Three kinds of cases, each by `auto` at the same accuracy, which both runs must reach:
 

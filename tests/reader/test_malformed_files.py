@@ -201,7 +201,7 @@ FILES = [
     (asked("always: x > 0"), "8:8", "has no 'for'"),
     (asked("reaches: x = 1"), "8:8", "has no 'for'"),
     (asked("always: x = 0, for: m"), "8:22", "'=' stands only"),
-    (asked("always: x > 0, for: x"), "8:32", "is no parameter"),
+    (asked("always: x > 0, for: x"), "8:32", "is not a parameter"),
     (asked("always: x > q, for: m"), "8:24", "unknown name 'q'"),
     (asked("reaches: x' = 1, for: m"), "8:21", "velocity x'"),
     (asked("reaches: x + y = 1, for: m"), "8:21", "a coordinate alone"),

@@ -108,7 +108,8 @@ class LastingAnswer:
         if formula is not None:
             return self._in_time(formula, values, strict=strict)
         raise Undecided(
-            self._why_not or "it is no function of one coordinate, or of the time, along the motion"
+            self._why_not
+            or "it is not a function of one coordinate, or of the time, along the motion"
         )
 
     @property

@@ -227,7 +227,7 @@ def _library() -> ctypes.CDLL:
         raise NoCompiler("llvmlite is not installed")
     folder = Path(next(iter(spec.submodule_search_locations)))
     if not any(_release(folder).startswith(known) for known in _RELEASES):
-        raise NoCompiler(f"llvmlite is none of the releases {', '.join(_RELEASES)}")
+        raise NoCompiler(f"llvmlite is not one of the releases {', '.join(_RELEASES)}")
     try:
         return ctypes.CDLL(str(folder / "binding" / _LIBRARIES[sys.platform]))
     except (OSError, KeyError) as error:

@@ -229,7 +229,7 @@ def _beyond_doubles(
     simulation: Simulation, doubles: Modes, numbers: Extended, finest: float
 ) -> Prepared | str:
     if simulation.equations.kinks or doubles.first.conditions or simulation.goes_on:
-        return "events and kinks are followed in doubles only"
+        return "events and switching functions are followed in doubles only"
     try:
         with precision():
             return _prepared(simulation, doubles, numbers, finest)

@@ -50,7 +50,7 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
             found.append(each if verdict is each.verdict else replace(each, verdict=verdict))
         other = _another(x, found) if section.complete else ""
     if other:
-        x.refute("that there is no other equilibrium", f"there is one at {other}")
+        x.refute("completeness of the equilibria", f"there is one at {other}")
         section = replace(section, complete=False)
     return replace(section, equilibria=tuple(found))
 
