@@ -103,7 +103,7 @@ def refined_state(
     for _ in range(3):
         q, v = surface.project(0.0, q, v)
     if not all(x.is_finite() for x in (*q, *v)):
-        message = "the constraints are dependent at the initial state: which ones is decided in doubles only"
+        message = "the constraints are dependent at the initial state: only doubles decide which"
         raise Refusal(message, mistake=False)
     return q, v
 

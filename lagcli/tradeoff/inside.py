@@ -46,8 +46,8 @@ def _cut(study: Study) -> Trade | None:
         ratio = full.integration / less.integration
         return Trade(
             name="minimal coordinates against multipliers",
-            told=f"at {accuracy:.0e} {full.method} integrates\n  the model reduced to the requested columns "
-            f"{ratio:.3g} times faster than the one of the file",
+            told=f"at {accuracy:.0e} {full.method} integrates\n  the model of the requested "
+            f"columns {ratio:.3g} times faster than the one of the file",
             numbers={"accuracy": accuracy, "faster": ratio},
         )
     return None
