@@ -329,8 +329,10 @@ class Generic(Relations):
                 poly = ring.reduce(total)
         return bool(poly == 0) or self.contain(field, poly)
 
-    def _divides(self, _field: Field, _slope: Poly) -> bool:
-        return True
+    def _divides(self, field: Field, slope: Poly) -> bool:
+        """By anything but a velocity: x x' + y y' = 0 and x y' = y x' leave none that is not 0."""
+        used = [field.generators[number] for number in field.ring.used(slope)]
+        return not any("'" in g.expression.name for g in used if g.kind == "symbol")
 
 
 def _by_outside(field: Field, poly: Poly, inside: Container[int]) -> list[tuple[Poly, Poly]]:

@@ -44,5 +44,16 @@ def sentence(
     )
 
 
+def of_another_rank(forms: Sequence[Expr], rank: int, usual: int) -> str:
+    """A surface on which other constraints are independent than where the answers hold."""
+    where = " and ".join(f"{_written(f)} = 0" for f in dict.fromkeys(forms))
+    if rank == usual:
+        return f"where {where}, other constraints are redundant: the answers do not hold there"
+    return (
+        f"where {where}, the constraints have rank {rank}, not {usual}: "
+        "the answers do not hold there"
+    )
+
+
 def _written(factor: Expr) -> str:
     return str(factor).replace("**", "^")

@@ -24,9 +24,11 @@ from lagcli.answers import Verification
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.euler_lagrange import EulerLagrange
-from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates, independent_rows
+from lagcli.mechanics.motion_at_states import MotionAtStates
+from lagcli.mechanics.row_rank import independent_rows
+from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates
 from lagcli.mechanics.system import System
-from lagcli.mechanics.verify import Verifier
+from lagcli.mechanics.verify import Verdict, Verifier
 from lagcli.record import record
 
 #: Beyond this many unknowns a symbolic solution is no longer readable: matrix form only.
@@ -276,6 +278,24 @@ class Dynamics:
             return self.on_motion(rate)
         chosen = zip(self.constraints.equations, self.motion.independent, strict=True)
         return self.on_motion(rate.xreplace({e.multiplier: value for e, value in chosen}))
+
+    def vanishes_on_motion(self, rate: Expr) -> Verdict:
+        """Whether a rate is 0 on the motion, in numbers where the motion has no formulas."""
+        on_motion = self.rate_on_motion(rate)
+        if on_motion is not None:
+            return self.verifier.is_zero(on_motion)
+        if self._along is None:
+            return Verdict(None, None)
+        holds = self.verifier.vanishes_at_random_states([rate], self._along.along)
+        return Verdict(holds, None if holds is None else "50 digits" if holds else "exact")
+
+    @cached_property
+    def _along(self) -> MotionAtStates | None:
+        """The motion in numbers; None where the equations do not determine it."""
+        if self.undetermined:
+            return None
+        rows = [self.constraints.equations[k] for k in self.independent_constraints]
+        return MotionAtStates(self.lagrange, rows)
 
     def on_motion(self, expression: Expr) -> Expr | None:
         """The expression with accelerations and multipliers replaced by their solution."""

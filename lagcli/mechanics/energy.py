@@ -97,9 +97,13 @@ class EnergyFunction:
     def _verdict(self) -> tuple[bool | None, Verification | None]:
         if not self.powers and self.dynamics.system.is_continuous:
             return True, "exact"
-        if self.rate is None:
+        if not self.dynamics.system.is_continuous:
             return None, None
-        verdict = self.dynamics.verifier.is_zero(self.rate)
+        if self.rate is None:
+            total = sympy.Add(*(power.value for power in self.powers))
+            verdict = self.dynamics.vanishes_on_motion(total)
+        else:
+            verdict = self.dynamics.verifier.is_zero(self.rate)
         return verdict.holds, verdict.how
 
     @property

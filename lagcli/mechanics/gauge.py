@@ -16,7 +16,7 @@ Frankel, *The Geometry of Physics*, 3rd ed., section 4.3 (Cartan's formula).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import combinations, combinations_with_replacement
 
 import sympy
@@ -24,7 +24,7 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero, nullspace, simplify
 from lagcli.algebra.build import TIME
-from lagcli.mechanics.constraints import exterior_derivative
+from lagcli.mechanics.constraints import ConstraintEquation, exterior_derivative
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.total_derivative import boundary_integral, boundary_term, euler_operator
 from lagcli.record import record
@@ -63,6 +63,8 @@ class GaugeSearch:
             identically = self._closed(change, guess, rules=True) or self._integral(change, guess)
         if exists or not self.dynamics.constraints.equations:
             return Gauge(exists, identically)
+        if not self.dynamics.degrees_of_freedom:
+            return Gauge(False, None)  # any K is dG/dt where nothing is free: Q is judged as it is
         return self._on_motion(change, guess)
 
     def _closed(self, change: Expr, guess: Expr, *, rules: bool) -> Expr | None:
@@ -92,39 +94,79 @@ class GaugeSearch:
             on_motion = self.dynamics.rate_on_motion(given)
             if on_motion is None:
                 return Gauge(None, None)
+            if self.dynamics.verifier.is_zero(on_motion).holds:
+                return Gauge(True, part)
             found = boundary_term(self.dynamics.simplified(on_motion), self.system)
             if found is not None:
                 return Gauge(True, part + found)
         on_motion = self.dynamics.rate_on_motion(change)
         assert on_motion is not None
-        return Gauge(self._closed_on_surface(on_motion), None)
+        return Gauge(self._closed_on_surface(self.dynamics.simplified(on_motion)), None)
 
     def _closed_on_surface(self, change: Expr) -> bool | None:
-        """Whether K dt is a closed one-form on the allowed vectors; None where it is none."""
-        system, zero = self.system, self.dynamics.verifier.is_zero
-        still = dict.fromkeys(system.qdot, sympy.S.Zero)
-        slopes = [change.diff(v) for v in system.qdot]
-        curved = [slope.diff(v) for slope in slopes for v in system.qdot]
-        if any(zero(second).holds is not True for second in curved):
-            return self._never_linear(change)
-        form = [*(slope.xreplace(still) for slope in slopes), change.xreplace(still)]
-        verdicts = [zero(each).holds for each in self._exterior(form)]
-        return False if False in verdicts else None
+        """Whether K dt is a closed one-form on the allowed vectors; None where it is none.
 
-    def _never_linear(self, change: Expr) -> bool | None:
-        """A K that is not linear in the allowed velocities is no dG(q, t)/dt: false, or open."""
-        kernel = nullspace([list(e.row) for e in self.dynamics.constraints.equations])
-        velocities = self.system.qdot
-        for pair in combinations_with_replacement(kernel, 2):
-            along = change
-            for u in pair:
-                along = sympy.Add(*(c * along.diff(v) for c, v in zip(u, velocities, strict=True)))
-            if self.dynamics.verifier.is_zero(along).holds is False:
-                return False
-        return None
+        Where all constraints are integrable, it is then dG on each of their surfaces (Poincare).
+        """
+        form = self._one_form(change)
+        if not isinstance(form, list):
+            return form
+        zero = self.dynamics.verifier.is_zero
+        verdicts = {zero(each).holds for each in self._exterior(form)}
+        if False in verdicts or None in verdicts:
+            return False if False in verdicts else None
+        kinds = self.dynamics.constraints.kinds.values()
+        return None if "nonholonomic" in kinds else True
+
+    def _one_form(self, change: Expr) -> list[Expr] | bool | None:
+        """The one-form that K dt is for the velocities w + sum c_i u_i that are allowed.
+
+        K = K_0 + s . v + v . H v/2 is linear in the c_i where u_i . H u_j = 0, and is then
+        (s + H w) . v + K_0 - w . H w/2 for them.  False where it is not linear; None: undecided.
+        """
+        velocities, zero = self.system.qdot, sympy.S.Zero
+        still = dict.fromkeys(velocities, zero)
+        slopes = [change.diff(v) for v in velocities]
+        H = [[slope.diff(v) for v in velocities] for slope in slopes]
+        free, shift = self._allowed
+        for u, v in combinations_with_replacement(free, 2):
+            holds = self.dynamics.verifier.is_zero(_product(u, H, v)).holds
+            if holds is not True:
+                return holds
+        if any(entry.free_symbols & {*velocities} for row in H for entry in row):
+            return None
+        bent = [_product([sympy.S.One], [row], shift) for row in H]
+        at_rest = [slope.xreplace(still) + each for slope, each in zip(slopes, bent, strict=True)]
+        return [*at_rest, change.xreplace(still) - _product(shift, H, shift) / 2]
+
+    @property
+    def _allowed(self) -> tuple[list[list[Expr]], list[Expr]]:
+        """Vectors u with A u = 0, and one w with A w + b = 0."""
+        kernel = [list(v) for v in nullspace([[*e.row, e.drift] for e in self._independent])]
+        shifts = [v for v in kernel if v[-1] != 0]
+        free = [v[:-1] for v in kernel if v[-1] == 0]
+        first, *others = [[x / v[-1] for x in v[:-1]] for v in shifts]
+        free += [[x - y for x, y in zip(v, first, strict=True)] for v in others]
+        return free, first
+
+    @property
+    def _independent(self) -> list[ConstraintEquation]:
+        equations = self.dynamics.constraints.equations
+        return [equations[k] for k in self.dynamics.independent_constraints]
 
     def _exterior(self, form: list[Expr]) -> Iterator[Expr]:
         variables = [*self.system.q, TIME]
-        rows = [[*e.row, e.drift] for e in self.dynamics.constraints.equations]
+        rows = [[*e.row, e.drift] for e in self._independent]
         for u, v in combinations([list(x) for x in nullspace(rows)], 2):
             yield exterior_derivative(form, variables, u, v)
+
+
+def _product(left: Sequence[Expr], matrix: Sequence[Sequence[Expr]], right: Sequence[Expr]) -> Expr:
+    """left . matrix right."""
+    return sympy.Add(
+        *(
+            x * entry * y
+            for x, row in zip(left, matrix, strict=True)
+            for entry, y in zip(row, right, strict=True)
+        )
+    )

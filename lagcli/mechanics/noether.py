@@ -182,7 +182,7 @@ class Noether:
     ) -> NoetherCharge:
         boundary = sympy.S.Zero if gauge is None else gauge
         contributions = self._contributions(transformation, boundary, change)
-        if gauge is None and exists:
+        if gauge is None and exists and not self._rate(list(contributions.values()))[1]:
             contributions.pop(CHANGE_OF_L, None)  # K = dG/dt, whatever G is
         system = self.system
         charge = sympy.Add(
@@ -240,9 +240,11 @@ class Noether:
     ) -> tuple[Expr | None, bool | None, Verification | None]:
         if not contributions:
             return sympy.S.Zero, True, "exact"
-        on_motion = self.dynamics.rate_on_motion(sympy.Add(*contributions))
+        total = sympy.Add(*contributions)
+        on_motion = self.dynamics.rate_on_motion(total)
         if on_motion is None:
-            return None, None, None
+            verdict = self.dynamics.vanishes_on_motion(total)
+            return sympy.S.Zero if verdict.holds else None, verdict.holds, verdict.how
         rate = self.dynamics.simplified(on_motion)
         verdict = self.dynamics.verifier.is_zero(rate)
         if verdict.holds is True:
@@ -262,8 +264,7 @@ class Noether:
         """The causes of what is not 0 on the motion."""
         causes = []
         for cause, part in contributions.items():
-            on_motion = self.dynamics.rate_on_motion(part)
-            if on_motion is None or self.dynamics.verifier.is_zero(on_motion).holds is not True:
+            if self.dynamics.vanishes_on_motion(part).holds is not True:
                 causes.append(cause)
         return causes
 

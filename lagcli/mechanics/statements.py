@@ -14,7 +14,7 @@ from lagcli.answers import (
 )
 from lagcli.expression import Expression
 from lagcli.manners import Manner
-from lagcli.mechanics.branches import sentence
+from lagcli.mechanics.branches import of_another_rank, sentence
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
@@ -131,8 +131,9 @@ class Statements(Stating):
     def note_check(self, what: str, verified: str | None) -> None:
         """Note what was verified at random states only."""
         if verified == NUMERIC_CHECK:
+            verb = "was" if what.startswith("the rate") else "were"
             self.warnings.append(
-                f"{what} were verified at 50 digits at random states, not decided exactly"
+                f"{what} {verb} verified at 50 digits at random states, not decided exactly"
             )
 
     def answers(self, sections: Sequence[str] | None) -> Answers:
@@ -147,3 +148,7 @@ class Statements(Stating):
             if factors is not None:
                 qdot = self.system.qdot
                 yield sentence(equation.name, factors, qdot, holonomic=equation.holonomic)
+        states = self.dynamics.states
+        for forms, elimination in states.other_surfaces:
+            rank, usual = len(elimination.independent), len(self.dynamics.independent_constraints)
+            yield of_another_rank(forms, rank, usual)

@@ -2,24 +2,26 @@
 
 Parameters, time, coordinates and velocities are drawn from a fixed sequence, then moved
 onto f(q, t) = 0 by Newton steps of least norm and onto A q' + b = 0 by one linear step.
-A pivoted elimination finds the rank of A there, which names redundant constraints.
+The rank of A there names redundant constraints; where the factors of the constraints make several
+surfaces, the states are on those of one rank.
 """
 
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import count, islice, product
 
 import mpmath
+import sympy
 from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra.build import without_jumps
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.constraints import Constraints
+from lagcli.mechanics.row_rank import Elimination, independent_rows, least_norm_solution
 from lagcli.mechanics.system import System
-from lagcli.record import record
 
 DIGITS = 50
 _GUARD = 15  # digits beyond those that are claimed
@@ -31,45 +33,6 @@ _SURFACES = 8  # at most
 _NEAR = 3  # states drawn near 0, before those that come from afar
 
 State = dict[Symbol, mpf]
-
-
-@record
-class Elimination:
-    """The outcome of a pivoted elimination of rows: which are independent."""
-
-    independent: tuple[int, ...]
-    dependent: tuple[int, ...]
-
-
-def independent_rows(rows: Sequence[Sequence[mpf]], tolerance: mpf) -> Elimination:
-    """Take each row, in order, that is not a combination of those before it.
-
-    Modified Gram-Schmidt: a row is dependent when what is left of it is below
-    `tolerance` times its length.
-    """
-    basis: list[list[mpf]] = []
-    independent, dependent = [], []
-    for index, row in enumerate(rows):
-        rest = list(row)
-        length = mpmath.sqrt(sum(x * x for x in rest))
-        for _ in range(2):  # twice is enough (Kahan, Parlett)
-            for unit in basis:
-                along = sum(x * y for x, y in zip(rest, unit, strict=True))
-                rest = [x - along * y for x, y in zip(rest, unit, strict=True)]
-        left = mpmath.sqrt(sum(x * x for x in rest))
-        if length == 0 or left <= tolerance * length:
-            dependent.append(index)
-        else:
-            basis.append([x / left for x in rest])
-            independent.append(index)
-    return Elimination(tuple(independent), tuple(dependent))
-
-
-def least_norm_solution(rows: Sequence[Sequence[mpf]], right: Sequence[mpf]) -> list[mpf]:
-    """The shortest x with rows . x = right, rows independent: x = A^T (A A^T)^-1 right."""
-    a = mpmath.matrix([list(row) for row in rows])
-    y = mpmath.lu_solve(a * a.T, mpmath.matrix(list(right)))
-    return list(a.T * y)
 
 
 class Contradiction(Exception):
@@ -97,15 +60,20 @@ class RandomStates:
             [x for e in constraints.equations for x in (*e.row, e.drift)], DIGITS + _GUARD
         )
         self._lagrangian = Evaluator([system.L, *system.applied_forces], DIGITS + _GUARD)
+        self._kinks = Evaluator(_kinks(e.f for e in constraints.equations), DIGITS + _GUARD)
         self._kept: list[State] = []
-        self._generator = self._generate()
+        self._open = list(range(len(self._surfaces)))  # those that are visited
+        self._generator = self._of_one_rank()
         self._contradiction: Contradiction | None = None
+        self._last: Elimination | None = None
+        #: The independent constraints, the same at all states, and surfaces where others are.
         self.elimination: Elimination | None = None
+        self.other_surfaces: list[tuple[Sequence[Expr], Elimination]] = []
 
     @property
     def surfaces(self) -> int:
         """The number of surfaces that the factors of the constraints make; all are visited."""
-        return len(self._surfaces)
+        return len(self._open)
 
     def _branches(self) -> list[list[Expr]]:
         """The forms f of the holonomic constraints, one factor of each."""
@@ -159,26 +127,51 @@ class RandomStates:
             state[v] = random_value(source, v, 0.1, 0.9) * scale
         return state
 
-    def _generate(self) -> Iterator[State]:
+    def _of_one_rank(self) -> Iterator[State]:
+        """The states at which the same constraints are independent, as many of them as possible."""
+        first = self._first_of_each_surface()
+        self.elimination = max((e for _, e, _ in first), key=lambda e: len(e.independent))
+        self._open = sorted({k for k, e, _ in first if e == self.elimination})
+        others = {k: e for k, e, _ in first if k not in self._open}
+        self.other_surfaces = [(self._forms[k], e) for k, e in others.items()]
+        yield from (state for _, e, state in first if e == self.elimination)
+        for _, _, state in self._generate("lagcli"):
+            if state not in self._kept:
+                yield state
+
+    def _first_of_each_surface(self) -> list[tuple[int, Elimination, State]]:
+        """One state; where there are several surfaces, some of each that has regular ones."""
+        wanted = 1 if self.surfaces == 1 else 2 * self.surfaces
+        found: list[tuple[int, Elimination, State]] = []
+        try:
+            for each in islice(self._generate("lagcli"), wanted):
+                found.append(each)  # noqa: PERF402 - what came before a contradiction counts
+        except Contradiction:
+            if not found:
+                raise
+        return found
+
+    def _generate(self, seed: str) -> Iterator[tuple[int, Elimination, State]]:
         with mpmath.workdps(DIGITS + _GUARD):
-            source = random.Random("lagcli")
+            source = random.Random(seed)
         failures: dict[int, int] = {}
         attempts = 0
         for draw in count():
             attempts += 1
-            self._f, self._f_rows = self._surfaces[draw % self.surfaces]
+            surface = self._open[draw % self.surfaces]
+            self._f, self._f_rows = self._surfaces[surface]
             scale = 1.0 if attempts % 3 else 0.1
             with mpmath.workdps(DIGITS + _GUARD):
                 # the branches of x^2 = y^2 or cos(x) = cos(y) are met from all sides
-                wide = len(self._kept) >= _NEAR and attempts % 2 == 1
+                wide = attempts % 2 == 1 if len(self._kept) >= _NEAR else attempts % 3 == 0
                 state = self._draw(source, scale, wide=wide)
                 if attempts > _AS_DRAWN:
-                    self._adapt(state, draw % self.surfaces)
+                    self._adapt(state, surface)
                 failed = self._project(state)
                 good = failed is None and self._is_regular(state)
-            if good:
+            if good and self._last is not None and self.elimination in {None, self._last}:
                 attempts = 0
-                yield state
+                yield surface, self._last, state
                 continue
             if failed is not None:
                 failures[failed] = failures.get(failed, 0) + 1
@@ -187,12 +180,13 @@ class RandomStates:
                 raise Contradiction(worst)
 
     def _is_regular(self, state: State) -> bool:
-        """Whether L and the forces are finite and real there."""
+        """Whether L and the forces are finite and real there, and no constraint has a kink."""
         try:
             values = self._lagrangian(state)
+            smooth = all(map(_far, self._kinks(state)))
         except (ArithmeticError, ValueError):
             return False
-        return all(is_real(v) for v in values)
+        return smooth and all(is_real(v) for v in values)
 
     def _project(self, state: State) -> int | None:
         """Move the state onto the constraints; the index of one that fails, or None."""
@@ -268,7 +262,7 @@ class RandomStates:
     def _project_velocities(self, state: State) -> int | None:
         equations = self.constraints.equations
         if not equations:
-            self.elimination = Elimination((), ())
+            self._last = Elimination((), ())
             return None
         n = len(self.system.q)
         flat = self._a_rows(state)
@@ -278,8 +272,11 @@ class RandomStates:
         drift = [flat[i * (n + 1) + n] for i in range(len(equations))]
         elimination = independent_rows(rows, mpf(10) ** -25)
         kept = elimination.independent
-        if not kept:
-            return 0  # a corner: z^2 = y z and z (z - 2 y) = 0 where y and z are 0
+        corners = [
+            i for i, e in enumerate(equations) if e.holonomic and not any(map(_far, rows[i]))
+        ]
+        if corners or not kept:  # z^2 = y z and z (z - 2 y) = 0 where y and z are 0
+            return corners[0] if corners else 0
         residual = [
             -sum(a * state[v] for a, v in zip(rows[i], self.system.qdot, strict=True)) - drift[i]
             for i in kept
@@ -292,7 +289,7 @@ class RandomStates:
             rest = sum(a * state[v] for a, v in zip(rows[i], self.system.qdot, strict=True))
             if abs(rest + drift[i]) > mpf(10) ** -25:
                 return i
-        self.elimination = elimination
+        self._last = elimination
         return None
 
 
@@ -310,6 +307,16 @@ def random_value(source: random.Random, symbol: Symbol, low: float, high: float)
 
 def _has_assumed_sign(symbol: Symbol, value: mpf) -> bool:
     return not (symbol.is_nonnegative and value <= 0) and not (symbol.is_negative and value >= 0)
+
+
+def _kinks(forms: Iterable[Expr]) -> list[Expr]:
+    """What is 0 where |u| has a kink or sign(u) jumps: a constraint has no gradient there."""
+    found = {f.args[0] for form in forms for f in form.atoms(sympy.Abs, sympy.sign)}
+    return sorted(found, key=str)
+
+
+def _far(x: mpf) -> bool:
+    return bool(abs(x) > mpf(10) ** -20)
 
 
 def is_real(value: object) -> bool:

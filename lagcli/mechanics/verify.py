@@ -7,7 +7,7 @@ put to the test at random states on the constraint surface, at 50 digits.
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import mpmath
 from mpmath import mpf
@@ -17,15 +17,8 @@ from lagcli.algebra import is_zero
 from lagcli.algebra.numeric import Evaluator
 from lagcli.answers import Verification
 from lagcli.mechanics.constraints import Constraints
-from lagcli.mechanics.states import (
-    DIGITS,
-    Contradiction,
-    Elimination,
-    RandomStates,
-    State,
-    independent_rows,
-    random_value,
-)
+from lagcli.mechanics.row_rank import Elimination, independent_rows
+from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates, State, random_value
 from lagcli.record import record
 
 _STATES = 3
@@ -84,12 +77,19 @@ class Verifier:
                 how = "50 digits"
         return Verdict(True, how)
 
-    def vanishes_at_random_states(self, expressions: Sequence[Expr]) -> bool | None:
-        """The numeric test; None where no state could be evaluated."""
+    def vanishes_at_random_states(
+        self,
+        expressions: Sequence[Expr],
+        along: Callable[[Iterator[State]], Iterator[State]] = iter,
+    ) -> bool | None:
+        """The numeric test; None where no state could be evaluated.
+
+        `along` adds to the states what the expressions use besides.
+        """
         bent = any(equation.holonomic for equation in self.constraints.equations)
         few = _STATES_OF_SURFACES if bent else _STATES
         wanted = max(few, 2 * self.states.surfaces)
-        return self._vanishes_at(expressions, self._states(4 * wanted), wanted)
+        return self._vanishes_at(expressions, along(self._states(4 * wanted)), wanted)
 
     def is_fixed(self, quantity: Expr) -> bool:
         """Whether the constraints alone keep a quantity from changing between states.

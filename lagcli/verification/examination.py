@@ -17,6 +17,7 @@ from lagcli.formatters.grammar import to_grammar
 from lagcli.problem import Problem
 from lagcli.reader import parse_text
 from lagcli.verification.comparison import Verdict, compare
+from lagcli.verification.linear import Unclear, rank
 from lagcli.verification.reference import Reference
 from lagcli.verification.states import State, phase_states, random_states
 from lagcli.verification.sweeps import Unknown, Values
@@ -24,6 +25,9 @@ from lagcli.verification.sweeps import Unknown, Values
 #: States at which each claim is tried, and how many are looked at where it has no value.
 STATES = 3
 LOOKED_AT = 9
+#: States at which a rate that is claimed not to be 0 is tried where constraints may have branches:
+#: a fifth of the states on y (x + z) (z - 3 y) = 0 is on the least likely one.
+BRANCHED = 24
 #: Bits, and those with which balls are evaluated again where they are too wide to decide.
 PRECISIONS = (128, 320, 800)
 
@@ -55,8 +59,11 @@ class Examination:
         What could not be evaluated.
     """
 
-    def __init__(self, problem: Problem, reference: Reference | None = None) -> None:
+    def __init__(
+        self, problem: Problem, reference: Reference | None = None, rank: int | None = None
+    ) -> None:
         self.problem = problem
+        self._rank = rank  # of the constraints where the answers hold
         self.reference = Reference(problem) if reference is None else reference
         self.retracted: list[str] = []
         self.unchecked: list[str] = []
@@ -92,7 +99,28 @@ class Examination:
     def _random_states(self) -> Iterator[State]:
         if self.reference.of_phase_space:
             return cast("Iterator[State]", phase_states(self.reference))
-        return random_states(self.reference)
+        return self._of_the_rank(random_states(self.reference))
+
+    def _of_the_rank(self, states: Iterator[State]) -> Iterator[State]:
+        """Those on the branches of the constraints where the answers hold; all if none is seen."""
+        filtered = self._rank is not None and len(self.reference.rows) > 1
+        others: list[State] = []
+        for state in states if filtered else ():
+            if self._has_rank(state):
+                yield state
+                others = []
+                break
+            others.append(state)
+            if len(others) == LOOKED_AT:
+                break
+        yield from others
+        yield from states if others or not filtered else filter(self._has_rank, states)
+
+    def _has_rank(self, state: State) -> bool:
+        try:
+            return rank(state.laws.jacobian, len(self.reference.names)) == self._rank
+        except Unclear:
+            return False
 
     @property
     def regular(self) -> bool:
@@ -165,13 +193,20 @@ class Examination:
         """Whether a rate is 0 at all states (claim True), or not 0 at one (False); noted if not."""
         if claim:
             return self.vanishes(what, value)
-        values = [value(state) for state in self.states()]
-        if not values:
+        if not self.states():
             self.unchecked.append(what)
-        elif all(compare(each, arb(0)) is Verdict.EQUAL for each in values):
+        elif self._all_zero(value, self._count) and self._all_zero(value, self._on_branches):
             self.refute(what, "the value that it denies to be 0 is 0 at random states")
             return False
         return True
+
+    def _all_zero(self, value: Truth, count: int) -> bool:
+        return all(compare(value(s), arb(0)) is Verdict.EQUAL for s in self.states(count))
+
+    @property
+    def _on_branches(self) -> int:
+        """States that meet the branches of the constraints: a rate may be 0 on some of them."""
+        return BRANCHED if self.reference.rows else self._count
 
     def determined(self, what: str, at: Callable[[State], bool]) -> bool:
         """Whether the laws determine a quantity at some state; noted if not."""

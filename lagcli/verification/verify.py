@@ -91,7 +91,8 @@ def verified(problem: Problem, answers: Answers) -> Answers:
     answers
         What was derived from it.
     """
-    examination = Examination(problem)
+    rank = len(problem.coordinates) - answers.degrees_of_freedom
+    examination = Examination(problem, rank=rank)
     with ctx.workprec(PRECISIONS[0]):
         examination.define("the abbreviations", answers.where)
         given = answers.sections

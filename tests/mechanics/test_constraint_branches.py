@@ -114,3 +114,27 @@ def test_only_what_is_proved_is_called_a_contradiction(first, second, proved):
     [mistake] = found.value.diagnostics
     assert ("contradict" in mistake.hint) is proved
     assert "no state was found" in mistake.hint
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_where_the_rank_is_another_the_answers_do_not_hold(seed):
+    """(x - a z) y = 0 and (x - a z) (z - k) = 0: rank 1 on x = a z, 2 on y = 0, z = k."""
+    source = random.Random(seed)
+    a = source.choice(("2", "-3", "1/2", "5"))
+    factors = [f"(x - {a}*z)*y = 0", f"(x - {a}*z)*(z - k) = 0"]
+    source.shuffle(factors)
+    text = FREE.replace("[x, y]", "[x, y, z]") + "T: m*(x'^2 + y'^2 + z'^2)/2\nV: k*(x + y)\n"
+    d = derive(f'{text}constraints: {{c1: "{factors[0]}", c2: "{factors[1]}"}}')
+    assert d.dynamics.degrees_of_freedom == 1
+    assert d.dynamics.redundant == ()
+    assert is_zero(d.dynamics.motion.accelerations[1]) is not False
+    [told] = [w for w in Statements(d).answers(["charges"]).warnings if "rank" in w]
+    assert "the constraints have rank 1, not 2: the answers do not hold there" in told
+
+
+@pytest.mark.parametrize("power", [2, 3, 4])
+def test_beside_another_constraint_a_power_is_refused_too(power):
+    text = FREE + 'T: m*(x\'^2 + y\'^2)/2\nconstraints: {c1: "x = k", c2: "(x - y)^%d = 0"}'
+    with pytest.raises(ProblemError) as refused:
+        _ = derive(text % power).dynamics.independent_constraints
+    assert "the derivatives of constraint 'c2' vanish" in str(refused.value.diagnostics)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cached_property
 
 from mpmath import mpf
 
@@ -57,16 +58,28 @@ class Charges:
             for solved, change in zip(self.states, rates, strict=True):
                 self.same(section, each["rate"], change, self.names(solved), f"{label} rate")
         asked = each["source"] == "candidate"
-        if not asked and len(values) > 1 and all(close(value, values[0]) for value in values):
+        if not asked and len(values) > 1 and self._constant(Q):
             self.say("wrong", section, f"{label} {each['charge']} is a constant")
         self._noether(each, section, label)
 
     def _everywhere(self, Q):
-        """Whether a charge is kept at more states, and more."""
-        more = [self.motion.solve(s) for s in (self.motion.draw() for _ in range(12)) if s]
-        return all(
-            close(rate(lambda s: Q(self.motion.names(s)), s[0]), mpf(0)) for s in more if s[2]
-        )
+        """Whether a charge is kept on other branches as well."""
+        changes = (rate(lambda s: Q(self.motion.names(s)), s[0]) for s in self.on_branches)
+        return all(close(change, mpf(0)) for change in changes)
+
+    def _constant(self, Q):
+        """Whether a charge has the same value at all states."""
+        states = [s[0] for s in self.states]
+        values = [Q(self.motion.names(s)) for s in states]
+        if all(close(value, values[0]) for value in values) and self.motion.constraints:
+            values += [Q(self.motion.names(s[0])) for s in self.on_branches]
+        return all(close(value, values[0]) for value in values)
+
+    @cached_property
+    def on_branches(self):
+        """More states, from afar as well."""
+        drawn = filter(None, (self.motion.draw(wide=i) for i in (1, 4) * 8))
+        return [solved for solved in map(self.motion.solve, drawn) if solved[2]]
 
     def _noether(self, each, section, label):
         """Q = sum p (Dq - q' Dt) + L Dt - G for the transformation that is printed."""

@@ -41,7 +41,17 @@ class Judge(Charges):
             if state is not None:
                 found.append(self.motion.solve(state))
         self.stuck = [each for each in found if not each[2]]
-        return [each for each in found if each[2]]
+        return self._of_the_stated_rank([each for each in found if each[2]])
+
+    def _of_the_stated_rank(self, found):
+        """Without the states where the sheet says that the constraints have another rank."""
+        if not any("do not hold there" in each for each in self.sheet["warnings"]):
+            return found
+        rank = self.motion.n - self.sheet["degrees_of_freedom"]
+        drawn = filter(None, (self.motion.draw() for _ in range(24)))
+        more = (self.motion.solve(state) for state in drawn)
+        kept = [s for s in (*found, *more) if s[2] and linear.rank(self.motion.rows(s[0])) == rank]
+        return kept[:3]
 
     def say(self, verdict, section, what):
         if len(self.found) < 12:

@@ -15,12 +15,12 @@ class Legendre:
 
     def __init__(self, text: str, coordinates) -> None:
         self.H, self.coordinates = read(text), list(coordinates)
-        self.p = [mpf(0)] * len(self.coordinates)
+        self._begun = [[mpf(0)] * len(self.coordinates)]
 
     def begin(self, names, p):
         """The velocities of momenta p, from which the next ones are sought."""
-        self.p = list(p)
-        return self._velocities(names, self.p)
+        self._begun.append(list(p))
+        return self._velocities(names, p)
 
     def _at(self, names, p):
         return self.H(names | {f"p_{q}": x for q, x in zip(self.coordinates, p, strict=True)})
@@ -34,9 +34,16 @@ class Legendre:
         return found
 
     def __call__(self, names):
-        """L there."""
-        p, v = list(self.p), [names[q + "'"] for q in self.coordinates]
-        for _ in range(40):
+        """L there, by Newton's method from the momenta of some state."""
+        for start in reversed(self._begun):
+            value = self._from(start, names)
+            if value is not None:
+                return value
+        raise Undefined("no momenta")
+
+    def _from(self, start, names):
+        p, v = list(start), [names[q + "'"] for q in self.coordinates]
+        for _ in range(14):
             off = [a - b for a, b in zip(self._velocities(names, p), v, strict=True)]
             if max(map(abs, off)) < mpf(10) ** -40:
                 return linear.dot(p, v) - self._at(names, p)
@@ -48,4 +55,4 @@ class Legendre:
                 columns.append([(a - b) / mpf(10) ** -9 / 2 for a, b in pairs])
             step, _, _ = linear.solve(linear.transposed(columns), off)
             p = [a - b for a, b in zip(p, step, strict=True)]
-        raise Undefined("no momenta")
+        return None

@@ -174,11 +174,11 @@ class Motion:
 
     # -- states ------------------------------------------------------------------------
 
-    def draw(self, tries=60):
+    def draw(self, tries=60, wide=1):
         """A random state on the constraints with its motion, or None."""
         for _ in range(tries):
             try:
-                state = self._on_constraints(self._anywhere())
+                state = self._on_constraints(self._anywhere(wide))
                 if state is not None:
                     self.L(state)
                     return state
@@ -186,9 +186,9 @@ class Motion:
                 continue
         return None
 
-    def _anywhere(self):
+    def _anywhere(self, wide):
         q = [
-            mpf(self.rng.randint(100, 1900)) / 1013
+            mpf(self.rng.randint(100, 1900)) / 1013 * wide
             * (-1 if assume == "negative" or (assume in FREE and self.rng.random() < 0.5) else 1)
             for assume in self.system.coordinates.values()
         ]  # fmt: skip

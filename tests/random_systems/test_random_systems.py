@@ -15,6 +15,7 @@ ALL, MISSING = 5000, 50
 LARGE = {
     "linkages",
     "crowds",
+    "factored_pairs",
     "curved",
     "branches",
     "near_miss",

@@ -21,7 +21,8 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.initial import InitialState
 from lagcli.mechanics.noether import Noether
-from lagcli.mechanics.states import Contradiction, State, independent_rows, least_norm_solution
+from lagcli.mechanics.row_rank import independent_rows, least_norm_solution
+from lagcli.mechanics.states import Contradiction, State
 from lagcli.mechanics.total_derivative import boundary_term
 
 DIGITS = 60

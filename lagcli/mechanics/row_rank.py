@@ -1,0 +1,49 @@
+"""Rows of numbers: which are independent, and the shortest solution of a system of such."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import mpmath
+from mpmath import mpf
+
+from lagcli.record import record
+
+
+@record
+class Elimination:
+    """The outcome of a pivoted elimination of rows: which are independent."""
+
+    independent: tuple[int, ...]
+    dependent: tuple[int, ...]
+
+
+def independent_rows(rows: Sequence[Sequence[mpf]], tolerance: mpf) -> Elimination:
+    """Take each row, in order, that is not a combination of those before it.
+
+    Modified Gram-Schmidt: a row is dependent when what is left of it is below
+    `tolerance` times its length.
+    """
+    basis: list[list[mpf]] = []
+    independent, dependent = [], []
+    for index, row in enumerate(rows):
+        rest = list(row)
+        length = mpmath.sqrt(sum(x * x for x in rest))
+        for _ in range(2):  # twice is enough (Kahan, Parlett)
+            for unit in basis:
+                along = sum(x * y for x, y in zip(rest, unit, strict=True))
+                rest = [x - along * y for x, y in zip(rest, unit, strict=True)]
+        left = mpmath.sqrt(sum(x * x for x in rest))
+        if length == 0 or left <= tolerance * length:
+            dependent.append(index)
+        else:
+            basis.append([x / left for x in rest])
+            independent.append(index)
+    return Elimination(tuple(independent), tuple(dependent))
+
+
+def least_norm_solution(rows: Sequence[Sequence[mpf]], right: Sequence[mpf]) -> list[mpf]:
+    """The shortest x with rows . x = right, rows independent: x = A^T (A A^T)^-1 right."""
+    a = mpmath.matrix([list(row) for row in rows])
+    y = mpmath.lu_solve(a * a.T, mpmath.matrix(list(right)))
+    return list(a.T * y)
