@@ -164,13 +164,13 @@ class Constraints:
                 kinds[equation.name] = "holonomic"
                 continue
             if integrable_span is None:
-                integrable_span = self._integrable_forms()
+                integrable_span = self.integrable_forms()
             form = [*equation.row, equation.drift]
             within = rank([*integrable_span, form]) == len(integrable_span)
             kinds[equation.name] = "integrable" if within else "nonholonomic"
         return kinds
 
-    def _integrable_forms(self) -> list[list[Expr]]:
+    def integrable_forms(self) -> list[list[Expr]]:
         """The last derived system of the Pfaffian system {a dq + b dt}: its integrable part.
 
         The derived system I' of I holds the forms w in I with dw = 0 mod I, which is a

@@ -251,6 +251,17 @@ class Noether:
             return sympy.S.Zero, True, verdict.how
         return rate, verdict.holds, verdict.how
 
+    def applies(self, charge: NoetherCharge) -> bool | None:
+        """Whether the hypothesis of Noether's theorem holds for a transformation and its gauge.
+
+        The change of L minus dG/dt, plus the work of all forces along Dq - q' Dt, vanishes on the
+        motion.  None where that was not decided.
+        """
+        boundary = sympy.S.Zero if charge.gauge is None else charge.gauge
+        change = self.change_of_action(charge.transformation)
+        works = self._contributions(charge.transformation, boundary, change)
+        return self._rate(list(works.values()))[1]
+
     def working(self, charge: NoetherCharge) -> tuple[str, ...]:
         """The forces that do work along a transformation: Q . (Dq - q' Dt) is not 0."""
         change, boundary = sympy.S.Zero, sympy.S.Zero

@@ -90,32 +90,36 @@ LYAPUNOV_MALKIN = Theorem(
 )
 NOETHER = Theorem(
     "Noether",
-    "The action changes by the integral of a total derivative only, to first order.",
+    "To first order the change of the action and the work of all forces along the transformation "
+    "add up to a total derivative, on the motion.",
     "The charge p Δq − h Δt − gauge is conserved.",
-    "Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., section 13.7",
-    "lagcli.mechanics.noether:Noether",
+    "Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., section 13.7; with forces and "
+    "constraints: Vujanovic, Int. J. Non-Linear Mech. 13 (1978) 185",
+    "lagcli.mechanics.noether:Noether.applies",
 )
 FROBENIUS = Theorem(
     "Frobenius",
-    "The exterior derivative of each form of a Pfaffian system vanishes modulo the system.",
+    "The exterior derivative of each form of a Pfaffian system vanishes modulo the system; of one "
+    "that does not, the last derived system is the largest part that does.",
     "The constraints on the velocities are derivatives of constraints on the positions.",
     "Frankel, The Geometry of Physics, 3rd ed., section 6.1",
-    "lagcli.mechanics.constraints:Constraints.kinds",
+    "lagcli.mechanics.constraints:Constraints.integrable_forms",
 )
 LEVI_CIVITA = Theorem(
     "Levi-Civita",
     "The Hamiltonian does not depend on t, and Levi-Civita's expression vanishes for each pair of "
     "coordinates.",
-    "The equation of Hamilton and Jacobi separates in these coordinates.",
+    "The equation of Hamilton and Jacobi separates in these coordinates, and only then.",
     "Levi-Civita, Math. Ann. 59 (1904) 383",
-    "lagcli.mechanics.reduction.separation:Separation",
+    "lagcli.mechanics.reduction.separation:levi_civita",
 )
 LIOUVILLE_ARNOLD = Theorem(
     "Liouville and Arnold",
-    "There are as many independent conserved quantities in involution as degrees of freedom.",
+    "There are as many conserved quantities as degrees of freedom, functionally independent and "
+    "with brackets that vanish.",
     "The motion is integrable by quadratures.",
     "Arnold, Mathematical Methods of Classical Mechanics, 2nd ed., section 49",
-    "lagcli.mechanics.discovery.brackets",
+    "lagcli.mechanics.discovery.brackets:Brackets.in_involution",
 )
 
 THEOREMS = (

@@ -12,7 +12,9 @@ import pytest
 
 import lagcli
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
+from lagcli.mechanics.reduction.separation import levi_civita
 from lagcli.mechanics.theorems import THEOREMS
+from lagcli.reader import parse_text
 
 from .derived import derive
 
@@ -90,3 +92,63 @@ def test_no_verdict_changes_with_the_coordinates(seed):
     first_order = [v.stable is None and v.spectrum == () for v in verdicts]
     assert len(set(stable)) == 1 or (any(first_order) and False not in stable)
     assert len({v.asymptotic for v in verdicts}) == 1
+
+
+# -- Noether, Frobenius, Levi-Civita: both answers, on systems made to have one ---------------------
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_noether_applies_where_the_action_changes_by_a_boundary_term(seed):
+    """L + dF/dt of a translation in x, once with a force along x and once without."""
+    source = random.Random(seed)
+    F = source.choice(["x^2*t", "x*sin(t)", "x^3", "x*y"])
+    gauge = {"x^2*t": "2*x*t", "x*sin(t)": "sin(t)", "x^3": "3*x^2", "x*y": "y"}[F]
+    total = {
+        "x^2*t": "2*x*t*x' + x^2",
+        "x*sin(t)": "x'*sin(t) + x*cos(t)",
+        "x^3": "3*x^2*x'",
+        "x*y": "x'*y + x*y'",
+    }[F]
+    for force, expected in (("0", True), (f"-{source.randint(1, 4)}*x", False)):
+        noether = derive(f"""
+coordinates: [x, y]
+L: x'^2*(1 + y^2)/2 + y'^2/2 - y^4 + {total}
+forces: {{x: {force}}}
+symmetries: {{shift: {{x: 1, gauge: {gauge}}}, wrong: {{x: 1, gauge: {gauge} + x}}}}
+""").noether
+        shift, wrong = noether.charges[:2]
+        assert noether.applies(shift) is expected
+        assert noether.applies(wrong) is False
+        assert shift.conserved is expected
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_frobenius_finds_the_integrable_part(seed):
+    """f dg is integrable with any f; with the contact form dz - y dx beside it one form is."""
+    source = random.Random(seed)
+    f = source.choice(["(1 + x^2)", "exp(y)", "(2 + z^2)"])
+    g = source.choice([("2*x", "1", "0"), ("y", "x", "2*z"), ("0", "1", "z^2")])
+    disguised = " + ".join(f"{f}*({a})*{v}'" for a, v in zip(g, "xyz", strict=True))
+    head = "coordinates: [x, y, z]\nL: (x'^2 + y'^2 + z'^2)/2\n"
+    constraints = derive(f"{head}constraints: {{one: {disguised} = 0}}\n").dynamics.constraints
+    assert len(constraints.integrable_forms()) == 1
+    assert constraints.kinds == {"one": "integrable"}
+    contact = derive(f"{head}constraints: {{two: z' = y*x'}}\n").dynamics.constraints
+    assert contact.integrable_forms() == []
+    assert contact.kinds == {"two": "nonholonomic"}
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_levi_civita_separates_a_liouville_system_and_no_other(seed):
+    """(p_x²/2 + p_y²/2 + U(x) + V(y))/(A(x) + B(y)) separates, an added x y² does not."""
+    source = random.Random(seed)
+    A, U = (source.choice(["x^2", "cosh(x)", "2 + sin(x)"]) for _ in range(2))
+    B, V = (source.choice(["y^4", "1 + y^2", "exp(y)"]) for _ in range(2))
+    system = derive("{coordinates: [x, y], L: x'^2 + y'^2 + x*y}").system
+
+    def build(text):
+        return system.build(parse_text(text))
+
+    H = build(f"(p_x^2/2 + p_y^2/2 + {U} + {V})/({A} + {B})")
+    assert levi_civita(H, system.q, system.momenta) == (True, None)
+    assert levi_civita(H + build("x*y^2"), system.q, system.momenta) == (False, (0, 1))

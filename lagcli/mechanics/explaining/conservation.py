@@ -259,7 +259,9 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
             "derivative of"
         )
         yield shows(letters.G, write(gauge))
-    yield says(*noether_words(teller, with_gauge=bool(boundary != 0), with_time=change.time != 0))
+    applies = charge.conserved is not False
+    with_gauge, with_time = bool(boundary != 0), change.time != 0
+    yield says(*noether_words(teller, applies, with_gauge=with_gauge, with_time=with_time))
     yield shows(letters.Q, teller.readable.by_terms(charge.charge), _stays(charge)
                 if charge.conserved is not None else "")  # fmt: skip
     if charge.conserved is None:
@@ -274,13 +276,16 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
             yield shows(Name(letters.Q.name, 1), teller.readable.on_surface(charge.rate))
 
 
-def noether_words(teller: Teller, *, with_gauge: bool, with_time: bool) -> list[Part]:
-    """What Q is made of."""
+def noether_words(
+    teller: Teller, applies: bool = True, *, with_gauge: bool, with_time: bool
+) -> list[Part]:
+    """What Q is made of, by Noether's theorem, or all the same where it does not apply."""
     letters = teller.letters
     momentum = Diff(letters.L, letters.velocity)
     change, delay = Label(letters.q.name, change=True), Label("t", change=True)
     several = letters.several
-    parts: list[Part] = ["Noether's theorem gives ", "the sum of " if several else "", momentum]
+    gives = "gives " if applies else "does not apply; its expression is "
+    parts: list[Part] = ["Noether's theorem ", gives, "the sum of " if several else "", momentum]
     if with_time:
         parts += [" times (", change, " − ", letters.velocity, " ", delay, ")"]
     else:

@@ -52,6 +52,34 @@ class Separated:
     constants: tuple[Symbol, ...]
 
 
+def levi_civita(
+    H: Expr, q: Sequence[Symbol], p: Sequence[Symbol]
+) -> tuple[bool | None, tuple[int, int] | None]:
+    """Levi-Civita's condition on an H(q, p) without t.
+
+    Returns
+    -------
+    separates : bool or None
+        Whether the Hamilton-Jacobi equation separates in these coordinates; None: undecided.
+    obstacle : tuple of int or None
+        The first pair of coordinates at which the condition fails.
+
+    References
+    ----------
+    Levi-Civita, Math. Ann. 59 (1904) 383.
+    """
+    open_ = False
+    for i, j in combinations(range(len(q)), 2):
+        di, dj, ui, uj = (H.diff(x) for x in (q[i], q[j], p[i], p[j]))
+        terms = (ui * uj * di.diff(q[j]), di * dj * ui.diff(p[j]),
+                 -di * uj * ui.diff(q[j]), -ui * dj * di.diff(p[j]))  # fmt: skip
+        holds = is_zero(Add(*terms))
+        if holds is False:
+            return False, (i, j)
+        open_ = open_ or holds is None
+    return (None if open_ else True), None
+
+
 class Separation:
     """The separation of one Hamiltonian.
 
@@ -114,25 +142,7 @@ class Separation:
     @cached_property
     def _tested(self) -> tuple[bool | None, tuple[int, int] | None]:
         H = self.hamiltonian
-        if H is None:
-            return None, None
-        open_ = False
-        for i, j in combinations(range(len(self.system.q)), 2):
-            holds = is_zero(self._levi_civita(H, i, j))
-            if holds is False:
-                return False, (i, j)
-            open_ = open_ or holds is None
-        return (None if open_ else True), None
-
-    def _levi_civita(self, H: Expr, i: int, j: int) -> Expr:
-        q, p = self.system.q, self.system.momenta
-        di, dj, ui, uj = (H.diff(x) for x in (q[i], q[j], p[i], p[j]))
-        return Add(
-            ui * uj * di.diff(q[j]),
-            di * dj * ui.diff(p[j]),
-            -di * uj * ui.diff(q[j]),
-            -ui * dj * di.diff(p[j]),
-        )
+        return (None, None) if H is None else levi_civita(H, self.system.q, self.system.momenta)
 
     @cached_property
     def positive(self) -> tuple[Expr, ...]:
