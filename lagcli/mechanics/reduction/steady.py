@@ -109,7 +109,7 @@ class SteadyMotions:
             found = [*self._families(), *self._at_singular_places()]
         else:
             found = self._by_momenta()
-        if given is not None and not any(_is_member(given, g) for g in found):
+        if given is not None and not any(self._is_member(given, g) for g in found):
             found.insert(0, given)
         found = [each for motion in found if (each := self._standing(motion)) is not None]
         if not found and (self._singular or not self.complete):
@@ -300,6 +300,17 @@ class SteadyMotions:
             for s, value in other.values.items()
         )
 
+    def _is_member(self, one: Steady, family: Steady) -> bool:
+        """Whether a motion is another at the same coordinates but for momenta that are free."""
+        values, same = family.values, set(self.system.q) <= set(family.values)
+        try:
+            return same and all(
+                is_zero(one.values.get(s, s) - at(value, one.values)) is True
+                for s, value in values.items()
+            )
+        except ZeroDivisionError:
+            return False
+
     def _charts(self) -> Iterator[tuple[Symbol, dict[Expr, Expr]]]:
         """What to solve for, and p_c by the rate of c where the rate is what is given."""
         potential = self.routh.effective_potential
@@ -459,17 +470,6 @@ class SteadyMotions:
         """The same as an equilibrium of the reduced system."""
         free = tuple(q for q in self.system.q if q not in steady.values)
         return RestPoint(steady.values, free, steady.positive, steady.family)
-
-
-def _is_member(one: Steady, family: Steady) -> bool:
-    """Whether a motion is one of a family."""
-    try:
-        return all(
-            is_zero(one.values.get(s, s) - at(value, one.values)) is True
-            for s, value in family.values.items()
-        )
-    except ZeroDivisionError:
-        return False
 
 
 def _cost(value: Expr) -> int:
