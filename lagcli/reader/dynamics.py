@@ -29,6 +29,7 @@ def check_energies(sections: Sections, given: dict[str, Scalar]) -> None:
                 message = f"both {whole} and {key} are given"
                 hint = "give L, or H" if key == "L" else f"give {whole}, or T and V"
                 sections.error(message, given[key].span, hint, related)
+                sections.scope.refused.append(key)  # as in L: T - V
 
 
 def check_masses(sections: Sections, problem: Problem, span: Span) -> None:

@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from typing import get_args
+
+from lagcli.problem import Assumption
 
 #: Words for the keys of a problem -> the key.
 KEYS = {
     "kinetic": "T", "kinetic_energy": "T", "potential": "V", "potential_energy": "V", "U": "V",
     "lagrangian": "L", "Lagrangian": "L", "hamiltonian": "H", "Hamiltonian": "H",
-    "damping": "dissipation", "rayleigh": "dissipation", "friction": "dissipation",
+    "damping": "dissipation", "rayleigh": "dissipation",
     "name": "title", "reference": "source", "variables": "coordinates", "coords": "coordinates",
     "generalized_coordinates": "coordinates", "q": "coordinates", "dofs": "coordinates",
     "constants": "parameters", "params": "parameters", "values": "parameters",
@@ -23,12 +26,25 @@ KEYS = {
     "run": "simulation", "questions": "find", "expected": "expect", "answers": "expect",
 }  # fmt: skip
 
+#: Keys of a part of a problem -> that part.
+_PARTS = {
+    **dict.fromkeys(("until", "accuracy", "method"), "simulation"),
+    **dict.fromkeys(("places", "rods", "springs", "trails"), "picture"),
+    **dict.fromkeys(("accelerations", "charges", "equilibria", "modes", "trajectory"), "expect"),
+}
+_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(/\d+)?")
 #: A number with a unit behind it, as in `10 kg` and `9.81 m/s^2`.
 _WITH_UNIT = re.compile(
     r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*"
     r"(?P<unit>(?:[kmcµu]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa)|rad|deg|min|h|mol)(?:[ \^*/].*)?)"
 )
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
+#: Functions of other programs, by those of the format.
+_WRITTEN_OUT = {
+    "heaviside": "(1 + sign({}))/2", "Heaviside": "(1 + sign({}))/2", "step": "(1 + sign({}))/2",
+    "hypot": "sqrt({}^2 + {}^2)", "cbrt": "{}^(1/3)", "log10": "log({})/log(10)",
+    "log2": "log({})/log(2)", "radians": "{}*pi/180", "degrees": "{}*180/pi",
+}  # fmt: skip
 _VULGAR = {"½": "1/2", "⅓": "1/3", "⅔": "2/3", "¼": "1/4", "¾": "3/4", "⅛": "1/8"}
 
 
@@ -38,8 +54,45 @@ def key_meant(word: str, known: tuple[str, ...]) -> str | None:
     return meant if meant in known else None
 
 
+def same_key(word: str, known: tuple[str, ...]) -> str | None:
+    """The key that a word is but for capitals, blanks and hyphens."""
+    plain = word.casefold().replace(" ", "_").replace("-", "_")
+    return next((key for key in known if len(key) > 1 and key.casefold() == plain), None)
+
+
+def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
+    """What to write instead of an unknown key with its value; nothing where that is unclear."""
+    if word in get_args(Assumption) and "assume" in known:
+        return f"write assume: {word}"
+    if word == "friction" and "dissipation" in known:
+        return "a friction force -c*x' is written dissipation: c*x'^2/2"
+    part = _PARTS.get(word)
+    if part in known:
+        return f"write {part}: {{{word}: {value or '…'}}}"
+    if "parameters" in known and is_constant(word, value):
+        return f"a constant stands under parameters: write parameters: {{{word}: {value.strip()}}}"
+    return ""
+
+
+def colon_advice(line: str) -> str:
+    """`write V: k*x` for a line such as `V k*x`, `V = k*x` or `V：k*x`."""
+    found = re.match(r"\s*([^\W\d]\w*)\s*[=：]?\s*(.+)", line)
+    return f"write {found[1]}: {found[2].strip()}" if found else "key: value"
+
+
+def is_constant(word: str, value: str) -> bool:
+    """Whether a key with its value is a name with its number."""
+    named = re.fullmatch(r"[^\W\d]\w*", word) and word not in _PARTS
+    return bool(named and _NUMBER.fullmatch(value.strip()))
+
+
 def name_meant(name: str) -> str:
     """A valid name for one with raised or lowered digits, LaTeX or blanks; `theta_1` for θ₁."""
+    given = re.fullmatch(r"\s*(\w+)\s*=\s*(\S+)\s*", name)
+    if given:
+        return f"{given[1]}: {given[2]}"
+    if re.fullmatch(r"[^\W\d]\w*(\s+[^\W\d]\w*)+", name):
+        return ", ".join(name.split())
     plain = "".join(map(_on_the_line, name)).lstrip("\\$").rstrip("$")
     found = re.sub(r"[\s.,{}()\[\]^_-]+", "_", plain).strip("_")
     return found if re.fullmatch(r"[^\W\d]\w*", found) and found != name else ""
@@ -77,6 +130,11 @@ def function_meant(name: str, arguments: list[str]) -> str:
         return f"write {_group(arguments[0])}^2"
     if name in {"dot", "norm"}:
         return "write the sum over the components"
+    if name in _WRITTEN_OUT and len(arguments) == _WRITTEN_OUT[name].count("{}"):
+        return "write " + _WRITTEN_OUT[name].format(*arguments)
+    if name in {"max", "min"} and len(arguments) == 2:
+        a, b = arguments
+        return f"write ({a} + {b} {'+' if name == 'max' else '-'} abs({a} - {b}))/2"
     return ""
 
 
@@ -91,6 +149,40 @@ def velocity_meant(name: str, coordinates: list[str]) -> str:
         if name in {f"a{coordinate}", f"dd{coordinate}", f"d2{coordinate}"}:
             return f"the acceleration of {coordinate} is {coordinate}''"
     return ""
+
+
+#: LaTeX with arguments: \frac{a}{b}, \dot{x}, \dot x, \dot\theta.
+_MACRO = re.compile(r"\\([A-Za-z]+)")
+_ARGUMENT = re.compile(r"\s*(?:\{([^{}]*)\}|(\\[A-Za-z]+|\w))")
+
+
+def latex_meant(text: str) -> str:
+    """What to write instead of the LaTeX with which a text begins."""
+    macro = _MACRO.match(text)
+    if macro is None:
+        return ""
+    name, rest = macro[1], text[macro.end() :]
+    arguments = _arguments(rest, 2 if name in {"frac", "dfrac", "tfrac"} else 1)
+    first = arguments[0] if arguments else "x"
+    if name in {"dot", "ddot"}:
+        return f"write {first}" + ("'" if name == "dot" else "''")
+    if name in {"frac", "dfrac", "tfrac"} and len(arguments) == 2:
+        return f"write {_group(first)}/{_group(arguments[1])}"
+    if name == "sqrt":
+        return f"write sqrt({first})"
+    if name in {"cdot", "times"}:
+        return "write '*'"
+    if name in {"left", "right", "bigl", "bigr", "mathrm", "text", ""}:
+        return f"leave out \\{name}"
+    return f"write {name}"
+
+
+def _arguments(text: str, count: int) -> list[str]:
+    found: list[str] = []
+    while len(found) < count and (one := _ARGUMENT.match(text)):
+        found.append((one[1] or one[2] or "").lstrip("\\").strip())
+        text = text[one.end() :]
+    return found
 
 
 def _dotted(letter: str) -> str:

@@ -5,7 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, get_args
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.expression import FUNCTIONS, Call, Diff, Expression, Name, Number, PartialCall, walk
+from lagcli.expression import (
+    FUNCTIONS,
+    Call,
+    Diff,
+    Expression,
+    Name,
+    Number,
+    PartialCall,
+    Quotient,
+    walk,
+)
 from lagcli.problem import Assumption
 from lagcli.reader.habits import function_meant, velocity_meant
 from lagcli.reader.scope import CONSTANT, Role, Scope
@@ -35,8 +45,19 @@ def name_mistakes(
     before : int, optional
         In a definition, its rank: only earlier ones can be used.
     """
+    quotients: set[int] = set()
     for node in walk(expression):
         match node:
+            case Quotient(numerator=Name() as above, denominator=Name(name="dt") as below) if (
+                above.name[:1] == "d" and scope.kinds.get(above.name[1:]) == "coordinate"
+                and not {above.name, "dt"} & scope.kinds.keys()
+            ):  # fmt: skip
+                quotients |= {id(above), id(below)}
+                hint = f"the velocity of {above.name[1:]} is {above.name[1:]}': write that"
+                message = f"'{above.name}/dt' is not a velocity in {what}"
+                yield Diagnostic(message, above.span.to(below.span), hint)
+            case Name() if id(node) in quotients:
+                pass
             case Name():
                 yield from _name(node, scope, role, what, before)
             case Call():
@@ -165,10 +186,12 @@ def _other_name(node: Name, scope: Scope, role: Role, what: str) -> Iterator[Dia
         elif node.primes:
             yield Diagnostic("a momentum has no primes", span)
     elif not scope.refused:  # else it may be one of those that could not be declared
-        yield Diagnostic(f"unknown name '{name}' in {what}", span, _advice(name, scope, role))
+        yield Diagnostic(
+            f"unknown name '{name}' in {what}", span, _advice(name, scope, role, node.primes)
+        )
 
 
-def _advice(name: str, scope: Scope, role: Role) -> str:
+def _advice(name: str, scope: Scope, role: Role, primes: int) -> str:
     coordinates = list(scope.of_kind("coordinate"))
     if name == "dt" and coordinates:
         return f"a time derivative is a prime: d{coordinates[0]}/dt is {coordinates[0]}'"
@@ -176,7 +199,13 @@ def _advice(name: str, scope: Scope, role: Role) -> str:
         return "momenta are named p_" + ", p_".join(coordinates)
     if role.order > 0 and velocity_meant(name, coordinates):
         return velocity_meant(name, coordinates)
+    if name.casefold() in {"inf", "infinity", "oo"}:
+        return "there is no infinity"
     hint = did_you_mean(name, scope.usable(role))
+    if not hint and name in {"v", "velocity", "speed"} and role.order > 0 and coordinates:
+        return f"the velocity of {coordinates[0]} is {coordinates[0]}'"
+    if not hint and primes and role.order > 0:
+        return "declare it under 'coordinates'"
     if not hint and name in {"e", "E"}:
         return "the exponential function is exp(…)"
     if not hint and name in get_args(Assumption):

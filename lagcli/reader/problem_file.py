@@ -19,9 +19,9 @@ from lagcli.reader.dynamics import (
     read_points,
 )
 from lagcli.reader.expectations import ExpectReader
-from lagcli.reader.habits import key_meant
+from lagcli.reader.habits import colon_advice, key_meant
 from lagcli.reader.limits import MISTAKES
-from lagcli.reader.nodes import Mapping, Node, kind
+from lagcli.reader.nodes import Mapping, Node, Scalar, kind
 from lagcli.reader.phase_space import read_brackets, read_observables, read_transformations
 from lagcli.reader.quantities import (
     declare_parameters,
@@ -105,7 +105,15 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
     """Declare every name, then read every formula."""
     if not isinstance(root, Mapping):
         span = Span(1, 1, 1, 1)
-        sections.error(f"a problem must be a map of keys, not {kind(root)}", span, "key: value")
+        line = root.text.source.text.lstrip().split("\n")[0] if isinstance(root, Scalar) else ""
+        message = f"a problem must be a map of keys, not {kind(root)}"
+        sections.error(message, span, colon_advice(line))
+        return None
+    inner = [value for _, value in root.entries]
+    if len(inner) == 1 and isinstance(inner[0], Mapping) and _is_problem(inner[0]):
+        key = root.entries[0][0]
+        message = f"the problem stands under '{key.label}'"
+        sections.error(message, key.span, "its keys begin the lines; the name is title: …")
         return None
     given = sections.attributes(root, "the problem", KEYS)
 
@@ -184,6 +192,10 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
     if not sections.diagnostics:
         check_values(sections, problem)
     return problem
+
+
+def _is_problem(node: Mapping) -> bool:
+    return "coordinates" in {key.label for key, _ in node.entries}
 
 
 def _dimension_mistakes(problem: Problem) -> list[Diagnostic]:

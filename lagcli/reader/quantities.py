@@ -30,6 +30,8 @@ class _Said(TypedDict, total=False):
 
 _COORDINATE_ATTRIBUTES = ("unit", "symbol", "description", "assume")
 _PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
+_SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnegative",
+          "!=": "nonzero", "≠": "nonzero"}  # fmt: skip
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 
 
@@ -112,18 +114,24 @@ def _declared(
         sections.scope.refused += re.findall(r"[^\W\d]\w*", node.value)
         return
     else:
-        sections.error(f"{section} must be a list or a map, not {kind(node)}", node.span)
+        hint = "such as [x, y]" if section == "coordinates" else "such as [m, g]"
+        sections.error(f"{section} must be a list or a map, not {kind(node)}", node.span, hint)
+        sections.scope.refused.append("")  # whatever was to be declared
         return
     for key, value in entries:
-        if sections.declare(key.label, kind_, key.span):
+        if key.in_flow and key.label.isdigit() and isinstance(value, Scalar) and value.is_empty:
+            message = f"'{key.label}' is not a name"
+            sections.error(message, key.span, "a decimal point is written '.'")
+        elif sections.declare(key.label, kind_, key.span):
             yield key, value
 
 
 def _list_advice(text: str) -> str:
     """`[x, y]` for `x, y`, and `m: 1` for `m = 1`."""
-    given = re.match(r"\s*(\w+)\s*=\s*(\S+)", text)
+    given = re.findall(r"(\w+)\s*=\s*([^\s,]+)", text)
     if given:
-        return f"write {given[1]}: {given[2]}"
+        listed = ", ".join(f"{name}: {value}" for name, value in given)
+        return f"write {{{listed}}}" if "," in text else f"write {listed.split(', ')[0]}"
     return f"write [{', '.join(text.replace(',', ' ').split())}]"
 
 
@@ -155,6 +163,8 @@ def _said(sections: Sections, attributes: dict[str, Node]) -> _Said:
             said["assume"] = cast("Assumption", text.value)
         elif text is not None:
             hint = did_you_mean(text.value, _ASSUMPTIONS) or f"known are {', '.join(_ASSUMPTIONS)}"
+            sign = re.sub(r"[\w\s]", "", text.value.removesuffix("0"))
+            hint = f"write {_SIGNS[sign]}" if sign in _SIGNS else hint
             sections.error(f"unknown assumption '{text.value}'", text.span, hint)
     return said
 

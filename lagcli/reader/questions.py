@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from lagcli.expression import Expression, Name
@@ -55,6 +56,9 @@ def _state_name(sections: Sections, key: Scalar, coordinates: list[str]) -> Name
     letters = key.label.rstrip("'’′″")
     if letters not in coordinates:
         hint = did_you_mean(letters, coordinates) or "give coordinates x and velocities x'"
+        plain = re.sub(r"\(\s*0\s*\)$", "", key.label)
+        if plain != key.label and plain.rstrip("'") in coordinates:
+            hint = f"write {plain}"
         sections.error(f"'{key.label}' in initial is not a coordinate", key.span, hint)
         return None
     primes = sum(2 if prime == "″" else 1 for prime in key.label[len(letters) :])

@@ -10,7 +10,7 @@ from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import ZERO, Equation, Expression, Name
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression
 from lagcli.reader.growth import growth
-from lagcli.reader.habits import key_meant, unit_behind
+from lagcli.reader.habits import is_constant, key_advice, key_meant, same_key, unit_behind
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence, kind
@@ -97,17 +97,28 @@ class Sections:
         """The entries of a map with known keys; a mistake at each other one."""
         found = {}
         names = tuple(known)
-        for key, value in self.entries(node, what, f"it has the keys {', '.join(names)}"):
+        entries = list(self.entries(node, what, _as_map(node, names)))
+        given = {key.label for key, _ in entries}
+        for key, value in entries:
             if key.label in names:
                 found[key.label] = (key, value)
             else:
-                meant = key_meant(key.label, names)
-                hint = f"the key is {meant}" if meant else did_you_mean(key.label, names)
-                hint = hint or f"known are {', '.join(names)}"
-                if key.in_flow and isinstance(value, Scalar) and value.is_empty:
-                    hint = "inside { } a comma ends the value: put a text with commas in quotes"
-                self.error(f"unknown key '{key.label}' in {what}", key.span, hint)
+                self._unknown_key(key, value, what, names)
+                meant = key_meant(key.label, names) or same_key(key.label, names)
+                if meant and meant not in given:
+                    found[meant] = (key, value)  # what is in it is read on
         return found
+
+    def _unknown_key(self, key: Scalar, value: Node, what: str, names: tuple[str, ...]) -> None:
+        written = value.value if isinstance(value, Scalar) else ""
+        meant = key_meant(key.label, names)
+        advice = f"the key is {meant}" if meant else key_advice(key.label, written, names)
+        hint = advice or did_you_mean(key.label, names) or f"known are {', '.join(names)}"
+        if key.in_flow and isinstance(value, Scalar) and value.is_empty:
+            hint = "inside { } a comma ends the value: put a text with commas in quotes"
+        if "parameters" in names and is_constant(key.label, written):
+            self.scope.refused.append(key.label)
+        self.error(f"unknown key '{key.label}' in {what}", key.span, hint)
 
     # Formulas.
 
@@ -119,17 +130,27 @@ class Sections:
         if unit and unit not in self.scope.kinds:
             self._misplaced_unit(node, what, unit)
             return UNREADABLE
+        alone = node.value.strip() if isinstance(node, Scalar) else ""
+        if what.startswith("the value of") and self._is_unit(alone):
+            self.error(f"the unit '{alone}' is not a value", node.span, f"write {{unit: {alone}}}")
+            return UNREADABLE
         expression = self._read(node, what, read_expression)
         if expression is None:
             return UNREADABLE
         self._check_names(expression, role, what, before)
         return expression
 
+    def _is_unit(self, text: str) -> bool:
+        """Whether a text is a unit, and no name of the file."""
+        return text not in self.scope.kinds and unit_behind(f"1 {text}") == text != ""
+
     def _misplaced_unit(self, node: Node, what: str, unit: str) -> None:
         assert isinstance(node, Scalar)
         number = node.value.strip().removesuffix(unit).strip()
         hint = f"write {number}: numbers are in the units of the file"
-        if what.startswith("the value of"):
+        if unit in {"deg", "°"}:
+            hint = f"angles are in radians: write {number}*pi/180"
+        if what.startswith("the value of") and unit != "°":
             hint = f"write {{value: {number}, unit: {unit}}}"
         self.error(f"the unit '{unit}' cannot stand behind a number", node.span, hint)
 
@@ -162,7 +183,9 @@ class Sections:
 
     def _read(self, node: Node, what: str, read: Callable[[Excerpt], _T]) -> _T | None:
         if not isinstance(node, Scalar):
-            self.error(f"{what} must be an expression, not {kind(node)}", node.span)
+            hint = "one function for all coordinates, such as c*x'^2/2"
+            hint = hint if what == "dissipation" else ""
+            self.error(f"{what} must be an expression, not {kind(node)}", node.span, hint)
             return None
         if self.is_full or self.scalar(node, what) is None:
             return None
@@ -195,3 +218,14 @@ class Sections:
         self.scope.kinds[name] = kind
         self.scope.spans[name] = span
         return True
+
+
+def _as_map(node: Node, names: tuple[str, ...]) -> str:
+    """How a text or a list is written as the map that it should be."""
+    written = node.text.source.text[node.start : node.end].strip()
+    if isinstance(node, Scalar) and names[0] == "where" and "=" in written:
+        return f"write {{where: {written}, for: x}}"
+    fits = {"until": Scalar, "position": Sequence}.get(names[0])
+    if fits and isinstance(node, fits) and written:
+        return f"write {{{names[0]}: {written}}}"
+    return f"it has the keys {', '.join(names)}"

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, cast
 
 from lark.exceptions import UnexpectedCharacters
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import FUNCTIONS
-from lagcli.reader.habits import fraction, superscript
+from lagcli.reader.habits import fraction, latex_meant, superscript
 
 if TYPE_CHECKING:
     from lark.lexer import Token
@@ -29,6 +30,7 @@ _INSTEAD = {
     "√": "write sqrt(x)",
     "∂": "write diff(expression, name)",
     "|": "write abs(x)",
+    ";": "leave out ';'",
     "!": "there is no factorial",
     "%": "there is no remainder",
     "\\": "write names without a backslash; LaTeX goes into 'symbol'",
@@ -89,7 +91,19 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
         return Diagnostic("angles are in radians", span, f"write {number}*pi/180")
     if fraction(character):
         return Diagnostic(f"{shown} has no meaning", span, f"write {fraction(character)}")
-    return Diagnostic(f"{shown} has no meaning in an expression", span, _INSTEAD.get(character, ""))
+    hint = _meant(excerpt.value[at:], tokens) or _INSTEAD.get(character, "")
+    return Diagnostic(f"{shown} has no meaning in an expression", span, hint)
+
+
+def _meant(rest: str, tokens: list[Token]) -> str:
+    """What was meant by LaTeX, by `math.pi`, by `10%`; nothing where that is unclear."""
+    before = tokens[-1].type if tokens else ""
+    if rest[0] == "%" and before == "NUMBER":
+        return f"write {tokens[-1]}/100"
+    word = re.match(r"\.([A-Za-z]\w*)", rest)
+    if word and before == "NAME":
+        return f"write {word[1]}"
+    return latex_meant(rest)
 
 
 def _prime_advice(tokens: list[Token]) -> str:
@@ -109,7 +123,7 @@ def _unexpected_end(tokens: list[Token], excerpt: Excerpt) -> Diagnostic:
         return Diagnostic(f"nothing follows '{last}'", _span(last, excerpt))
     open_ = _open_parenthesis(tokens)
     if open_ is not None:
-        hint = ""
+        hint = "a ')' is missing"
         if excerpt.in_flow:
             hint = "inside { } and [ ] a comma ends the value: put it in quotes"
         return Diagnostic("this parenthesis is never closed", _span(open_, excerpt), hint)
@@ -125,21 +139,30 @@ def _missing_product(
     if left.type == "NAME" and str(left) in FUNCTIONS:
         message = f"the argument of {left} stands in parentheses"
         return Diagnostic(message, span, f"did you mean {left}({right})?")
+    before = _written(left) if left.type != "RPAR" else "(…)"
+    if str(right) in {"rad", "radian", "radians"}:
+        return Diagnostic("angles are in radians", span, f"leave out '{right}'")
+    if str(right) in {"deg", "degree", "degrees", "°"}:
+        return Diagnostic("angles are in radians", span, f"write {before}*pi/180")
     if left.type == "NUMBER" and right.type == "NUMBER":
         hint = "" if apart else "a number has one decimal point"
         return Diagnostic("two numbers side by side", span, hint)
     if left.type == "NUMBER" and right.startswith("_") and not apart:
         return Diagnostic("digits are not grouped by '_'", span)
-    before = str(left) if left.type != "RPAR" else "(…)"
     if superscript(right):
         return Diagnostic(
             "a power is written with '^'", span, f"write {before}{superscript(right)}"
         )
-    after = str(right) if right.type != "LPAR" else "(…)"
+    after = _written(right) if right.type != "LPAR" else "(…)"
     if right.type == "NAME" and following is not None and following.type == "LPAR":
         after += "(…)"
     message = f"a '*' is missing between '{left}' and '{right}'"
     return Diagnostic(message, span, f"did you mean {before}*{after}?")
+
+
+def _written(token: Token) -> str:
+    """A token as the format has it: `(1/2)` for ½."""
+    return f"({fraction(token)})" if fraction(token) else str(token)
 
 
 def _unexpected(

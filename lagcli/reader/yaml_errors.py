@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 from lagcli.diagnostics import Diagnostic
+from lagcli.reader.habits import colon_advice
 
 if TYPE_CHECKING:
     from lagcli.reader.text import Text
 
 #: A piece of the parser's own message; our sentence; our advice.
 _SENTENCES = (
-    ("mapping values are not allowed",
-     "a second ':' in one value", "put the whole value in quotes"),
     ("'\\t' that cannot start", "a tab cannot indent", "indent with spaces"),
     ("tab character", "a tab cannot indent", "indent with spaces"),
     ("that cannot start any token",
@@ -78,10 +78,37 @@ def explain(error: Exception, text: Text) -> Diagnostic:
         return Diagnostic("a tab cannot indent", span, "indent with spaces")
     if at_end and "node content" in said:
         return Diagnostic("the file ends inside of a list '[' or a map '{'", span)
+    if "mapping values are not allowed" in said:
+        return _second_colon(offset, text)
     for piece, sentence, hint in _SENTENCES:
         if piece in said:
             return Diagnostic(sentence, span, hint)
     return Diagnostic(f"this is not YAML: {problem}", span)
+
+
+_BEFORE = re.compile(r"(?P<indent>\s*)(?P<key>[^\W\d][\w ]*)(?P<colon>:\s+\S)?")
+
+
+def _second_colon(offset: int, text: Text) -> Diagnostic:
+    """A colon where none can stand: the line is indented too far, or the one above has none."""
+    line, column = text.position(offset)
+    lines = text.source.text.split("\n")
+    here = _BEFORE.fullmatch(lines[line - 1][: column - 1])
+    place = next((k for k in range(line - 2, -1, -1) if lines[k].strip()), None)
+    above = None if place is None else _BEFORE.match(lines[place])
+    if here is not None and above is not None and place is not None:
+        start = text.line_starts[line - 1] + len(here["indent"])
+        if above["colon"] and len(above["indent"]) < len(here["indent"]):
+            message = f"'{here['key']}' is indented further than '{above['key']}' above it"
+            hint = f"begin the line where '{above['key']}' begins"
+            return Diagnostic(message, text.span(start, offset), hint)
+        if not above["colon"] and len(above["indent"]) == len(here["indent"]):
+            start = text.line_starts[place] + len(above["indent"])
+            end = text.line_starts[place] + len(lines[place])
+            message = f"a ':' is missing behind '{above['key'].split()[0]}'"
+            return Diagnostic(message, text.span(start, end), colon_advice(lines[place]))
+    span = text.span(offset, offset + 1)
+    return Diagnostic("a second ':' in one value", span, "put the whole value in quotes")
 
 
 def _explain_character(error: Exception, text: Text) -> Diagnostic:
