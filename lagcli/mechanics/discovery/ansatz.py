@@ -296,7 +296,7 @@ def point_unknowns(
             unknowns += [
                 Unknown(k, T, g) for T in _times(times, slot, g, all_powers=len(spaces) <= _FEW)
             ]
-    return _ordered(unknowns)
+    return ordered(unknowns)
 
 
 def _times(times: TimeFunctions, slot: Slot, g: Expr, *, all_powers: bool) -> list[Expr]:
@@ -318,10 +318,12 @@ def quadratic_unknowns(
     times: Sequence[Expr] = (sympy.S.One,),
 ) -> list[Unknown]:
     """T(t) g(q) for the components of a Killing tensor and of the linear part."""
-    return _ordered([Unknown(k, T, g) for k in (*pairs, *linear) for g in spaces for T in times])
+    return ordered([Unknown(k, T, g) for k in (*pairs, *linear) for g in spaces for T in times])
 
 
-def _ordered(unknowns: list[Unknown]) -> list[Unknown]:
+def ordered(unknowns: list[Unknown]) -> list[Unknown]:
+    """Those that may be eliminated first, the most complicated, in front."""
+
     def cost(unknown: Unknown) -> tuple[int, int, str, int]:
         T, g = unknown.time, unknown.space
         return (2 * sympy.count_ops(T) + len(T.free_symbols), *_complexity(g), unknown.slot)

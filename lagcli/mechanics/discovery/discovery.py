@@ -27,14 +27,20 @@ from lagcli.mechanics.discovery.ansatz import (
     affine,
     kinds,
     point_unknowns,
+    quadratic,
     time_functions,
 )
 from lagcli.mechanics.discovery.brackets import rank
 from lagcli.mechanics.discovery.centralizer import centralized
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.constrained import rank_on_surface, tangent
-from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
+from lagcli.mechanics.discovery.hidden import (
+    MOST_UNKNOWNS as MOST_FOR_TENSORS,
+)
+from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, is_gyroscopic
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
+from lagcli.mechanics.discovery.isometries import Isometries
+from lagcli.mechanics.discovery.killing import KillingIntegrals
 from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Allowance, TooMuchWork
 from lagcli.mechanics.discovery.listing import led_momentum, more, rank_of, times
 from lagcli.mechanics.discovery.modular import NoPoint
@@ -204,8 +210,22 @@ class Discovery:
         motion = self.dynamics.motion
         return None if motion is None else motion.accelerations
 
+    @cached_property
+    def isometries(self) -> Isometries | None:
+        """Those of a kinetic energy of constant curvature that depends on the coordinates."""
+        if self.dynamics.constraints.equations or not (self.canonical and self.quadratic_mass):
+            return None
+        if not Isometries.apply(self.equations):
+            return None
+        found = Isometries(self.equations, self.allowed)
+        return found if found.functions else None
+
     def _search(self, kinds: Kinds, allowed: Allowance) -> tuple[Search, str]:
         """The linear system for the point symmetries, and what its ansatz is in words."""
+        isometries = self.isometries
+        if isometries is not None and isometries.beyond(kinds):
+            times = isometries.times
+            return isometries.search(times, allowed), isometries.words + _timed(times)
         equations = self.equations
         times = time_functions(equations, self.accelerations, potential=self.canonical)
         slots = point_slots(equations)
@@ -346,6 +366,8 @@ class Discovery:
                 "no integrals of second degree, because there are too many coordinates"
             )
             return
+        if self._by_killing_vectors():
+            return
         if self.system.t not in self.equations_symbols:
             self.words.append(
                 "first integrals of second degree in the velocities without explicit time, "
@@ -366,6 +388,23 @@ class Discovery:
             if timed.functions:
                 self.words.append("and with the same functions of time as coefficients")
                 self._keep_hidden(timed)
+
+    def _by_killing_vectors(self) -> bool:
+        """All integrals of second degree of L = T - V, where the ansatz has not all of them."""
+        isometries = self.isometries
+        if isometries is None or self.system.t in self.equations_symbols:
+            return False
+        n = len(self.system.q)
+        most = MOST_FOR_TENSORS // (n * (n + 1) // 2)
+        if is_gyroscopic(self.equations) or not isometries.products_beyond(
+            quadratic(self.centred_kinds, most)
+        ):
+            return False
+        self.words.append(
+            "all first integrals of second degree in the velocities without explicit time"
+        )
+        self._keep_hidden(KillingIntegrals(self.noether, isometries, self.coordinate_kinds))
+        return True
 
     def _keep_hidden(self, integrals: QuadraticIntegrals) -> None:
         """Add what is found, with names."""
@@ -398,9 +437,13 @@ class Discovery:
             shapes.append(f"{'of second degree' if second else 'affine'} in the coordinates")
         if self.coordinate_kinds.angles and len(spaces) > 1 + len(self.coordinate_kinds.lengths):
             shapes.append("with sines and cosines of the angles")
-        powers = "polynomial in t to second degree"
-        timed = " and with the exponents of the linear part" if times.exponents else ""
-        if times.forced:
-            timed += " and the functions of time of the driving"
         space = " ".join(shapes) or "constant in the coordinates"
-        return f"{what} {space}, {powers}{timed}"
+        return f"{what} {space}{_timed(times)}"
+
+
+def _timed(times: TimeFunctions) -> str:
+    """The functions of time of an ansatz."""
+    timed = ", polynomial in t to second degree"
+    if times.exponents:
+        timed += " and with the exponents of the linear part"
+    return timed + (" and the functions of time of the driving" if times.forced else "")

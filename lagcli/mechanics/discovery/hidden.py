@@ -38,7 +38,7 @@ from lagcli.mechanics.discovery.slots import (
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 from lagcli.mechanics.total_derivative import boundary_term
 
-_MOST_UNKNOWNS = 480
+MOST_UNKNOWNS = 480
 
 Slots = list[tuple[Slot, Expr]]
 
@@ -55,17 +55,12 @@ class QuadraticIntegrals:
         self.constants = frozenset(noether.system.parameters)
         n = len(equations.q)
         self.pairs = quadratic_slots(equations)
-        gyroscopic = any(
-            is_zero(f.diff(v).xreplace(dict.fromkeys(equations.v, sympy.S.Zero))) is not True
-            for f in equations.forcing
-            for v in equations.v
-        )
-        self.linear = point_slots(equations)[1:] if gyroscopic else []
+        self.linear = point_slots(equations)[1:] if is_gyroscopic(equations) else []
         slots = len(self.pairs) + len(self.linear)
         self.times: tuple[Expr, ...] = (sympy.S.One,)
         self._still = dict.fromkeys(equations.v, sympy.S.Zero)
-        self.functions = quadratic(kinds, _MOST_UNKNOWNS // slots)
-        if not self.functions and n * (n + 1) // 2 <= _MOST_UNKNOWNS:
+        self.functions = quadratic(kinds, MOST_UNKNOWNS // slots)
+        if not self.functions and n * (n + 1) // 2 <= MOST_UNKNOWNS:
             self.functions = [sympy.S.One]
 
     def found(self, known: Sequence[NoetherCharge]) -> list[tuple[Slots, NoetherCharge]]:
@@ -207,18 +202,30 @@ class QuadraticIntegrals:
 
     def _kinetic(self, functions: Slots) -> tuple[Expr, Expr]:
         """sum f p_i p_j and f p_i^2/2, and sum f p_j, with p = M q'."""
-        p = [
+        second, first = [], []
+        for slot, f in functions:
+            along = sympy.Add(*(u * p for u, p in zip(slot.vector, self.momenta, strict=True)))
+            if slot.kind[0] == "xi":
+                first.append(f * along)
+            else:
+                second.append(f * along / 2)
+        return sympy.Add(*second), sympy.Add(*first)
+
+    @property
+    def momenta(self) -> list[Expr]:
+        """p = M q'."""
+        return [
             sympy.Add(*(m * v for m, v in zip(row, self.equations.v, strict=True)))
             for row in self.equations.mass
         ]
-        second, first = [], []
-        for slot, f in functions:
-            if slot.kind[0] == "xi":
-                first.append(f * p[int(slot.kind[1])])
-                continue
-            i, j = int(slot.kind[1]), int(slot.kind[2])
-            second.append(f * p[i] ** 2 / 2 if i == j else f * p[i] * p[j])
-        return sympy.Add(*second), sympy.Add(*first)
+
+    def _of_rest(self) -> set[Expr]:
+        """The terms of L at rest without their constant factors."""
+        q = self.equations.q
+        rest = self.noether.system.L.xreplace(self._still)
+        return {
+            t.as_independent(*q, as_Add=False)[1] for t in sympy.Add.make_args(sympy.expand(rest))
+        } - {sympy.S.One}
 
     def _potential(self, force: Sequence[Expr], functions: Slots) -> Expr | None:
         """S(q) with the gradient `force`, from functions like those of L and of the tensor."""
@@ -239,10 +246,7 @@ class QuadraticIntegrals:
     def _candidates(self, functions: Slots) -> list[Expr]:
         """Products of the terms of L at rest with monomials and with the functions f."""
         q = self.equations.q
-        rest = self.noether.system.L.xreplace(dict.fromkeys(self.equations.v, sympy.S.Zero))
-        terms = {
-            t.as_independent(*q, as_Add=False)[1] for t in sympy.Add.make_args(sympy.expand(rest))
-        } - {sympy.S.One}
+        terms = self._of_rest()
         monomials = [sympy.S.One, *q]
         monomials += [x * y for i, x in enumerate(q) for y in q[: i + 1]]
         inside = {
@@ -250,7 +254,9 @@ class QuadraticIntegrals:
             for _, f in functions
             for t in sympy.Add.make_args(sympy.expand(f))
         }
-        roots = sorted(_roots(rest, q), key=sympy.default_sort_key)  # such as r in b sqrt(r + x)/r
+        roots = sorted(
+            _roots(sympy.Tuple(*terms), q), key=sympy.default_sort_key
+        )  # such as r in b sqrt(r + x)/r
         made = [a * b for b in terms for a in (*monomials, *roots, *sorted(inside, key=str))]
         made += [m for m in monomials if m != 1] + [
             x / root for root in roots for x in (*q, root**2)
@@ -275,6 +281,16 @@ def _roots(expression: Expr, q: Sequence[Symbol]) -> set[Expr]:
 def _length(expression: Expr) -> tuple[int, str]:
     """Shorter ones first: they are the ones that are used where several would do."""
     return sympy.count_ops(expression), str(expression)
+
+
+def is_gyroscopic(equations: Equations) -> bool:
+    """Whether the forces have terms of first degree in the velocities."""
+    still = dict.fromkeys(equations.v, sympy.S.Zero)
+    return any(
+        is_zero(f.diff(v).xreplace(still)) is not True
+        for f in equations.forcing
+        for v in equations.v
+    )
 
 
 def expanded(expression: Expr) -> Expr:

@@ -70,6 +70,8 @@ def _name(C: list[list[Vector]], central: Sequence[Vector]) -> str | None:
     n = len(C)
     if n == 0:
         return None
+    if _are_shifts(C, central):
+        central = [[mpf(0)] * n for _ in range(n)]
     extended = any(abs(x) > _SMALL for row in central for x in row)
     products = [C[a][b] for a in range(n) for b in range(a)]
     derived = rank(products)
@@ -116,6 +118,13 @@ def _ideals(C: list[list[Vector]], central: Sequence[Vector]) -> list[list[int]]
                 old = {label[k] for k in (a, b, *joined)}
                 label = [label[a] if x in old else x for x in label]
     return [[i for i in range(n) if label[i] == x] for x in dict.fromkeys(label)]
+
+
+def _are_shifts(C: list[list[Vector]], central: Sequence[Vector]) -> bool:
+    """Whether Q -> Q + const removes the constants: K_ab = sum C_ab^c s_c."""
+    pairs = [(a, b) for a in range(len(C)) for b in range(a)]
+    rows = [C[a][b] for a, b in pairs]
+    return rank(rows) == rank([[*C[a][b], central[a][b]] for a, b in pairs])
 
 
 def _abelian(n: int) -> str:

@@ -16,6 +16,7 @@ from lagcli.mechanics.discovery.boundary import gauge_of
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.search import Search, Solution
+from lagcli.mechanics.discovery.slots import combined
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
 
@@ -23,15 +24,10 @@ def transformation_of(
     search: Search, solution: Solution, constants: AbstractSet[Symbol]
 ) -> Transformation:
     """tau and xi_j of a solution, scaled to be readable."""
-    n = len(search.equations.q)
-    tau = sympy.S.Zero
-    xi: list[Expr] = [sympy.S.Zero] * n
-    for slot, function in search.combination(solution):
-        if slot.kind[0] == "tau":
-            tau = function
-        else:
-            xi[int(slot.kind[1])] = function
-    *changes, time = scaled((*xi, tau), constants)
+    parts = search.combination(solution)
+    moves = [(slot, f) for slot, f in parts if slot.kind[0] != "tau"]
+    tau = sympy.Add(*(f for slot, f in parts if slot.kind[0] == "tau"))
+    *changes, time = scaled((*combined(moves, len(search.equations.q)), tau), constants)
     return Transformation(tuple(changes), time)
 
 

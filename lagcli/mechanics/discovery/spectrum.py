@@ -9,7 +9,7 @@ into solutions, so its time dependence has the differences of the exponents.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import sympy
@@ -61,16 +61,21 @@ def exponents(
                 for i in block
             ]
         )
-        numerator = sympy.numer(sympy.together(sympy.expand(matrix.det(method="berkowitz"))))
-        try:
-            factors = sympy.factor_list(numerator, lam)[1]
-        except sympy.PolynomialError:
-            continue
-        for factor, multiplicity in factors:
-            for exponent in _roots(factor.as_poly(lam)):
-                repeated = multiplicity > 1
-                _keep(found, Exponent(exponent.growth, exponent.frequency, repeated))
+        for exponent in roots_of(matrix.det(method="berkowitz"), lam):
+            _keep(found, exponent)
     return found
+
+
+def roots_of(determinant: Expr, lam: Symbol) -> Iterator[Exponent]:
+    """The exponents that a characteristic equation has, by its factors."""
+    numerator = sympy.numer(sympy.together(sympy.expand(determinant)))
+    try:
+        factors = sympy.factor_list(numerator, lam)[1]
+    except sympy.PolynomialError:
+        return
+    for factor, multiplicity in factors:
+        for exponent in _roots(factor.as_poly(lam)):
+            yield Exponent(exponent.growth, exponent.frequency, multiplicity > 1)
 
 
 def differences(found: Sequence[Exponent], most: int = 8) -> list[Exponent]:

@@ -1,0 +1,195 @@
+"""The isometries of a kinetic energy of constant curvature, and the point symmetries from them.
+
+A point symmetry of L = T - V with T quadratic in the velocities moves q by an isometry of T,
+or by a dilation where time is stretched too.  With the functions X_a of `ambient` these are
+known in any coordinates, up to constant factors:
+
+    flat:    grad X_a,  X_a grad X_b - X_b grad X_a,  G^ab X_a grad X_b  (G_ab = grad X_a . grad X_b)
+    curved:  X_a grad X_b - X_b grad X_a.
+
+References
+----------
+Eisenhart, *Riemannian Geometry*, section 71.
+Katzin, Levine, J. Math. Phys. 15 (1974) 1460 (symmetries of dynamical systems).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from itertools import combinations, combinations_with_replacement
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra import simplify
+from lagcli.algebra.build import free_of
+from lagcli.mechanics.discovery.ambient import ambient_functions
+from lagcli.mechanics.discovery.ansatz import (
+    Kinds,
+    TimeFunctions,
+    affine,
+    ordered,
+    time_functions,
+)
+from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.metric import Metric
+from lagcli.mechanics.discovery.modular import NoPoint
+from lagcli.mechanics.discovery.relation import Relation
+from lagcli.mechanics.discovery.search import Search, Unknown
+from lagcli.mechanics.discovery.slots import Equations, Slot
+
+_COORDINATES = (2, 3)
+
+Vector = tuple[Expr, ...]
+
+
+class Isometries:
+    """The Killing vectors of a kinetic energy of constant curvature.
+
+    Parameters
+    ----------
+    equations
+        Of a system whose mass matrix depends on the coordinates.
+    """
+
+    def __init__(self, equations: Equations, allowed: Allowance) -> None:
+        self.equations = equations
+        self.allowed = allowed
+        self.metric = Metric(equations)
+
+    @staticmethod
+    def apply(equations: Equations) -> bool:
+        """Whether coordinates are worth looking for: M depends on q, and on nothing that moves."""
+        entries = sympy.Tuple(*(m for row in equations.mass for m in row))
+        fixed = free_of(entries, [equations.t, *equations.v])
+        return fixed and len(equations.q) in _COORDINATES and not free_of(entries, equations.q)
+
+    @cached_property
+    def functions(self) -> list[Expr]:
+        """X_a; none where the curvature is not constant, or they were not found."""
+        return ambient_functions(self.metric, self.allowed)
+
+    @property
+    def flat(self) -> bool:
+        """Whether the X_a are Cartesian coordinates."""
+        return bool(self.metric.curvature == 0)
+
+    @cached_property
+    def translations(self) -> list[Vector]:
+        """grad X_a of a flat space."""
+        return self._gradients if self.flat else []
+
+    @cached_property
+    def _gradients(self) -> list[Vector]:
+        return [self.metric.gradient(X) for X in self.functions]
+
+    @cached_property
+    def rotations(self) -> list[Vector]:
+        """X_a grad X_b - X_b grad X_a."""
+        pairs = combinations(zip(self.functions, self._gradients, strict=True), 2)
+        return [
+            tuple(simplify(X * y - Y * x) for x, y in zip(DX, DY, strict=True))
+            for (X, DX), (Y, DY) in pairs
+        ]
+
+    @cached_property
+    def dilation(self) -> Vector:
+        """G^ab X_a grad X_b, half the gradient of the square of the distance."""
+        mass = self.metric.g
+        lowered = [
+            [sympy.Add(*(m * x for m, x in zip(row, D, strict=True))) for row in mass]
+            for D in self._gradients
+        ]
+        gram = sympy.Matrix([
+            [simplify(sympy.Add(*(x * y for x, y in zip(D, low, strict=True)))) for low in lowered]
+            for D in self._gradients
+        ])  # fmt: skip
+        inverse = gram.inv(method="ADJ")
+        n = range(len(self.functions))
+        square = sympy.Add(
+            *(inverse[a, b] * self.functions[a] * self.functions[b] for a in n for b in n)
+        )
+        return tuple(x / 2 for x in self.metric.gradient(square))
+
+    @property
+    def fields(self) -> list[Vector]:
+        """All Killing vectors."""
+        return [*self.translations, *self.rotations]
+
+    def beyond(self, kinds: Kinds) -> bool:
+        """Whether they are there, and not all combinations of the functions of `affine`."""
+        return bool(self.functions) and not _within(
+            [x for field in self.fields for x in field], affine(kinds), self.equations.q
+        )
+
+    def products_beyond(self, known: Sequence[Expr]) -> bool:
+        """Whether their products are not all combinations of the known functions."""
+        pairs = combinations_with_replacement(self.fields, 2)
+        products = [x * y for A, B in pairs for x in A for y in B]
+        return bool(self.functions) and not _within(products, known, self.equations.q)
+
+    @property
+    def words(self) -> str:
+        """What is searched."""
+        if self.flat:
+            named = ", ".join(str(X).replace("**", "^") for X in self.functions)
+            return (
+                f"point transformations affine in {named}, which are Cartesian coordinates of "
+                "the flat kinetic energy"
+            )
+        return "point transformations that are isometries of the kinetic energy"
+
+    # -- point symmetries -------------------------------------------------------------------
+
+    @cached_property
+    def times(self) -> TimeFunctions:
+        """The functions of time that forces linear in the X_a suggest."""
+        equations = self.equations
+        symbols = [sympy.Dummy(f"X_{k}", real=True) for k in range(len(self.functions))]
+        rates = [sympy.Dummy(f"Y_{k}", real=True) for k in range(len(self.functions))]
+        own = Equations(equations.t, tuple(symbols), tuple(rates), (), ())
+        accelerations = [self._linear(D, symbols) for D in self.translations]
+        known = None if not accelerations or None in accelerations else accelerations
+        return time_functions(own, known, potential=True)
+
+    def _linear(self, gradient: Vector, symbols: Sequence[Expr]) -> Expr | None:
+        """X'' = grad X . F at rest as a combination of the X_b."""
+        still = dict.fromkeys(self.equations.v, sympy.S.Zero)
+        force = sympy.Add(
+            *(g * f.xreplace(still) for g, f in zip(gradient, self.equations.forcing, strict=True))
+        )
+        vectors = [[X] for X in (*self.functions, sympy.S.One)]
+        try:
+            relation = Relation([*vectors, [-force]], self.equations.q, self.allowed)
+            values = relation.of_last()
+        except (NoPoint, ZeroDivisionError):
+            return None
+        if values is None:
+            return None
+        return sympy.Add(*(c * x for c, x in zip(values, (*symbols, sympy.S.One), strict=True)))
+
+    def search(self, times: TimeFunctions, allowed: Allowance) -> Search:
+        """The linear system for the point symmetries: constant factors of T(t) xi."""
+        rates = Slot(("tau",), tuple(-v for v in self.equations.v))
+        moves = [*self.rotations, *([self.dilation] if self.flat else [])]
+        fields = [*self.translations, *moves]
+        slots = [rates, *(Slot(("xi", k), field) for k, field in enumerate(fields))]
+        shifts = range(1, 1 + len(self.translations))
+        one = sympy.S.One
+        unknowns = [
+            Unknown(k, T, one)
+            for k in range(len(slots))
+            for T in (times.translations if k in shifts else times.others)
+        ]
+        return Search(self.equations, slots, ordered(unknowns), allowed)
+
+
+def _within(values: Sequence[Expr], known: Sequence[Expr], q: Sequence[Symbol]) -> bool:
+    """Whether each term is one of the known functions with a constant factor."""
+    terms = {
+        term.as_independent(*q, as_Add=False)[1]
+        for x in values
+        for term in sympy.Add.make_args(sympy.expand(x))
+    }
+    return terms <= {*known, sympy.S.Zero}

@@ -1,0 +1,152 @@
+"""Integrals of second degree of L = T - V where T has constant curvature.
+
+There a Killing tensor is a sum of products of Killing vectors A, B, and d/dt A.p = -A.grad V, so
+
+    Q = sum c_AB (A.p)(B.p) + S(q),    S,i = sum c_AB ((A.grad V) B_i + (B.grad V) A_i),
+
+which has a solution S where the right side has no curl: linear equations for constants c_AB.
+In a flat space these are all integrals of second degree there are, as the equations of
+Bertrand and Darboux state it for the plane.
+
+References
+----------
+Thompson, J. Math. Phys. 27 (1986) 2693 (Killing tensors in spaces of constant curvature).
+Perelomov, *Integrable Systems of Classical Mechanics and Lie Algebras*, vol. I, section 2.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations, combinations_with_replacement
+
+import sympy
+from sympy import Expr
+
+from lagcli.mechanics.discovery.ansatz import Kinds
+from lagcli.mechanics.discovery.exact import ExactSolver
+from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, expanded
+from lagcli.mechanics.discovery.isometries import Isometries, Vector
+from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo, pivot_columns
+from lagcli.mechanics.discovery.scaling import scaled
+from lagcli.mechanics.discovery.slots import Slot
+from lagcli.mechanics.discovery.tree import Memo, Tree
+from lagcli.mechanics.noether import Noether, NoetherCharge
+
+_BAD_POINTS = 50
+
+
+class KillingIntegrals(QuadraticIntegrals):
+    """All integrals of second degree of a system without gyroscopic terms."""
+
+    def __init__(self, noether: Noether, isometries: Isometries, kinds: Kinds) -> None:
+        super().__init__(noether, isometries.equations, kinds, isometries.allowed)
+        self.isometries = isometries
+        self._fields = list(combinations_with_replacement(isometries.fields, 2))
+        self.pairs = [self._product(A, B) for A, B in self._fields]
+        # at rest the forces are -grad V
+        self._slopes_of_V = [-f.xreplace(self._still) for f in self.equations.forcing]
+        self._gradients = [self._gradient(A, B) for A, B in self._fields]
+
+    def _product(self, A: Vector, B: Vector) -> Slot:
+        """u = A (B.p) + B (A.p), the multipliers of (A.p)(B.p)."""
+        a, b = (_along(X, self.momenta) for X in (A, B))
+        return Slot(("product",), tuple(x * b + y * a for x, y in zip(A, B, strict=True)))
+
+    def _gradient(self, A: Vector, B: Vector) -> list[Expr]:
+        """(A.grad V) B_i + (B.grad V) A_i."""
+        a, b = (_along(X, self._slopes_of_V) for X in (A, B))
+        low = [[_along(X, row) for row in self.equations.mass] for X in (A, B)]
+        return [a * y + b * x for x, y in zip(*low, strict=True)]
+
+    def found(self, known: Sequence[NoetherCharge]) -> list[tuple[Slots, NoetherCharge]]:
+        """Those that are no combinations of products of the known ones."""
+        if all(slope == 0 for slope in self._slopes_of_V):
+            return []  # products of momenta
+        q = self.equations.q
+        curls = [
+            [w[k].diff(q[i]) - w[i].diff(q[k]) for i, k in combinations(range(len(q)), 2)]
+            for w in self._gradients
+        ]
+        products = self._products(known)
+        multipliers = [slot.vector for slot in self.pairs]
+        everything = [e for rows in (curls, products, multipliers) for row in rows for e in row]
+        tree = Tree(everything, (self.equations.t, *q, *self.equations.v), self.allowed)
+        _, kernel = kernel_modulo(list(self._rows(tree, curls, len(curls) + 8)), len(curls))
+        kernel.reverse()
+        table = [
+            [*row[: len(products)], *(
+                sum(c * row[len(products) + k] for k, c in vector.items()) % PRIME
+                for vector in kernel
+            )]
+            for row in self._rows(tree, [*products, *multipliers], len(products) + 8 + len(curls))
+        ]  # fmt: skip
+        if not kernel:
+            return []
+        new = [kernel[k - len(products)] for k in pivot_columns(table) if k >= len(products)]
+        return [each for vector in new for each in self._proved(tree, curls, vector)]
+
+    def _rows(
+        self, tree: Tree, columns: Sequence[Sequence[Expr]], count: int
+    ) -> Iterator[list[int]]:
+        """At least so many rows of values of vectors of functions."""
+        made = bad = 0
+        while made < count:
+            self.allowed.check()
+            point = tree.points.point()
+            memo: Memo = {}
+            try:
+                values = [[tree.value(e, point, memo) for e in column] for column in columns]
+            except NoPoint:
+                bad += 1
+                if bad > _BAD_POINTS:
+                    raise
+                continue
+            for row in zip(*values, strict=True):
+                made += 1
+                yield list(row)
+
+    def _proved(
+        self, tree: Tree, curls: Sequence[Sequence[Expr]], vector: dict[int, int]
+    ) -> Iterator[tuple[Slots, NoetherCharge]]:
+        """The integral with exact coefficients."""
+        indices = sorted(vector)
+        exact = ExactSolver(tree.points)
+        values = exact.recognized([vector[i] for i in indices])
+        values = values or exact.solved([curls[i] for i in indices])
+        if values is None:
+            return
+        values = list(scaled(values, self.constants))
+        self._force = [
+            expanded(
+                sympy.Add(
+                    *(c * self._gradients[k][i] for k, c in zip(indices, values, strict=True))
+                )
+            )
+            for i in range(len(self.equations.q))
+        ]
+        functions = [(self.pairs[i], c) for i, c in zip(indices, values, strict=True)]
+        charge = self._charge(functions)
+        if charge is not None:
+            yield functions, charge
+
+    def _scalar(self, functions: Slots, eta: Sequence[Expr], _: Expr, /) -> Expr | None:
+        """S from its gradient."""
+        del eta
+        return self._potential(self._force, functions)
+
+    def _candidates(self, functions: Slots) -> list[Expr]:
+        """Terms of V times monomials in the X_a."""
+        del functions
+        X = self.isometries.functions
+        monomials = [sympy.S.One, *X, *(x * y for x, y in combinations_with_replacement(X, 2))]
+        made = [a * b for a in self._of_rest() for b in (*monomials, *self.equations.q)]
+        terms = {
+            term.as_independent(*self.equations.q, as_Add=False)[1]
+            for each in (*made, *monomials)
+            for term in sympy.Add.make_args(sympy.expand(each))
+        }
+        return sorted((m for m in terms if m != 1), key=sympy.default_sort_key)
+
+
+def _along(field: Sequence[Expr], other: Sequence[Expr]) -> Expr:
+    return sympy.Add(*(x * y for x, y in zip(field, other, strict=True)))

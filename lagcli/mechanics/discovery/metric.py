@@ -1,0 +1,138 @@
+"""The kinetic energy as a metric: Christoffel symbols, Hessians, constant curvature.
+
+T = g_ij(q) q_i' q_j' / 2.  With [jk, m] = (g_jm,k + g_km,j - g_jk,m)/2 and
+Gamma^i_jk = g^im [jk, m],
+
+    R_ijkl = (g_il,jk + g_jk,il - g_ik,jl - g_jl,ik)/2 + g^mn ([jk, m] [il, n] - [jl, m] [ik, n]),
+
+and the curvature is the constant K where R_ijkl = K (g_ik g_jl - g_il g_jk).
+
+References
+----------
+Eisenhart, *Riemannian Geometry*, sections 8 and 27.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from itertools import combinations, combinations_with_replacement
+
+import mpmath
+import sympy
+from mpmath import mpf
+from sympy import Expr, Symbol
+
+from lagcli.algebra import simplify
+from lagcli.algebra.build import free_of
+from lagcli.algebra.numeric import Evaluator
+from lagcli.mechanics.discovery.slots import Equations
+
+_DIGITS = 30
+_SMALL = mpf(10) ** -15
+_POINTS = (mpf(3) / 7, mpf(8) / 11)  # for the first symbol; the others follow at steps of 1/13
+
+
+class Metric:
+    """g(q) of a system without time in its kinetic energy."""
+
+    def __init__(self, equations: Equations) -> None:
+        self.q = equations.q
+        self.g = equations.mass
+        self.n = len(self.q)
+
+    @cached_property
+    def inverse(self) -> list[list[Expr]]:
+        """g^ij."""
+        inverse = sympy.Matrix([list(row) for row in self.g]).inv(method="ADJ")
+        return [[simplify(inverse[i, j]) for j in range(self.n)] for i in range(self.n)]
+
+    def first_kind(self, j: int, k: int, m: int) -> Expr:
+        """[jk, m]."""
+        g, q = self.g, self.q
+        return (g[j][m].diff(q[k]) + g[k][m].diff(q[j]) - g[j][k].diff(q[m])) / 2
+
+    @cached_property
+    def christoffel(self) -> list[list[list[Expr]]]:
+        """Gamma^i_jk as [i][j][k]."""
+        n = range(self.n)
+        return [
+            [
+                [
+                    sympy.Add(*(self.inverse[i][m] * self.first_kind(j, k, m) for m in n))
+                    for k in n
+                ]
+                for j in n
+            ]
+            for i in n
+        ]  # fmt: skip
+
+    def gradient(self, X: Expr) -> tuple[Expr, ...]:
+        """g^ij X,j."""
+        slopes = [X.diff(x) for x in self.q]
+        return tuple(
+            simplify(sympy.Add(*(a * s for a, s in zip(row, slopes, strict=True))))
+            for row in self.inverse
+        )
+
+    def riemann(self, i: int, j: int, k: int, m: int) -> Expr:
+        """R_ijkm."""
+        g, q = self.g, self.q
+        second = (
+            g[i][m].diff(q[j], q[k]) + g[j][k].diff(q[i], q[m])
+            - g[i][k].diff(q[j], q[m]) - g[j][m].diff(q[i], q[k])
+        ) / 2  # fmt: skip
+        products = [
+            self.inverse[a][b]
+            * (self.first_kind(j, k, a) * self.first_kind(i, m, b)
+               - self.first_kind(j, m, a) * self.first_kind(i, k, b))
+            for a in range(self.n) for b in range(self.n)
+        ]  # fmt: skip
+        return second + sympy.Add(*products)
+
+    @cached_property
+    def curvature(self) -> Expr | None:
+        """K, or None where the curvature is not constant."""
+        planes = list(combinations(range(self.n), 2))
+        if not planes or not self._is_constant(planes):
+            return None
+        i, j = planes[0]
+        K = simplify(self.riemann(i, j, i, j) / self._area(i, j, i, j))
+        return K if free_of(K, self.q) else None
+
+    def _area(self, i: int, j: int, k: int, m: int) -> Expr:
+        return self.g[i][k] * self.g[j][m] - self.g[i][m] * self.g[j][k]
+
+    def _is_constant(self, planes: Sequence[tuple[int, int]]) -> bool:
+        """R_ijkm against K g_ikjm at two points, in numbers."""
+        pairs = list(combinations_with_replacement(planes, 2))
+        formulas = [self.riemann(*a, *b) for a, b in pairs] + [self._area(*a, *b) for a, b in pairs]
+        symbols = sorted({s for f in formulas for s in f.free_symbols}, key=str)
+        evaluate = Evaluator(formulas, _DIGITS)
+        found: list[mpf] = []
+        with mpmath.workdps(_DIGITS):
+            for start in _POINTS:
+                try:
+                    values = evaluate(_point(symbols, self.q, start))
+                except (ArithmeticError, ValueError):
+                    return False
+                if not all(isinstance(x, mpf) and mpmath.isfinite(x) for x in values):
+                    return False
+                R, area = values[: len(pairs)], values[len(pairs) :]
+                if area[0] == 0:
+                    return False
+                found.append(R[0] / area[0])
+                scale = max(map(abs, area)) * (1 + abs(found[0]))
+                if any(abs(r - found[0] * a) > _SMALL * scale
+                       for r, a in zip(R, area, strict=True)):  # fmt: skip
+                    return False
+        return True
+
+
+def _point(symbols: Sequence[Symbol], q: Sequence[Symbol], start: mpf) -> dict[Symbol, mpf]:
+    """Parameters that are the same at all points, coordinates that are not."""
+    step = mpf(1) / 13
+    fixed = [s for s in symbols if s not in q]
+    return {s: 1 + k * step for k, s in enumerate(fixed)} | {
+        s: start + k * step for k, s in enumerate(q)
+    }
