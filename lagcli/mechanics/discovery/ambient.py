@@ -32,7 +32,7 @@ from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric
-from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo
+from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo, pivot_columns
 from lagcli.mechanics.discovery.spectrum import roots_of
 from lagcli.mechanics.discovery.tree import Memo, Tree
 
@@ -76,6 +76,9 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
         found |= dict.fromkeys(f(a / k) for k in (1, 2) for f in (sympy.sin, sympy.cos))
     for a in _arguments(alone, _HYPERBOLIC):
         found |= dict.fromkeys(f(a / k) for k in (1, 2) for f in (sympy.sinh, sympy.cosh))
+    for f in _below(alone):  # 1/cosh(x)^2 of Mercator's map comes from 1/cosh(x) and tanh(x)
+        other = sympy.sinh if f.func is sympy.cosh else sympy.cosh
+        found |= {1 / f: None, other(f.args[0]) / f: None}
     for a in _arguments(alone, (sympy.exp,)):
         found |= dict.fromkeys(sympy.exp(a * k / 2) for k in (-2, -1, 1, 2))
     shared = [1 / J for J in _joint(metric) if x in J.free_symbols]
@@ -91,9 +94,11 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
 def _along(x: Symbol, metric: Metric, K: Expr) -> Iterator[Expr]:
     """exp(lambda x) for a cyclic coordinate, real; powers where lambda = 0 is repeated."""
     n, c = metric.n, metric.q.index(x)
-    rows = [[sympy.Integer(k == c + 1) for k in range(n + 1)]]
-    for i in range(n):
-        rows.append([-K * metric.g[i][c], *(metric.christoffel[k][i][c] for k in range(n))])
+    rows = [
+        [sympy.Integer(k == c + 1) for k in range(n + 1)],
+        *([-K * metric.g[i][c], *(metric.christoffel[k][i][c] for k in range(n))]
+          for i in range(n)),
+    ]  # fmt: skip
     lam = Symbol("lambda", real=True)
     B = sympy.Matrix(rows)
     poly = (lam * sympy.eye(n + 1) - B).det(method="berkowitz").as_poly(lam)
@@ -127,6 +132,14 @@ def _joint(metric: Metric) -> list[Expr]:
 def _arguments(expressions: Iterable[Expr], functions: tuple[type, ...]) -> list[Expr]:
     atoms = {f for e in expressions for f in e.atoms(*functions)}
     return list(dict.fromkeys(f.args[0] for f in sorted(atoms, key=sympy.default_sort_key)))
+
+
+def _below(expressions: Iterable[Expr]) -> list[Expr]:
+    """cosh and sinh in denominators, that of tanh among them."""
+    powers = {p for e in expressions for p in e.atoms(sympy.Pow) if p.exp.is_negative}
+    found = {f for p in powers for f in p.base.atoms(sympy.cosh, sympy.sinh)}
+    found |= {sympy.cosh(f.args[0]) for e in expressions for f in e.atoms(sympy.tanh)}
+    return sorted(found, key=sympy.default_sort_key)
 
 
 def _without_functions(expression: Expr) -> Expr:
@@ -177,18 +190,25 @@ class _Hessian:
         """All of them, the simplest first, with exact coefficients."""
         width = len(self.products)
         rows: list[list[int]] = []
+        values: list[list[int]] = []
         bad = 0
-        while len(rows) < width + 12:
+        while len(rows) < width + 12 or len(values) < 4 * self.metric.n:
             self.allowed.check()
             try:
-                rows += self._rows(self.tree.points.point())
+                more, value = self._rows(self.tree.points.point())
             except NoPoint:
                 bad += 1
                 if bad > _BAD_POINTS:
                     raise
+                continue
+            rows += more
+            values.append(value)
+        return self._exact(_independent(kernel_modulo(rows, width)[1], values))
+
+    def _exact(self, vectors: Sequence[dict[int, int]]) -> list[Expr]:
         exact = ExactSolver(self.tree.points)
         found = []
-        for vector in reversed(kernel_modulo(rows, width)[1]):
+        for vector in vectors:
             indices = sorted(vector)
             values = exact.recognized([vector[i] for i in indices])
             values = values or exact.solved([self._conditions(i) for i in indices])
@@ -211,7 +231,8 @@ class _Hessian:
             for i, k in self._pairs
         ]
 
-    def _rows(self, point: Sequence[int]) -> list[list[int]]:
+    def _rows(self, point: Sequence[int]) -> tuple[list[list[int]], list[int]]:
+        """The equations at a point, and the values of the products there."""
         memo: Memo = {}
 
         def at(expression: Expr) -> int:
@@ -224,16 +245,31 @@ class _Hessian:
         }
         gamma = [[[at(e) for e in row] for row in table] for table in self._gamma]
         metric = [at(self.K * self.metric.g[i][k]) for i, k in self._pairs]
-        columns = []
+        columns, values = [], []
         for parts, j in self.products:
             own = [jets[x, h] for x, h in zip(self.metric.q, parts, strict=True)]
             X, first, second = _times(own, joint[j])
+            values.append(X)
             columns.append([
                 (second[i][k] - sum(gamma[m][i][k] * s for m, s in enumerate(first)) + g * X)
                 % PRIME
                 for (i, k), g in zip(self._pairs, metric, strict=True)
             ])  # fmt: skip
-        return [list(row) for row in zip(*columns, strict=True)]
+        return [list(row) for row in zip(*columns, strict=True)], values
+
+
+def _independent(
+    vectors: Sequence[dict[int, int]], values: Sequence[Sequence[int]]
+) -> list[dict[int, int]]:
+    """The simplest combinations of products that are independent functions, and not 0."""
+    simplest = list(reversed(vectors))
+    if not simplest:
+        return []
+    table = [
+        [sum(c * row[k] for k, c in vector.items()) % PRIME for vector in simplest]
+        for row in values
+    ]
+    return [simplest[k] for k in pivot_columns(table)]
 
 
 def _times(

@@ -403,7 +403,14 @@ class Discovery:
         self.words.append(
             "all first integrals of second degree in the velocities without explicit time"
         )
-        self._keep_hidden(KillingIntegrals(self.noether, isometries, self.coordinate_kinds))
+        moving = {self.system.t, *self.system.qdot}
+        given = [c.transformation for c in self.point_charges]
+        symmetries = [
+            x.changes for x in given
+            if x.time == 0 and not sympy.Tuple(*x.changes).free_symbols & moving
+        ]  # fmt: skip
+        kinds = self.coordinate_kinds
+        self._keep_hidden(KillingIntegrals(self.noether, isometries, kinds, symmetries))
         return True
 
     def _keep_hidden(self, integrals: QuadraticIntegrals) -> None:

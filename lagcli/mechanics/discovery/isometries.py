@@ -4,8 +4,10 @@ A point symmetry of L = T - V with T quadratic in the velocities moves q by an i
 or by a dilation where time is stretched too.  With the functions X_a of `ambient` these are
 known in any coordinates, up to constant factors:
 
-    flat:    grad X_a,  X_a grad X_b - X_b grad X_a,  G^ab X_a grad X_b  (G_ab = grad X_a . grad X_b)
-    curved:  X_a grad X_b - X_b grad X_a.
+    flat:    grad X_a,  X_a grad X_b - X_b grad X_a,  G^ab X_a grad X_b,
+    curved:  X_a grad X_b - X_b grad X_a,
+
+where G_ab = grad X_a . grad X_b.
 
 References
 ----------
@@ -149,25 +151,31 @@ class Isometries:
         symbols = [sympy.Dummy(f"X_{k}", real=True) for k in range(len(self.functions))]
         rates = [sympy.Dummy(f"Y_{k}", real=True) for k in range(len(self.functions))]
         own = Equations(equations.t, tuple(symbols), tuple(rates), (), ())
-        accelerations = [self._linear(D, symbols) for D in self.translations]
+        accelerations = [self._linear(D, [*symbols, *rates]) for D in self.translations]
         known = None if not accelerations or None in accelerations else accelerations
         return time_functions(own, known, potential=True)
 
     def _linear(self, gradient: Vector, symbols: Sequence[Expr]) -> Expr | None:
-        """X'' = grad X . F at rest as a combination of the X_b."""
-        still = dict.fromkeys(self.equations.v, sympy.S.Zero)
+        """X'' = grad X . F, to first degree in q', as a combination of the X_b and X_b'."""
+        q, v = self.equations.q, self.equations.v
         force = sympy.Add(
-            *(g * f.xreplace(still) for g, f in zip(gradient, self.equations.forcing, strict=True))
+            *(g * self._to_first(f) for g, f in zip(gradient, self.equations.forcing, strict=True))
         )
-        vectors = [[X] for X in (*self.functions, sympy.S.One)]
+        rates = [sympy.Add(*(X.diff(x) * y for x, y in zip(q, v, strict=True)))
+                 for X in self.functions]  # fmt: skip
+        vectors = [[X] for X in (*self.functions, *rates, sympy.S.One)]
         try:
-            relation = Relation([*vectors, [-force]], self.equations.q, self.allowed)
-            values = relation.of_last()
+            values = Relation([*vectors, [-force]], (*q, *v), self.allowed).of_last()
         except (NoPoint, ZeroDivisionError):
             return None
         if values is None:
             return None
         return sympy.Add(*(c * x for c, x in zip(values, (*symbols, sympy.S.One), strict=True)))
+
+    def _to_first(self, force: Expr) -> Expr:
+        still = dict.fromkeys(self.equations.v, sympy.S.Zero)
+        slopes = (v * force.diff(v).xreplace(still) for v in self.equations.v)
+        return sympy.Add(force.xreplace(still), *slopes)
 
     def search(self, times: TimeFunctions, allowed: Allowance) -> Search:
         """The linear system for the point symmetries: constant factors of T(t) xi."""

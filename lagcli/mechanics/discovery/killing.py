@@ -27,6 +27,7 @@ from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, expanded
 from lagcli.mechanics.discovery.isometries import Isometries, Vector
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo, pivot_columns
+from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.slots import Slot
 from lagcli.mechanics.discovery.tree import Memo, Tree
@@ -36,16 +37,34 @@ _BAD_POINTS = 50
 
 
 class KillingIntegrals(QuadraticIntegrals):
-    """All integrals of second degree of a system without gyroscopic terms."""
+    """All integrals of second degree of a system without gyroscopic terms.
 
-    def __init__(self, noether: Noether, isometries: Isometries, kinds: Kinds) -> None:
+    Parameters
+    ----------
+    symmetries
+        Killing vectors that V admits: their products, which are nothing new, stand alone.
+    """
+
+    def __init__(
+        self,
+        noether: Noether,
+        isometries: Isometries,
+        kinds: Kinds,
+        symmetries: Sequence[Vector],
+    ) -> None:
         super().__init__(noether, isometries.equations, kinds, isometries.allowed)
         self.isometries = isometries
-        self._fields = list(combinations_with_replacement(isometries.fields, 2))
+        basis = self._basis([*symmetries, *isometries.fields])
+        self._fields = list(combinations_with_replacement(basis, 2))
         self.pairs = [self._product(A, B) for A, B in self._fields]
         # at rest the forces are -grad V
         self._slopes_of_V = [-f.xreplace(self._still) for f in self.equations.forcing]
         self._gradients = [self._gradient(A, B) for A, B in self._fields]
+
+    def _basis(self, fields: Sequence[Vector]) -> list[Vector]:
+        """The first of the fields that are independent: symmetries such as L about a centre."""
+        relation = Relation(fields, self.equations.q, self.allowed)
+        return [fields[k] for k in pivot_columns(relation.rows(len(fields) + 8))]
 
     def _product(self, A: Vector, B: Vector) -> Slot:
         """u = A (B.p) + B (A.p), the multipliers of (A.p)(B.p)."""

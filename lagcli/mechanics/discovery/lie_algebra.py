@@ -145,9 +145,11 @@ def _whole(C: list[list[Vector]], n: int, derived: int, *, extended: bool) -> st
             return f"Schrödinger sch({d}): sl(2,R){rotations} with Heisenberg h({d})"
         if d == 2 and n == 8 and (plus, minus) == (3, 1) and extended:
             return "sl(2,R) + so(1,1) with Heisenberg h(2)"
-        if n == 1 + turns + 2 * d and (plus, minus) == (0, turns) and extended:
-            nilpotent = d > 1 or derived == 1
-            return f"Galilei in {d} dimension{'s' if d > 1 else ''}" if nilpotent else None
+        # brackets give the momenta; with rotations the boosts too, and those of so(d), d > 2
+        products = 1 if d == 1 else 2 * d + (turns if d > 2 else 0)
+        galilei = n == 1 + turns + 2 * d and derived == products
+        if galilei and (plus, minus) == (0, turns) and extended:
+            return f"Galilei in {d} dimension{'s' if d > 1 else ''}"
         if d == 3 and n == 1 + 2 * (turns + d) and (plus, minus) == (0, 2 * turns) and extended:
             return "Galilei in 3 dimensions + so(3)"  # two bodies: L_rel beside L
         if d > 1 and n == turns + 2 * d + 1 and (plus, minus) == (d, turns) and not extended:

@@ -1,0 +1,110 @@
+"""Symmetries of one space, and of one system, in whatever coordinates it is written.
+
+Landau and Lifshitz, *Mechanics*, section 48 (parabolic and elliptic coordinates); Goldstein, Poole,
+Safko, *Classical Mechanics*, 3rd ed., section 3.9 (Kepler); do Carmo, *Differential Geometry of
+Curves and Surfaces*, sections 4-4 and 5-11 (pseudosphere, hyperbolic plane); Niederer, Helv. Phys.
+Acta 45 (1972) 802 (free particles).
+"""
+
+import pytest
+
+from lagcli.mechanics.discovery.summary import summary
+
+from .derived import derive
+from .test_discovery_literature import POS, kept, problem
+
+RADIAL = f"{{r: {POS}, phi: {{}}}}"
+PLANES = {
+    "parabolic": ("[u, v]", "(u^2 + v^2)*(u'^2 + v'^2)", "2/(u^2 + v^2)"),
+    "parabolic, stretched": ("[u, v]", "(u^2 + 4*v^2)*(u'^2 + 4*v'^2)", "2/(u^2 + 4*v^2)"),
+    "logarithmic": ("[s, phi]", "exp(2*s)*(s'^2 + phi'^2)", "exp(-s)"),
+    "a cone unrolled": (RADIAL, "r'^2/sin(a)^2 + r^2*phi'^2", "1/r"),
+    "elliptic": ("[u, v]", "(cosh(u)^2 - cos(v)^2)*(u'^2 + v'^2)", "1/(cosh(u) - cos(v))"),
+}
+
+
+@pytest.mark.parametrize("name", PLANES)
+def test_a_flat_plane_has_the_eight_of_a_free_particle(name):
+    coordinates, rates, _ = PLANES[name]
+    found = summary(derive(problem(f"m*({rates})/2", coordinates, "m a")).discovery)
+    assert (found.dimension, found.independent, found.integrable) == (8, 4, True)
+    assert found.name.startswith("Schrödinger sch(2)")
+
+
+@pytest.mark.parametrize("name", PLANES)
+def test_kepler_keeps_its_runge_lenz_vector(name):
+    coordinates, rates, inverse = PLANES[name]
+    text = problem(f"m*({rates})/2 + k*{inverse}", coordinates, "m a k")
+    found = summary(derive(text).discovery)
+    assert (found.independent, found.integrable) == (3, True)
+    assert found.name == ("the energy and so(3) where the energy is negative, e(2) where it is 0, "
+                          "sl(2,R) where it is positive")  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["parabolic", "logarithmic"])
+def test_its_charges_stay_on_an_independent_motion(name):
+    coordinates, rates, inverse = PLANES[name]
+    digits = kept(problem(f"m*({rates})/2 + k*{inverse}", coordinates, "m a k"), name)
+    assert len(digits) == 4
+    assert min(digits.values()) > 20
+
+
+CYLINDER = (f"{{r: {POS}, phi: {{}}, z: {{}}}}", "r'^2 + r^2*phi'^2 + z'^2")
+
+
+def test_space_in_cylindrical_coordinates_has_twelve():
+    found = summary(derive(problem(f"m*({CYLINDER[1]})/2", CYLINDER[0], "m")).discovery)
+    assert (found.dimension, found.independent) == (12, 6)
+    assert found.name.startswith("Schrödinger sch(3)")
+
+
+def test_a_magnetic_field_along_the_axis_has_no_galilei_algebra():
+    field = problem(f"m*({CYLINDER[1]})/2 + B*r^2*phi'/2", CYLINDER[0], "m B")
+    found = summary(derive(field).discovery)
+    assert (found.dimension, found.name, found.integrable) == (8, None, True)
+
+
+HYPERBOLIC = {
+    "m*(cosh(x)^2*y'^2 + x'^2)/2": "[x, y]",
+    "m*(R^2*sinh(s/R)^2*phi'^2 + s'^2)/2": "[s, phi]",
+    "m*(x'^2 + y'^2)/(2*sinh(y)^2)": "[x, y]",
+    "m*(tanh(x)^2*x'^2 + y'^2/cosh(x)^2)/2": "[x, y]",
+    "m*(r'^2/(1 + r^2/R^2) + r^2*phi'^2)/2": RADIAL,
+    "m*(x'^2 + y'^2)/(2*(1 - x^2 - y^2)^2)": "[x, y]",
+}
+SPHERE = {
+    "m*(x'^2 + y'^2)/(2*cosh(y)^2)": "[x, y]",
+    "m*(r'^2/(1 - r^2/R^2) + r^2*phi'^2)/2": RADIAL,
+    "m*R^2*(sin(a*s)^2*phi'^2 + a^2*s'^2)/2": "[s, phi]",
+    "m*(x'^2 + y'^2)/(2*(1 + x^2 + y^2)^2)": "[x, y]",
+}
+
+
+@pytest.mark.parametrize("name", ["sl(2,R) + R", "so(3) + R"])
+def test_surfaces_of_constant_curvature_have_three_isometries(name):
+    for L, coordinates in (HYPERBOLIC if "sl" in name else SPHERE).items():
+        found = summary(derive(problem(L, coordinates, "m R a")).discovery)
+        assert (found.dimension, found.name, found.independent) == (4, name, 3), L
+
+
+@pytest.mark.parametrize(
+    ("L", "name"),
+    [
+        ("A*(theta'^2 + phi'^2 + psi'^2 + 2*cos(theta)*phi'*psi')/2", "so(4) + R"),
+        ("m*(r'^2 + sinh(r)^2*(theta'^2 + sin(theta)^2*phi'^2))/2", "so(3,1) + R"),
+        ("m*(x'^2 + cosh(x)^2*(y'^2 + cosh(y)^2*z'^2))/2", "so(3,1) + R"),
+    ],
+)
+def test_spaces_of_constant_curvature_have_six(L, name):
+    coordinates = [q for q in "theta phi psi r x y z".split() if f"{q}'" in L]
+    found = summary(derive(problem(L, f"[{', '.join(coordinates)}]", "m A")).discovery)
+    assert (found.dimension, found.name, found.independent) == (7, name, 5)
+
+
+@pytest.mark.parametrize("L", [
+    "m*((R + a*cos(theta))^2*phi'^2 + a^2*theta'^2)/2", "m*cosh(theta)^2*(theta'^2 + phi'^2)/2",
+    "m*((1 + theta^2)*phi'^2 + theta'^2)/2", "m*(exp(theta^2)*phi'^2 + theta'^2)/2",
+])  # fmt: skip
+def test_a_surface_of_revolution_whose_curvature_varies_has_one(L):
+    found = summary(derive(problem(L, "[theta, phi]", "m R a")).discovery)
+    assert (found.dimension, found.independent, found.integrable) == (2, 2, True)
