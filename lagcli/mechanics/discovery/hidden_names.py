@@ -36,7 +36,8 @@ class HiddenNames:
         """The name, empty for none, and the factor that makes the charge the textbook's."""
         if any(self.t in f.free_symbols for _, f in functions):
             return self._timed(functions), sympy.S.One
-        if all(not (f.free_symbols & set(self.q)) for _, f in functions):
+        products = any(slot.kind[0] == "product" for slot, _ in functions)
+        if not products and all(not (f.free_symbols & set(self.q)) for _, f in functions):
             return self._constant_tensor(functions)
         S = charge.charge.xreplace(self._rest)
         for name, x in self.axes:

@@ -22,7 +22,7 @@ from functools import cached_property
 from itertools import combinations, combinations_with_replacement
 
 import sympy
-from sympy import Expr, Symbol
+from sympy import Expr
 
 from lagcli.algebra import simplify
 from lagcli.algebra.build import free_of
@@ -36,7 +36,7 @@ from lagcli.mechanics.discovery.ansatz import (
 )
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric
-from lagcli.mechanics.discovery.modular import NoPoint
+from lagcli.mechanics.discovery.modular import NoPoint, pivot_columns
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.search import Search, Unknown
 from lagcli.mechanics.discovery.slots import Equations, Slot
@@ -121,15 +121,33 @@ class Isometries:
 
     def beyond(self, kinds: Kinds) -> bool:
         """Whether they are there, and not all combinations of the functions of `affine`."""
-        return bool(self.functions) and not _within(
-            [x for field in self.fields for x in field], affine(kinds), self.equations.q
+        return bool(self.functions) and not self._within(
+            [x for field in self.fields for x in field], affine(kinds)
         )
 
     def products_beyond(self, known: Sequence[Expr]) -> bool:
         """Whether their products are not all combinations of the known functions."""
         pairs = combinations_with_replacement(self.fields, 2)
         products = [x * y for A, B in pairs for x in A for y in B]
-        return bool(self.functions) and not _within(products, known, self.equations.q)
+        return bool(self.functions) and not self._within(products, known)
+
+    def _within(self, values: Sequence[Expr], known: Sequence[Expr]) -> bool:
+        """Whether each is a combination of the known functions with constant coefficients."""
+        q = self.equations.q
+        terms = [
+            term.as_independent(*q, as_Add=False)[1]
+            for x in dict.fromkeys(values)
+            for term in sympy.Add.make_args(sympy.expand(x))
+        ]
+        new = [x for x in dict.fromkeys(terms) if x not in {*known, sympy.S.Zero}]
+        if not new:
+            return True
+        try:
+            relation = Relation([[x] for x in (*known, *new)], q, self.allowed)
+            rows = relation.rows(len(known) + len(new) + 4)
+        except (NoPoint, ZeroDivisionError):
+            return False
+        return all(k < len(known) for k in pivot_columns(rows))
 
     @property
     def words(self) -> str:
@@ -191,13 +209,3 @@ class Isometries:
             for T in (times.translations if k in shifts else times.others)
         ]
         return Search(self.equations, slots, ordered(unknowns), allowed)
-
-
-def _within(values: Sequence[Expr], known: Sequence[Expr], q: Sequence[Symbol]) -> bool:
-    """Whether each term is one of the known functions with a constant factor."""
-    terms = {
-        term.as_independent(*q, as_Add=False)[1]
-        for x in values
-        for term in sympy.Add.make_args(sympy.expand(x))
-    }
-    return terms <= {*known, sympy.S.Zero}
