@@ -251,3 +251,13 @@ def test_causes_are_enumerated_with_one_and(count):
     assert text.count(" and ") == (count > 1)
     assert text.count(", ") == max(0, count - 2)
     assert all(word in text for word in words)
+
+
+def test_the_linear_part_of_a_drive_given_by_points_is_found():
+    """r'' = w² r: five symmetries, with exp(w t) and exp(-w t), though T is that of a point."""
+    text = """
+coordinates: [r]
+parameters: {m: {assume: positive}, w: {assume: positive}}
+points: {bead: {mass: m, position: [r*cos(w*t), r*sin(w*t)]}}
+"""
+    assert "dimension 5 modulo constants" in said(text, "The algebra of the symmetries", "algebra")

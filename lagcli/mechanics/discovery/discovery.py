@@ -202,8 +202,7 @@ class Discovery:
             return None
         mass = self.equations.mass
         if all(m == 0 for i, row in enumerate(mass) for j, m in enumerate(row) if i != j):
-            # as it was derived: in one fraction with b/x^3 no term of k x is linear
-            forcing = self.dynamics.lagrange.forcing
+            forcing = map(self._with_linear_terms, range(len(mass)))
             return tuple(f / row[i] for i, (f, row) in enumerate(zip(forcing, mass, strict=True)))
         if any(not free_of(m, self.system.q) for row in mass for m in row):
             return None  # its inverse times the forcing has no linear terms of use
@@ -219,6 +218,16 @@ class Discovery:
             return None
         found = Isometries(self.equations, self.allowed)
         return found if found.functions else None
+
+    def _with_linear_terms(self, i: int) -> Expr:
+        """A force in the form that has linear terms: simplified, or as it was derived.
+
+        In one fraction with b/x^3 no term of k x is linear; as derived from points that turn the
+        terms of sin(w t) have not cancelled.
+        """
+        simple = self.equations.forcing[i]
+        plain = free_of(sympy.fraction(simple)[1], self.system.q)
+        return simple if plain else self.dynamics.lagrange.forcing[i]
 
     def _search(self, kinds: Kinds, allowed: Allowance) -> tuple[Search, str]:
         """The linear system for the point symmetries, and what its ansatz is in words."""
