@@ -253,7 +253,7 @@ class EquilibriaSection:
 
 
 @record(kw_only=True)
-class Mode:
+class ModesOfFrequency:
     """The normal modes of one frequency about an equilibrium, or all `on` a line.
 
     `frequency` is None where it is not real; the displacements of one frequency are the
@@ -273,7 +273,7 @@ class Mode:
 class ModesSection:
     """The normal modes; None where none was found, `reason` why there is none in either case."""
 
-    modes: tuple[Mode, ...] | None
+    modes: tuple[ModesOfFrequency, ...] | None
     reason: str = ""
 
 

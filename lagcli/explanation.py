@@ -12,7 +12,7 @@ from lagcli.record import field, record
 
 
 @record
-class Step:
+class ExplanationStep:
     """One step: what it is about, and what is said there."""
 
     title: str
@@ -31,7 +31,7 @@ class Explanation:
     coordinates: tuple[str, ...]
     parameters: tuple[str, ...]
     degrees_of_freedom: int
-    steps: tuple[Step, ...]
+    steps: tuple[ExplanationStep, ...]
     symbols: Mapping[str, str] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
     complete: bool = True

@@ -29,7 +29,7 @@ class NotInLibrary(OSError):
 
 
 @record
-class Entry:
+class LibraryEntry:
     """One problem of the library.
 
     Attributes
@@ -74,13 +74,15 @@ def folder() -> Path | None:
     return next((place for place in places if place.is_dir()), None)
 
 
-def entries() -> tuple[Entry, ...]:
+def entries() -> tuple[LibraryEntry, ...]:
     """Every problem, in the order of the names."""
     place = folder()
     if place is None:
         return ()
     found = sorted(place.rglob("*.yaml"))
-    return tuple(Entry(path.relative_to(place).with_suffix("").as_posix(), path) for path in found)
+    return tuple(
+        LibraryEntry(path.relative_to(place).with_suffix("").as_posix(), path) for path in found
+    )
 
 
 def find_problem(name: str) -> Path:
@@ -102,7 +104,7 @@ def find_problem(name: str) -> Path:
     raise NotInLibrary(name, _near(wanted, every))
 
 
-def _near(wanted: str, every: tuple[Entry, ...]) -> str:
+def _near(wanted: str, every: tuple[LibraryEntry, ...]) -> str:
     from difflib import get_close_matches
 
     short = [one.name.rpartition("/")[2] for one in every]

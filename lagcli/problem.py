@@ -134,7 +134,7 @@ GeneratingKind = Literal["F1", "F2", "F3", "F4"]
 
 
 @record(kw_only=True)
-class Transformation:
+class CanonicalTransformation:
     """New coordinates Q and, by the same names, their momenta `p_Q`, in q, p and t."""
 
     name: str
@@ -225,7 +225,7 @@ METHODS = (
 
 
 @record(kw_only=True)
-class Simulation:
+class SimulationDefaults:
     """Defaults of the numerical run; numbers are expressions without names."""
 
     until: Expression | None = None
@@ -410,9 +410,9 @@ class Problem:
     symmetries: tuple[Symmetry, ...] = ()
     observables: Mapping[str, Expression] = field(default_factory=dict)
     brackets: tuple[BracketQuestion, ...] = ()
-    canonical_transformations: tuple[Transformation, ...] = ()
+    canonical_transformations: tuple[CanonicalTransformation, ...] = ()
     initial: Mapping[Name, Expression] = field(default_factory=dict)  # Name("x", primes=0 or 1)
     find: tuple[Question, ...] = ()
-    simulation: Simulation = field(default_factory=Simulation)
+    simulation: SimulationDefaults = field(default_factory=SimulationDefaults)
     picture: Scenery = field(default_factory=Scenery)
     expect: Expect = field(default_factory=Expect)

@@ -20,7 +20,7 @@ from lagcli.diagnostics import ProblemError
 from lagcli.formatters import Options
 from lagcli.formatters.explaining import render
 from lagcli.formatters.mathml import MathmlPrinter
-from lagcli.library import Entry, entries
+from lagcli.library import LibraryEntry, entries
 from lagcli.numerics.refusal import Refusal
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.pipeline import derive, explain
@@ -48,7 +48,7 @@ class Card(NamedTuple):
     shown: str
 
 
-def made(entry: Entry, folder: Path) -> Card:
+def made(entry: LibraryEntry, folder: Path) -> Card:
     """Write the page and the picture of a problem."""
     problem = lagcli.load(entry.path)
     page = folder / f"{entry.name}.html"
@@ -104,7 +104,7 @@ def listed(cards: list[Card]) -> Iterator[str]:
     yield "</body>\n</html>"
 
 
-def _one(work: tuple[Entry, Path]) -> Card:
+def _one(work: tuple[LibraryEntry, Path]) -> Card:
     return made(*work)
 
 

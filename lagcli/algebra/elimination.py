@@ -30,7 +30,7 @@ Nonzero = Callable[[Expr], bool]
 
 
 @dataclass(frozen=True, slots=True)
-class Eliminated:
+class EliminatedExpression:
     """An expression with symbols eliminated as far as they could be.
 
     `left` are the symbols that remain although they were to go; `relations` what
@@ -48,7 +48,7 @@ class Eliminated:
         return not self.left
 
 
-class Elimination:
+class EliminationRun:
     """One run: relations, an expression, and the symbols to remove, first ones first."""
 
     def __init__(
@@ -68,7 +68,7 @@ class Elimination:
         self._divisible = nonzero
         self._work = work
 
-    def run(self) -> Eliminated:
+    def run(self) -> EliminatedExpression:
         """Remove what can be removed."""
         while not self._work.over:
             if self._substitute_one():
@@ -77,7 +77,7 @@ class Elimination:
                 break
         self._divide()
         present = self._present(self.expression)
-        return Eliminated(
+        return EliminatedExpression(
             self.expression, frozenset(present), tuple(self.relations), tuple(self.solutions)
         )
 
@@ -265,15 +265,15 @@ def eliminate(
     nonzero: Nonzero,
     *,
     work: Work = _UNLIMITED,
-) -> Eliminated:
+) -> EliminatedExpression:
     """The expression freed of symbols: at first by dividing by constants only, then by all."""
     wanted: Collection[Symbol] = set(remove)
 
     def constant(divisor: Expr) -> bool:
         return not (divisor.free_symbols & wanted) and nonzero(divisor)
 
-    first = Elimination(expression, relations, remove, constant, work=work).run()
+    first = EliminationRun(expression, relations, remove, constant, work=work).run()
     if first.complete:
         return first
-    second = Elimination(expression, relations, remove, nonzero, work=work).run()
+    second = EliminationRun(expression, relations, remove, nonzero, work=work).run()
     return second if second.complete or len(second.left) < len(first.left) else first

@@ -17,7 +17,7 @@ from lagcli.algebra.field import Element
 from lagcli.algebra.generic_rank import has_full_rank
 from lagcli.algebra.relations import Relations
 from lagcli.algebra.shapes import Shapes
-from lagcli.algebra.simplification import Readable
+from lagcli.algebra.simplification import ReadableShapes
 from lagcli.algebra.writing import Writer
 from lagcli.effort import OutOfWork
 
@@ -92,7 +92,7 @@ def solve_linear(
     row_of = {column: row for row, column in found.pivots}
     if any(x.size() > _READ for row in rows for x in row.values()):
         return None
-    readable = Readable(field, Writer(() if shapes is None else shapes.order), relations)
+    readable = ReadableShapes(field, Writer(() if shapes is None else shapes.order), relations)
 
     def simplified(element: Element) -> Expr:
         value, tree = readable.pair(element)
@@ -128,7 +128,7 @@ def nullspace(A: Matrix, relations: Relations | None = None) -> list[list[Expr]]
     pivots = _eliminate(field, rows, width, relations).pivots
     bound = {column: row for row, column in pivots}
     vectors = []
-    readable = Readable(field, Writer(), relations)
+    readable = ReadableShapes(field, Writer(), relations)
     for free in range(width):
         if free in bound:
             continue

@@ -70,7 +70,7 @@ def shaped(
     if given is not None and element.size() > _MAX_SHAPED:
         return expression, given
     EFFORT.done += 3000 + 100 * element.size()
-    tree, shaper = Readable(field, writer, relations).shortest(element)
+    tree, shaper = ReadableShapes(field, writer, relations).shortest(element)
     if given is None:
         return shaper.to_sympy(tree), tree
     before, after = operation_count(given), operation_count(tree)
@@ -110,7 +110,7 @@ def is_zero(expression: Expr, relations: Relations | None = None) -> bool | None
     return None if field.doubtful else False
 
 
-class Readable:
+class ReadableShapes:
     """The readable shapes of the elements of one field.
 
     Parameters

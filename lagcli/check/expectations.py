@@ -7,7 +7,7 @@ from functools import cached_property
 
 from lagcli.answers import Answers
 from lagcli.check.comparison import Comparison
-from lagcli.check.findings import Finding, Outcome
+from lagcli.check.findings import CheckOutcome, Finding
 from lagcli.check.free import of_phase_space, of_reductions
 from lagcli.diagnostics import NOWHERE, Span
 from lagcli.expression import Expression
@@ -74,16 +74,16 @@ class Expectations:
                 return span
         return NOWHERE
 
-    def _finding(self, outcome: Outcome, path: Sequence[str], message: str) -> Finding:
+    def _finding(self, outcome: CheckOutcome, path: Sequence[str], message: str) -> Finding:
         return Finding(outcome, ".".join(path), message, self._span(path))
 
     def undecided(self, path: Sequence[str], message: str) -> Finding:
         """Nobody knows whether it is right."""
-        return self._finding(Outcome.UNDECIDED, path, message)
+        return self._finding(CheckOutcome.UNDECIDED, path, message)
 
     def wrong(self, path: Sequence[str], message: str) -> Finding:
         """It is wrong."""
-        return self._finding(Outcome.WRONG, path, message)
+        return self._finding(CheckOutcome.WRONG, path, message)
 
     def judge(
         self, path: Sequence[str], verdict: bool | None, expected: str, found: str

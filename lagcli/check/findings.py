@@ -12,7 +12,7 @@ from lagcli.record import record
 Judged = tuple[list[str], bool | None, str, str]
 
 
-class Outcome(Enum):
+class CheckOutcome(Enum):
     """How the check of one problem ended."""
 
     PASSED = "passed"
@@ -39,7 +39,7 @@ class Finding:
         Where the file expects it.
     """
 
-    outcome: Outcome
+    outcome: CheckOutcome
     subject: str
     message: str
     span: Span = NOWHERE
@@ -59,15 +59,20 @@ class Report:
     seconds: float = 0.0
 
     @property
-    def outcome(self) -> Outcome:
+    def outcome(self) -> CheckOutcome:
         """The worst that was found: what is wrong over what is undecided."""
         if any(diagnostic.is_error for diagnostic in self.diagnostics):
-            return Outcome.INVALID
+            return CheckOutcome.INVALID
         found = {finding.outcome for finding in self.findings}
-        worst = (Outcome.BROKEN, Outcome.WRONG, Outcome.TOO_LONG, Outcome.UNDECIDED)
-        return next((outcome for outcome in worst if outcome in found), Outcome.PASSED)
+        worst = (
+            CheckOutcome.BROKEN,
+            CheckOutcome.WRONG,
+            CheckOutcome.TOO_LONG,
+            CheckOutcome.UNDECIDED,
+        )
+        return next((outcome for outcome in worst if outcome in found), CheckOutcome.PASSED)
 
     @property
     def passed(self) -> bool:
         """Whether everything holds."""
-        return self.outcome is Outcome.PASSED
+        return self.outcome is CheckOutcome.PASSED

@@ -13,7 +13,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.answers import AccelerationsSection, Answers, ChargesSection, MultipliersSection
-from lagcli.check.findings import Finding, Outcome
+from lagcli.check.findings import CheckOutcome, Finding
 from lagcli.mechanics.derivation import Derivation
 
 #: The sections that have laws.
@@ -36,7 +36,7 @@ class Laws:
         accelerations = cast(AccelerationsSection, self.answers.sections["accelerations"])
         if accelerations.accelerations is None:
             if accelerations.regular:
-                yield Finding(Outcome.UNDECIDED, "accelerations", "no solution was found")
+                yield Finding(CheckOutcome.UNDECIDED, "accelerations", "no solution was found")
             return
         motion = dict(
             zip(
@@ -54,8 +54,8 @@ class Laws:
         if verdict is True:
             return None
         if verdict is None:
-            return Finding(Outcome.UNDECIDED, subject, f"nobody could decide whether {law}")
-        return Finding(Outcome.WRONG, subject, f"it is not so that {law}")
+            return Finding(CheckOutcome.UNDECIDED, subject, f"nobody could decide whether {law}")
+        return Finding(CheckOutcome.WRONG, subject, f"it is not so that {law}")
 
     def _equations(self, motion: dict[Symbol, Expr]) -> Iterator[Finding | None]:
         """d/dt(dL/dq') - dL/dq = Q - dD/dq' + sum lambda df/dq, accelerations put in."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from lagcli.check.findings import Finding, Outcome, Report
+from lagcli.check.findings import CheckOutcome, Finding, Report
 from lagcli.diagnostics import ProblemError, Source
 from lagcli.pipeline import Read, Request, derive, read, state
 
@@ -76,7 +76,7 @@ def compared(derivation: Derivation, answers: Answers) -> list[Finding | None]:
 def _without_sections(source: Source, answers: Answers) -> Report:
     """Nothing can be compared with a section that could not be made."""
     reason = "; ".join(w for w in answers.warnings if "the section" in w)
-    outcome = Outcome.BROKEN if "bug of lagcli" in reason else Outcome.UNDECIDED
+    outcome = CheckOutcome.BROKEN if "bug of lagcli" in reason else CheckOutcome.UNDECIDED
     findings = tuple(Finding(outcome, name, reason) for name in answers.absent)
     return Report(source, len(findings), findings)
 
@@ -89,7 +89,9 @@ def _check_phase_space(derivation: Derivation, source: Source) -> Report:
     possible = tuple(each.name for each in expected if each.phase_space is not None)
     results = compared(derivation, state(derivation, Request(sections=possible)))
     results += [
-        Finding(Outcome.UNDECIDED, each.name, f"H gives no Lagrangian: {derivation.no_lagrangian}")
+        Finding(
+            CheckOutcome.UNDECIDED, each.name, f"H gives no Lagrangian: {derivation.no_lagrangian}"
+        )
         for each in expected
         if each.phase_space is None
     ]
@@ -99,10 +101,10 @@ def _check_phase_space(derivation: Derivation, source: Source) -> Report:
 
 def broken(name: str, sentence: str) -> Report:
     """The report of a problem at which lagcli itself failed."""
-    return Report(Source(name, ""), findings=(Finding(Outcome.BROKEN, "lagcli", sentence),))
+    return Report(Source(name, ""), findings=(Finding(CheckOutcome.BROKEN, "lagcli", sentence),))
 
 
 def too_long(name: str, limit: float) -> Report:
     """The report of a problem that was given up."""
     sentence = f"took longer than {limit:g} s"
-    return Report(Source(name, ""), findings=(Finding(Outcome.TOO_LONG, "time", sentence),))
+    return Report(Source(name, ""), findings=(Finding(CheckOutcome.TOO_LONG, "time", sentence),))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from lagcli.check.findings import Finding, Outcome
+from lagcli.check.findings import CheckOutcome, Finding
 from lagcli.diagnostics import NOWHERE, Span
 from lagcli.expression import Expression, Name
 from lagcli.numerics.asked import Asked, Result
@@ -46,19 +46,19 @@ class TrajectoryCheck:
         try:
             yield from self._compared(self.known)
         except Refusal as refusal:
-            yield self._finding(Outcome.UNDECIDED, (), f"no numbers: {refusal}")
+            yield self._finding(CheckOutcome.UNDECIDED, (), f"no numbers: {refusal}")
 
     def _compared(self, known: Trajectory) -> Found:
         until, tolerance, stated = self._numbers(known)
         if until is None:
             message = "when does it end? give until, here or under simulation"
-            yield self._finding(Outcome.UNDECIDED, (), message)
+            yield self._finding(CheckOutcome.UNDECIDED, (), message)
             return
         places = [until * k / (_PLACES - 1) for k in range(_PLACES)] if known.formulas else []
         times = _merged([0.0, *places, *stated, until])
         result = self._run(known, until, tolerance, times)
         if not result.certificate.reached:
-            yield self._finding(Outcome.UNDECIDED, (), result.refusal)
+            yield self._finding(CheckOutcome.UNDECIDED, (), result.refusal)
             return
         rows = _by_time(result)
         for formula in known.formulas:
@@ -68,7 +68,7 @@ class TrajectoryCheck:
             path = ("at", str(place))
             if abs(at - t) > _SAME_TIME * until:
                 message = f"the run ends at t = {max(rows)!r}, before t = {t!r}"
-                yield self._finding(Outcome.WRONG, path, message)
+                yield self._finding(CheckOutcome.WRONG, path, message)
                 continue
             yield from self._values(path, row, rows[at], tolerance, rows)
         for place, expected in enumerate(known.events):
@@ -153,32 +153,36 @@ class TrajectoryCheck:
         at = f"t = {when!r}" if isinstance(when, float) else when
         value = "not defined" if found is None else repr(found)
         message = f"expected {name} = {expected!r}{' at ' + at if at else ''}, computed {value}"
-        return self._finding(Outcome.WRONG, path, message)
+        return self._finding(CheckOutcome.WRONG, path, message)
 
     def _event(
         self, place: int, expected: KnownRow, result: Result, tolerance: float, until: float
     ) -> Found:
         path = ("events", str(place))
         if place >= len(result.events):
-            yield self._finding(Outcome.WRONG, path, f"there are {len(result.events)} events only")
+            yield self._finding(
+                CheckOutcome.WRONG, path, f"there are {len(result.events)} events only"
+            )
             return
         event = result.events[place]
         told = f"{event.what} of {event.name} at t = {event.t!r}"
         same = expected.event in {None, event.name} and expected.what in {None, event.what}
         if not same:
             wanted = " of ".join(word for word in (expected.what, expected.event) if word)
-            yield self._finding(Outcome.WRONG, path, f"expected {wanted}, computed {told}")
+            yield self._finding(CheckOutcome.WRONG, path, f"expected {wanted}, computed {told}")
             return
         if expected.t is not None:
             [t] = self._value(expected.t)
             if abs(event.t - t) > tolerance * max(1.0, until):
-                yield self._finding(Outcome.WRONG, path, f"expected t = {t!r}, computed {told}")
+                yield self._finding(
+                    CheckOutcome.WRONG, path, f"expected t = {t!r}, computed {told}"
+                )
                 return
         yield None
         rows = _by_time(result)
         yield from self._values(path, expected, event.before, tolerance, rows, told)
 
-    def _finding(self, outcome: Outcome, path: tuple[str, ...], message: str) -> Finding:
+    def _finding(self, outcome: CheckOutcome, path: tuple[str, ...], message: str) -> Finding:
         spans = self.problem.expect.spans
         whole = ("trajectory", *path)
         for length in range(len(whole), 0, -1):

@@ -51,9 +51,9 @@ def animate(
       lagcli animate problems/pendulums/pendulum-cartesian.yaml --until 5 --forces -o forces.html
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.animating import AnimationWish, animate_file
-    from lagcli.cli.simulating import Wish
+    from lagcli.cli.simulating import SimulateOptions
 
-    run = Wish(
+    run = SimulateOptions(
         file=file,
         until=until,
         accuracy=accuracy,

@@ -9,7 +9,7 @@ from lagcli.cli.choices import ANIMATIONS
 from lagcli.cli.delivering import has_place, place
 from lagcli.cli.plotting import attempted, ending, is_drawn_as
 from lagcli.cli.running import shared, understood
-from lagcli.cli.simulating import Wish, asked_of
+from lagcli.cli.simulating import SimulateOptions, asked_of
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line
 from lagcli.record import record
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 class AnimationWish:
     """The command line, as it was written."""
 
-    run: Wish
+    run: SimulateOptions
     forces: bool
     dark: bool
 

@@ -15,7 +15,7 @@ Known = Callable[[Iterable[str] | None], list[Declaration]]
 
 
 @record
-class Asked:
+class AskedSections:
     """A request, and sentences on whatever is wrong with it."""
 
     request: Request
@@ -31,7 +31,7 @@ def asked(
     mistakes: list[str],
     option: str = "--show",
     known: Known = in_order,
-) -> Asked:
+) -> AskedSections:
     """Read the options; a mistake in one hides none in another, nor those already found."""
     sections = _sections(show, mistakes, option, known)
     request = Request(
@@ -41,7 +41,7 @@ def asked(
         expand=expand,
         abbreviate=not expand,
     )
-    return Asked(request, tuple(mistakes))
+    return AskedSections(request, tuple(mistakes))
 
 
 def _sections(

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
 
-from lagcli.check import NothingToCheck, Outcome, Report, check_all, problem_files
+from lagcli.check import CheckOutcome, NothingToCheck, Report, check_all, problem_files
 from lagcli.check.reports import FORMS
 from lagcli.cli.files import print_result
 from lagcli.cli.status import Status
@@ -60,7 +60,7 @@ def _part(shard: str | None) -> slice | None:
 def _status(report: Report) -> Status:
     if report.passed:
         return Status.WELL
-    return Status.USAGE if report.outcome is Outcome.INVALID else Status.NOT_FOUND
+    return Status.USAGE if report.outcome is CheckOutcome.INVALID else Status.NOT_FOUND
 
 
 def cores() -> int:

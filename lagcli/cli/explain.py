@@ -57,11 +57,13 @@ def explain(
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import PAGES, format_of
     from lagcli.cli.printing import printing_of
-    from lagcli.cli.repeating import Options, solve_or_repeat
+    from lagcli.cli.repeating import CommandOptions, solve_or_repeat
 
     form = format_of(format_name, output, PAGES, "text")
     printing = printing_of(
         form, output, standalone=standalone, width=width, latex=latex, motion=with_motion
     )
-    options = Options(tuple(also or ()), tuple(settings or ()), numeric=False, command="explain")
+    options = CommandOptions(
+        tuple(also or ()), tuple(settings or ()), numeric=False, command="explain"
+    )
     return solve_or_repeat(files, options, printing, cached=not no_cache)

@@ -60,9 +60,9 @@ def extremes(
       lagcli extremes kepler --cases 'ratios,k = 0' -f csv
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import STUDIES, format_of
-    from lagcli.cli.stretching import Wish, stretch_file
+    from lagcli.cli.stretching import ExtremesOptions, stretch_file
 
-    wish = Wish(
+    wish = ExtremesOptions(
         file=file,
         until=until,
         settings=tuple(settings or ()),

@@ -88,9 +88,9 @@ def plot(
       lagcli plot problems/central/kepler.yaml --show "x,y,energy" --until 20
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.plotting import PlotWish, plot_file
-    from lagcli.cli.simulating import Wish
+    from lagcli.cli.simulating import SimulateOptions
 
-    run = Wish(
+    run = SimulateOptions(
         file=file,
         until=until,
         accuracy=accuracy,

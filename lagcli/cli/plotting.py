@@ -13,7 +13,7 @@ from lagcli.cli.choices import KINDS, PICTURES
 from lagcli.cli.delivering import has_place, place
 from lagcli.cli.printing import PIPE_WIDTH
 from lagcli.cli.running import is_known, shared, understood
-from lagcli.cli.simulating import Wish, asked_of
+from lagcli.cli.simulating import SimulateOptions, asked_of
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.record import record, replace
@@ -35,7 +35,7 @@ _NO_END = 0.0
 class PlotWish:
     """The command line, as it was written."""
 
-    run: Wish
+    run: SimulateOptions
     kind: str | None
     section: str | None
     orbits: int
@@ -57,9 +57,9 @@ def plot_file(wish: PlotWish) -> Status:
 
 def _draw(problem: Problem, asked: Asked, wish: PlotWish) -> Status:
     def work() -> tuple[bytes, str]:
-        from lagcli.pictures.kinds import Request, picture_of
+        from lagcli.pictures.kinds import PictureRequest, picture_of
 
-        request = Request(
+        request = PictureRequest(
             kind=_kind(asked, wish),
             chosen=bool(wish.run.show),
             section=wish.section,

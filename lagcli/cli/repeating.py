@@ -15,10 +15,10 @@ from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line, tell_text
 
 if TYPE_CHECKING:
-    from lagcli.cli.solving import Input, Outcome
+    from lagcli.cli.solving import Input, SolvingOutcome
 
 
-class Options(NamedTuple):
+class CommandOptions(NamedTuple):
     """What was asked of the files, in the words of the command line."""
 
     show: tuple[str, ...]
@@ -29,7 +29,7 @@ class Options(NamedTuple):
 
 
 def solve_or_repeat(
-    files: Sequence[str], options: Options, printing: Printing, *, cached: bool
+    files: Sequence[str], options: CommandOptions, printing: Printing, *, cached: bool
 ) -> Status:
     """Answer the files, from the cache where it has the answer."""
     inputs = [_input(name) for path in files for name in _files_of(path)]
@@ -73,7 +73,7 @@ def _cache() -> Cache | None:
     return None if found is None else Cache(found)
 
 
-def _key(inputs: Sequence[Input], options: Options, printing: Printing) -> str | None:
+def _key(inputs: Sequence[Input], options: CommandOptions, printing: Printing) -> str | None:
     """What the answer depends on; None where a file cannot be read."""
     contents = [(name, data) for name, data in inputs if isinstance(data, bytes)]
     if len(contents) < len(inputs):
@@ -96,8 +96,8 @@ def _repeated(entry: Entry, inputs: Sequence[Input], printing: Printing) -> Stat
 
 
 def _solved(
-    inputs: Sequence[Input], options: Options, printing: Printing
-) -> tuple[Status, Outcome]:
+    inputs: Sequence[Input], options: CommandOptions, printing: Printing
+) -> tuple[Status, SolvingOutcome]:
     from lagcli.cli.asking import asked
     from lagcli.cli.solving import solve_files
     from lagcli.cli.working import WORKS

@@ -54,7 +54,7 @@ def understood(
     return None if wanted is None else (problem, wanted)
 
 
-class Numbers:
+class NumericOptions:
     """Options that are numbers, with those of the `file` where they are left out.
 
     `good` is false once one of them is no number, or out of its range, which is told.

@@ -143,9 +143,9 @@ def simulate(
       lagcli simulate mass-sliding-off-sphere --until 5 -f json -o run.json
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import TABLES, format_of
-    from lagcli.cli.simulating import Wish, simulate_files
+    from lagcli.cli.simulating import SimulateOptions, simulate_files
 
-    wish = Wish(
+    wish = SimulateOptions(
         file=files[0],
         until=until,
         accuracy=accuracy,

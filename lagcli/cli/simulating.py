@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 from lagcli.cli.choices import BINARY, TABLES
 from lagcli.cli.delivering import has_place, place
 from lagcli.cli.endings import TABLES as ENDINGS
-from lagcli.cli.running import Numbers, is_known, shared, understood
+from lagcli.cli.running import NumericOptions, is_known, shared, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
@@ -28,7 +28,7 @@ Value = TypeVar("Value")
 
 
 @record(kw_only=True)
-class Wish:
+class SimulateOptions:
     """The command line, as it was written."""
 
     file: str
@@ -49,7 +49,7 @@ class Wish:
     beyond: bool = False
 
 
-def simulate_files(files: Sequence[str], wish: Wish) -> Status:
+def simulate_files(files: Sequence[str], wish: SimulateOptions) -> Status:
     """Run each file, write the tables, and say how it ended; the worst is the exit status."""
     known = is_known("--format", wish.format_name, TABLES)
     if not (known and can_be_written(wish)):
@@ -61,7 +61,7 @@ def simulate_files(files: Sequence[str], wish: Wish) -> Status:
     return _simulate_together(files, wish)
 
 
-def _simulate_one(wish: Wish) -> Status:
+def _simulate_one(wish: SimulateOptions) -> Status:
     if not has_place(wish.output, wish.file):
         return Status.USAGE
     data, status = _table(wish)
@@ -70,7 +70,7 @@ def _simulate_one(wish: Wish) -> Status:
     return status
 
 
-def _simulate_into(folder: Path, files: Sequence[str], wish: Wish) -> Status:
+def _simulate_into(folder: Path, files: Sequence[str], wish: SimulateOptions) -> Status:
     """One file each, in a folder, with the names of the problems."""
     ending = next(ending for ending, name in ENDINGS.items() if name == wish.format_name)
     targets = [folder / f"{Path(file).stem}{ending}" for file in files]
@@ -81,7 +81,7 @@ def _simulate_into(folder: Path, files: Sequence[str], wish: Wish) -> Status:
     return max(_simulate_one(replace(wish, file=file, output=target)) for file, target in runs)
 
 
-def _simulate_together(files: Sequence[str], wish: Wish) -> Status:
+def _simulate_together(files: Sequence[str], wish: SimulateOptions) -> Status:
     """One text: tables under their titles, or a JSON array."""
     if wish.format_name not in ("table", "json"):
         tell_line(
@@ -102,13 +102,13 @@ def _simulate_together(files: Sequence[str], wish: Wish) -> Status:
     return max(status for _, _, status in made)
 
 
-def _table(wish: Wish) -> tuple[bytes | None, Status]:
+def _table(wish: SimulateOptions) -> tuple[bytes | None, Status]:
     """The table of one run, or None, and how the run ended."""
     found = understood(wish.file, wish.settings, wish.state, lambda p: asked_of(p, wish))
     return (None, Status.USAGE) if found is None else _run(*found, wish)
 
 
-def _run(problem: Problem, asked: Asked, wish: Wish) -> tuple[bytes | None, Status]:
+def _run(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes | None, Status]:
     from lagcli.numerics.refusal import Refusal
     from lagcli.numerics.simulate import simulate
     from lagcli.numerics.writing import WRITERS
@@ -126,7 +126,7 @@ def _run(problem: Problem, asked: Asked, wish: Wish) -> tuple[bytes | None, Stat
     return WRITERS[wish.format_name](result), (Status.NOT_FOUND if result.refusal else Status.WELL)
 
 
-def _proved(problem: Problem, asked: Asked, wish: Wish) -> tuple[bytes | None, Status]:
+def _proved(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes | None, Status]:
     """The table of a proof, or None, and how it ended."""
     from lagcli.numerics.refusal import Refusal
     from lagcli.numerics.rigorous import prove
@@ -144,7 +144,7 @@ def _proved(problem: Problem, asked: Asked, wish: Wish) -> tuple[bytes | None, S
     return WRITERS[wish.format_name](proof), status
 
 
-def can_be_written(wish: Wish) -> bool:
+def can_be_written(wish: SimulateOptions) -> bool:
     """Whether there is what writes the format, and a place that takes bytes."""
     if wish.rigorous and wish.format_name not in ("table", "json", "csv"):
         tell_line(
@@ -175,7 +175,9 @@ def _is_installed(package: str) -> bool:
 # -- options -----------------------------------------------------------------------------------
 
 
-def asked_of(problem: Problem, wish: Wish, *, without_end: float | None = None) -> Asked | None:
+def asked_of(
+    problem: Problem, wish: SimulateOptions, *, without_end: float | None = None
+) -> Asked | None:
     """The options as values; every mistake is reported.
 
     Where neither the options nor the file give an end, it is `without_end`, if that is given.
@@ -189,7 +191,7 @@ def asked_of(problem: Problem, wish: Wish, *, without_end: float | None = None) 
         usual_columns,
     )
 
-    run, numbers = problem.simulation, Numbers(problem.source)
+    run, numbers = problem.simulation, NumericOptions(problem.source)
     if without_end is None or wish.until is not None or run.until is not None:
         until = numbers.end(wish.file, wish.until, run.until)
     else:

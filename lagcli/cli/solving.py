@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from functools import cache
 from typing import NamedTuple
 
-from lagcli.cli.asking import Asked
+from lagcli.cli.asking import AskedSections
 from lagcli.cli.files import reason
 from lagcli.cli.printing import Printing
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
-from lagcli.cli.working import Result, Work
+from lagcli.cli.working import CommandWork, Result
 from lagcli.diagnostics import ProblemError
 from lagcli.failures import describe
 from lagcli.formatters.registry import BUILT_IN
@@ -24,7 +24,7 @@ from lagcli.statements.registry import is_built_in
 Input = tuple[str, bytes | OSError]
 
 
-class Outcome(NamedTuple):
+class SolvingOutcome(NamedTuple):
     """What is to be printed (None: nothing), and what has been told beside it.
 
     `repeatable` says that the same files and options would give the same again: nothing
@@ -56,12 +56,12 @@ class Tally:
 
 def solve_files(
     inputs: Sequence[Input],
-    asked: Asked,
+    asked: AskedSections,
     printing: Printing,
-    work: Work[Result],
+    work: CommandWork[Result],
     *,
     only_read: bool = False,
-) -> Outcome:
+) -> SolvingOutcome:
     """Answer every file that can be read, and format the answers together."""
     tally = Tally()
     problems = [_read(name, data, asked.request, tally) for name, data in inputs]
@@ -80,7 +80,7 @@ def solve_files(
     lasting = not (tally.missing or tally.unreadable or only_read)
     plain = all(map(is_built_in, asked.request.sections or ()))
     repeatable = lasting and plain and printing.format_name in BUILT_IN
-    return Outcome(tally.status, text, tuple(tally.said), repeatable)
+    return SolvingOutcome(tally.status, text, tuple(tally.said), repeatable)
 
 
 @cache
@@ -121,7 +121,7 @@ def _motion(problem: Problem, tally: Tally) -> str:
 
 
 def _answer(
-    name: str, problem: Problem, request: Request, work: Work[Result], tally: Tally
+    name: str, problem: Problem, request: Request, work: CommandWork[Result], tally: Tally
 ) -> Result | None:
     try:
         derivation = derive(problem)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import STUDIES
 from lagcli.cli.delivering import has_place, place
-from lagcli.cli.running import Numbers, counted, is_known, understood
+from lagcli.cli.running import NumericOptions, counted, is_known, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.record import record
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @record(kw_only=True)
-class Wish:
+class ExtremesOptions:
     """The command line, as it was written."""
 
     file: str
@@ -32,14 +32,14 @@ class Wish:
     output: Path | None
 
 
-def stretch_file(wish: Wish) -> Status:
+def stretch_file(wish: ExtremesOptions) -> Status:
     """Try all cases, write, and say how it ended."""
     good = is_known("--format", wish.format_name, STUDIES) & has_place(wish.output, wish.file)
     found = understood(wish.file, wish.settings, wish.state, lambda p: _wanted(p, wish))
     return _study(*found, wish) if good and found is not None else Status.USAGE
 
 
-def _study(problem: Problem, wanted: Wanted, wish: Wish) -> Status:
+def _study(problem: Problem, wanted: Wanted, wish: ExtremesOptions) -> Status:
     from lagcli.extremes.study import NoSuchCase, study
     from lagcli.extremes.writing import WRITERS
     from lagcli.numerics.refusal import Refusal
@@ -61,11 +61,11 @@ def _study(problem: Problem, wanted: Wanted, wish: Wish) -> Status:
     return Status.NOT_FOUND if made.bad else Status.WELL
 
 
-def _wanted(problem: Problem, wish: Wish) -> Wanted | None:
+def _wanted(problem: Problem, wish: ExtremesOptions) -> Wanted | None:
     """What each case is asked; None where an option is no number, which is told."""
     from lagcli.extremes.trial import Wanted
 
-    numbers = Numbers(problem.source)
+    numbers = NumericOptions(problem.source)
     until = numbers.until(wish.until, problem.simulation.until)
     accuracy = numbers.accuracy(wish.accuracy, problem.simulation.accuracy)
     if not numbers.good:

@@ -79,10 +79,10 @@ def sweep(
       lagcli sweep kepler --vary "y'=0.5:1.2:900" -o o.csv --scheduler tcp://host:8786
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import PICTURES, TABLES, format_of
-    from lagcli.cli.simulating import Wish
+    from lagcli.cli.simulating import SimulateOptions
     from lagcli.cli.sweeping import sweep_file
 
-    wish = Wish(
+    wish = SimulateOptions(
         file=file,
         until=until,
         accuracy=accuracy,

@@ -10,7 +10,7 @@ from lagcli.cli.choices import PICTURES, TABLES
 from lagcli.cli.delivering import has_place, place
 from lagcli.cli.plotting import is_drawn_as
 from lagcli.cli.running import counted, is_known, understood
-from lagcli.cli.simulating import Wish, asked_of, can_be_written
+from lagcli.cli.simulating import SimulateOptions, asked_of, can_be_written
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line
 from lagcli.numerics.asked import Asked
@@ -21,7 +21,7 @@ from lagcli.sweep.workers import NoCluster
 
 
 def sweep_file(
-    wish: Wish,
+    wish: SimulateOptions,
     vary: Sequence[str],
     random: int | None,
     seed: int,
@@ -67,7 +67,7 @@ def sweep_file(
     return Status.WELL
 
 
-def _can_be_written(wish: Wish) -> bool:
+def _can_be_written(wish: SimulateOptions) -> bool:
     if wish.format_name not in PICTURES:
         return can_be_written(wish)
     if wish.output is None:
@@ -77,7 +77,7 @@ def _can_be_written(wish: Wish) -> bool:
 
 
 def _written(
-    table: Table, problem: Problem, asked: Asked, plan: Plan, wish: Wish, *, along: bool
+    table: Table, problem: Problem, asked: Asked, plan: Plan, wish: SimulateOptions, *, along: bool
 ) -> bytes | None:
     """The table or its picture; None where there is no such picture, which is reported."""
     if wish.format_name not in PICTURES:
@@ -102,7 +102,7 @@ def _written(
         return None
 
 
-def _without_cluster(wish: Wish, journal: Journal) -> Status:
+def _without_cluster(wish: SimulateOptions, journal: Journal) -> Status:
     """What is there for the next call, when the scheduler was lost or never found."""
     if not journal.done:
         journal.remove()
@@ -113,7 +113,7 @@ def _without_cluster(wish: Wish, journal: Journal) -> Status:
 
 
 def _options(
-    problem: Problem, wish: Wish, vary: Sequence[str], random: int | None, seed: int
+    problem: Problem, wish: SimulateOptions, vary: Sequence[str], random: int | None, seed: int
 ) -> tuple[Asked, Plan] | None:
     plan = None
     try:
@@ -125,7 +125,7 @@ def _options(
     return None if plan is None or asked is None else (asked, plan)
 
 
-def _digest(wish: Wish, problem: Problem, plan: Plan, *, along: bool) -> str:
+def _digest(wish: SimulateOptions, problem: Problem, plan: Plan, *, along: bool) -> str:
     """Names the sweep by all that its rows depend on, the program included."""
     from lagcli.cache import key
 

@@ -84,9 +84,9 @@ def tradeoff(
       lagcli tradeoff kepler --until 60 --plot kepler.svg -f csv -o kepler.csv
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import STUDIES, format_of
-    from lagcli.cli.weighing import Wish, weigh_file
+    from lagcli.cli.weighing import TradeoffOptions, weigh_file
 
-    wish = Wish(
+    wish = TradeoffOptions(
         file=file,
         until=until,
         settings=tuple(settings or ()),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import COSTS, STUDIES
 from lagcli.cli.delivering import has_place, place
-from lagcli.cli.running import Numbers, counted, is_known, understood
+from lagcli.cli.running import NumericOptions, counted, is_known, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.problem import METHODS
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 @record(kw_only=True)
-class Wish:
+class TradeoffOptions:
     """The command line, as it was written."""
 
     file: str
@@ -41,7 +41,7 @@ class Wish:
     plot: Path | None
 
 
-def weigh_file(wish: Wish) -> Status:
+def weigh_file(wish: TradeoffOptions) -> Status:
     """Run, write, and say how it ended."""
     good = is_known("--format", wish.format_name, STUDIES) & is_known("--cost", wish.cost, COSTS)
     methods = _methods(wish.methods)
@@ -69,13 +69,15 @@ def weigh_file(wish: Wish) -> Status:
     return _study(problem, given, methods, wish)
 
 
-def _end(problem: Problem, wish: Wish) -> float | None:
-    numbers = Numbers(problem.source)
+def _end(problem: Problem, wish: TradeoffOptions) -> float | None:
+    numbers = NumericOptions(problem.source)
     until = numbers.end(wish.file, wish.until, problem.simulation.until)
     return until if numbers.good else None
 
 
-def _study(problem: Problem, given: Given, methods: tuple[str, ...], wish: Wish) -> Status:
+def _study(
+    problem: Problem, given: Given, methods: tuple[str, ...], wish: TradeoffOptions
+) -> Status:
     from lagcli.numerics.refusal import Refusal
     from lagcli.tradeoff.study import study
 
@@ -90,7 +92,7 @@ def _study(problem: Problem, given: Given, methods: tuple[str, ...], wish: Wish)
     return Status.NOT_FOUND if made.broken else Status.WELL
 
 
-def _written(made: Study, wish: Wish) -> bool:
+def _written(made: Study, wish: TradeoffOptions) -> bool:
     from lagcli.tradeoff.writing import WRITERS
 
     parts: list[tuple[Path | None, bytes]] = [

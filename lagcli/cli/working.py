@@ -28,7 +28,7 @@ class Complete(Protocol):
 Result = TypeVar("Result", bound=Complete)
 
 
-class Work(NamedTuple, Generic[Result]):
+class CommandWork(NamedTuple, Generic[Result]):
     """One command's way from derivations to text."""
 
     make: Callable[[Derivation, Request], Result]
@@ -51,9 +51,9 @@ def _format_of_explanations(name: str) -> list[str]:
 
 
 #: By command.
-WORKS: dict[str, Work[Any]] = {
-    "solve": Work(state, render, _format_of_answers),
-    "explain": Work(
+WORKS: dict[str, CommandWork[Any]] = {
+    "solve": CommandWork(state, render, _format_of_answers),
+    "explain": CommandWork(
         lambda derivation, request: explain(derivation, request.sections or ()),
         render_explanations,
         _format_of_explanations,

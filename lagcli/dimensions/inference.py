@@ -8,7 +8,7 @@ from functools import cached_property
 from lagcli.diagnostics import Span
 from lagcli.dimensions.demands import LAGRANGIAN, Demands
 from lagcli.dimensions.forms import ENERGY, NUMBER, Form, minus, unknown, unknowns
-from lagcli.dimensions.relations import Relations
+from lagcli.dimensions.relations import FormRelations
 from lagcli.dimensions.system import Named, UnitSystem
 from lagcli.problem import Problem, Quantity
 from lagcli.units import Unit, read_unit
@@ -30,7 +30,7 @@ class Inference:
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         self.demands = Demands(problem)
-        self.relations = Relations()
+        self.relations = FormRelations()
         self._solve()
 
     @cached_property

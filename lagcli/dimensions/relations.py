@@ -8,7 +8,7 @@ from lagcli.diagnostics import Span
 from lagcli.dimensions.forms import Form, Key, minus, plus, times, unknowns
 
 
-class Relations:
+class FormRelations:
     """Equations between forms in reduced row echelon form.
 
     Attributes

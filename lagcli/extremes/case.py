@@ -56,7 +56,7 @@ class Case:
 
 
 @record(kw_only=True)
-class Formula:
+class CaseFormula:
     """A formula that `solve` prints, and the same without cancellation where that is known."""
 
     group: Group

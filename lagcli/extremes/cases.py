@@ -17,7 +17,7 @@ from lagcli.extremes.roles import (
     unstable_rest,
     used,
 )
-from lagcli.extremes.scene import Scene, Vector, number
+from lagcli.extremes.scene import ExtremeScene, Vector, number
 from lagcli.numerics.refusal import Refusal
 from lagcli.problem import Problem
 from lagcli.record import replace
@@ -32,7 +32,7 @@ _PI = Name("pi")
 _TARGETS = ((0, 1), (1, -1), (2, -1))
 
 
-def cases_of(scene: Scene) -> list[Case]:
+def cases_of(scene: ExtremeScene) -> list[Case]:
     """All of them, in the order of `KINDS`, no state twice."""
     found = [
         Case(kind="given", name="as given", problem=_with_state(scene)),
@@ -53,7 +53,7 @@ def cases_of(scene: Scene) -> list[Case]:
     return list(known.values())
 
 
-def _with_state(scene: Scene) -> Problem:
+def _with_state(scene: ExtremeScene) -> Problem:
     """The problem with its whole state given, as the file has it where it does."""
     if scene.problem.initial:
         return scene.problem
@@ -63,7 +63,7 @@ def _with_state(scene: Scene) -> Problem:
 # -- parameters ----------------------------------------------------------------------------------
 
 
-def _ratios(scene: Scene) -> Iterator[Case]:
+def _ratios(scene: ExtremeScene) -> Iterator[Case]:
     for group in alike(scene):
         first, *others = group
         for name in others:
@@ -80,12 +80,14 @@ def _ratios(scene: Scene) -> Iterator[Case]:
                 )
 
 
-def _zero(scene: Scene) -> Iterator[Case]:
+def _zero(scene: ExtremeScene) -> Iterator[Case]:
     for name in used(scene):
         yield from _valued(scene, "zero", f"{name} = 0", {name: number(0)})
 
 
-def _valued(scene: Scene, kind: str, name: str, values: Mapping[str, Expression]) -> Iterator[Case]:
+def _valued(
+    scene: ExtremeScene, kind: str, name: str, values: Mapping[str, Expression]
+) -> Iterator[Case]:
     """The problem with other values, its state on its constraints."""
     parameters = tuple(
         replace(p, value=values[p.name], assume=_allowing(p.assume, values[p.name]))
@@ -96,7 +98,7 @@ def _valued(scene: Scene, kind: str, name: str, values: Mapping[str, Expression]
     problem = replace(scene.problem, parameters=parameters)
     if not problem.initial:
         try:
-            moved = Scene(problem, (scene.q, scene.v))
+            moved = ExtremeScene(problem, (scene.q, scene.v))
             problem = replace(problem, initial=moved.at(moved.q, moved.v))
         except Refusal:  # the trial finds the same, and says why
             problem = replace(problem, initial=scene.at(scene.q, scene.v))
@@ -114,7 +116,7 @@ def _allowing(assume: str, value: Expression) -> str:
 
 
 def _stated(
-    scene: Scene,
+    scene: ExtremeScene,
     kind: str,
     name: str,
     q: Sequence[float],
@@ -132,7 +134,7 @@ def _stated(
         yield Case(kind=kind, name=name, problem=problem, initial=shown)
 
 
-def _angles(scene: Scene) -> Iterator[Case]:
+def _angles(scene: ExtremeScene) -> Iterator[Case]:
     names = [c.name for c in scene.problem.coordinates]
     for angle in angles_of(scene):
         for halves, side in _TARGETS:
@@ -140,7 +142,7 @@ def _angles(scene: Scene) -> Iterator[Case]:
 
 
 def _at_angle(
-    scene: Scene, names: Sequence[str], angle: Angle, halves: int, side: int
+    scene: ExtremeScene, names: Sequence[str], angle: Angle, halves: int, side: int
 ) -> Iterator[Case]:
     """One term of the argument moved so that its sum is beside a multiple of pi/2."""
     moved = next(((n, k) for n, k in angle.factors if n in names), angle.factors[0])
@@ -162,7 +164,7 @@ def _at_angle(
         yield from _valued(scene, "angles", told, {name: exact})
 
 
-def _value(scene: Scene, names: Sequence[str], name: str) -> float:
+def _value(scene: ExtremeScene, names: Sequence[str], name: str) -> float:
     return scene.q[names.index(name)] if name in names else scene.value(name)
 
 
@@ -191,7 +193,7 @@ def _combined(angle: Angle) -> str:
     return text
 
 
-def _singular(scene: Scene) -> Iterator[Case]:
+def _singular(scene: ExtremeScene) -> Iterator[Case]:
     names = [c.name for c in scene.problem.coordinates]
     for root in singular_positions(scene):
         name = names[root.coordinate]
@@ -232,7 +234,7 @@ def _angle_text(k: int) -> str:
     return f"{'-' * (k < 0)}{above}{below}"
 
 
-def _separatrix(scene: Scene) -> Iterator[Case]:
+def _separatrix(scene: ExtremeScene) -> Iterator[Case]:
     """At rest 1e-9 near an unstable equilibrium, and with its energy but for 1e-12."""
     names = [c.name for c in scene.problem.coordinates]
     e = scene.equations
@@ -252,7 +254,7 @@ def _separatrix(scene: Scene) -> Iterator[Case]:
                 yield from _stated(scene, "separatrix", told, scene.q, v, {})
 
 
-def _velocity(scene: Scene, top: float, side: int) -> Vector | None:
+def _velocity(scene: ExtremeScene, top: float, side: int) -> Vector | None:
     """The velocity at the usual place with the energy wanted, in the direction of the file's."""
     energy = scene.motion.function([scene.equations.energy])
     zero = [0.0] * scene.n
@@ -275,7 +277,7 @@ def _place(x: float) -> str:
     return _angle_text(twelfths) if abs(x - twelfths * math.pi / 12) < 1e-9 else f"{x:.6g}"
 
 
-def _light(scene: Scene) -> Iterator[Case]:
+def _light(scene: ExtremeScene) -> Iterator[Case]:
     """v = c, v = c (1 - 1e-12) and v = 1e-9 c."""
     names = [c.name for c in scene.problem.coordinates]
     for direction, factor in light_speeds(scene):

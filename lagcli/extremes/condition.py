@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from lagcli.extremes.scene import Scene
+from lagcli.extremes.scene import ExtremeScene
 from lagcli.numerics.arithmetic import Balls
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.precise import precision
@@ -16,7 +16,7 @@ _DIGITS = 60
 _SINGULAR = 1e-45
 
 
-def mass_condition(scene: Scene) -> float:
+def mass_condition(scene: ExtremeScene) -> float:
     """Of D M D with D = diag(M)^(-1/2), in the 2-norm; inf where M is singular.
 
     Worked out with 60 digits at the state as doubles: no scaling is better by more than a

@@ -25,7 +25,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
 )
-from lagcli.extremes.case import Formula, Loss
+from lagcli.extremes.case import CaseFormula, Loss
 from lagcli.numerics.arithmetic import Arithmetic, Balls, Doubles, UndefinedFunction
 from lagcli.numerics.precise import precision
 
@@ -37,7 +37,7 @@ _REFERENCE = 50
 _LADDER = (60, 120, 240, 480, 960)
 
 
-def losses(formulas: Sequence[Formula], values: Mapping[str, float]) -> tuple[Loss, ...]:
+def losses(formulas: Sequence[CaseFormula], values: Mapping[str, float]) -> tuple[Loss, ...]:
     """What each formula loses, as it is printed and rewritten.
 
     Parameters
@@ -50,7 +50,7 @@ def losses(formulas: Sequence[Formula], values: Mapping[str, float]) -> tuple[Lo
     return tuple(_loss(formula, values) for formula in formulas)
 
 
-def _loss(formula: Formula, values: Mapping[str, float]) -> Loss:
+def _loss(formula: CaseFormula, values: Mapping[str, float]) -> Loss:
     exact = exactly(lambda a, given: number_of(formula.printed, given, a), values)
     printed = lost(formula.printed, values, exact)
     rewritten = printed

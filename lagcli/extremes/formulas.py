@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from lagcli.answers import AccelerationsSection, ChargesSection, MultipliersSection
 from lagcli.expression import Expression, operation_count
-from lagcli.extremes.case import Formula, Group
+from lagcli.extremes.case import CaseFormula, Group
 from lagcli.graph.nodes import Graph
 from lagcli.graph.reading import GraphReader
 from lagcli.graph.sharing import operations, written_out
@@ -18,12 +18,12 @@ from lagcli.problem import Problem
 _LONGEST = 20_000
 
 
-def printed_formulas(problem: Problem) -> tuple[Formula, ...]:
+def printed_formulas(problem: Problem) -> tuple[CaseFormula, ...]:
     """Accelerations, multipliers and conserved charges in terms of the parameters."""
     sections = solve(problem, ["accelerations", "multipliers", "charges"]).sections
     rewrite = _Rewriting(problem)
     return tuple(
-        Formula(group=group, name=name, printed=tree, rewritten=rewrite(tree))
+        CaseFormula(group=group, name=name, printed=tree, rewritten=rewrite(tree))
         for group, name, tree in _printed(list(sections.values()))
         if operation_count(tree) <= _LONGEST
     )

@@ -9,7 +9,7 @@ from itertools import product
 
 from lagcli.dimensions.forms import minus
 from lagcli.dimensions.inference import Inference
-from lagcli.extremes.scene import Scene, Vector
+from lagcli.extremes.scene import ExtremeScene, Vector
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Call, Constant, Node, Product, Sum, Symbol, ancestry
 from lagcli.numerics.jacobian import jacobian
@@ -48,7 +48,7 @@ class Root:
 # -- parameters ----------------------------------------------------------------------------------
 
 
-def alike(scene: Scene) -> list[list[str]]:
+def alike(scene: ExtremeScene) -> list[list[str]]:
     """Parameters by dimension: each with those that it may be compared with."""
     inference = Inference(scene.problem)
     names = inference.demands.names
@@ -63,7 +63,7 @@ def alike(scene: Scene) -> list[list[str]]:
     return groups
 
 
-def used(scene: Scene) -> list[str]:
+def used(scene: ExtremeScene) -> list[str]:
     """The parameters that the motion depends on by their size: no exponents, no whole numbers."""
     exponents: list[Node] = [
         node.arguments[1]
@@ -85,7 +85,7 @@ def used(scene: Scene) -> list[str]:
 # -- angles --------------------------------------------------------------------------------------
 
 
-def angles_of(scene: Scene) -> list[Angle]:
+def angles_of(scene: ExtremeScene) -> list[Angle]:
     """The arguments of sines and their like, each once; multiples of one are left out."""
     e = scene.equations
     symbols: list[Symbol] = [*e.q, *(e.graph.symbol(p.name) for p in scene.problem.parameters)]
@@ -103,7 +103,7 @@ def angles_of(scene: Scene) -> list[Angle]:
     return sorted(found.values(), key=lambda angle: len(angle.factors))
 
 
-def _linear(scene: Scene, argument: Node, symbols: Sequence[Symbol]) -> Angle | None:
+def _linear(scene: ExtremeScene, argument: Node, symbols: Sequence[Symbol]) -> Angle | None:
     graph = scene.equations.graph
     factors: list[tuple[str, Fraction]] = []
     rest = argument
@@ -122,7 +122,7 @@ def _linear(scene: Scene, argument: Node, symbols: Sequence[Symbol]) -> Angle | 
 # -- the mass matrix -----------------------------------------------------------------------------
 
 
-def singular_positions(scene: Scene) -> Iterator[Root]:
+def singular_positions(scene: ExtremeScene) -> Iterator[Root]:
     """Where a pivot of the mass matrix vanishes as one coordinate is moved."""
     factored = scene.equations.factored
     if factored is None:
@@ -136,7 +136,7 @@ def singular_positions(scene: Scene) -> Iterator[Root]:
             yield from _roots(scene, at, k, j, turns=symbol.name in turning)
 
 
-def _roots(scene: Scene, at: Function, pivot: int, j: int, *, turns: bool) -> Iterator[Root]:
+def _roots(scene: ExtremeScene, at: Function, pivot: int, j: int, *, turns: bool) -> Iterator[Root]:
     def size(x: float) -> float:
         q = [*scene.q[:j], x, *scene.q[j + 1 :]]
         try:
@@ -177,7 +177,7 @@ def _snapped(j: int, root: float) -> Root:
 # -- states of rest ------------------------------------------------------------------------------
 
 
-def unstable_rest(scene: Scene) -> Iterator[tuple[Vector, Vector, float]]:
+def unstable_rest(scene: ExtremeScene) -> Iterator[tuple[Vector, Vector, float]]:
     """Unstable equilibria: the position, the direction in which it is left, and the rate."""
     e = scene.equations
     if e.rows or scene.n > _MOST_FREEDOMS or any(node.mask & e.t.mask for node in scene.dynamics):
@@ -206,7 +206,7 @@ def unstable_rest(scene: Scene) -> Iterator[tuple[Vector, Vector, float]]:
             yield q, direction, math.sqrt(rate)
 
 
-def _rest(scene: Scene, blocks: object, q: Vector) -> Vector | None:
+def _rest(scene: ExtremeScene, blocks: object, q: Vector) -> Vector | None:
     """A state of rest by Newton's steps, cyclic coordinates left where they are."""
     assert callable(blocks)
     zero = [0.0] * scene.n
@@ -263,7 +263,7 @@ def _fastest(matrix: Sequence[Sequence[float]]) -> tuple[float, Vector]:
 # -- speeds --------------------------------------------------------------------------------------
 
 
-def light_speeds(scene: Scene) -> Iterator[tuple[Vector, float]]:
+def light_speeds(scene: ExtremeScene) -> Iterator[tuple[Vector, float]]:
     """Roots of 1 - v^2/c^2 and their like: a velocity, and the factor at which they vanish."""
     e = scene.equations
     moving = 0
@@ -281,7 +281,7 @@ def light_speeds(scene: Scene) -> Iterator[tuple[Vector, float]]:
                     yield found
 
 
-def _ends(scene: Scene, radicand: Node) -> tuple[Vector, float] | None:
+def _ends(scene: ExtremeScene, radicand: Node) -> tuple[Vector, float] | None:
     """The velocity that is faster and faster, and how much faster the root allows."""
     at = scene.motion.function([radicand])
     v = list(scene.v)

@@ -58,7 +58,7 @@ def _ordinary(parameter: Parameter, place: int) -> Fraction:
     return -size if parameter.assume == "negative" else size
 
 
-class Scene:
+class ExtremeScene:
     """Equations, values and a state.
 
     Parameters

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from fnmatch import fnmatchcase
 
-from lagcli.extremes.case import BAD, KINDS, Case, Formula, Trial
+from lagcli.extremes.case import BAD, KINDS, Case, CaseFormula, Trial
 from lagcli.extremes.cases import cases_of
-from lagcli.extremes.scene import Scene, with_all_values
+from lagcli.extremes.scene import ExtremeScene, with_all_values
 from lagcli.extremes.trial import Wanted
 from lagcli.extremes.workers import Bench
 from lagcli.problem import Problem
@@ -21,7 +21,7 @@ Progress = Callable[[int, int], None]
 
 
 @record(kw_only=True)
-class Study:
+class ExtremesStudy:
     """What came of it.
 
     Attributes
@@ -39,7 +39,7 @@ class Study:
     """
 
     name: str
-    formulas: tuple[Formula, ...]
+    formulas: tuple[CaseFormula, ...]
     trials: tuple[tuple[Case, Trial], ...]
     wanted: Wanted
     notes: tuple[str, ...] = ()
@@ -63,7 +63,7 @@ def study(
     wanted: Wanted,
     words: Sequence[str] = (),
     progress: Progress | None = None,
-) -> Study:
+) -> ExtremesStudy:
     """Make the cases and put each to the test.
 
     Parameters
@@ -87,7 +87,7 @@ def study(
     problem, missing = with_all_values(problem)
     values = ", ".join(f"{name} = {float(value):g}" for name, value in missing.items())
     notes = [f"without a value, taken as {values}"] if missing else []
-    scene = Scene(problem)
+    scene = ExtremeScene(problem)
     if not problem.initial:
         notes.append("without an initial state: one in which nothing is special is taken")
     cases = chosen(cases_of(scene), words)
@@ -104,7 +104,7 @@ def study(
             trials.append((case, next(found)))
     finally:
         bench.stop()
-    return Study(
+    return ExtremesStudy(
         name=problem.source.name,
         formulas=formulas,
         trials=tuple(trials),

@@ -8,11 +8,11 @@ from contextlib import suppress
 from decimal import Decimal
 from time import process_time
 
-from lagcli.extremes.case import Case, Formula, Loss, Trial, Verdict
+from lagcli.extremes.case import Case, CaseFormula, Loss, Trial, Verdict
 from lagcli.extremes.condition import mass_condition
 from lagcli.extremes.digits import digits_between, losses
 from lagcli.extremes.roles import angles_of
-from lagcli.extremes.scene import Scene
+from lagcli.extremes.scene import ExtremeScene
 from lagcli.numerics.arithmetic import Balls
 from lagcli.numerics.asked import Asked, Result
 from lagcli.numerics.columns import Column
@@ -24,7 +24,7 @@ from lagcli.numerics.simulate import simulate
 from lagcli.reader.columns import usual_columns
 from lagcli.record import record, replace
 from lagcli.tradeoff.reference import Rows, difference, precise_rows, reference
-from lagcli.tradeoff.trial import TooLong
+from lagcli.tradeoff.trial import LimitReached
 
 #: Times of the fastest change at the start that a short run takes.
 _TIMES = 10.0
@@ -57,7 +57,7 @@ class Wanted:
     limit: float
 
 
-def trial(case: Case, formulas: Sequence[Formula], wanted: Wanted) -> Trial:
+def trial(case: Case, formulas: Sequence[CaseFormula], wanted: Wanted) -> Trial:
     """Everything that is to be known of a case.
 
     Parameters
@@ -71,7 +71,7 @@ def trial(case: Case, formulas: Sequence[Formula], wanted: Wanted) -> Trial:
     """
     begun = process_time()
     try:
-        scene = Scene(case.problem)
+        scene = ExtremeScene(case.problem)
     except Refusal as refusal:
         return Trial(verdict="refused", reason=str(refusal))
     measured = Trial(
@@ -86,18 +86,18 @@ def trial(case: Case, formulas: Sequence[Formula], wanted: Wanted) -> Trial:
     return replace(found, seconds=process_time() - begun)
 
 
-def _values(scene: Scene) -> dict[str, float]:
+def _values(scene: ExtremeScene) -> dict[str, float]:
     names = [c.name for c in scene.problem.coordinates]
     values = {symbol.name: x for symbol, x in scene.constants.items()}
     values |= dict(zip(names, scene.q, strict=True))
     return values | {f"{n}'": x for n, x in zip(names, scene.v, strict=True)} | {"t": 0.0}
 
 
-def _losses(scene: Scene, formulas: Sequence[Formula]) -> tuple[Loss, ...]:
+def _losses(scene: ExtremeScene, formulas: Sequence[CaseFormula]) -> tuple[Loss, ...]:
     return losses(formulas, _values(scene))
 
 
-def _run_loss(scene: Scene) -> float | None:
+def _run_loss(scene: ExtremeScene) -> float | None:
     """Digits lost by the accelerations as a run works them out; None where there are none."""
     state = (0.0, *scene.q, *scene.v)
     try:
@@ -117,7 +117,7 @@ def _run_loss(scene: Scene) -> float | None:
     return max(digits_between(float(a), b) for a, b in zip(found, exact, strict=True))
 
 
-def _span(scene: Scene, longest: float | None) -> float:
+def _span(scene: ExtremeScene, longest: float | None) -> float:
     """Some 10 times in which the motion changes at the start, and no more than asked."""
     rate = 0.0
     state = (0.0, *scene.q, *scene.v)
@@ -129,7 +129,7 @@ def _span(scene: Scene, longest: float | None) -> float:
     return own if own < math.inf else 1.0
 
 
-def _rates(scene: Scene, state: Sequence[float]) -> Iterator[float]:
+def _rates(scene: ExtremeScene, state: Sequence[float]) -> Iterator[float]:
     """1/time: of the linear equations, and of the path that is begun.
 
     sqrt(|df_i/dq_j df_j/dq_i|) and their like do not depend on the units of coordinates.
@@ -172,7 +172,7 @@ def _moved(case: Case, measured: Trial, end: float, wanted: Wanted) -> Trial:
         last = now + (end - now) * _SHARE if attempt < _ATTEMPTS - 1 else end
         try:
             return _run(case, asked, measured, last, wanted)
-        except TooLong:
+        except LimitReached:
             asked = replace(asked, until=asked.until / _SHORTER)
             told = f"only until t = {asked.until:.3g}: {measured.until:.3g} takes too long"
             measured = replace(measured, reason=told)
@@ -183,7 +183,7 @@ def _moved(case: Case, measured: Trial, end: float, wanted: Wanted) -> Trial:
 def _run(case: Case, asked: Asked, measured: Trial, end: float, wanted: Wanted) -> Trial:
     def ticked(_: float) -> None:
         if process_time() > end:
-            raise TooLong
+            raise LimitReached
 
     try:
         result = simulate(case.problem, asked, ticked)
@@ -222,7 +222,7 @@ def _error(case: Case, asked: Asked, result: Result, limit: float) -> tuple[floa
         if near is not None and (error := difference(near, found, scales)) <= asked.accuracy:
             return error, 0.0
         known = reference(case.problem, same, limit)
-    except (Refusal, TooLong):
+    except (Refusal, LimitReached):
         return None, math.inf
     return difference(known.rows, found, scales), known.bound
 

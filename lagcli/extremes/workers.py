@@ -11,7 +11,7 @@ from contextlib import suppress
 from multiprocessing.connection import Connection
 from typing import Any
 
-from lagcli.extremes.case import Case, Formula, Trial
+from lagcli.extremes.case import Case, CaseFormula, Trial
 from lagcli.extremes.formulas import printed_formulas
 from lagcli.extremes.trial import Wanted, trial
 from lagcli.failures import describe
@@ -34,13 +34,13 @@ class Bench:
         self._process: Any = None
         self._connection: Connection | None = None
 
-    def formulas(self, problem: Problem, limit: float) -> tuple[tuple[Formula, ...], str]:
+    def formulas(self, problem: Problem, limit: float) -> tuple[tuple[CaseFormula, ...], str]:
         """What `solve` prints, and why there is none."""
         found = self._asked(("formulas", (problem,)), limit)
         return ((), found) if isinstance(found, str) else (found, "")
 
     def trials(
-        self, cases: Sequence[Case], formulas: Sequence[Formula], wanted: Wanted
+        self, cases: Sequence[Case], formulas: Sequence[CaseFormula], wanted: Wanted
     ) -> Generator[Trial, None, None]:
         """What came of each case, in their order."""
         for case in cases:

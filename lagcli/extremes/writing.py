@@ -7,8 +7,8 @@ import textwrap
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from lagcli.extremes.case import GROUPS, KINDS, Case, Formula, Group, Loss, Trial
-from lagcli.extremes.study import Study
+from lagcli.extremes.case import GROUPS, KINDS, Case, CaseFormula, Group, Loss, Trial
+from lagcli.extremes.study import ExtremesStudy
 from lagcli.formatters.grammar import to_grammar
 from lagcli.record import record
 
@@ -31,7 +31,7 @@ _COLUMNS = (
 class Gain:
     """A formula, and the case in which rewriting it gains most."""
 
-    formula: Formula
+    formula: CaseFormula
     case: str
     loss: Loss
 
@@ -49,7 +49,7 @@ def worst(trial: Trial, group: Group) -> tuple[float, float] | None:
     return max(x.printed or 0.0 for x in found), max(x.rewritten or 0.0 for x in found)
 
 
-def gains(study: Study) -> list[Gain]:
+def gains(study: ExtremesStudy) -> list[Gain]:
     """The formulas that are better rewritten, the best gain of each."""
     found: list[Gain] = []
     for place, formula in enumerate(study.formulas):
@@ -67,7 +67,7 @@ def gains(study: Study) -> list[Gain]:
 # -- text ----------------------------------------------------------------------------------------
 
 
-def to_text(study: Study) -> str:
+def to_text(study: ExtremesStudy) -> str:
     """A table of at most 80 columns, then reasons and rewritten formulas."""
     lines = [f"{study.name}: its extremes, to the accuracy {study.wanted.accuracy:g}"]
     lines += [line for note in study.notes for line in textwrap.wrap(note, _WIDTH)]
@@ -145,7 +145,7 @@ def _legend() -> list[str]:
     return textwrap.wrap(text, _WIDTH)
 
 
-def _told(study: Study) -> Iterator[str]:
+def _told(study: ExtremesStudy) -> Iterator[str]:
     told = [(case.name, trial.reason) for case, trial in study.trials if trial.reason]
     if told:
         yield ""
@@ -153,7 +153,7 @@ def _told(study: Study) -> Iterator[str]:
         yield from textwrap.wrap(f"{name}: {reason}", _WIDTH, subsequent_indent="  ")
 
 
-def _gains(study: Study) -> Iterator[str]:
+def _gains(study: ExtremesStudy) -> Iterator[str]:
     found = gains(study)
     if found:
         yield ""
@@ -169,7 +169,7 @@ def _gains(study: Study) -> Iterator[str]:
 # -- for machines --------------------------------------------------------------------------------
 
 
-def to_json(study: Study) -> str:
+def to_json(study: ExtremesStudy) -> str:
     """Everything; times in seconds of processor time, null where there is no number."""
     document = {
         "schema": 1,
@@ -224,7 +224,7 @@ def _finite(value: float | None) -> float | None:
     return value if value is not None and abs(value) < float("inf") else None
 
 
-def to_csv(study: Study) -> str:
+def to_csv(study: ExtremesStudy) -> str:
     """One line for each case, the worst of each group of formulas."""
     import csv
     import io
@@ -256,4 +256,8 @@ def _pair(group: str, pair: tuple[float, float] | None) -> Mapping[str, float | 
     return {group: printed, f"{group}_rewritten": rewritten}
 
 
-WRITERS: dict[str, Callable[[Study], str]] = {"text": to_text, "json": to_json, "csv": to_csv}
+WRITERS: dict[str, Callable[[ExtremesStudy], str]] = {
+    "text": to_text,
+    "json": to_json,
+    "csv": to_csv,
+}

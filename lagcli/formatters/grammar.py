@@ -28,7 +28,7 @@ from lagcli.formatters.layout import (
     QUOTIENT,
     SUM,
     Layout,
-    Piece,
+    TextPiece,
     joined,
     kept_whole,
 )
@@ -67,7 +67,7 @@ class GrammarPrinter(Printer[Layout]):
 
     def bracketed(self, shown: Layout) -> Layout:
         inner = kept_whole((AFTER_BRACKET, *shown), _SHORT)
-        return (Piece("(", 1, nesting=1), *inner, Piece(")", 1, nesting=-1))
+        return (TextPiece("(", 1, nesting=1), *inner, TextPiece(")", 1, nesting=-1))
 
     def number(self, node: Number) -> Layout:
         value = node.value
@@ -76,7 +76,7 @@ class GrammarPrinter(Printer[Layout]):
         numerator = _digits(value.numerator)
         if value.denominator == 1:
             return numerator
-        return (*numerator, Piece("/", 1), *_digits(value.denominator))
+        return (*numerator, TextPiece("/", 1), *_digits(value.denominator))
 
     def decimal(self, parts: DecimalParts) -> Layout:
         return text(parts.digits + (f"e{parts.exponent}" if parts.exponent else ""))
@@ -85,31 +85,34 @@ class GrammarPrinter(Printer[Layout]):
         return text(self.spelled(node.name, node.primes))
 
     def negative(self, node: Negative) -> Layout:
-        return (Piece(self.minus, 1), *self.at(node.operand, Level.QUOTIENT))
+        return (TextPiece(self.minus, 1), *self.at(node.operand, Level.QUOTIENT))
 
     def sum(self, node: Sum) -> Layout:
         (minus, first), *others = self.terms(node)
-        pieces = [Piece(self.minus, 1), *first] if minus else [*first]
+        pieces = [TextPiece(self.minus, 1), *first] if minus else [*first]
         for minus, term in others:
             sign = self.minus if minus else "+"
-            pieces += [Piece(f" {sign} ", 3, rank=SUM, broken=f"{sign} ", broken_width=2), *term]
+            pieces += [
+                TextPiece(f" {sign} ", 3, rank=SUM, broken=f"{sign} ", broken_width=2),
+                *term,
+            ]
         return tuple(pieces)
 
     def product(self, node: Product) -> Layout:
         first, *others = self.factors(node)
         pieces = [*first]
         for factor in others:
-            pieces += [Piece("*", 1, rank=PRODUCT, broken="* ", broken_width=2), *factor]
+            pieces += [TextPiece("*", 1, rank=PRODUCT, broken="* ", broken_width=2), *factor]
         return tuple(pieces)
 
     def quotient(self, node: Quotient) -> Layout:
-        over = Piece("/", 1, rank=QUOTIENT, broken="/ ", broken_width=2)
+        over = TextPiece("/", 1, rank=QUOTIENT, broken="/ ", broken_width=2)
         numerator = self.at(node.numerator, Level.PRODUCT)
         return (*numerator, over, *self.at(node.denominator, Level.POWER))
 
     def power(self, node: Power) -> Layout:
         base = self.at(node.base, Level.ATOM)
-        return (*base, Piece("^", 1), *self.at(node.exponent, Level.ATOM))
+        return (*base, TextPiece("^", 1), *self.at(node.exponent, Level.ATOM))
 
     def call(self, node: Call) -> Layout:
         head = self.spelled(node.function, node.primes)
@@ -128,24 +131,26 @@ class GrammarPrinter(Printer[Layout]):
 
     def arguments(self, nodes: tuple[Expression, ...]) -> Layout:
         """Arguments in their brackets; a line may break after a comma."""
-        pieces: list[Piece] = []
+        pieces: list[TextPiece] = []
         for node in nodes:
             if pieces:
-                pieces += [Piece(",", 1), Piece(" ", 1, rank=COMMA)]
+                pieces += [TextPiece(",", 1), TextPiece(" ", 1, rank=COMMA)]
             pieces += self.show(node)
         return self.bracketed(tuple(pieces))
 
 
 def text(content: str) -> Layout:
     """One piece as wide as its characters."""
-    return (Piece(content, display_width(content)),)
+    return (TextPiece(content, display_width(content)),)
 
 
 def _digits(value: int) -> Layout:
     """Print an integer; a very long one may be broken, with a backslash at the end of the line."""
     first, *others = digit_groups(value)
-    pieces = [Piece(first, len(first))]
+    pieces = [TextPiece(first, len(first))]
     for group in others:
         size = len(group)
-        pieces.append(Piece(group, size, rank=DIGITS, broken=group, broken_width=size, tail="\\"))
+        pieces.append(
+            TextPiece(group, size, rank=DIGITS, broken=group, broken_width=size, tail="\\")
+        )
     return tuple(pieces)

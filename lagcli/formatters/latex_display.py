@@ -9,7 +9,7 @@ from lagcli.document import Bracket, Equations, Formula, Integral, Label, Matrix
 from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.latex_width import QUAD, RELATION, TEXT_WIDTH, text_width
-from lagcli.formatters.layout import COMMA, Layout, Piece, break_lines, joined, width_of
+from lagcli.formatters.layout import COMMA, Layout, TextPiece, break_lines, joined, width_of
 from lagcli.formatters.layout import RELATION as RELATION_RANK
 from lagcli.formatters.precedence import Level
 from lagcli.formatters.units import latex_unit
@@ -64,16 +64,16 @@ class LatexDisplay:
         """Set one formula."""
         if isinstance(formula, Label):
             text, width = self.printer.names.label(formula)
-            return (Piece(text, width),)
+            return (TextPiece(text, width),)
         if isinstance(formula, Integral):
             return self._integral(formula)
         if isinstance(formula, Bracket):
             left, right = (self.printer.show(f).pieces for f in (formula.left, formula.right))
-            comma = Piece(r",\ ", 8.0, rank=COMMA, tail=",")
-            opening, closing = Piece(r"\{", 5.0, nesting=1), Piece(r"\}", 5.0, nesting=-1)
+            comma = TextPiece(r",\ ", 8.0, rank=COMMA, tail=",")
+            opening, closing = TextPiece(r"\{", 5.0, nesting=1), TextPiece(r"\}", 5.0, nesting=-1)
             return (opening, *left, comma, *right, closing)
         if isinstance(formula, Unit):
-            return (Piece(*latex_unit(formula)),)
+            return (TextPiece(*latex_unit(formula)),)
         return self.printer.show(formula).pieces
 
     def _integral(self, integral: Integral) -> Layout:
@@ -81,8 +81,8 @@ class LatexDisplay:
         name = self.printer.names.name(integral.variable)
         width = self.printer.names.width(integral.variable)
         inner = self.printer.at(integral.integrand, Level.PRODUCT).pieces
-        sign = Piece(rf"{before}\int ", 14.0 + 5.0 * len(before))
-        return (sign, *inner, Piece(rf"\,\mathrm{{d}}{name}", 8.0 + width))
+        sign = TextPiece(rf"{before}\int ", 14.0 + 5.0 * len(before))
+        return (sign, *inner, TextPiece(rf"\,\mathrm{{d}}{name}", 8.0 + width))
 
     def equations(self, block: Equations) -> Iterator[Display]:
         """Set the displays of a block: rows with narrow left sides share one."""
@@ -127,7 +127,7 @@ class LatexDisplay:
         return display
 
     def _wide(self, row: _Shown) -> Iterator[str]:
-        equals = Piece(" = ", RELATION, rank=RELATION_RANK, broken="= ", broken_width=RELATION)
+        equals = TextPiece(" = ", RELATION, rank=RELATION_RANK, broken="= ", broken_width=RELATION)
         room = TEXT_WIDTH - _MARGIN
         for line in self._broken((*row.left, equals, *row.right), row.note, room, room - QUAD):
             yield f"&{line}"

@@ -31,7 +31,7 @@ from lagcli.formatters.layout import (
     PRODUCT,
     SUM,
     Layout,
-    Piece,
+    TextPiece,
     joined,
     kept_whole,
     width_of,
@@ -67,7 +67,7 @@ _FLAT, _BIG, _TALL = 0, 1, 3
 
 #: Points of a bracket that is not parted.
 _SHORT = 90.0
-_SLASH = Piece("/", 5)
+_SLASH = TextPiece("/", 5)
 
 
 @record
@@ -117,7 +117,7 @@ class LatexPrinter(Printer[Box]):
 
     def bracketed(self, shown: Box, before: str = "", after: str = "") -> Box:
         pieces = (*_enclosed(shown, "(", ")", after),)
-        head = (Piece(before, 0),) if before else ()
+        head = (TextPiece(before, 0),) if before else ()
         return Box((*head, *pieces), height=max(shown.height, _BIG))
 
     def number(self, node: Number) -> Box:
@@ -130,15 +130,15 @@ class LatexPrinter(Printer[Box]):
 
     def name(self, node: Name) -> Box:
         shown = self.names.name(node.name, node.primes)
-        return Box((Piece(shown, self.names.width(node.name, node.primes)),))
+        return Box((TextPiece(shown, self.names.width(node.name, node.primes)),))
 
     def negative(self, node: Negative) -> Box:
         operand = self.at(node.operand, Level.QUOTIENT)
-        return Box((Piece("-", 8), *operand.pieces), Level.SUM, operand.height)
+        return Box((TextPiece("-", 8), *operand.pieces), Level.SUM, operand.height)
 
     def sum(self, node: Sum) -> Box:
         (minus, first), *others = self.terms(node)
-        pieces = [Piece("-", 8), *first.pieces] if minus else [*first.pieces]
+        pieces = [TextPiece("-", 8), *first.pieces] if minus else [*first.pieces]
         height = first.height
         for minus, term in others:
             sign = "-" if minus else "+"
@@ -149,7 +149,7 @@ class LatexPrinter(Printer[Box]):
 
     def product(self, node: Product) -> Box:
         boxes = self.factors(node)
-        pieces: list[Piece] = []
+        pieces: list[TextPiece] = []
         for position, (factor, box) in enumerate(zip(node.factors, boxes, strict=True)):
             if position:
                 pieces.append(_between(boxes[position - 1], factor, box))
@@ -178,7 +178,9 @@ class LatexPrinter(Printer[Box]):
             inverse = Box((_frac("1", below.text, below.width),))
             whole = above if above.level >= Level.PRODUCT else self.bracketed(above)
             return Box(
-                (*inverse.pieces, Piece(r" \, ", THIN_SPACE), *whole.pieces), Level.PRODUCT, _TALL
+                (*inverse.pieces, TextPiece(r" \, ", THIN_SPACE), *whole.pieces),
+                Level.PRODUCT,
+                _TALL,
             )
         return Box(
             (_frac(above.text, below.text, max(above.width, below.width)),), Level.POWER, _TALL
@@ -196,8 +198,8 @@ class LatexPrinter(Printer[Box]):
         exponent = self._raised(node.exponent)
         if SCRIPT * exponent.width > WIDEST / 2:
             arguments = self._arguments((node.base, node.exponent))
-            return Box((Piece(r"\operatorname{pow}", 18), *arguments.pieces), height=_BIG)
-        raised = Piece(f"^{{{exponent.text}}}", SCRIPT * exponent.width + 1)
+            return Box((TextPiece(r"\operatorname{pow}", 18), *arguments.pieces), height=_BIG)
+        raised = TextPiece(f"^{{{exponent.text}}}", SCRIPT * exponent.width + 1)
         base = node.base
         is_natural = isinstance(node.exponent, Number) and node.exponent.value.denominator == 1
         if isinstance(base, Call) and base.function in _TRIGONOMETRIC and is_natural:
@@ -210,7 +212,7 @@ class LatexPrinter(Printer[Box]):
         match node:
             case Negative(operand=Number() | Quotient() as operand):
                 inner = self._raised(operand)
-                return Box((Piece("-", 8), *inner.pieces))
+                return Box((TextPiece("-", 8), *inner.pieces))
             case Number(value=value, decimal=False) if value.denominator != 1:
                 return Box((*_digits(value.numerator), _SLASH, *_digits(value.denominator)))
             case Quotient(
@@ -234,27 +236,27 @@ class LatexPrinter(Printer[Box]):
         head = self.names.name(node.function) + "'" * node.primes
         width = self.names.width(node.function) + 3 * node.primes
         arguments = self._arguments(node.arguments)
-        return Box((Piece(head, width), *arguments.pieces), height=arguments.height)
+        return Box((TextPiece(head, width), *arguments.pieces), height=arguments.height)
 
     def _integral(self, node: Call) -> Box:
         inner = self.at(node.arguments[0], Level.PRODUCT)
         variable, start, end = (self.show(each) for each in node.arguments[1:])
         limits = rf"\int_{{{start.text}}}^{{{end.text}}} "
-        sign = Piece(limits, 14.0 + max(start.width, end.width))
-        by = Piece(rf"\,\mathrm{{d}}{variable.text}", 8.0 + variable.width)
+        sign = TextPiece(limits, 14.0 + max(start.width, end.width))
+        by = TextPiece(rf"\,\mathrm{{d}}{variable.text}", 8.0 + variable.width)
         return Box((sign, *inner.pieces, by), Level.QUOTIENT, _TALL)
 
     def _root(self, content: Box) -> Box:
         if content.width > WIDEST:
             whole = self.bracketed(content, after="^{1/2}")
             return Box(whole.pieces, Level.POWER, whole.height)
-        root = Piece(rf"\sqrt{{{content.text}}}", content.width + 11)
+        root = TextPiece(rf"\sqrt{{{content.text}}}", content.width + 11)
         return Box((root,), height=_TALL if content.height >= _TALL else _BIG)
 
-    def _function(self, node: Call, raised: Piece | None = None) -> Box:
+    def _function(self, node: Call, raised: TextPiece | None = None) -> Box:
         """Set a function with a fixed name, and the power of its value."""
         macro = _FUNCTIONS[node.function]
-        name = Piece(macro, text_width(macro.rpartition("{")[2].strip("\\}")) + 2 * THIN_SPACE)
+        name = TextPiece(macro, text_width(macro.rpartition("{")[2].strip("\\}")) + 2 * THIN_SPACE)
         head = (name, raised) if raised else (name,)
         arguments = self._arguments(node.arguments)
         closed = (*head, *arguments.pieces)
@@ -262,13 +264,13 @@ class LatexPrinter(Printer[Box]):
         bare = isinstance(inner, Name) and inner.primes <= 2 and self.names.bare(inner.name)
         level = Level.POWER if raised else Level.ATOM
         if bare and node.function in _BARE:
-            pieces = (*head, Piece(" ", THIN_SPACE), *self.show(inner).pieces)
+            pieces = (*head, TextPiece(" ", THIN_SPACE), *self.show(inner).pieces)
             return Box(pieces, Level.POWER, _FLAT, closed)
         return Box(closed, level, arguments.height)
 
     def partial_call(self, node: PartialCall) -> Box:
         slots = " ".join(rf"\partial_{{{index}}}" for index in node.indices)
-        head = Piece(
+        head = TextPiece(
             f"{slots} {self.names.name(node.function)}",
             11 * len(node.indices) + self.names.width(node.function),
         )
@@ -284,20 +286,20 @@ class LatexPrinter(Printer[Box]):
             return Box((whole,), Level.POWER, _TALL)
         operator = _frac(r"\partial", rf"\partial {below.text}", below.width + 7)
         operand = self.bracketed(self.show(node.operand))
-        gap = Piece(r" \, ", THIN_SPACE)
+        gap = TextPiece(r" \, ", THIN_SPACE)
         return Box((operator, gap, *operand.pieces), Level.PRODUCT, _TALL)
 
     def rate(self, node: Rate) -> Box:
         operand = self.at(node.operand, Level.POWER)
-        gap = Piece(r" \, ", THIN_SPACE)
+        gap = TextPiece(r" \, ", THIN_SPACE)
         return Box((_frac("d", "dt", 9), gap, *operand.pieces), Level.PRODUCT, _TALL)
 
     def _arguments(self, nodes: tuple[Expression, ...]) -> Box:
-        pieces: list[Piece] = []
+        pieces: list[TextPiece] = []
         height = _FLAT
         for node in nodes:
             if pieces:
-                pieces += [Piece(",", 4.5), _breakable(" ", 0, COMMA, "", 0)]
+                pieces += [TextPiece(",", 4.5), _breakable(" ", 0, COMMA, "", 0)]
             box = self.show(node)
             pieces += box.pieces
             height = max(height, box.height)
@@ -310,21 +312,21 @@ def _enclosed(content: Box, left: str, right: str, after: str = "") -> Layout:
     before, behind = _SIZES[size]
     trailing = SCRIPT * text_width(after)
     return (
-        Piece(before + left, width, nesting=1),
+        TextPiece(before + left, width, nesting=1),
         *kept_whole((AFTER_BRACKET, *content.pieces), _SHORT),
-        Piece(behind + right + after, width + trailing, nesting=-1),
+        TextPiece(behind + right + after, width + trailing, nesting=-1),
     )
 
 
-def _frac(above: str, below: str, width: float) -> Piece:
-    return Piece(rf"\frac{{{above}}}{{{below}}}", width + 3)
+def _frac(above: str, below: str, width: float) -> TextPiece:
+    return TextPiece(rf"\frac{{{above}}}{{{below}}}", width + 3)
 
 
-def _breakable(text: str, width: float, rank: int, broken: str, broken_width: float) -> Piece:
-    return Piece(text, width, rank=rank, broken=broken, broken_width=broken_width)
+def _breakable(text: str, width: float, rank: int, broken: str, broken_width: float) -> TextPiece:
+    return TextPiece(text, width, rank=rank, broken=broken, broken_width=broken_width)
 
 
-def _between(before: Box, after: Expression, shown: Box) -> Piece:
+def _between(before: Box, after: Expression, shown: Box) -> TextPiece:
     r"""Set the gap between two factors: \cdot before a number, a thin space at brackets and words.
 
     x\,(a + b) is a product, U(a + b) a function.
@@ -349,17 +351,17 @@ def _is_function(box: Box) -> bool:
 
 
 def _decimal(parts: DecimalParts) -> Box:
-    digits = Piece(parts.digits, text_width(parts.digits))
+    digits = TextPiece(parts.digits, text_width(parts.digits))
     if not parts.exponent:
         return Box((digits,))
-    power = Piece(rf" \cdot 10^{{{parts.exponent}}}", BINARY + 10 + SCRIPT * 20)
+    power = TextPiece(rf" \cdot 10^{{{parts.exponent}}}", BINARY + 10 + SCRIPT * 20)
     return Box((digits, power), Level.POWER)
 
 
 def _digits(value: int) -> Layout:
     first, *others = digit_groups(value)
-    pieces = [Piece(first, text_width(first))]
+    pieces = [TextPiece(first, text_width(first))]
     for group in others:
         size = text_width(group)
-        pieces.append(Piece(group, size, 0, DIGITS, group, size, tail=r" \backslash"))
+        pieces.append(TextPiece(group, size, 0, DIGITS, group, size, tail=r" \backslash"))
     return tuple(pieces)

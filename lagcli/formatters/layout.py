@@ -23,7 +23,7 @@ _RAGGEDNESS = 6.0
 
 
 @record
-class Piece:
+class TextPiece:
     """A bit of text that is never broken.
 
     Attributes
@@ -49,10 +49,10 @@ class Piece:
     tail: str = ""
 
 
-Layout = tuple[Piece, ...]
+Layout = tuple[TextPiece, ...]
 
 #: Behind an opening bracket: the last resort where functions are deeply nested.
-AFTER_BRACKET = Piece("", 0, rank=OPENING)
+AFTER_BRACKET = TextPiece("", 0, rank=OPENING)
 
 
 @record
@@ -71,18 +71,18 @@ def kept_whole(layout: Layout, width: float) -> Layout:
     return tuple(p if p.rank is None else replace(p, rank=p.rank % WHOLE + WHOLE) for p in layout)
 
 
-def joined(layout: Sequence[Piece]) -> str:
+def joined(layout: Sequence[TextPiece]) -> str:
     """Set the formula on one line."""
     return "".join(piece.text for piece in layout)
 
 
-def width_of(layout: Sequence[Piece]) -> float:
+def width_of(layout: Sequence[TextPiece]) -> float:
     """Measure the width of the formula on one line."""
     return sum(piece.width for piece in layout)
 
 
 def break_lines(
-    layout: Sequence[Piece], first: float, others: float, indent: float = 0, deepest: int = 0
+    layout: Sequence[TextPiece], first: float, others: float, indent: float = 0, deepest: int = 0
 ) -> list[Line]:
     """Lines no wider than `first` (the first one) and `others`, where breaks allow it.
 
@@ -100,7 +100,7 @@ def break_lines(
     return lines or [Line("", 0, 0)]
 
 
-def _depths(layout: Sequence[Piece]) -> list[int]:
+def _depths(layout: Sequence[TextPiece]) -> list[int]:
     """How many brackets are open before each piece."""
     depths, depth = [], 0
     for piece in layout:
@@ -110,7 +110,7 @@ def _depths(layout: Sequence[Piece]) -> list[int]:
 
 
 def _next_break(
-    layout: Sequence[Piece], depths: Sequence[int], start: int, room: float, *, fresh: bool
+    layout: Sequence[TextPiece], depths: Sequence[int], start: int, room: float, *, fresh: bool
 ) -> tuple[int, float]:
     """Where the line that begins at `start` ends best, and its width there."""
     best: tuple[float, int, float] | None = None
@@ -131,7 +131,7 @@ def _next_break(
     return best[1], best[2]
 
 
-def _text(layout: Sequence[Piece], start: int, stop: int, *, fresh: bool) -> str:
+def _text(layout: Sequence[TextPiece], start: int, stop: int, *, fresh: bool) -> str:
     head = layout[start].broken if fresh else layout[start].text
     tail = layout[stop].tail if stop < len(layout) else ""
     return (head + joined(layout[start + 1 : stop]) + tail).rstrip()

@@ -25,7 +25,7 @@ from lagcli.formatters.layout import (
     COMMA,
     RELATION,
     Layout,
-    Piece,
+    TextPiece,
     break_lines,
     joined,
     width_of,
@@ -57,9 +57,9 @@ def pages(documents: Sequence[Document], options: Options) -> str:
     return "\n\n".join("\n".join(page.lines(each)) for each in documents) + "\n"
 
 
-OPENING_BRACE = Piece("{", 1, nesting=1)
-CLOSING_BRACE = Piece("}", 1, nesting=-1)
-COMMA_PIECE = Piece(", ", 2, rank=COMMA, broken="", tail=",")
+OPENING_BRACE = TextPiece("{", 1, nesting=1)
+CLOSING_BRACE = TextPiece("}", 1, nesting=-1)
+COMMA_PIECE = TextPiece(", ", 2, rank=COMMA, broken="", tail=",")
 
 
 class _TextPage:
@@ -147,7 +147,7 @@ class _TextPage:
             return (OPENING_BRACE, *inner, CLOSING_BRACE)
         if isinstance(formula, Unit):
             shown = unicode_unit(formula) if self.unicode else romanized(str(formula))
-            return (Piece(shown, display_width(shown)),)
+            return (TextPiece(shown, display_width(shown)),)
         return self.printer.show(formula)
 
     def equations(self, rows: Sequence[Row], width: int) -> Iterator[str]:
@@ -161,7 +161,7 @@ class _TextPage:
                 head = joined(left) + gap + _EQUALS
                 yield from self.broken(head, right, note, width)
             else:
-                equals = Piece(_EQUALS, 3, rank=RELATION, broken="= ", broken_width=2)
+                equals = TextPiece(_EQUALS, 3, rank=RELATION, broken="= ", broken_width=2)
                 yield from self.broken("", (*left, equals, *right), note, width)
 
     def broken(self, head: str, layout: Layout, note: str, width: int) -> Iterator[str]:

@@ -19,7 +19,7 @@ from lagcli.expression import (
 )
 from lagcli.formatters.grammar import GrammarPrinter, text
 from lagcli.formatters.greek import BY_NAME, romanized
-from lagcli.formatters.layout import PRODUCT, Layout, Piece, joined
+from lagcli.formatters.layout import PRODUCT, Layout, TextPiece, joined
 from lagcli.formatters.naming import name_parts
 from lagcli.formatters.numbers import DecimalParts, decimal_parts
 from lagcli.formatters.precedence import Level
@@ -185,8 +185,8 @@ class AsciiPrinter(GrammarPrinter):
         before = f"{integral.times}*" if integral.times != 1 else ""
         inner = self.show(integral.integrand)
         variable = romanized(integral.variable)
-        opening = Piece("integral(", 9, nesting=1)
-        return (*text(before), opening, *inner, Piece(f", {variable})", 3 + len(variable), -1))
+        opening = TextPiece("integral(", 9, nesting=1)
+        return (*text(before), opening, *inner, TextPiece(f", {variable})", 3 + len(variable), -1))
 
 
 def unicode_name(name: str, primes: int = 0) -> str:
@@ -212,10 +212,10 @@ def _with_primes(name: str, primes: int) -> str:
     return name + {0: "", 1: "′", 2: "″", 3: "‴"}.get(primes, "′" * primes)
 
 
-def _before(after: Expression) -> Piece:
+def _before(after: Expression) -> TextPiece:
     """Put a space between factors, a dot where a space could be misread or overlooked."""
     dotted = _begins_with_digit(after)
-    return Piece("·" if dotted else " ", 1, rank=PRODUCT, broken="· ", broken_width=2)
+    return TextPiece("·" if dotted else " ", 1, rank=PRODUCT, broken="· ", broken_width=2)
 
 
 def _begins_with_digit(node: Expression) -> bool:

@@ -14,7 +14,7 @@ from lagcli.graph.nodes import Call, Graph, Node, Product, Sum, Symbol
 _UNIT = Fraction(1)
 
 
-class Derivation:
+class Differentiation:
     """D with D(ab) = D(a) b + a D(b), D(f(u)) = f'(u) D(u), from its values on symbols.
 
     Parameters
@@ -39,7 +39,7 @@ class Derivation:
                 self.mask |= symbol.mask
                 self._by_bit[symbol.mask] = (symbol, rate)
         self._known: dict[Node, Node] = dict(self._by_bit.values())
-        self._partials: dict[int, Derivation] = {}
+        self._partials: dict[int, Differentiation] = {}
 
     def __call__(self, root: Node) -> Node:
         """D of a node."""
@@ -72,7 +72,9 @@ class Derivation:
         symbol, rate = found
         partial = self._partials.get(changing)
         if partial is None:
-            partial = self._partials[changing] = Derivation(self.graph, {symbol: self.graph.one})
+            partial = self._partials[changing] = Differentiation(
+                self.graph, {symbol: self.graph.one}
+            )
         return self.graph.product(partial(node), rate)
 
     def _rule(self, node: Node) -> Node:
@@ -105,9 +107,9 @@ class Derivation:
         return self.graph.scaled(self.graph.monomial(factors), exponent)
 
 
-def partial(graph: Graph, symbol: Symbol) -> Derivation:
+def partial(graph: Graph, symbol: Symbol) -> Differentiation:
     """d/ds."""
-    return Derivation(graph, {symbol: graph.one})
+    return Differentiation(graph, {symbol: graph.one})
 
 
 def slope(graph: Graph, node: Call, place: int) -> Node:

@@ -11,7 +11,7 @@ from fractions import Fraction
 
 from lagcli import expression as tree
 from lagcli.expression import Expression
-from lagcli.graph.derivative import Derivation, partial
+from lagcli.graph.derivative import Differentiation, partial
 from lagcli.graph.nodes import Graph, Node, Symbol
 
 _UNIT = Fraction(1)
@@ -39,7 +39,7 @@ class GraphReader:
         for order in (0, 1):
             flow |= {graph.symbol(q, order): graph.symbol(q, order + 1) for q in coordinates}
         #: d/dt along any motion
-        self.total_derivative = Derivation(graph, flow)
+        self.total_derivative = Differentiation(graph, flow)
         self._velocities = 0
         for q in coordinates:
             self._velocities |= graph.symbol(q, 1).mask

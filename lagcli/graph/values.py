@@ -13,7 +13,7 @@ from lagcli.graph.nodes import Call, Constant, Node, Product, Sum, Symbol, ances
 Concrete = Callable[[Sequence[Any], Sequence[int]], Any]
 
 
-class Arithmetic(Protocol):
+class ValueArithmetic(Protocol):
     """Where numbers are taken from: `math` and its floats, or `mpmath` and its mpf."""
 
     def number(self, value: Fraction) -> Any:
@@ -95,7 +95,7 @@ class Program:
     def __init__(
         self,
         roots: Sequence[Node],
-        arithmetic: Arithmetic,
+        arithmetic: ValueArithmetic,
         functions: Mapping[str, Concrete] | None = None,
     ) -> None:
         self._functions = functions or {}

@@ -118,16 +118,16 @@ def plot(
     problem: Problem, asked: Asked, result: Result, kind: str, section: str | None, orbits: int
 ) -> Plot:
     """The picture of a motion; see `Motion.plot`."""
-    from lagcli.pictures.kinds import NAMES, Request, picture_of
+    from lagcli.pictures.kinds import NAMES, PictureRequest, picture_of
 
     if kind == "series":
-        from lagcli.pictures.run import Run
+        from lagcli.pictures.run import PicturedRun
         from lagcli.pictures.series import series
 
-        return Plot(series(Run(problem, asked, result=result)), result.refusal)
+        return Plot(series(PicturedRun(problem, asked, result=result)), result.refusal)
     if kind not in NAMES:
         raise ValueError(f"unknown kind {kind!r}: the kinds are {', '.join(NAMES)}")
-    request = Request(kind=kind, section=section, orbits=orbits)
+    request = PictureRequest(kind=kind, section=section, orbits=orbits)
     return Plot(*picture_of(problem, asked, request))
 
 

@@ -38,7 +38,7 @@ class Solution:
         self.complete = answers.complete
 
     @property
-    def sections(self) -> dict[str, Part]:
+    def sections(self) -> dict[str, SolutionPart]:
         """Every section that was asked for, in order."""
         return {name: self[name] for name in self}
 
@@ -51,14 +51,14 @@ class Solution:
     def __contains__(self, name: object) -> bool:
         return name in self._answers.sections
 
-    def __getitem__(self, name: str) -> Part:
+    def __getitem__(self, name: str) -> SolutionPart:
         if name not in self._answers.sections:
             known = ", ".join(self)
             raise KeyError(f"no section {name!r} was requested: available are {known}")
         one = replace(self._answers, sections={name: self._answers.sections[name]}, warnings=())
-        return Part(self._answers.sections[name], self._problem, name, one)
+        return SolutionPart(self._answers.sections[name], self._problem, name, one)
 
-    def __getattr__(self, name: str) -> Part:
+    def __getattr__(self, name: str) -> SolutionPart:
         if name.startswith("_") or name not in self._answers.sections:
             raise AttributeError(
                 f"no section {name!r} was requested: available are {', '.join(self)}"
@@ -94,7 +94,7 @@ class Solution:
         return self.to_html()
 
 
-class Part:
+class SolutionPart:
     """A section or a part of it: names lead to its values, formulas are `Formula`.
 
     A section whose content has the section's own name is that content: the item "x" of
@@ -163,7 +163,7 @@ class Part:
 
 
 def wrapped(value: Any, problem: Problem) -> Any:
-    """A value of the answers for a user: formulas as `Formula`, records as `Part`."""
+    """A value of the answers for a user: formulas as `Formula`, records as `SolutionPart`."""
     match value:
         case Expression():
             return Formula(value, problem)
@@ -172,7 +172,7 @@ def wrapped(value: Any, problem: Problem) -> Any:
         case tuple() | list():
             return tuple(wrapped(each, problem) for each in value)
         case _ if is_dataclass(value):
-            return Part(value, problem)
+            return SolutionPart(value, problem)
         case _:
             return value
 

@@ -13,9 +13,9 @@ from lagcli.diagnostics import Diagnostic, ProblemError, Source
 from lagcli.expression import FUNCTIONS, Expression
 from lagcli.reader import parse_text, read_problem
 from lagcli.reader.compose import compose
-from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.schema import problem_schema
-from lagcli.reader.text import Mistake, Text
+from lagcli.reader.text import Mistake, SourceText
 from lagcli.record import record
 
 #: The keys whose entries have names that a formula may use.
@@ -107,7 +107,7 @@ def _resolved(part: dict[str, Any], schema: dict[str, Any]) -> dict[str, Any]:
     return made
 
 
-def _keys(part: dict[str, Any], root: Node | None, path: list[str]) -> list[Suggestion]:
+def _keys(part: dict[str, Any], root: DocumentNode | None, path: list[str]) -> list[Suggestion]:
     """The keys of the format, and where those are names of the file, the coordinates."""
     found = [
         Suggestion(key, str(value.get("description", "")), is_key=True)
@@ -134,20 +134,20 @@ def _names(lines: list[str], line: int) -> list[Suggestion]:
     return [*found, *(Suggestion(name, "function") for name in FUNCTIONS), Suggestion("pi", "")]
 
 
-def _nodes(lines: list[str], without: int) -> Node | None:
+def _nodes(lines: list[str], without: int) -> DocumentNode | None:
     """The document, without the line that is being written."""
     kept = [each if k != without else "" for k, each in enumerate(lines)]
     return _composed("\n".join(kept))
 
 
-def _composed(text: str) -> Node | None:
+def _composed(text: str) -> DocumentNode | None:
     try:
-        return compose(Text.of(Source("", text.encode("utf-8", "replace").decode())))[0]
+        return compose(SourceText.of(Source("", text.encode("utf-8", "replace").decode())))[0]
     except Mistake:
         return None
 
 
-def _of(root: Node | None, key: str) -> list[str]:
+def _of(root: DocumentNode | None, key: str) -> list[str]:
     """The names under a key, which has a map or a list."""
     match _entry(root, key):
         case Mapping(entries=entries):
@@ -157,7 +157,7 @@ def _of(root: Node | None, key: str) -> list[str]:
     return []
 
 
-def _entry(root: Node | None, key: str) -> Node | None:
+def _entry(root: DocumentNode | None, key: str) -> DocumentNode | None:
     entries = root.entries if isinstance(root, Mapping) else []
     return next((value for name, value in entries if name.label == key), None)
 
@@ -170,7 +170,7 @@ def hover(text: str, line: int, column: int) -> str | None:
     root = _composed(text)
     if root is None:
         return None
-    source = Text.of(Source("", text))
+    source = SourceText.of(Source("", text))
     if line >= len(source.line_starts):
         return None
     offset = source.line_starts[line] + column
@@ -183,7 +183,9 @@ def hover(text: str, line: int, column: int) -> str | None:
     return None
 
 
-def _walk(node: Node, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Node, bool]]:
+def _walk(
+    node: DocumentNode, path: tuple[str, ...]
+) -> Iterator[tuple[tuple[str, ...], DocumentNode, bool]]:
     """Every node with the keys that it stands under, and whether it is one itself."""
     match node:
         case Mapping(entries=entries):
@@ -197,7 +199,7 @@ def _walk(node: Node, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], 
             yield path, node, False
 
 
-def _said(root: Node, node: Scalar, column: int) -> str | None:
+def _said(root: DocumentNode, node: Scalar, column: int) -> str | None:
     """The formula, and the name in it at a column."""
     try:
         shown = _printed(parse_text(node.value))
@@ -208,7 +210,7 @@ def _said(root: Node, node: Scalar, column: int) -> str | None:
     return f"```\n{shown}\n```" + (f"\n\n{named}" if named else "")
 
 
-def _name_said(root: Node, name: str) -> str | None:
+def _name_said(root: DocumentNode, name: str) -> str | None:
     """What a name of the file is: `theta`: coordinate, rad."""
     for key in _NAMED:
         if name in _of(root, key):
@@ -217,7 +219,7 @@ def _name_said(root: Node, name: str) -> str | None:
     return None
 
 
-def _attributes(node: Node | None) -> str:
+def _attributes(node: DocumentNode | None) -> str:
     if isinstance(node, Mapping):
         values = [value.label for _, value in node.entries if isinstance(value, Scalar)]
         return "".join(f", {value}" for value in values)

@@ -51,7 +51,7 @@ _UNIT = Fraction(1)
 
 
 @record(kw_only=True)
-class Solution:
+class ClosedSolution:
     """Trees of the accelerations and multipliers, and the abbreviations that they use in order."""
 
     accelerations: tuple[Expression, ...]
@@ -112,7 +112,7 @@ class ClosedForm:
         self._labels: _Labels | None = None
 
     @cached_property
-    def motion(self) -> Solution | None:
+    def motion(self) -> ClosedSolution | None:
         """The verified solution; None where it fills more than a page, or K has no such factors."""
         form = self.form
         if len(form.independent) < len(form.constraints):
@@ -120,7 +120,7 @@ class ClosedForm:
         matrix = self._bordered(self._mass_matrix)
         bias = [self.graph.scaled(row.bias, -1) for row in form.constraints]
         names = _Names(self.taken, wide=self._wide)
-        steps = _Elimination(self.graph, matrix, [*self._forcing, *bias], names)
+        steps = _ClosedElimination(self.graph, matrix, [*self._forcing, *bias], names)
         if not self._holds(steps, self._bordered(form.mass_matrix), [*form.forcing, *bias]):
             return None
         self._steps = steps
@@ -130,9 +130,9 @@ class ClosedForm:
         if written is None:
             return None
         trees = written.values
-        return Solution(accelerations=trees[:n], multipliers=trees[n:], where=written.where)
+        return ClosedSolution(accelerations=trees[:n], multipliers=trees[n:], where=written.where)
 
-    def _multipliers(self, steps: _Elimination) -> list[Node]:
+    def _multipliers(self, steps: _ClosedElimination) -> list[Node]:
         return [self.graph.scaled(x, -1) for x in steps.solution[len(self.form.q) :]]
 
     @cached_property
@@ -241,7 +241,7 @@ class ClosedForm:
         momenta = [graph.symbol(f"p_{q.name}") for q in form.q]
         right = [graph.difference(p, b) for p, b in zip(momenta, self._first_degree, strict=True)]
         matrix = [list(row) for row in self._mass_matrix]
-        steps = _Elimination(graph, matrix, right, _Names(self.taken, "z", wide=self._wide))
+        steps = _ClosedElimination(graph, matrix, right, _Names(self.taken, "z", wide=self._wide))
         if not self._holds(steps, [list(row) for row in form.mass_matrix], right):
             return None
         square = [
@@ -255,7 +255,7 @@ class ClosedForm:
     # -- the check ------------------------------------------------------------------------------
 
     def _holds(
-        self, steps: _Elimination, matrix: Sequence[Sequence[Node]], right: Sequence[Node]
+        self, steps: _ClosedElimination, matrix: Sequence[Sequence[Node]], right: Sequence[Node]
     ) -> bool:
         """Whether K x = r at a random state, to 50 digits: the steps put in one after another."""
         import mpmath
@@ -325,7 +325,7 @@ def free_stem(stems: Sequence[str], taken: Collection[str]) -> str:
     return stem
 
 
-class _Elimination:
+class _ClosedElimination:
     """The steps: what each name stands for, as nodes of one graph."""
 
     def __init__(

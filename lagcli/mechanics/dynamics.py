@@ -28,7 +28,7 @@ from lagcli.mechanics.motion_at_states import MotionAtStates
 from lagcli.mechanics.row_rank import independent_rows
 from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates
 from lagcli.mechanics.system import System
-from lagcli.mechanics.verify import Verdict, Verifier
+from lagcli.mechanics.verify import Verifier, ZeroVerdict
 from lagcli.record import record
 
 #: Beyond this many unknowns a symbolic solution is no longer readable: matrix form only.
@@ -36,7 +36,7 @@ READABLE_UNKNOWNS = 12
 
 
 @record
-class Motion:
+class SolvedMotion:
     """The solved system.
 
     Attributes
@@ -180,7 +180,7 @@ class Dynamics:
     # -- solution -------------------------------------------------------------------------
 
     @cached_property
-    def motion(self) -> Motion | None:
+    def motion(self) -> SolvedMotion | None:
         """The verified solution; None where the system is singular or too large."""
         kept = self.independent_constraints
         n, m = len(self.system.q), len(kept)
@@ -204,7 +204,7 @@ class Dynamics:
             return None
         undetermined = self._undetermined
         multipliers = tuple(None if k in undetermined else value for k, value in enumerate(chosen))
-        return Motion(accelerations, multipliers, tuple(chosen), verified)
+        return SolvedMotion(accelerations, multipliers, tuple(chosen), verified)
 
     @cached_property
     def _undetermined(self) -> frozenset[int]:
@@ -279,15 +279,15 @@ class Dynamics:
         chosen = zip(self.constraints.equations, self.motion.independent, strict=True)
         return self.on_motion(rate.xreplace({e.multiplier: value for e, value in chosen}))
 
-    def vanishes_on_motion(self, rate: Expr) -> Verdict:
+    def vanishes_on_motion(self, rate: Expr) -> ZeroVerdict:
         """Whether a rate is 0 on the motion, in numbers where the motion has no formulas."""
         on_motion = self.rate_on_motion(rate)
         if on_motion is not None:
             return self.verifier.is_zero(on_motion)
         if self._along is None:
-            return Verdict(None, None)
+            return ZeroVerdict(None, None)
         holds = self.verifier.vanishes_at_random_states([rate], self._along.along)
-        return Verdict(holds, None if holds is None else "50 digits" if holds else "exact")
+        return ZeroVerdict(holds, None if holds is None else "50 digits" if holds else "exact")
 
     @cached_property
     def _along(self) -> MotionAtStates | None:

@@ -34,7 +34,7 @@ from lagcli.wording import CONSERVED, enumerated
 
 
 @record
-class Power:
+class EnergyRate:
     """One contribution to dh/dt, what it is due to, and what that does in a sentence."""
 
     cause: str
@@ -59,22 +59,22 @@ class EnergyFunction:
         )
 
     @cached_property
-    def powers(self) -> tuple[Power, ...]:
+    def powers(self) -> tuple[EnergyRate, ...]:
         """The terms of dh/dt that do not vanish identically."""
         system = self.dynamics.system
         forces = sympy.Add(*(f * v for f, v in zip(system.forces, system.qdot, strict=True)))
         drag = sympy.Add(*(v * system.D.diff(v) for v in system.qdot))
         causes = [
-            Power(
+            EnergyRate(
                 "the explicit time dependence of L",
                 "depends on t explicitly",
                 -system.L.diff(system.t),
                 of_lagrangian=True,
             ),
-            Power("the applied forces", "the applied forces do work", forces),
-            Power("the dissipation", "the dissipation takes energy", -drag),
+            EnergyRate("the applied forces", "the applied forces do work", forces),
+            EnergyRate("the dissipation", "the dissipation takes energy", -drag),
             *(
-                Power(
+                EnergyRate(
                     f"the moving constraint '{e.name}'",
                     f"the constraint '{e.name}' moves and does work",
                     -e.multiplier * e.drift,

@@ -54,10 +54,10 @@ def initial_state(dynamics: Dynamics) -> InitialState:
     ProblemError
         When no state with the given values satisfies the constraints, or when several do.
     """
-    return _Completion(dynamics).state()
+    return _StateCompletion(dynamics).state()
 
 
-class _Completion:
+class _StateCompletion:
     """Fills in what the file leaves out, equation by equation, and then by several together."""
 
     def __init__(self, dynamics: Dynamics) -> None:

@@ -27,14 +27,14 @@ from functools import cached_property
 
 from lagcli.expression import Expression
 from lagcli.graph.angles import AnglePairs, Pair
-from lagcli.graph.derivative import Derivation, partial
+from lagcli.graph.derivative import Differentiation, partial
 from lagcli.graph.nodes import Graph, Node, Symbol, split
 from lagcli.graph.reading import GraphReader
 from lagcli.graph.substitution import Substitution
 from lagcli.graph.values import Concrete
 from lagcli.mechanics.float_states import FloatStates
 from lagcli.mechanics.gathering import gathered
-from lagcli.mechanics.rates import ConstraintRow, Rate
+from lagcli.mechanics.rates import ConstraintRow, VelocityRate
 from lagcli.problem import Constraint, Problem
 
 #: (u, v) -> the terms of the sum that stands before u * v
@@ -79,7 +79,7 @@ class MatrixForm:
         self._weights: dict[tuple[tuple[Node, Fraction], ...], Node] = {}
         self._by_coordinate = tuple(partial(graph, q) for q in self.q)
         #: d/dt with q' held: what is left of a rate where q'' = 0
-        self.drift_of = Derivation(
+        self.drift_of = Differentiation(
             graph, {self.t: graph.one, **dict(zip(self.q, self.qdot, strict=True))}
         )
 
@@ -149,16 +149,18 @@ class MatrixForm:
         return self.graph.zero if formula is None else self._with_rates(formula)
 
     @cached_property
-    def rates(self) -> tuple[Rate, ...]:
+    def rates(self) -> tuple[VelocityRate, ...]:
         """The velocities that L and D are made of."""
         one, zero = self.graph.one, self.graph.zero
         present = self.lagrangian.mask | self._dissipation.mask
-        rates = [Rate(v, {i: one}, zero) for i, v in enumerate(self.qdot) if v.mask & present]
+        rates = [
+            VelocityRate(v, {i: one}, zero) for i, v in enumerate(self.qdot) if v.mask & present
+        ]
         for symbol, position in self.read.rates.items():
             if symbol.mask & present:
                 jacobian = self._gradient(position)
                 bias = self.drift_of(self.drift_of(position))
-                rates.append(Rate(symbol, jacobian, bias))
+                rates.append(VelocityRate(symbol, jacobian, bias))
         return tuple(rates)
 
     def _gradient(self, node: Node) -> dict[int, Node]:

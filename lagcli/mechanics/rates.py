@@ -7,7 +7,7 @@ from lagcli.record import record
 
 
 @record
-class Rate:
+class VelocityRate:
     """A velocity w in L: that of a point or definition, or q' itself."""
 
     symbol: Symbol

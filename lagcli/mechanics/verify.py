@@ -29,7 +29,7 @@ _NONZERO = mpf(10) ** -20
 
 
 @record
-class Verdict:
+class ZeroVerdict:
     """`holds` is None where neither way decided; `how` says which way did."""
 
     holds: bool | None
@@ -43,18 +43,18 @@ class Verifier:
         self.constraints = constraints
         self.states = states
 
-    def is_zero(self, expression: Expr) -> Verdict:
+    def is_zero(self, expression: Expr) -> ZeroVerdict:
         """Whether the expression vanishes wherever the constraints hold."""
         if expression.is_zero:
-            return Verdict(True, "exact")
+            return ZeroVerdict(True, "exact")
         exact = is_zero(expression, self.constraints.relations)
         if exact is True:
-            return Verdict(True, "exact")
+            return ZeroVerdict(True, "exact")
         numeric = self.vanishes_at_random_states([expression])
         if numeric is None:
-            return Verdict(exact, None if exact is None else "exact")
+            return ZeroVerdict(exact, None if exact is None else "exact")
         # a value that is not 0 at one state is a proof; 0 at a few states is none
-        return Verdict(numeric, "50 digits" if numeric else "exact")
+        return ZeroVerdict(numeric, "50 digits" if numeric else "exact")
 
     def identically_zero(self, expression: Expr) -> bool | None:
         """Whether the expression is 0 for all values of its symbols, on the constraints or not."""
@@ -66,7 +66,7 @@ class Verifier:
         states = [{s: random_value(source, s, 0.3, 1.3) for s in symbols} for _ in range(_STATES)]
         return self._vanishes_at([expression], iter(states))
 
-    def all_zero(self, expressions: Sequence[Expr]) -> Verdict:
+    def all_zero(self, expressions: Sequence[Expr]) -> ZeroVerdict:
         """Whether all vanish; the weakest of the single verdicts."""
         how: Verification = "exact"
         for expression in expressions:
@@ -75,7 +75,7 @@ class Verifier:
                 return verdict
             if verdict.how == "50 digits":
                 how = "50 digits"
-        return Verdict(True, how)
+        return ZeroVerdict(True, how)
 
     def vanishes_at_random_states(
         self,

@@ -20,7 +20,7 @@ RuleRole = Literal["event", "bound", "certificate", "energy", "zero"]
 
 
 @record(kw_only=True)
-class Label:
+class DrawnName:
     """A name in the notations of the writers.
 
     Attributes
@@ -36,22 +36,22 @@ class Label:
     tex: str
 
 
-def words(text: str) -> Label:
+def words(text: str) -> DrawnName:
     """A label without formulas."""
     ascii_ = text.replace("\N{MINUS SIGN}", "-")
-    return Label(plain=text, ascii=ascii_, tex=text.replace("$", r"\$"))
+    return DrawnName(plain=text, ascii=ascii_, tex=text.replace("$", r"\$"))
 
 
-def symbol(letter: str) -> Label:
+def symbol(letter: str) -> DrawnName:
     """A letter set as a formula."""
-    return Label(plain=letter, ascii=letter, tex=f"${letter}$")
+    return DrawnName(plain=letter, ascii=letter, tex=f"${letter}$")
 
 
 @record(kw_only=True)
 class Axis:
     """An axis from `low` to `high`; an angle has its marks at multiples of pi."""
 
-    label: Label
+    label: DrawnName
     low: float
     high: float
     logarithmic: bool = False
@@ -65,7 +65,7 @@ class Curve:
     pieces: tuple[Piece, ...]
     role: CurveRole
     colour: int = 0
-    label: Label | None = None
+    label: DrawnName | None = None
 
 
 @record(kw_only=True)
@@ -75,7 +75,7 @@ class Marks:
     points: Piece
     role: MarkRole
     colour: int = 0
-    label: Label | None = None
+    label: DrawnName | None = None
 
 
 @record(kw_only=True)
@@ -86,7 +86,7 @@ class Rule:
     of: Literal["x", "y"]
     role: RuleRole
     colour: int = 0
-    label: Label | None = None
+    label: DrawnName | None = None
 
 
 @record(kw_only=True)
@@ -95,7 +95,7 @@ class Band:
 
     low: float
     high: float
-    label: Label | None = None
+    label: DrawnName | None = None
 
 
 @record(kw_only=True)
@@ -114,7 +114,7 @@ class Cells:
     x: tuple[float, ...]
     y: tuple[float, ...]
     values: tuple[tuple[float | None, ...], ...]
-    label: Label
+    label: DrawnName
 
 
 Item = Curve | Marks | Rule | Band | Cells

@@ -21,7 +21,7 @@ from lagcli.pictures.drawing import (
     Rule,
     words,
 )
-from lagcli.pictures.run import Run, largest_so_far, run_with, short
+from lagcli.pictures.run import PicturedRun, largest_so_far, run_with, short
 from lagcli.problem import JACOBI_FUNCTION, Problem, charge_of
 from lagcli.reader.columns import Shown
 
@@ -76,7 +76,7 @@ def _candidates(problem: Problem) -> list[Shown]:
     return names + [(s.name, charge_of(s)) for s in problem.symmetries if s.name not in taken]
 
 
-def _changes(run: Run, column: int) -> tuple[Piece, ...]:
+def _changes(run: PicturedRun, column: int) -> tuple[Piece, ...]:
     """|Q - Q at the start of the piece| / largest |Q|."""
     scale = max((abs(value) for value in run.values(column)), default=0.0) or 1.0
     return tuple(

@@ -18,8 +18,8 @@ from lagcli.pictures.drawing import (
     CannotDraw,
     Cells,
     Curve,
+    DrawnName,
     Item,
-    Label,
     Marks,
     Panel,
     Picture,
@@ -175,8 +175,8 @@ def _in_equal_ratios(values: Sequence[float]) -> bool:
     return max(ratios) - min(ratios) < 1e-9 * ratios[0]
 
 
-def _at_start(label: Label) -> Label:
-    return Label(
+def _at_start(label: DrawnName) -> DrawnName:
+    return DrawnName(
         plain=f"{label.plain}(0)",
         ascii=f"{label.ascii}(0)",
         tex=f"{label.tex.rstrip('$')}(0)$",

@@ -21,7 +21,7 @@ from lagcli.pictures.drawing import (
     words,
 )
 from lagcli.pictures.drift import FLOOR
-from lagcli.pictures.run import Run, largest_so_far, short
+from lagcli.pictures.run import PicturedRun, largest_so_far, short
 from lagcli.problem import Problem
 from lagcli.record import replace
 
@@ -41,11 +41,11 @@ def error(
     CannotDraw
         Where the reference does not reach so far.
     """
-    run = Run(problem, asked, progress)
+    run = PicturedRun(problem, asked, progress)
     finer = replace(
         asked, accuracy=max(asked.accuracy * _FINER, 1e-25), digits=_DIGITS, until=asked.until
     )
-    reference = Run(problem, finer, progress)
+    reference = PicturedRun(problem, finer, progress)
     held = run.result.certificate
     if reference.certain_until <= 0:
         raise CannotDraw(f"there is no reference to compare with: {reference.result.refusal}")
@@ -70,7 +70,7 @@ def error(
     return picture, run.result.refusal
 
 
-def _bounds(run: Run) -> list[Rule]:
+def _bounds(run: PicturedRun) -> list[Rule]:
     held = run.result.certificate
     bound = max(max(held.global_error.values(), default=0.0), FLOOR)
     rules = [
@@ -83,7 +83,9 @@ def _bounds(run: Run) -> list[Rule]:
     return rules
 
 
-def _errors(run: Run, reference: Run, place: int, scale: float) -> tuple[Piece, ...]:
+def _errors(
+    run: PicturedRun, reference: PicturedRun, place: int, scale: float
+) -> tuple[Piece, ...]:
     """|x - reference| / scale at the rows that both have; rows beside an event differ in time."""
     known = {row[0]: row[place] for row in reference.result.rows}
     found: list[Piece] = []

@@ -37,7 +37,7 @@ from lagcli.pictures.drawing import (
     words,
 )
 from lagcli.pictures.labels import Labels
-from lagcli.pictures.run import Run, run_with
+from lagcli.pictures.run import PicturedRun, run_with
 from lagcli.pictures.turning import wrapped
 from lagcli.problem import Expect, Problem
 from lagcli.reader.columns import Shown
@@ -177,7 +177,7 @@ def _marked(rests: list[Rest], low: float, high: float) -> list[Item]:
 
 
 def _window(
-    made: Flow, rests: list[Rest], run: Run | None
+    made: Flow, rests: list[Rest], run: PicturedRun | None
 ) -> tuple[tuple[float, float], float, float]:
     """The range of q, the largest q' and how long a motion is followed."""
     seen = [] if run is None else run.values(1)
@@ -251,7 +251,7 @@ def _line(
     return tuple(tuple((x, sign * y) for x, y in line) for line in lines)
 
 
-def _shown(run: Run, made: Flow) -> tuple[tuple[tuple[float, float], ...], ...]:
+def _shown(run: PicturedRun, made: Flow) -> tuple[tuple[tuple[float, float], ...], ...]:
     pieces = run.curve(1, 2)
     if made.turns:
         return tuple(part for piece in pieces for part in wrapped(piece))

@@ -10,7 +10,7 @@ import html
 from base64 import b64encode
 
 from lagcli.formatters.plain import harmless
-from lagcli.pictures.drawing import Label, Panel, Picture
+from lagcli.pictures.drawing import DrawnName, Panel, Picture
 from lagcli.pictures.figure import to_bytes
 from lagcli.pictures.page import to_html
 from lagcli.pictures.scene import Scene
@@ -59,7 +59,7 @@ def _panel_in_words(panel: Panel) -> str:
     return f"{_span(y.label, y.low, y.high)}, over {_span(x.label, x.low, x.high)}"
 
 
-def _span(label: Label, low: float, high: float) -> str:
+def _span(label: DrawnName, low: float, high: float) -> str:
     return f"{label.plain} from {low:.3g} to {high:.3g}"
 
 

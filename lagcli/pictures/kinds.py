@@ -13,7 +13,7 @@ Progress = Callable[[float], None]
 
 
 @record(kw_only=True)
-class Request:
+class PictureRequest:
     """Which picture.
 
     Attributes
@@ -33,7 +33,7 @@ class Request:
 
 
 def picture_of(
-    problem: Problem, asked: Asked, request: Request, progress: Progress | None = None
+    problem: Problem, asked: Asked, request: PictureRequest, progress: Progress | None = None
 ) -> tuple[Picture, str]:
     """The picture, and why the accuracy was not reached to the end; empty where it was.
 
@@ -50,51 +50,55 @@ def picture_of(
 Drawn = tuple[Picture, str]
 
 
-def _series(problem: Problem, asked: Asked, _: Request, progress: Progress | None) -> Drawn:
-    from lagcli.pictures.run import Run
+def _series(problem: Problem, asked: Asked, _: PictureRequest, progress: Progress | None) -> Drawn:
+    from lagcli.pictures.run import PicturedRun
     from lagcli.pictures.series import series
 
-    run = Run(problem, asked, progress)
+    run = PicturedRun(problem, asked, progress)
     return series(run), run.result.refusal
 
 
-def _path(problem: Problem, asked: Asked, _: Request, progress: Progress | None) -> Drawn:
+def _path(problem: Problem, asked: Asked, _: PictureRequest, progress: Progress | None) -> Drawn:
     from lagcli.pictures.path import path
 
     return path(problem, asked, progress)
 
 
-def _drift(problem: Problem, asked: Asked, _: Request, progress: Progress | None) -> Drawn:
+def _drift(problem: Problem, asked: Asked, _: PictureRequest, progress: Progress | None) -> Drawn:
     from lagcli.pictures.drift import drift
 
     return drift(problem, asked, progress)
 
 
-def _error(problem: Problem, asked: Asked, _: Request, progress: Progress | None) -> Drawn:
+def _error(problem: Problem, asked: Asked, _: PictureRequest, progress: Progress | None) -> Drawn:
     from lagcli.pictures.error import error
 
     return error(problem, asked, progress)
 
 
-def _phase(problem: Problem, asked: Asked, request: Request, progress: Progress | None) -> Drawn:
+def _phase(
+    problem: Problem, asked: Asked, request: PictureRequest, progress: Progress | None
+) -> Drawn:
     from lagcli.pictures.portrait import plane, portrait
 
     return (plane if request.chosen else portrait)(problem, asked, progress)
 
 
-def _potential(problem: Problem, asked: Asked, _: Request, __: Progress | None) -> Drawn:
+def _potential(problem: Problem, asked: Asked, _: PictureRequest, __: Progress | None) -> Drawn:
     from lagcli.pictures.potential import potential
 
     return potential(problem, asked)
 
 
-def _poincare(problem: Problem, asked: Asked, request: Request, progress: Progress | None) -> Drawn:
+def _poincare(
+    problem: Problem, asked: Asked, request: PictureRequest, progress: Progress | None
+) -> Drawn:
     from lagcli.pictures.section import section
 
     return section(problem, asked, request.section, request.orbits, progress, chosen=request.chosen)
 
 
-_KINDS: dict[str, Callable[[Problem, Asked, Request, Progress | None], Drawn]] = {
+_KINDS: dict[str, Callable[[Problem, Asked, PictureRequest, Progress | None], Drawn]] = {
     "series": _series,
     "phase": _phase,
     "path": _path,

@@ -16,7 +16,7 @@ from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.layout import joined
 from lagcli.formatters.unicode import AsciiPrinter, UnicodePrinter
 from lagcli.formatters.units import latex_unit, unicode_unit
-from lagcli.pictures.drawing import Label, words
+from lagcli.pictures.drawing import DrawnName, words
 from lagcli.problem import JACOBI_FUNCTION, Problem
 from lagcli.units import Unit, read_unit
 
@@ -38,16 +38,16 @@ class Labels:
             )
         )
 
-    def of(self, expression: Expression | None, name: str = "") -> Label:
+    def of(self, expression: Expression | None, name: str = "") -> DrawnName:
         """A column without its unit; None is the time."""
         if expression is None:
-            return Label(plain="t", ascii="t", tex="$t$")
+            return DrawnName(plain="t", ascii="t", tex="$t$")
         if expression == JACOBI_FUNCTION or name == "energy":
             return words("energy")
         shown = joined(UnicodePrinter().show(expression))
         if len(shown) > _LONGEST or any(n.name == JACOBI_FUNCTION.name for n in _names(expression)):
             return words(name)
-        return Label(
+        return DrawnName(
             plain=shown,
             ascii=joined(AsciiPrinter().show(expression)),
             tex=f"${self._latex.show(expression).text}$",
@@ -75,7 +75,7 @@ class Labels:
             powers[name] = powers.get(name, Fraction(0)) - primes * power
         return Unit(tuple((n, p) for n, p in powers.items() if p), unit.number)
 
-    def axis(self, expression: Expression | None, name: str = "") -> Label:
+    def axis(self, expression: Expression | None, name: str = "") -> DrawnName:
         """A column with its unit in brackets behind it."""
         return with_unit(self.of(expression, name), self.unit(expression))
 
@@ -112,11 +112,11 @@ class Labels:
         return Reader(names)
 
 
-def with_unit(label: Label, unit: Unit | None) -> Label:
+def with_unit(label: DrawnName, unit: Unit | None) -> DrawnName:
     """A label and, in brackets, its unit."""
     if unit is None:
         return label
-    return Label(
+    return DrawnName(
         plain=f"{label.plain} ({unicode_unit(unit)})",
         ascii=f"{label.ascii} ({unit})",
         tex=f"{label.tex} (${latex_unit(unit)[0]}$)",

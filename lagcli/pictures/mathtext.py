@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from lagcli.pictures.drawing import Label
+from lagcli.pictures.drawing import DrawnName
 
 
-def tex(label: Label) -> str:
+def tex(label: DrawnName) -> str:
     """A label as mathtext reads it; what it cannot read is written plainly."""
     return label.tex if _is_readable(label.tex) else plainly(label.plain)
 

@@ -15,7 +15,7 @@ from lagcli.expression import Expression, Name
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node
 from lagcli.mechanics.derivation import Derivation
-from lagcli.mechanics.reduction.one_freedom import OneFreedom as Reduced
+from lagcli.mechanics.reduction.one_freedom import ReducedFreedom as Reduced
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.numerics.arithmetic import Doubles, UndefinedFunction
 from lagcli.numerics.constants import constants_of
@@ -32,7 +32,7 @@ class EnergyNotConserved(CannotDraw):
     """One degree of freedom without an energy to draw levels of."""
 
 
-class OneFreedom:
+class RemainingFreedom:
     """E(q, q') of the coordinate that is left.
 
     Parameters

@@ -9,8 +9,8 @@ from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,
     Curve,
+    DrawnName,
     Item,
-    Label,
     Marks,
     Panel,
     Picture,
@@ -21,7 +21,7 @@ from lagcli.pictures.drawing import (
 )
 from lagcli.pictures.labels import with_unit
 from lagcli.pictures.points import AXES, Track, column_name, components, tracks
-from lagcli.pictures.run import Run, run_with
+from lagcli.pictures.run import PicturedRun, run_with
 from lagcli.problem import Problem
 
 #: A view is at least so wide beside its length.
@@ -54,7 +54,9 @@ def path(
     return picture, run.result.refusal
 
 
-def _view(run: Run, found: tuple[Track, ...], across: str, up: str, *, named: bool) -> Panel:
+def _view(
+    run: PicturedRun, found: tuple[Track, ...], across: str, up: str, *, named: bool
+) -> Panel:
     items: list[Item] = []
     everything: list[Point] = []
     shown = [track for track in found if {across, up} <= set(track.axes)]
@@ -94,7 +96,7 @@ def _view(run: Run, found: tuple[Track, ...], across: str, up: str, *, named: bo
     )
 
 
-def _once(text: str, colour: int, *, named: bool) -> Label | None:
+def _once(text: str, colour: int, *, named: bool) -> DrawnName | None:
     """The key names the signs of the first path only."""
     return words(text) if named and colour == 0 else None
 

@@ -19,8 +19,8 @@ from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,
     Curve,
+    DrawnName,
     Item,
-    Label,
     Marks,
     Panel,
     Picture,
@@ -29,8 +29,8 @@ from lagcli.pictures.drawing import (
 )
 from lagcli.pictures.flow import flow
 from lagcli.pictures.labels import Labels
-from lagcli.pictures.one_freedom import EnergyNotConserved, OneFreedom
-from lagcli.pictures.run import Run, run_with
+from lagcli.pictures.one_freedom import EnergyNotConserved, RemainingFreedom
+from lagcli.pictures.run import PicturedRun, run_with
 from lagcli.pictures.turning import wrapped
 from lagcli.pictures.window import Window
 from lagcli.problem import Problem
@@ -55,7 +55,7 @@ def portrait(
         Where more than one degree of freedom is left, or the equations depend on the time.
     """
     try:
-        freedom = OneFreedom(problem)
+        freedom = RemainingFreedom(problem)
     except EnergyNotConserved:
         return flow(problem, asked, progress)
     labels = Labels(problem)
@@ -79,7 +79,7 @@ def portrait(
     return picture, run.result.refusal if run is not None else ""
 
 
-def constants(freedom: OneFreedom) -> tuple[str, ...]:
+def constants(freedom: RemainingFreedom) -> tuple[str, ...]:
     """The momenta that the picture is for, and what it leaves out."""
     notes = []
     if freedom.momenta:
@@ -91,12 +91,12 @@ def constants(freedom: OneFreedom) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def _levels(freedom: OneFreedom, window: Window) -> list[Item]:
+def _levels(freedom: RemainingFreedom, window: Window) -> list[Item]:
     lines = Contours(freedom.energy, grid(*window.q, _ACROSS), grid(*window.v, _UP))
     height = window.highest - window.lowest
     named = window.separatrices
     items: list[Item] = []
-    label: Label | None = words("energy levels")
+    label: DrawnName | None = words("energy levels")
     energies = [window.lowest + height * (k / _LEVELS) ** 2 for k in range(1, _LEVELS + 1)]
     energies = [e for e in energies if all(abs(e - n) >= _TOO_NEAR * height for n in named)]
     inner = min(named, default=math.inf)
@@ -134,7 +134,7 @@ def _equilibria(window: Window) -> list[Item]:
     return items
 
 
-def _motion(run: Run, window: Window) -> list[Item]:
+def _motion(run: PicturedRun, window: Window) -> list[Item]:
     pieces = run.curve(1, 2)
     if not pieces:
         return []

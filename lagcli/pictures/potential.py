@@ -9,8 +9,8 @@ from lagcli.pictures.contours import grid
 from lagcli.pictures.drawing import (
     Axis,
     Curve,
+    DrawnName,
     Item,
-    Label,
     Marks,
     Panel,
     Picture,
@@ -19,7 +19,7 @@ from lagcli.pictures.drawing import (
     words,
 )
 from lagcli.pictures.labels import Labels, with_unit
-from lagcli.pictures.one_freedom import OneFreedom
+from lagcli.pictures.one_freedom import RemainingFreedom
 from lagcli.pictures.portrait import constants
 from lagcli.pictures.window import Window
 from lagcli.problem import JACOBI_FUNCTION, Problem
@@ -38,7 +38,7 @@ def potential(problem: Problem, asked: Asked) -> tuple[Picture, str]:
         Where more than one degree of freedom is left, or the energy is not conserved.
     """
     del asked  # states are drawn, no motion
-    freedom = OneFreedom(problem)
+    freedom = RemainingFreedom(problem)
     labels, window = Labels(problem), Window(freedom, Labels(problem))
     u, energy = freedom.potential, window.energy
     low, high = window.q
@@ -76,23 +76,23 @@ def _rounded(x: float, width: float) -> float:
     return 0.0 if abs(x) < 1e-12 * width else x
 
 
-def _value(energy: float) -> Label:
+def _value(energy: float) -> DrawnName:
     shown = f"{energy:.6g}"
     minus = shown.replace("-", "\N{MINUS SIGN}")
-    return Label(plain=f"E = {minus}", ascii=f"E = {shown}", tex=f"$E = {shown}$")
+    return DrawnName(plain=f"E = {minus}", ascii=f"E = {shown}", tex=f"$E = {shown}$")
 
 
-def _symbol(freedom: OneFreedom) -> Label:
-    name = Label(plain="U_eff", ascii="U_eff", tex=r"$U_{\mathrm{eff}}$")
-    return name if freedom.momenta else Label(plain="U", ascii="U", tex="$U$")
+def _symbol(freedom: RemainingFreedom) -> DrawnName:
+    name = DrawnName(plain="U_eff", ascii="U_eff", tex=r"$U_{\mathrm{eff}}$")
+    return name if freedom.momenta else DrawnName(plain="U", ascii="U", tex="$U$")
 
 
-def _energies(labels: Labels, freedom: OneFreedom) -> Label:
+def _energies(labels: Labels, freedom: RemainingFreedom) -> DrawnName:
     return with_unit(_symbol(freedom), labels.unit(JACOBI_FUNCTION))
 
 
 def _pieces(
-    freedom: OneFreedom, window: Window, bottom: float, top: float
+    freedom: RemainingFreedom, window: Window, bottom: float, top: float
 ) -> tuple[tuple[Point, ...], ...]:
     """The curve where it is defined; what is far outside of the panel is left out."""
     margin = 2 * (top - bottom)

@@ -27,7 +27,7 @@ Progress = Callable[[float], None]
 WITHOUT_BOUND = 20.0
 
 
-class Run:
+class PicturedRun:
     """One motion with its columns; the first is the time.
 
     Parameters
@@ -189,7 +189,7 @@ def run_with(
     columns: Sequence[tuple[str, Expression | None]],
     progress: Progress | None = None,
     **changed: object,
-) -> Run:
+) -> PicturedRun:
     """A run with other columns than those asked for; the time is added."""
     shown = (Column("t", None), *(Column(name, expression) for name, expression in columns))
-    return Run(problem, replace(asked, columns=shown, **changed), progress)
+    return PicturedRun(problem, replace(asked, columns=shown, **changed), progress)

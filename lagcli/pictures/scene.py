@@ -17,7 +17,7 @@ from lagcli.numerics.columns import Column
 from lagcli.pictures.drawing import Piece
 from lagcli.pictures.forces import Arrow, arrows
 from lagcli.pictures.points import AXES, mass_of, tracks
-from lagcli.pictures.run import WITHOUT_BOUND, Run
+from lagcli.pictures.run import WITHOUT_BOUND, PicturedRun
 from lagcli.pictures.surfaces import one_sided, surfaces
 from lagcli.problem import Problem
 from lagcli.record import record, replace
@@ -140,7 +140,7 @@ class _Maker:
         self.formulas: dict[str, Expression] = {}
         self._gather()
         columns = (Column("t", None), *(Column(n, f) for n, f in self.formulas.items()))
-        self.run = Run(problem, replace(asked, columns=columns), progress)
+        self.run = PicturedRun(problem, replace(asked, columns=columns), progress)
         self.rows = [row for piece in self.run.pieces for row in piece]
 
     def _gather(self) -> None:

@@ -31,7 +31,7 @@ from lagcli.pictures.drawing import (
     extent,
 )
 from lagcli.pictures.labels import Labels
-from lagcli.pictures.run import Run, run_with, short
+from lagcli.pictures.run import PicturedRun, run_with, short
 from lagcli.pictures.starts import other_starts
 from lagcli.problem import Problem
 from lagcli.reader.columns import Shown, read_along
@@ -48,7 +48,7 @@ _FEW = 20
 
 
 @record(kw_only=True)
-class Surface:
+class SectionSurface:
     """Where the motion is cut: an expression that passes 0 upwards, or a period of the time."""
 
     text: str
@@ -99,7 +99,7 @@ def section(
     ), refusal
 
 
-def _surface(problem: Problem, where: str | None) -> Surface:
+def _surface(problem: Problem, where: str | None) -> SectionSurface:
     if where is None:
         name = problem.coordinates[0].name
         if len(problem.coordinates) < 2:
@@ -107,27 +107,27 @@ def _surface(problem: Problem, where: str | None) -> Surface:
                 "a motion of one coordinate is cut at the period of what drives it: "
                 "--section t=2*pi"
             )
-        return Surface(text=f"{name} = 0", expression=Name(name))
+        return SectionSurface(text=f"{name} = 0", expression=Name(name))
     left, equals, right = where.partition("=")
     if equals and left.strip() == "t":
         [(period,)] = numbers_of(problem, [read_along(problem, right, "--section")])
         if not 0 < period < math.inf:
             raise CannotDraw(f"--section {where}: the period must be a time after 0")
-        return Surface(text=f"t = 0, T, 2 T, … with T = {period:.6g}", period=period)
+        return SectionSurface(text=f"t = 0, T, 2 T, … with T = {period:.6g}", period=period)
     expression = read_along(problem, left, "--section")
     if equals:
         other = read_along(problem, right, "--section")
         expression = Sum((expression, Negative(other)))
-    return Surface(text=where if equals else f"{where} = 0", expression=expression)
+    return SectionSurface(text=where if equals else f"{where} = 0", expression=expression)
 
 
-def _plain(surface: Surface) -> str | None:
+def _plain(surface: SectionSurface) -> str | None:
     """The coordinate that is 0 in the section, where it is that simple."""
     expression = surface.expression
     return expression.name if isinstance(expression, Name) and not expression.primes else None
 
 
-def _plane(problem: Problem, asked: Asked, surface: Surface, *, chosen: bool) -> list[Shown]:
+def _plane(problem: Problem, asked: Asked, surface: SectionSurface, *, chosen: bool) -> list[Shown]:
     """The two columns of the picture: a coordinate that is not the section's, and its velocity."""
     if chosen:
         shown: list[Shown] = [(c.name, c.expression) for c in asked.columns[1:]]
@@ -145,10 +145,10 @@ def _plane(problem: Problem, asked: Asked, surface: Surface, *, chosen: bool) ->
 def _passages(
     problem: Problem,
     asked: Asked,
-    surface: Surface,
+    surface: SectionSurface,
     columns: Sequence[Shown],
     progress: Progress | None,
-) -> tuple[list[tuple[float | None, ...]], Run]:
+) -> tuple[list[tuple[float | None, ...]], PicturedRun]:
     """The rows in the section, and the run they are of."""
     if surface.expression is None:
         count = int(asked.until / surface.period * (1 + 1e-12))
@@ -171,7 +171,7 @@ def _run_at(
     times: Sequence[float],
     columns: Sequence[Shown],
     progress: Progress | None,
-) -> Run:
+) -> PicturedRun:
     """A run with rows at these times, the beginning and the end."""
     every = tuple(sorted({0.0, *times, asked.until}))
     return run_with(problem, asked, columns, progress, times=every, samples=len(every))
@@ -255,9 +255,9 @@ def _picture(
     problem: Problem,
     labels: Labels,
     columns: Sequence[Shown],
-    surface: Surface,
+    surface: SectionSurface,
     points: Sequence[list[Point]],
-    runs: Sequence[Run],
+    runs: Sequence[PicturedRun],
 ) -> Picture:
     axes = []
     everything = [point for line in points for point in line]
@@ -275,7 +275,9 @@ def _picture(
     return Picture(title=problem.title, panels=(panel,), notes=notes)
 
 
-def _told(surface: Surface, points: Sequence[list[Point]], runs: Sequence[Run]) -> str:
+def _told(
+    surface: SectionSurface, points: Sequence[list[Point]], runs: Sequence[PicturedRun]
+) -> str:
     count = sum(map(len, points))
     upwards = "" if surface.expression is None else " upwards"
     many = (
@@ -286,7 +288,7 @@ def _told(surface: Surface, points: Sequence[list[Point]], runs: Sequence[Run]) 
     return f"{count} passages{upwards} through {surface.text} {who}{few}."
 
 
-def _certain(runs: Sequence[Run]) -> tuple[str, ...]:
+def _certain(runs: Sequence[PicturedRun]) -> tuple[str, ...]:
     cut = [run for run in runs if run.is_cut_short]
     if len(runs) == 1:
         return runs[0].notes()

@@ -8,19 +8,19 @@ from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,
     Curve,
+    DrawnName,
     Item,
-    Label,
     Panel,
     Picture,
 )
 from lagcli.pictures.labels import Labels, with_unit
-from lagcli.pictures.run import Run
+from lagcli.pictures.run import PicturedRun
 
 #: More curves than these are not told apart in one panel.
 _MOST = 7
 
 
-def series(run: Run) -> Picture:
+def series(run: PicturedRun) -> Picture:
     """The picture of all columns of a run.
 
     Raises
@@ -37,7 +37,7 @@ def series(run: Run) -> Picture:
     return Picture(title=run.problem.title, panels=tuple(panels), notes=run.notes())
 
 
-def _groups(run: Run) -> list[list[int]]:
+def _groups(run: PicturedRun) -> list[list[int]]:
     """The places of the columns of each panel."""
     groups: dict[object, list[int]] = {}
     for place, column in enumerate(run.columns, start=1):
@@ -59,7 +59,7 @@ def _kind(column: Column, labels: Labels) -> object:
     return unit or column.name
 
 
-def _panel(run: Run, places: list[int], *, named: bool) -> Panel:
+def _panel(run: PicturedRun, places: list[int], *, named: bool) -> Panel:
     columns = [run.columns[place - 1] for place in places]
     labels = [run.labels.of(column.expression, column.name) for column in columns]
     items: list[Item] = list(run.over_time(named=named))
@@ -73,11 +73,11 @@ def _panel(run: Run, places: list[int], *, named: bool) -> Panel:
     return Panel(x=run.time_axis(), y=y, items=tuple(items))
 
 
-def _together(labels: list[Label]) -> Label:
+def _together(labels: list[DrawnName]) -> DrawnName:
     """`x, y`; of many the first and the last."""
     shown = labels if len(labels) <= 3 else [labels[0], labels[-1]]
     between = ", " if len(labels) <= 3 else " … "
-    return Label(
+    return DrawnName(
         plain=between.join(label.plain for label in shown),
         ascii=between.replace("…", "...").join(label.ascii for label in shown),
         tex=between.join(label.tex for label in shown),

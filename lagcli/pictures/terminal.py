@@ -12,8 +12,8 @@ from lagcli.pictures.drawing import (
     Axis,
     Band,
     Curve,
+    DrawnName,
     Item,
-    Label,
     Marks,
     Panel,
     Picture,
@@ -72,7 +72,7 @@ class _Writer:
         plain = {"θ": "theta", "′": "'", "−": "-", "–": "-", "…": "...", "≤": "<=", "·": "."}
         return note if self.terminal.unicode else "".join(plain.get(c, c) for c in note)
 
-    def name(self, label: Label) -> str:
+    def name(self, label: DrawnName) -> str:
         """A label in the letters that there are."""
         return label.plain if self.terminal.unicode else label.ascii
 

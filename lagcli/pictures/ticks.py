@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from lagcli.pictures.drawing import Axis, Label
+from lagcli.pictures.drawing import Axis, DrawnName
 from lagcli.record import record
 
 
@@ -14,7 +14,7 @@ class Tick:
     """A mark of an axis."""
 
     at: float
-    label: Label
+    label: DrawnName
 
 
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
@@ -42,7 +42,7 @@ def _step(least: float) -> float:
     return next(power * step for step in _STEPS if power * step >= least * (1 - 1e-9))
 
 
-def _number(value: float, step: float) -> Label:
+def _number(value: float, step: float) -> DrawnName:
     value = 0.0 if abs(value) < step / 2 else value
     size = max(abs(value), step)
     if 1e-4 <= size < 1e6 and step >= 1e-6:
@@ -54,15 +54,15 @@ def _number(value: float, step: float) -> Label:
     mantissa, _, exponent = f"{value:.3g}".partition("e")
     if not exponent:
         return _plain(mantissa)
-    return Label(
+    return DrawnName(
         plain=f"{_minus(mantissa)}e{int(exponent)}",
         ascii=f"{mantissa}e{int(exponent)}",
         tex=rf"${mantissa} \times 10^{{{int(exponent)}}}$",
     )
 
 
-def _plain(shown: str) -> Label:
-    return Label(plain=_minus(shown), ascii=shown, tex=_minus(shown))
+def _plain(shown: str) -> DrawnName:
+    return DrawnName(plain=_minus(shown), ascii=shown, tex=_minus(shown))
 
 
 def _minus(shown: str) -> str:
@@ -79,14 +79,14 @@ def _parts_of_pi(axis: Axis, most: int) -> list[Tick]:
     return [Tick(at=k * step, label=_of_pi(k * part)) for k in range(first, last + 1)]
 
 
-def _of_pi(times: Fraction) -> Label:
+def _of_pi(times: Fraction) -> DrawnName:
     if not times:
         return _plain("0")
     sign = "-" if times < 0 else ""
     above, below = abs(times.numerator), times.denominator
     letters = "" if above == 1 else str(above)
     under = "" if below == 1 else f"/{below}"
-    return Label(
+    return DrawnName(
         plain=f"{_minus(sign)}{letters}π{under}",
         ascii=f"{sign}{letters}pi{under}",
         tex=rf"${sign}{letters}\pi{under}$",
@@ -102,8 +102,8 @@ def _powers(axis: Axis, most: int) -> list[Tick]:
 _RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
-def _power(exponent: int) -> Label:
-    return Label(
+def _power(exponent: int) -> DrawnName:
+    return DrawnName(
         plain="1" if exponent == 0 else "10" + str(exponent).translate(_RAISED),
         ascii=f"1e{exponent}",
         tex=rf"$10^{{{exponent}}}$",

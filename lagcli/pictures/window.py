@@ -12,7 +12,7 @@ from functools import cached_property
 from lagcli.pictures.contours import grid, roots
 from lagcli.pictures.drawing import CannotDraw, MarkRole
 from lagcli.pictures.labels import Labels
-from lagcli.pictures.one_freedom import OneFreedom
+from lagcli.pictures.one_freedom import RemainingFreedom
 
 _PLACES = 2001
 #: How far away equilibria and turning points are looked for, in lengths of the motion.
@@ -29,7 +29,9 @@ _SAME = 1e-9
 class Window:
     """The ranges of q and q', the equilibria and the energies of a portrait."""
 
-    def __init__(self, freedom: OneFreedom, labels: Labels, motion: tuple[float, ...] = ()) -> None:
+    def __init__(
+        self, freedom: RemainingFreedom, labels: Labels, motion: tuple[float, ...] = ()
+    ) -> None:
         self.freedom = freedom
         self.energy = freedom.energy(*freedom.start)
         name = freedom.columns[0][1]

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from lagcli.reader.expressions import parse_equation_text, parse_text
-    from lagcli.reader.problem_file import Reading, read_problem
+    from lagcli.reader.problem_file import ProblemReading, read_problem
     from lagcli.reader.settings import set_parameters, set_state
 
 __all__ = [
-    "Reading",
+    "ProblemReading",
     "parse_equation_text",
     "parse_text",
     "read_problem",
@@ -20,9 +20,13 @@ __all__ = [
 ]
 
 _HOMES = {
-    "parse_equation_text": "expressions", "parse_text": "expressions", "Reading": "problem_file",
-    "read_problem": "problem_file", "set_parameters": "settings", "set_state": "settings",
-}  # fmt: skip
+    "parse_equation_text": "expressions",
+    "parse_text": "expressions",
+    "ProblemReading": "problem_file",
+    "read_problem": "problem_file",
+    "set_parameters": "settings",
+    "set_state": "settings",
+}
 
 
 def __getattr__(name: str) -> Any:

@@ -56,7 +56,7 @@ def mistake(message: str, span: Span, hint: str = "") -> Mistake:
     return Mistake(Diagnostic(message, span, hint))
 
 
-class Builder:
+class FormulaBuilder:
     """One method for each alternative of the grammar; `children` are its parts."""
 
     def expression(self, children: list[Expression]) -> Expression:

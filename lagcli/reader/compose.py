@@ -14,14 +14,14 @@ import yaml
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.reader.flow import mend_commas
 from lagcli.reader.limits import EXPANDED_SIZE, YAML_LEVELS
-from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence
-from lagcli.reader.text import Mistake, Text
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.text import Mistake, SourceText
 from lagcli.reader.yaml_errors import explain
 
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
-def compose(text: Text) -> tuple[Node, list[Diagnostic]]:
+def compose(text: SourceText) -> tuple[DocumentNode, list[Diagnostic]]:
     """The one document of a file.
 
     Returns
@@ -59,18 +59,18 @@ class _Open:
     anchor: str | None
     is_map: bool
     is_flow: bool
-    children: list[Node] = field(default_factory=list)
+    children: list[DocumentNode] = field(default_factory=list)
 
 
 class _Composer:
     """Builds the tree as the events come."""
 
-    def __init__(self, text: Text) -> None:
+    def __init__(self, text: SourceText) -> None:
         self.text = text
-        self.root: Node | None = None
+        self.root: DocumentNode | None = None
         self.diagnostics: list[Diagnostic] = []
         self._stack: list[_Open] = []
-        self._anchors: dict[str, Node | None] = {}  # None while its node is still open
+        self._anchors: dict[str, DocumentNode | None] = {}  # None while its node is still open
         self._documents = 0
 
     def take(self, event: Any) -> None:
@@ -110,7 +110,7 @@ class _Composer:
 
     def _close(self, end: int) -> None:
         done = self._stack.pop()
-        node: Node
+        node: DocumentNode
         size = 1 + sum(child.size for child in done.children)
         if size > EXPANDED_SIZE:
             message = f"the aliases expand to more than {EXPANDED_SIZE >> 20} MiB"
@@ -126,8 +126,8 @@ class _Composer:
             self.diagnostics += mend_commas(node)
         self._add(node, done.anchor)
 
-    def _entries(self, children: list[Node]) -> list[tuple[Scalar, Node]]:
-        entries: dict[str, tuple[Scalar, Node]] = {}
+    def _entries(self, children: list[DocumentNode]) -> list[tuple[Scalar, DocumentNode]]:
+        entries: dict[str, tuple[Scalar, DocumentNode]] = {}
         for key, value in zip(children[::2], children[1::2], strict=True):
             if not isinstance(key, Scalar):
                 self._report(key.start, key.end, "a key must be a text")
@@ -143,7 +143,7 @@ class _Composer:
                 entries[key.label] = (key, value)
         return list(entries.values())
 
-    def _add(self, node: Node, anchor: str | None) -> None:
+    def _add(self, node: DocumentNode, anchor: str | None) -> None:
         if anchor is not None:
             self._anchors[anchor] = node
         if self._stack:
@@ -151,7 +151,7 @@ class _Composer:
         else:
             self.root = node
 
-    def _alias(self, anchor: str | None, start: int, end: int) -> Node:
+    def _alias(self, anchor: str | None, start: int, end: int) -> DocumentNode:
         if anchor is None or anchor not in self._anchors:
             self._stop(start, end, f"no anchor '&{anchor}' stands before this alias")
         node = self._anchors[anchor]

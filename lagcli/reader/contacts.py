@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from lagcli.expression import ZERO, Equation
 from lagcli.problem import Contact
 from lagcli.reader.names import derivative_order
-from lagcli.reader.nodes import Mapping, Node, Scalar
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.scope import POSITION, VALUES, name_mistake
 
 if TYPE_CHECKING:
@@ -24,12 +24,12 @@ class DeclaredContact(NamedTuple):
 
     key: Scalar
     multiplier: str
-    gap: Node | None
-    restitution: Node | None
+    gap: DocumentNode | None
+    restitution: DocumentNode | None
 
 
 def declare_contacts(
-    sections: Sections, node: Node, constraints: set[str]
+    sections: Sections, node: DocumentNode, constraints: set[str]
 ) -> list[DeclaredContact]:
     """Enter the multipliers into the scope; a constraint's name is taken."""
     declared = []
@@ -43,7 +43,7 @@ def declare_contacts(
             sections.error(f"'{key.label}' is a constraint already", key.span)
             continue
         multiplier, place = f"lambda_{key.label}", key.span
-        attributes: dict[str, Node] = {"gap": value}
+        attributes: dict[str, DocumentNode] = {"gap": value}
         if isinstance(value, Mapping):
             what = f"the contact '{key.label}'"
             found = sections.attributes(value, what, _ATTRIBUTES)
@@ -84,7 +84,7 @@ def read_contacts(sections: Sections, declared: list[DeclaredContact]) -> tuple[
     return tuple(contacts)
 
 
-def _gap(sections: Sections, node: Node, what: str) -> Equation:
+def _gap(sections: Sections, node: DocumentNode, what: str) -> Equation:
     """`y >= 0`, `y <= h`, or an expression that is not negative."""
     before = len(sections.diagnostics)
     if isinstance(node, Scalar) and {"<", ">", "≤", "≥"} & set(node.value):
@@ -102,6 +102,6 @@ def _gap(sections: Sections, node: Node, what: str) -> Equation:
     return gap
 
 
-def read_restitution(sections: Sections, node: Node, what: str) -> Expression:
+def read_restitution(sections: Sections, node: DocumentNode, what: str) -> Expression:
     """Newton's coefficient: a number or a formula of parameters."""
     return sections.expression(node, f"the restitution of {what}", VALUES)

@@ -8,7 +8,7 @@ from lagcli.problem import Point, Problem
 from lagcli.reader.growth import Growth, growth
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.names import depends_on_time, derivative_order
-from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Role
 from lagcli.reader.suggest import did_you_mean
 
@@ -56,9 +56,11 @@ def check_momenta(sections: Sections) -> None:
             sections.error(message, span, "choose another name", related)
 
 
-def declare_definitions(sections: Sections, node: Node) -> list[tuple[Scalar, Node]]:
+def declare_definitions(
+    sections: Sections, node: DocumentNode
+) -> list[tuple[Scalar, DocumentNode]]:
     """Enter the definitions into the scope in the order of the file."""
-    declared: list[tuple[Scalar, Node]] = []
+    declared: list[tuple[Scalar, DocumentNode]] = []
     for key, value in sections.entries(node, "definitions", "write d: expression"):
         if sections.declare(key.label, "definition", key.span):
             sections.scope.definitions[key.label] = Definition(place=len(declared))
@@ -67,7 +69,7 @@ def declare_definitions(sections: Sections, node: Node) -> list[tuple[Scalar, No
 
 
 def read_definitions(
-    sections: Sections, declared: list[tuple[Scalar, Node]]
+    sections: Sections, declared: list[tuple[Scalar, DocumentNode]]
 ) -> dict[str, Expression]:
     """The definitions; the scope learns which derivatives each contains."""
     definitions = {}
@@ -85,7 +87,7 @@ def read_definitions(
     return definitions
 
 
-def read_points(sections: Sections, node: Node) -> tuple[Point, ...]:
+def read_points(sections: Sections, node: DocumentNode) -> tuple[Point, ...]:
     """The particles."""
     points = []
     hint = "write name: {position: [x, y], mass: m}"
@@ -111,7 +113,7 @@ def read_points(sections: Sections, node: Node) -> tuple[Point, ...]:
     return tuple(points)
 
 
-def _position(sections: Sections, node: Node, name: str) -> tuple[Expression, ...]:
+def _position(sections: Sections, node: DocumentNode, name: str) -> tuple[Expression, ...]:
     what = f"the position of '{name}'"
     if isinstance(node, Scalar) and not node.is_empty:
         sections.error(f"{what} must be a list of components", node.span,
@@ -123,7 +125,9 @@ def _position(sections: Sections, node: Node, name: str) -> tuple[Expression, ..
     return tuple(sections.expression(item, what, POSITION) for item in items)
 
 
-def _force(sections: Sections, node: Node, name: str, length: int) -> tuple[Expression, ...]:
+def _force(
+    sections: Sections, node: DocumentNode, name: str, length: int
+) -> tuple[Expression, ...]:
     what = f"the force on '{name}'"
     if isinstance(node, Scalar) and not node.is_empty:
         sections.error(f"{what} must be a list of components", node.span,
@@ -140,13 +144,13 @@ def _shown(text: str) -> str:
     return text if len(text) <= 40 else "…"
 
 
-def read_forces(sections: Sections, node: Node) -> dict[str, Expression]:
+def read_forces(sections: Sections, node: DocumentNode) -> dict[str, Expression]:
     """The generalized forces by coordinate."""
     return read_by_coordinate(sections, node, "forces", "the force along '{}'")
 
 
 def read_by_coordinate(
-    sections: Sections, node: Node, section: str, what: str, role: Role = STATE
+    sections: Sections, node: DocumentNode, section: str, what: str, role: Role = STATE
 ) -> dict[str, Expression]:
     """A map coordinate → expression."""
     found = {}

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from lagcli.problem import (
     BracketQuestion,
+    CanonicalTransformation,
     Constraint,
     Contact,
     Expect,
@@ -13,11 +14,10 @@ from lagcli.problem import (
     Point,
     Question,
     Symmetry,
-    Transformation,
 )
 from lagcli.reader.columns import named_columns
 from lagcli.reader.dynamics import read_by_coordinate
-from lagcli.reader.nodes import Node, Scalar
+from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.scope import ANSWER, Role
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.trajectory import TrajectoryReader
@@ -47,7 +47,7 @@ class ExpectReader:
         find: tuple[Question, ...],
         points: tuple[Point, ...],
         brackets: tuple[BracketQuestion, ...],
-        transformations: tuple[Transformation, ...],
+        transformations: tuple[CanonicalTransformation, ...],
     ) -> None:
         self.sections = sections
         self.constraints = [constraint.name for constraint in constraints]
@@ -61,7 +61,7 @@ class ExpectReader:
         self.ranges: dict[str, tuple[tuple[Inequality, ...], ...]] = {}
         self.spans: dict[tuple[str, ...], Span] = {}
 
-    def read(self, node: Node) -> Expect:
+    def read(self, node: DocumentNode) -> Expect:
         """The whole section."""
         keys = ("degrees_of_freedom", *expected_keys(self._unusual(node)), "trajectory")
         found = self.sections.attributes(node, "expect", keys)
@@ -72,12 +72,12 @@ class ExpectReader:
             (values if name in _FIELDS else others)[name] = self._value(name, value)
         return Expect(**values, ranges=self.ranges, others=others, spans=self.spans)
 
-    def _unusual(self, node: Node) -> bool:
+    def _unusual(self, node: DocumentNode) -> bool:
         """Whether a key is that of no built-in section."""
         known = {"degrees_of_freedom", "trajectory", *expected_keys(False)}
         return any(key.label not in known for key, _ in getattr(node, "entries", ()))
 
-    def _value(self, name: str, node: Node) -> Any:
+    def _value(self, name: str, node: DocumentNode) -> Any:
         match name:
             case "degrees_of_freedom":
                 return self.count(node, name)
@@ -89,7 +89,7 @@ class ExpectReader:
 
     # -- what several sections have in common ----------------------------------------------
 
-    def count(self, node: Node, name: str) -> int | None:
+    def count(self, node: DocumentNode, name: str) -> int | None:
         """A whole number, 0 or more."""
         text = self.sections.scalar(node, f"'{name}'")
         if text is None:
@@ -101,20 +101,20 @@ class ExpectReader:
         return int(value)
 
     def by_coordinate(
-        self, node: Node, section: str, what: str, role: Role = ANSWER
+        self, node: DocumentNode, section: str, what: str, role: Role = ANSWER
     ) -> dict[str, Expression]:
         """A map from coordinates to formulas."""
         self.note(node, section)
         return read_by_coordinate(self.sections, node, section, what, role)
 
-    def note(self, node: Node, *path: str) -> None:
+    def note(self, node: DocumentNode, *path: str) -> None:
         """Remember where the entries of a map stand."""
         for key, _ in getattr(node, "entries", ()):
             self.spans[(*path, key.label)] = key.span
 
     def known(
-        self, node: Node, section: str, known: list[str], what: str
-    ) -> list[tuple[Scalar, Node]]:
+        self, node: DocumentNode, section: str, known: list[str], what: str
+    ) -> list[tuple[Scalar, DocumentNode]]:
         """The entries whose keys exist in the problem; a mistake at each other one."""
         good = []
         for key, value in self.sections.entries(node, f"'{section}'"):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from lagcli.problem import ExpectAlgebra, ExpectSpecial
-from lagcli.reader.nodes import Node
+from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.scope import CONSTANTS, Role
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ _WORDS = {"yes": True, "no": False}
 _CHARGE = Role(order=1, why="an answer is free of accelerations")
 
 
-def read_algebra(reader: ExpectReader, node: Node) -> ExpectAlgebra:
+def read_algebra(reader: ExpectReader, node: DocumentNode) -> ExpectAlgebra:
     """`expect: {algebra: {dimension, name, independent, in_involution, integrable, special}}`."""
     sections, spans = reader.sections, reader.spans
     found: dict[str, Any] = {}
@@ -43,7 +43,7 @@ def read_algebra(reader: ExpectReader, node: Node) -> ExpectAlgebra:
     return ExpectAlgebra(**found)
 
 
-def _special(reader: ExpectReader, node: Node, path: tuple[str, ...]) -> ExpectSpecial:
+def _special(reader: ExpectReader, node: DocumentNode, path: tuple[str, ...]) -> ExpectSpecial:
     """`{where: n = -1, charges: 4, discovered: {name: charge}}`."""
     sections, spans = reader.sections, reader.spans
     spans[path] = node.span

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lagcli.reader.nodes import Node, Sequence
+from lagcli.reader.nodes import DocumentNode, Sequence
 from lagcli.reader.scope import CONSTANTS
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def read_ranges(
-    sections: Sections, items: Iterable[Node], unknown: Name, what: str
+    sections: Sections, items: Iterable[DocumentNode], unknown: Name, what: str
 ) -> tuple[tuple[Inequality, ...], ...]:
     """`[v <= a, [v > b, v < c]]`: each item one range, by one bound or a list of them."""
     return tuple(
@@ -29,7 +29,7 @@ def read_ranges(
     )
 
 
-def _bound(sections: Sections, node: Node, unknown: Name, what: str) -> Inequality | None:
+def _bound(sections: Sections, node: DocumentNode, unknown: Name, what: str) -> Inequality | None:
     bound = sections.comparison(node, what, CONSTANTS)
     if bound is not None and bound.left != unknown:
         sections.error(f"{what} is a bound of {unknown}", node.span, f"write {unknown} >= 0")

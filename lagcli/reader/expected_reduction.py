@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from lagcli.problem import ExpectEquilibrium, ExpectHamiltonJacobi, ExpectReduction, ExpectSteady
 from lagcli.reader.dynamics import read_by_coordinate
-from lagcli.reader.nodes import Node, Scalar, Sequence
+from lagcli.reader.nodes import DocumentNode, Scalar, Sequence
 from lagcli.reader.scope import Role
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def constants(sections: Sections) -> Iterator[None]:
             del kinds[name]
 
 
-def read_reduction(reader: ExpectReader, node: Node) -> ExpectReduction:
+def read_reduction(reader: ExpectReader, node: DocumentNode) -> ExpectReduction:
     """`expect: {reduction: {routhian, effective_potential, …}}`."""
     sections, spans = reader.sections, reader.spans
     found: dict[str, Any] = {}
@@ -70,13 +70,15 @@ def read_reduction(reader: ExpectReader, node: Node) -> ExpectReduction:
     return ExpectReduction(**found)
 
 
-def expressions(sections: Sections, node: Node, name: str, what: str) -> tuple[Expression, ...]:
+def expressions(
+    sections: Sections, node: DocumentNode, name: str, what: str
+) -> tuple[Expression, ...]:
     """A list of expressions."""
     items = sections.items(node, f"'{name}'", "write [one, another]")
     return tuple(sections.expression(item, what, _REDUCED) for item in items)
 
 
-def read_steady_motions(reader: ExpectReader, node: Node) -> tuple[ExpectSteady, ...]:
+def read_steady_motions(reader: ExpectReader, node: DocumentNode) -> tuple[ExpectSteady, ...]:
     """`expect: {steady_motions: [{at, rates, momenta, frequencies_squared, stable}]}`."""
     sections, spans = reader.sections, reader.spans
     motions = []
@@ -87,7 +89,7 @@ def read_steady_motions(reader: ExpectReader, node: Node) -> tuple[ExpectSteady,
     return tuple(motions)
 
 
-def read_equilibria(reader: ExpectReader, node: Node) -> tuple[ExpectEquilibrium, ...]:
+def read_equilibria(reader: ExpectReader, node: DocumentNode) -> tuple[ExpectEquilibrium, ...]:
     """`expect: {equilibria: [{at, on, stable}]}`."""
     sections, spans = reader.sections, reader.spans
     found = []
@@ -108,7 +110,7 @@ def read_equilibria(reader: ExpectReader, node: Node) -> tuple[ExpectEquilibrium
     return tuple(found)
 
 
-def _steady(sections: Sections, node: Node) -> ExpectSteady:
+def _steady(sections: Sections, node: DocumentNode) -> ExpectSteady:
     found: dict[str, Any] = {}
     for name, (_, value) in sections.attributes(node, "a steady motion", _STEADY).items():
         if name == "stable":
@@ -121,7 +123,7 @@ def _steady(sections: Sections, node: Node) -> ExpectSteady:
     return ExpectSteady(**found)
 
 
-def _stable(sections: Sections, node: Node) -> bool | tuple[Inequality, ...] | None:
+def _stable(sections: Sections, node: DocumentNode) -> bool | tuple[Inequality, ...] | None:
     if isinstance(node, Scalar) and node.value.strip() in _WORDS:
         return _WORDS[node.value.strip()]
     items = node.items if isinstance(node, Sequence) else [node]
@@ -133,7 +135,7 @@ def _stable(sections: Sections, node: Node) -> bool | tuple[Inequality, ...] | N
     return tuple(each for each in read if each is not None)
 
 
-def read_hamilton_jacobi(reader: ExpectReader, node: Node) -> ExpectHamiltonJacobi:
+def read_hamilton_jacobi(reader: ExpectReader, node: DocumentNode) -> ExpectHamiltonJacobi:
     """`expect: {hamilton_jacobi: {separable: yes, derivatives: {x: …}, functions: {x: …}}}`."""
     sections, spans = reader.sections, reader.spans
     found: dict[str, Any] = {}

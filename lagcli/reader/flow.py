@@ -8,16 +8,16 @@ instead of several that nobody would understand.
 from __future__ import annotations
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 
 
-def mend_commas(node: Node) -> list[Diagnostic]:
+def mend_commas(node: DocumentNode) -> list[Diagnostic]:
     """Join the pieces of formulas in a list `[ ]` or a map `{ }`; report each."""
     match node:
         case Mapping():
             values = [value for _, value in node.entries]
             nothing = [len(values) > 0 and _is_nothing(value) for value in values]
-            keys: list[Node] = [key for key, _ in node.entries]
+            keys: list[DocumentNode] = [key for key, _ in node.entries]
             keep, mistakes = _mend(values, keys, nothing)
             node.entries = [entry for entry, kept in zip(node.entries, keep, strict=True) if kept]
         case Sequence():
@@ -29,7 +29,7 @@ def mend_commas(node: Node) -> list[Diagnostic]:
 
 
 def _mend(
-    values: list[Node], rest: list[Node], may_follow: list[bool]
+    values: list[DocumentNode], rest: list[DocumentNode], may_follow: list[bool]
 ) -> tuple[list[bool], list[Diagnostic]]:
     """Which entries to keep, when those that finish an earlier formula are dropped.
 
@@ -65,11 +65,11 @@ def _mend(
     return keep, mistakes
 
 
-def _unclosed(node: Node) -> int:
+def _unclosed(node: DocumentNode) -> int:
     if isinstance(node, Scalar) and not node.style and not node.anchored:
         return node.value.count("(") - node.value.count(")")
     return 0
 
 
-def _is_nothing(node: Node) -> bool:
+def _is_nothing(node: DocumentNode) -> bool:
     return isinstance(node, Scalar) and node.is_empty

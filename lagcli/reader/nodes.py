@@ -10,14 +10,14 @@ from lagcli.reader.positions import Excerpt, offsets_of
 
 if TYPE_CHECKING:
     from lagcli.diagnostics import Span
-    from lagcli.reader.text import Text
+    from lagcli.reader.text import SourceText
 
 
 @dataclass(slots=True, eq=False, repr=False)
-class Node:
+class DocumentNode:
     """A piece of the document from the offset `start` up to `end`."""
 
-    text: Text
+    text: SourceText
     start: int
     end: int
     size: int = field(default=1, kw_only=True)  # with every alias expanded
@@ -30,7 +30,7 @@ class Node:
 
 
 @dataclass(slots=True, eq=False, repr=False)
-class Scalar(Node):
+class Scalar(DocumentNode):
     """Text: a name, a formula, a title.  Never anything but text."""
 
     value: str
@@ -56,20 +56,20 @@ class Scalar(Node):
 
 
 @dataclass(slots=True, eq=False, repr=False)
-class Sequence(Node):
+class Sequence(DocumentNode):
     """A list."""
 
-    items: list[Node]
+    items: list[DocumentNode]
 
 
 @dataclass(slots=True, eq=False, repr=False)
-class Mapping(Node):
+class Mapping(DocumentNode):
     """A map in the order of the file, no key twice."""
 
-    entries: list[tuple[Scalar, Node]]
+    entries: list[tuple[Scalar, DocumentNode]]
 
 
-def kind(node: Node) -> str:
+def kind(node: DocumentNode) -> str:
     """What a node is, in the words of a message."""
     match node:
         case Sequence():

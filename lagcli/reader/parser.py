@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lagcli.reader.automaton import Automaton
-from lagcli.reader.builder import Builder
+from lagcli.reader.builder import FormulaBuilder
 from lagcli.reader.nesting import check_nesting
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def automaton() -> Automaton | None:
     tables = _tables()
     if tables.get("grammar") != _grammar() or "automaton" not in tables:
         return None
-    return Automaton(tables["automaton"], Builder(), check_nesting)
+    return Automaton(tables["automaton"], FormulaBuilder(), check_nesting)
 
 
 @cache
@@ -58,7 +58,7 @@ def parser() -> Lark:
     data, memo = _with_whole_keys(tables["data"]), _with_whole_keys(tables["memo"])
     # The public `Lark.load` reads a pickle, which could run code; this is its other half.
     load: Callable[..., Lark] = lark.Lark._load_from_dict  # noqa: SLF001
-    return load(data, memo, transformer=Builder(), postlex=Nesting())
+    return load(data, memo, transformer=FormulaBuilder(), postlex=Nesting())
 
 
 def make_parser() -> Lark:
@@ -71,7 +71,7 @@ def make_parser() -> Lark:
         lexer="basic",
         start=["expression", "equation", "comparison"],
         maybe_placeholders=False,
-        transformer=Builder(),
+        transformer=FormulaBuilder(),
         postlex=Nesting(),
     )
 
@@ -123,7 +123,7 @@ def _rule(rule: Any) -> list[Any]:
     origin, parts = str(rule.origin.name), list(enumerate(rule.expansion))
     single = bool(rule.options.expand1 and not rule.alias)
     name = "" if origin.startswith("_") else rule.alias or origin
-    if single and not hasattr(Builder, name):
+    if single and not hasattr(FormulaBuilder, name):
         name = ""  # it is always one part, which stands for itself
     return [
         origin,

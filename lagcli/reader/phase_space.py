@@ -7,8 +7,8 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from lagcli.expression import Name, walk
-from lagcli.problem import BracketQuestion, ExpectCanonical, Transformation
-from lagcli.reader.nodes import Node, Scalar, Sequence
+from lagcli.problem import BracketQuestion, CanonicalTransformation, ExpectCanonical
+from lagcli.reader.nodes import DocumentNode, Scalar, Sequence
 from lagcli.reader.scope import PHASE_SPACE, Kind, name_mistake
 from lagcli.reader.suggest import did_you_mean
 
@@ -34,7 +34,7 @@ _WRITE = "write name: {Q: p_x, p_Q: -x}"
 HAMILTONIAN = "H"
 
 
-def read_observables(sections: Sections, node: Node) -> dict[str, Expression]:
+def read_observables(sections: Sections, node: DocumentNode) -> dict[str, Expression]:
     """Functions of q, p and t, each of which may use earlier ones."""
     found = {}
     for key, value in sections.entries(node, "observables", "write A: x*p_y - y*p_x"):
@@ -67,7 +67,7 @@ def _also(sections: Sections, names: Iterable[str], kind: Kind) -> Iterator[None
 
 
 def read_brackets(
-    sections: Sections, node: Node, symmetries: Iterable[Symmetry]
+    sections: Sections, node: DocumentNode, symmetries: Iterable[Symmetry]
 ) -> tuple[BracketQuestion, ...]:
     """Pairs of functions; the charges of symmetries and H may stand in them by name."""
     found = []
@@ -86,19 +86,21 @@ def read_brackets(
     return tuple(found)
 
 
-def read_transformations(sections: Sections, node: Node) -> tuple[Transformation, ...]:
+def read_transformations(
+    sections: Sections, node: DocumentNode
+) -> tuple[CanonicalTransformation, ...]:
     """New variables in the old ones, with a generating function or without."""
     entries = sections.entries(node, "canonical_transformations", _WRITE)
     return tuple(_transformation(sections, key, value) for key, value in entries)
 
 
-def _transformation(sections: Sections, key: Scalar, node: Node) -> Transformation:
+def _transformation(sections: Sections, key: Scalar, node: DocumentNode) -> CanonicalTransformation:
     what = f"the transformation '{key.label}'"
     entries = list(sections.entries(node, what, _WRITE))
     labels = {name.label for name, _ in entries} - _KINDS.keys()
     coordinates: dict[str, Expression] = {}
     momenta: dict[str, Expression] = {}
-    generating: list[tuple[Scalar, Node]] = []
+    generating: list[tuple[Scalar, DocumentNode]] = []
     for name, value in entries:
         label = name.label
         if label in _KINDS:
@@ -121,7 +123,7 @@ def _transformation(sections: Sections, key: Scalar, node: Node) -> Transformati
                 "kind": name.label,
                 "generating": _generating(sections, name.label, value, coordinates),
             }
-    return Transformation(
+    return CanonicalTransformation(
         name=key.label, coordinates=coordinates, momenta=momenta, span=key.span, **given
     )
 
@@ -149,7 +151,7 @@ def _check_complete(
     what: str,
     coordinates: dict[str, Expression],
     momenta: dict[str, Expression],
-    entries: list[tuple[Scalar, Node]],
+    entries: list[tuple[Scalar, DocumentNode]],
 ) -> None:
     spans = {name.label: name.span for name, _ in entries}
     for name in coordinates.keys() - momenta.keys():
@@ -165,7 +167,9 @@ def _check_complete(
         sections.error(message, key.span, _WRITE)
 
 
-def _generating(sections: Sections, kind: str, node: Node, new: Iterable[str]) -> Expression:
+def _generating(
+    sections: Sections, kind: str, node: DocumentNode, new: Iterable[str]
+) -> Expression:
     """F, in the variables of its kind."""
     expression = sections.expression(node, kind, _FUNCTION)
     new = set(new)
@@ -183,7 +187,7 @@ def _generating(sections: Sections, kind: str, node: Node, new: Iterable[str]) -
 
 
 def read_expected_brackets(
-    sections: Sections, entries: Iterable[tuple[Scalar, Node]]
+    sections: Sections, entries: Iterable[tuple[Scalar, DocumentNode]]
 ) -> dict[str, Expression]:
     """`expect: {brackets: {name: value}}`; observables may stand in the values."""
     return {
@@ -194,8 +198,8 @@ def read_expected_brackets(
 
 def read_expected_canonical(
     sections: Sections,
-    entries: Iterable[tuple[Scalar, Node]],
-    transformations: Iterable[Transformation],
+    entries: Iterable[tuple[Scalar, DocumentNode]],
+    transformations: Iterable[CanonicalTransformation],
     spans: dict[tuple[str, ...], Span],
 ) -> dict[str, ExpectCanonical]:
     """`expect: {canonical: {name: {kind, valence, generates, hamiltonian}}}`."""
@@ -222,7 +226,7 @@ def read_expected_canonical(
     return found
 
 
-def _word(sections: Sections, node: Node, words: tuple[str, ...]) -> str | None:
+def _word(sections: Sections, node: DocumentNode, words: tuple[str, ...]) -> str | None:
     text = sections.scalar(node, "this")
     if text is None:
         return None

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from lagcli.reader.text import Text
+from lagcli.reader.text import SourceText
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,14 +32,14 @@ class Excerpt(NamedTuple):
     """A piece of text and, character by character, its place in the file."""
 
     value: str
-    text: Text
+    text: SourceText
     offsets: Sequence[int]  # of each character of the value, and one more for the end
     in_flow: bool = False  # inside [ ] or { }, where a comma ends it
 
     @classmethod
     def whole(cls, source: Source) -> Excerpt:
         """A text that stands for itself, such as an argument of the command line."""
-        return cls(source.text, Text.of(source), range(len(source.text) + 1))
+        return cls(source.text, SourceText.of(source), range(len(source.text) + 1))
 
     def span(self, start: int, end: int) -> Span:
         """The place in the file of `value[start:end]`."""

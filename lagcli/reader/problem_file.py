@@ -21,7 +21,7 @@ from lagcli.reader.dynamics import (
 from lagcli.reader.expectations import ExpectReader
 from lagcli.reader.habits import colon_advice, key_meant
 from lagcli.reader.limits import MISTAKES
-from lagcli.reader.nodes import Mapping, Node, Scalar, kind
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, kind
 from lagcli.reader.phase_space import read_brackets, read_observables, read_transformations
 from lagcli.reader.quantities import (
     declare_parameters,
@@ -34,7 +34,7 @@ from lagcli.reader.restrictions import declare_constraints, read_constraints, re
 from lagcli.reader.scenery import read_scenery
 from lagcli.reader.scope import PHASE_SPACE, STATE, Role
 from lagcli.reader.sections import Sections
-from lagcli.reader.text import Mistake, Text, decode
+from lagcli.reader.text import Mistake, SourceText, decode
 from lagcli.reader.value_checks import check_values, without_inertia
 from lagcli.record import record
 
@@ -50,7 +50,7 @@ KEYS = (
 
 
 @record
-class Reading:
+class ProblemReading:
     """What came of a file: the problem, unless a diagnostic is an error."""
 
     source: Source
@@ -70,7 +70,7 @@ class Reading:
         return self.problem
 
 
-def read_problem(source_name: str, data: bytes) -> Reading:
+def read_problem(source_name: str, data: bytes) -> ProblemReading:
     """Read a problem file.
 
     Parameters
@@ -87,21 +87,21 @@ def read_problem(source_name: str, data: bytes) -> Reading:
     """
     source, diagnostics = decode(source_name, data)
     if diagnostics:
-        return Reading(source, None, tuple(diagnostics))
+        return ProblemReading(source, None, tuple(diagnostics))
     try:
-        root, diagnostics = compose(Text.of(source))
+        root, diagnostics = compose(SourceText.of(source))
     except Mistake as error:
-        return Reading(source, None, error.diagnostics)
+        return ProblemReading(source, None, error.diagnostics)
     sections = Sections(diagnostics=diagnostics)
     problem = _read(sections, source, root)
     if problem is not None and not sections.diagnostics:
         sections.diagnostics += [*_dimension_mistakes(problem), *without_inertia(problem)]
     found = tuple(sorted(sections.diagnostics, key=lambda diagnostic: diagnostic.span))
     has_errors = any(diagnostic.is_error for diagnostic in found)
-    return Reading(source, None if has_errors else problem, found)
+    return ProblemReading(source, None if has_errors else problem, found)
 
 
-def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
+def _read(sections: Sections, source: Source, root: DocumentNode) -> Problem | None:
     """Declare every name, then read every formula."""
     if not isinstance(root, Mapping):
         span = Span(1, 1, 1, 1)
@@ -117,7 +117,7 @@ def _read(sections: Sections, source: Source, root: Node) -> Problem | None:
         return None
     given = sections.attributes(root, "the problem", KEYS)
 
-    def section(key: str) -> Node:
+    def section(key: str) -> DocumentNode:
         """The node at a key, or a map without entries."""
         return given[key][1] if key in given else Mapping(root.text, 0, 0, [])
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypedDict, cast, get_args
 
 from lagcli.expression import Expression, Name, walk
 from lagcli.problem import Assumption, Coordinate, Parameter
-from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence, kind, size
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
 from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.suggest import did_you_mean
 
@@ -35,7 +35,7 @@ _SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnega
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 
 
-def read_coordinates(sections: Sections, node: Node) -> tuple[Coordinate, ...]:
+def read_coordinates(sections: Sections, node: DocumentNode) -> tuple[Coordinate, ...]:
     """The generalized coordinates, in order; each is declared in the scope."""
     coordinates = []
     for key, value in _declared(sections, node, "coordinates", "coordinate"):
@@ -46,18 +46,20 @@ def read_coordinates(sections: Sections, node: Node) -> tuple[Coordinate, ...]:
     return tuple(coordinates)
 
 
-def declare_parameters(sections: Sections, node: Node) -> list[tuple[Scalar, Node | None]]:
+def declare_parameters(
+    sections: Sections, node: DocumentNode
+) -> list[tuple[Scalar, DocumentNode | None]]:
     """Enter the parameters into the scope, before any of their values is read."""
     return list(_declared(sections, node, "parameters", "parameter"))
 
 
 def read_parameters(
-    sections: Sections, declared: list[tuple[Scalar, Node | None]]
+    sections: Sections, declared: list[tuple[Scalar, DocumentNode | None]]
 ) -> tuple[Parameter, ...]:
     """The parameters with their values, which may use each other without a cycle."""
     parameters = []
     for key, node in declared:
-        attributes: dict[str, Node] = {}
+        attributes: dict[str, DocumentNode] = {}
         if isinstance(node, Scalar) and not node.is_empty:
             attributes = {"value": node}
         else:
@@ -75,7 +77,7 @@ def read_parameters(
     return tuple(parameters)
 
 
-def read_functions(sections: Sections, node: Node) -> dict[str, tuple[str, ...]]:
+def read_functions(sections: Sections, node: DocumentNode) -> dict[str, tuple[str, ...]]:
     """The functions left unspecified; the names of their arguments only document."""
     functions = {}
     for key, value in sections.entries(node, "functions", "write U: [r]"):
@@ -100,10 +102,10 @@ def read_functions(sections: Sections, node: Node) -> dict[str, tuple[str, ...]]
 
 
 def _declared(
-    sections: Sections, node: Node, section: str, kind_: Kind
-) -> Iterator[tuple[Scalar, Node | None]]:
+    sections: Sections, node: DocumentNode, section: str, kind_: Kind
+) -> Iterator[tuple[Scalar, DocumentNode | None]]:
     """The names of a list or of a map's keys, as far as they could be declared."""
-    entries: list[tuple[Scalar, Node | None]]
+    entries: list[tuple[Scalar, DocumentNode | None]]
     if isinstance(node, Mapping):
         entries = list(node.entries)
     elif isinstance(node, Sequence):
@@ -136,15 +138,15 @@ def _list_advice(text: str) -> str:
 
 
 def _attributes(
-    sections: Sections, node: Node | None, key: Scalar, what: str, known: tuple[str, ...]
-) -> dict[str, Node]:
+    sections: Sections, node: DocumentNode | None, key: Scalar, what: str, known: tuple[str, ...]
+) -> dict[str, DocumentNode]:
     if node is None or (isinstance(node, Scalar) and node.is_empty):
         return {}
     found = sections.attributes(node, f"the {what} '{key.label}'", known)
     return {name: value for name, (_, value) in found.items()}
 
 
-def _said(sections: Sections, attributes: dict[str, Node]) -> _Said:
+def _said(sections: Sections, attributes: dict[str, DocumentNode]) -> _Said:
     """The attributes that coordinates and parameters share."""
     said: _Said = {}
     if "unit" in attributes and (text := sections.scalar(attributes["unit"], "'unit'")):
@@ -186,7 +188,7 @@ def _check_symbol(sections: Sections, text: Scalar) -> None:
         sections.error(f"a symbol must be simple LaTeX: {wrong}", text.span)
 
 
-def _truth(sections: Sections, node: Node) -> bool:
+def _truth(sections: Sections, node: DocumentNode) -> bool:
     text = sections.scalar(node, "'integer'")
     if text is not None and text.value not in {"true", "false"}:
         sections.error("'integer' is true or false", text.span)

@@ -6,14 +6,14 @@ import re
 from typing import TYPE_CHECKING
 
 from lagcli.expression import Expression, Name
-from lagcli.problem import METHODS, Lasting, Question, Reaching, Rewrite, Simulation, Where
+from lagcli.problem import METHODS, Lasting, Question, Reaching, Rewrite, SimulationDefaults, Where
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping
 from lagcli.reader.scope import NUMBERS, POSITION, QUESTION, VALUES, Role
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
-    from lagcli.reader.nodes import Node, Scalar
+    from lagcli.reader.nodes import DocumentNode, Scalar
     from lagcli.reader.sections import Sections
 
 _QUESTION_ATTRIBUTES = ("where", "for", "value", "in_terms_of", "always", "reaches")
@@ -36,7 +36,7 @@ _UNKNOWN = Role(
 _VARIABLE = Role(order=1, momenta=True, why="velocities are removed, accelerations never needed")
 
 
-def read_initial(sections: Sections, node: Node) -> dict[Name, Expression]:
+def read_initial(sections: Sections, node: DocumentNode) -> dict[Name, Expression]:
     """The state at t = 0, by coordinate and by velocity."""
     initial: dict[Name, Expression] = {}
     coordinates = list(sections.scope.of_kind("coordinate"))
@@ -69,7 +69,7 @@ def _state_name(sections: Sections, key: Scalar, coordinates: list[str]) -> Name
     return Name(letters, primes)
 
 
-def read_find(sections: Sections, node: Node) -> tuple[Question, ...]:
+def read_find(sections: Sections, node: DocumentNode) -> tuple[Question, ...]:
     """The questions."""
     questions: list[Question] = []
     hint = (
@@ -97,7 +97,9 @@ def read_find(sections: Sections, node: Node) -> tuple[Question, ...]:
     return tuple(questions)
 
 
-def _where(sections: Sections, key: Scalar, where: Node, unknown: Node) -> list[Question]:
+def _where(
+    sections: Sections, key: Scalar, where: DocumentNode, unknown: DocumentNode
+) -> list[Question]:
     equation = sections.equation(where, f"the question '{key.label}'", QUESTION)
     name = sections.name(unknown, "'for'", _UNKNOWN)
     if name is None:
@@ -107,7 +109,9 @@ def _where(sections: Sections, key: Scalar, where: Node, unknown: Node) -> list[
     return [Where(name=key.label, equation=equation, unknown=name, span=key.span)]
 
 
-def _lasting(sections: Sections, key: Scalar, condition: Node, unknown: Node) -> list[Question]:
+def _lasting(
+    sections: Sections, key: Scalar, condition: DocumentNode, unknown: DocumentNode
+) -> list[Question]:
     inequality = sections.comparison(condition, f"the question '{key.label}'", QUESTION)
     name = _parameter(sections, unknown)
     if name is None or inequality is None:
@@ -115,7 +119,9 @@ def _lasting(sections: Sections, key: Scalar, condition: Node, unknown: Node) ->
     return [Lasting(name=key.label, condition=inequality, unknown=name, span=key.span)]
 
 
-def _reaching(sections: Sections, key: Scalar, place: Node, unknown: Node) -> list[Question]:
+def _reaching(
+    sections: Sections, key: Scalar, place: DocumentNode, unknown: DocumentNode
+) -> list[Question]:
     what = f"the question '{key.label}'"
     before = len(sections.diagnostics)
     equation = sections.equation(place, what, POSITION)
@@ -134,7 +140,7 @@ def _reaching(sections: Sections, key: Scalar, place: Node, unknown: Node) -> li
     ]
 
 
-def _parameter(sections: Sections, node: Node) -> Name | None:
+def _parameter(sections: Sections, node: DocumentNode) -> Name | None:
     name = sections.name(node, "'for'", _UNKNOWN)
     if name is not None and sections.scope.kinds.get(name.name) != "parameter":
         message = f"'{name}' is not a parameter"
@@ -143,7 +149,7 @@ def _parameter(sections: Sections, node: Node) -> Name | None:
     return name
 
 
-def _rewrite(sections: Sections, key: Scalar, value: Node, terms: Node) -> Question:
+def _rewrite(sections: Sections, key: Scalar, value: DocumentNode, terms: DocumentNode) -> Question:
     expression = sections.expression(value, f"the question '{key.label}'", QUESTION)
     names = [sections.name(item, "an item of 'in_terms_of'", _VARIABLE)
              for item in sections.items(terms, "'in_terms_of'", "write [x]")]  # fmt: skip
@@ -151,7 +157,7 @@ def _rewrite(sections: Sections, key: Scalar, value: Node, terms: Node) -> Quest
     return Rewrite(name=key.label, value=expression, in_terms_of=known, span=key.span)
 
 
-def read_simulation(sections: Sections, node: Node) -> Simulation:
+def read_simulation(sections: Sections, node: DocumentNode) -> SimulationDefaults:
     """The defaults of the numerical run."""
     found = sections.attributes(node, "simulation", _SIMULATION_ATTRIBUTES)
     until = accuracy = method = None
@@ -165,8 +171,8 @@ def read_simulation(sections: Sections, node: Node) -> Simulation:
         if method is not None and method not in METHODS:
             hint = did_you_mean(method, METHODS) or f"there are {', '.join(METHODS)}"
             sections.error(f"unknown method '{method}'", found["method"][1].span, hint)
-    return Simulation(until=until, accuracy=accuracy, method=method)
+    return SimulationDefaults(until=until, accuracy=accuracy, method=method)
 
 
-def _number(sections: Sections, node: Node, what: str) -> Expression:
+def _number(sections: Sections, node: DocumentNode, what: str) -> Expression:
     return sections.expression(node, what, NUMBERS)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from lagcli.problem import Constraint, Symmetry, pushing_sign
 from lagcli.reader.contacts import RESTITUTION, read_restitution
 from lagcli.reader.names import derivative_order
-from lagcli.reader.nodes import Mapping, Node, Scalar
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.scope import QUESTION, STATE, name_mistake
 from lagcli.reader.suggest import did_you_mean
 
@@ -31,17 +31,17 @@ class Declared(NamedTuple):
 
     key: Scalar
     multiplier: str
-    equation: Node | None
-    holds_while: Node | None
-    attributes: dict[str, Node]
+    equation: DocumentNode | None
+    holds_while: DocumentNode | None
+    attributes: dict[str, DocumentNode]
 
 
-def declare_constraints(sections: Sections, node: Node) -> list[Declared]:
+def declare_constraints(sections: Sections, node: DocumentNode) -> list[Declared]:
     """Enter the multipliers into the scope."""
     declared = []
     for key, value in sections.entries(node, "constraints", "write name: equation"):
-        equation: Node | None = value
-        attributes: dict[str, Node] = {}
+        equation: DocumentNode | None = value
+        attributes: dict[str, DocumentNode] = {}
         wrong = name_mistake(f"a{key.label}")  # `lambda_<name>` must be a name
         if wrong is not None or not key.label:
             hint = "a name has letters, digits and underscores"
@@ -149,7 +149,7 @@ def _restitution(
     return read_restitution(sections, node, f"the constraint '{one.key.label}'")
 
 
-def read_symmetries(sections: Sections, node: Node) -> tuple[Symmetry, ...]:
+def read_symmetries(sections: Sections, node: DocumentNode) -> tuple[Symmetry, ...]:
     """The candidate symmetries."""
     coordinates = list(sections.scope.of_kind("coordinate"))
     symmetries = []

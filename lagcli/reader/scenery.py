@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lagcli.expression import Expression
 from lagcli.problem import Point, Scenery
-from lagcli.reader.nodes import Node
+from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.scope import POSITION
 from lagcli.reader.sections import Sections
 from lagcli.reader.suggest import did_you_mean
@@ -13,7 +13,7 @@ from lagcli.reader.suggest import did_you_mean
 KEYS = ("places", "rods", "springs", "trails")
 
 
-def read_scenery(sections: Sections, node: Node, points: tuple[Point, ...]) -> Scenery:
+def read_scenery(sections: Sections, node: DocumentNode, points: tuple[Point, ...]) -> Scenery:
     """Places, what joins them to the points, and which points leave a trail."""
     given = sections.attributes(node, "picture", KEYS)
     places: dict[str, tuple[Expression, ...]] = {}
@@ -33,7 +33,7 @@ def read_scenery(sections: Sections, node: Node, points: tuple[Point, ...]) -> S
 
 
 def _places(
-    sections: Sections, node: Node, points: tuple[Point, ...]
+    sections: Sections, node: DocumentNode, points: tuple[Point, ...]
 ) -> dict[str, tuple[Expression, ...]]:
     found = {}
     taken = {point.name for point in points}
@@ -52,7 +52,7 @@ def _places(
 
 
 def _pairs(
-    sections: Sections, node: Node, key: str, names: list[str]
+    sections: Sections, node: DocumentNode, key: str, names: list[str]
 ) -> tuple[tuple[str, str], ...]:
     found = []
     for item in sections.items(node, key, "write [[O, bob], [bob, ball]]"):
@@ -66,7 +66,7 @@ def _pairs(
     return tuple(found)
 
 
-def _name(sections: Sections, node: Node, what: str, names: list[str]) -> str:
+def _name(sections: Sections, node: DocumentNode, what: str, names: list[str]) -> str:
     """The name of a point or a place; empty where there is none of it."""
     scalar = sections.scalar(node, f"a name in {what}")
     if scalar is None:

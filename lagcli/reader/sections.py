@@ -13,7 +13,7 @@ from lagcli.reader.growth import growth
 from lagcli.reader.habits import is_constant, key_advice, key_meant, same_key, unit_behind
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.names import name_mistakes
-from lagcli.reader.nodes import Mapping, Node, Scalar, Sequence, kind
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.scope import NUMBERS, VALUES, Kind, Role, Scope, name_mistake
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.text import Mistake
@@ -65,21 +65,23 @@ class Sections:
 
     # Shapes.
 
-    def entries(self, node: Node, what: str, hint: str = "") -> Iterator[tuple[Scalar, Node]]:
+    def entries(
+        self, node: DocumentNode, what: str, hint: str = ""
+    ) -> Iterator[tuple[Scalar, DocumentNode]]:
         """The entries of a map; a mistake when it is none."""
         if isinstance(node, Mapping):
             yield from node.entries
         else:
             self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
 
-    def items(self, node: Node, what: str, hint: str = "") -> list[Node]:
+    def items(self, node: DocumentNode, what: str, hint: str = "") -> list[DocumentNode]:
         """The items of a list; a mistake when it is none."""
         if isinstance(node, Sequence):
             return node.items
         self.error(f"{what} must be a list, not {kind(node)}", node.span, hint)
         return []
 
-    def scalar(self, node: Node, what: str) -> Scalar | None:
+    def scalar(self, node: DocumentNode, what: str) -> Scalar | None:
         """A text that is not empty."""
         if not isinstance(node, Scalar):
             self.error(f"{what} must be a text, not {kind(node)}", node.span)
@@ -92,8 +94,8 @@ class Sections:
         return node
 
     def attributes(
-        self, node: Node, what: str, known: Iterable[str]
-    ) -> dict[str, tuple[Scalar, Node]]:
+        self, node: DocumentNode, what: str, known: Iterable[str]
+    ) -> dict[str, tuple[Scalar, DocumentNode]]:
         """The entries of a map with known keys; a mistake at each other one."""
         found = {}
         names = tuple(known)
@@ -109,7 +111,9 @@ class Sections:
                     found[meant] = (key, value)  # what is in it is read on
         return found
 
-    def _unknown_key(self, key: Scalar, value: Node, what: str, names: tuple[str, ...]) -> None:
+    def _unknown_key(
+        self, key: Scalar, value: DocumentNode, what: str, names: tuple[str, ...]
+    ) -> None:
         written = value.value if isinstance(value, Scalar) else ""
         meant = key_meant(key.label, names)
         advice = f"the key is {meant}" if meant else key_advice(key.label, written, names)
@@ -123,7 +127,7 @@ class Sections:
     # Formulas.
 
     def expression(
-        self, node: Node, what: str, role: Role, before: int | None = None
+        self, node: DocumentNode, what: str, role: Role, before: int | None = None
     ) -> Expression:
         """A formula whose names are all known and allowed in its role."""
         unit = unit_behind(node.value) if role in _NUMERIC and isinstance(node, Scalar) else ""
@@ -144,7 +148,7 @@ class Sections:
         """Whether a text is a unit, and no name of the file."""
         return text not in self.scope.kinds and unit_behind(f"1 {text}") == text != ""
 
-    def _misplaced_unit(self, node: Node, what: str, unit: str) -> None:
+    def _misplaced_unit(self, node: DocumentNode, what: str, unit: str) -> None:
         assert isinstance(node, Scalar)
         number = node.value.strip().removesuffix(unit).strip()
         hint = f"write {number}: numbers are in the units of the file"
@@ -154,7 +158,7 @@ class Sections:
             hint = f"write {{value: {number}, unit: {unit}}}"
         self.error(f"the unit '{unit}' cannot stand behind a number", node.span, hint)
 
-    def equation(self, node: Node, what: str, role: Role) -> Equation:
+    def equation(self, node: DocumentNode, what: str, role: Role) -> Equation:
         """`left = right`, or an expression that is 0."""
         equation = self._read(node, what, read_equation)
         if equation is None:
@@ -163,7 +167,7 @@ class Sections:
             self._check_names(side, role, what)
         return equation
 
-    def comparison(self, node: Node, what: str, role: Role) -> Inequality | None:
+    def comparison(self, node: DocumentNode, what: str, role: Role) -> Inequality | None:
         """One inequality, or None."""
         inequality = self._read(node, what, read_comparison)
         if inequality is not None:
@@ -171,7 +175,7 @@ class Sections:
                 self._check_names(side, role, what)
         return inequality
 
-    def name(self, node: Node, what: str, role: Role) -> Name | None:
+    def name(self, node: DocumentNode, what: str, role: Role) -> Name | None:
         """A single name with its primes, such as `x'`."""
         expression = self._read(node, what, read_expression)
         if expression is None:
@@ -181,7 +185,7 @@ class Sections:
             return None
         return expression if self._check_names(expression, role, what) else None
 
-    def _read(self, node: Node, what: str, read: Callable[[Excerpt], _T]) -> _T | None:
+    def _read(self, node: DocumentNode, what: str, read: Callable[[Excerpt], _T]) -> _T | None:
         if not isinstance(node, Scalar):
             hint = "one function for all coordinates, such as c*x'^2/2"
             hint = hint if what == "dissipation" else ""
@@ -220,7 +224,7 @@ class Sections:
         return True
 
 
-def _as_map(node: Node, names: tuple[str, ...]) -> str:
+def _as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
     """How a text or a list is written as the map that it should be."""
     written = node.text.source.text[node.start : node.end].strip()
     if isinstance(node, Scalar) and names[0] == "where" and "=" in written:

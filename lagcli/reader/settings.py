@@ -14,7 +14,7 @@ from lagcli.reader.positions import Excerpt
 from lagcli.reader.quantities import value_cycle
 from lagcli.reader.scope import VALUES, Scope
 from lagcli.reader.suggest import did_you_mean
-from lagcli.reader.text import Mistake, Text
+from lagcli.reader.text import Mistake, SourceText
 from lagcli.rewriting import rebuilt
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def set_state(problem: Problem, settings: Iterable[str]) -> Problem:
 
 def _read(source: Source, scope: Scope, names: Sequence[str], kind: str) -> tuple[str, Expression]:
     """The name and the value of one setting; names are those of that kind."""
-    text = Text.of(source)
+    text = SourceText.of(source)
     written, equals, value = source.text.partition("=")
     name = unicodedata.normalize("NFC", written.strip()).translate(_PRIMES)
     if not equals:

@@ -19,14 +19,14 @@ class Mistake(Exception):
         self.diagnostics = (diagnostic, *further)
 
 
-class Text(NamedTuple):
+class SourceText(NamedTuple):
     """The text of a file with the offsets at which its lines begin."""
 
     source: Source
     line_starts: tuple[int, ...]
 
     @classmethod
-    def of(cls, source: Source) -> Text:
+    def of(cls, source: Source) -> SourceText:
         """Count the lines of `source`, which are ended by line feeds alone."""
         starts = [0]
         at = source.text.find("\n")
@@ -70,5 +70,5 @@ def decode(name: str, data: bytes) -> tuple[Source, list[Diagnostic]]:
         source = Source(name, data.decode("utf-8", "replace"))
         offset = len(data[: problem.start].decode("utf-8"))
         message = f"the byte 0x{data[problem.start]:02x} is not UTF-8"
-        span = Text.of(source).span(offset, offset + 1)
+        span = SourceText.of(source).span(offset, offset + 1)
         return source, [Diagnostic(message, span, "save the file as UTF-8")]

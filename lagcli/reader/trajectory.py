@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lagcli.problem import Known, KnownRow, Trajectory
+from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.nodes import Mapping as Map
-from lagcli.reader.nodes import Node, Scalar
 from lagcli.reader.scope import ALONG, CONSTANTS, MOTION, Role
 from lagcli.reader.suggest import did_you_mean
 
@@ -53,7 +53,7 @@ class TrajectoryReader:
         self.named = named
         self.spans = spans
 
-    def read(self, node: Node) -> Trajectory:
+    def read(self, node: DocumentNode) -> Trajectory:
         """The whole section; a column is an expression along the motion."""
         kinds = self.sections.scope.kinds
         borrowed = kinds.setdefault(_ENERGY, "multiplier") if _ENERGY not in kinds else None
@@ -63,8 +63,8 @@ class TrajectoryReader:
             if borrowed:
                 del kinds[_ENERGY]
 
-    def _read(self, node: Node) -> Trajectory:
-        parts: dict[str, Node] = {}
+    def _read(self, node: DocumentNode) -> Trajectory:
+        parts: dict[str, DocumentNode] = {}
         formulas = []
         for key, value in self.sections.entries(node, "'trajectory'", "write x: cos(t)"):
             self.spans["trajectory", key.label] = key.span
@@ -84,19 +84,19 @@ class TrajectoryReader:
             tolerance=self._number(parts, "tolerance"),
         )
 
-    def _number(self, parts: dict[str, Node], key: str) -> Expression | None:
+    def _number(self, parts: dict[str, DocumentNode], key: str) -> Expression | None:
         if key not in parts:
             return None
         return self.sections.expression(parts[key], f"'{key}'", CONSTANTS)
 
-    def _known(self, key: Scalar, value: Node, role: Role) -> Known:
+    def _known(self, key: Scalar, value: DocumentNode, role: Role) -> Known:
         what = f"the expected '{key.label}'"
         column = self.named.get(key.label)
         if column is None:
             column = self.sections.expression(key, "a column", ALONG)
         return Known(key.label, column, self.sections.expression(value, what, role))
 
-    def _rows(self, node: Node, section: str, words: tuple[str, ...]) -> list[KnownRow]:
+    def _rows(self, node: DocumentNode, section: str, words: tuple[str, ...]) -> list[KnownRow]:
         """Maps of columns, with words that say when."""
         rows = []
         for place, item in enumerate(self.sections.items(node, f"'{section}'")):

@@ -9,7 +9,7 @@ from lagcli.diagnostics import Diagnostic
 from lagcli.reader.habits import colon_advice
 
 if TYPE_CHECKING:
-    from lagcli.reader.text import Text
+    from lagcli.reader.text import SourceText
 
 #: A piece of the parser's own message; our sentence; our advice.
 _SENTENCES = (
@@ -52,7 +52,7 @@ _SENTENCES = (
 )  # fmt: skip
 
 
-def explain(error: Exception, text: Text) -> Diagnostic:
+def explain(error: Exception, text: SourceText) -> Diagnostic:
     """A syntax error of YAML as a diagnostic with its place.
 
     Parameters
@@ -89,7 +89,7 @@ def explain(error: Exception, text: Text) -> Diagnostic:
 _BEFORE = re.compile(r"(?P<indent>\s*)(?P<key>[^\W\d][\w ]*)(?P<colon>:\s+\S)?")
 
 
-def _second_colon(offset: int, text: Text) -> Diagnostic:
+def _second_colon(offset: int, text: SourceText) -> Diagnostic:
     """A colon where none can stand: the line is indented too far, or the one above has none."""
     line, column = text.position(offset)
     lines = text.source.text.split("\n")
@@ -111,7 +111,7 @@ def _second_colon(offset: int, text: Text) -> Diagnostic:
     return Diagnostic("a second ':' in one value", span, "put the whole value in quotes")
 
 
-def _explain_character(error: Exception, text: Text) -> Diagnostic:
+def _explain_character(error: Exception, text: SourceText) -> Diagnostic:
     """A character that YAML forbids, such as a control character."""
     for offset, character in enumerate(text.source.text):
         code = ord(character)

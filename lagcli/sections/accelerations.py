@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
     from lagcli.mechanics.stating import Stating
     from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import Node
+    from lagcli.reader.nodes import DocumentNode
 
 
 def derive(statements: Statements) -> AccelerationsSection:
@@ -77,7 +77,7 @@ def json(section: AccelerationsSection) -> Object:
     return result
 
 
-def read(reader: ExpectReader, node: Node) -> dict[str, Expression]:
+def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression]:
     """Formulas by coordinate."""
     return reader.by_coordinate(node, "accelerations", "the expected acceleration of '{}'")
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import Node
+    from lagcli.reader.nodes import DocumentNode
 
 
 def derive(statements: Statements | PhaseSpaceStatements) -> BracketsSection:
@@ -91,7 +91,7 @@ def tell(teller: Teller, section: BracketsSection) -> Iterator[Block]:
     return brackets(teller, section)
 
 
-def read(reader: ExpectReader, node: Node) -> dict[str, Expression]:
+def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression]:
     """Formulas by bracket; observables may stand in them."""
     known = reader.known(node, "brackets", reader.brackets, "bracket")
     return read_expected_brackets(reader.sections, known)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import Node
+    from lagcli.reader.nodes import DocumentNode
 
 _CHECKED = {"exact": "checked exactly", "50 digits": "checked at random states to 50 digits"}
 _ONE = Number(Fraction(1))
@@ -169,7 +169,7 @@ def tell(teller: Teller, section: TransformationsSection) -> Iterator[Block]:
     return transformations(teller, section)
 
 
-def read(reader: ExpectReader, node: Node) -> dict[str, ExpectCanonical]:
+def read(reader: ExpectReader, node: DocumentNode) -> dict[str, ExpectCanonical]:
     """What is known of each transformation."""
     names = [each.name for each in reader.transformations]
     known = reader.known(node, "canonical", names, "transformation")

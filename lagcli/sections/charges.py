@@ -20,7 +20,7 @@ from lagcli.formatters.json_values import (
 )
 from lagcli.letters import own
 from lagcli.problem import NOT_CONSERVED
-from lagcli.reader.nodes import Node, Scalar
+from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.schema_parts import FORMULAS
 from lagcli.reader.scope import ANSWER
 from lagcli.statements.declaration import Declaration, Expected, always
@@ -191,7 +191,7 @@ CHARGES = {
 }
 
 
-def read(reader: ExpectReader, node: Node) -> dict[str, Expression | str]:
+def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression | str]:
     """Formulas by symmetry, or `not conserved`."""
     momenta = [f"p_{name}" for name in reader.sections.scope.of_kind("coordinate")]
     known = [*reader.symmetries, "energy", *momenta]
@@ -199,7 +199,7 @@ def read(reader: ExpectReader, node: Node) -> dict[str, Expression | str]:
     return {key.label: read_charge(reader, key, value) for key, value in entries}
 
 
-def read_charge(reader: ExpectReader, key: Scalar, value: Node) -> Expression | str:
+def read_charge(reader: ExpectReader, key: Scalar, value: DocumentNode) -> Expression | str:
     """One formula, or `not conserved`."""
     if isinstance(value, Scalar) and " ".join(value.value.split()) == NOT_CONSERVED:
         return NOT_CONSERVED

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
     from lagcli.mechanics.stating import Stating
     from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import Node
+    from lagcli.reader.nodes import DocumentNode
 
 
 def derive(statements: Statements) -> ConstraintForcesSection:
@@ -126,7 +126,7 @@ def json(section: ConstraintForcesSection) -> Object:
     return result
 
 
-def read(reader: ExpectReader, node: Node) -> dict[str, dict[str, Expression]]:
+def read(reader: ExpectReader, node: DocumentNode) -> dict[str, dict[str, Expression]]:
     """Formulas by constraint and coordinate."""
     found = {}
     for key, value in reader.known(node, "constraint_forces", reader.constraints, "constraint"):

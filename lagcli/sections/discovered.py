@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import Node
+    from lagcli.reader.nodes import DocumentNode
 
 
 def derive(statements: Statements) -> ChargesSection:
@@ -53,7 +53,7 @@ def tell(teller: Teller, section: ChargesSection) -> Iterator[Block]:
     return discovered(teller, section)
 
 
-def read(reader: ExpectReader, node: Node) -> dict[str, Expression | str]:
+def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression | str]:
     """Charges under any names: nobody listed their symmetries."""
     reader.note(node, "discovered")
     entries = reader.sections.entries(node, "'discovered'")

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import Node
+    from lagcli.reader.nodes import DocumentNode
 
 _CONSERVED = {True: "Conserved.", False: "Not conserved.", None: "Conservation undecided."}
 _TOTAL = {True: " It equals T + V.", False: " It does not equal T + V.", None: ""}
@@ -71,7 +71,7 @@ def json(section: EnergySection) -> Object:
     }
 
 
-def read(reader: ExpectReader, node: Node) -> Expression:
+def read(reader: ExpectReader, node: DocumentNode) -> Expression:
     """One formula."""
     return reader.sections.expression(node, "the expected energy", STATE)
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import Node
+    from lagcli.reader.nodes import DocumentNode
 
 
 def derive(statements: Statements) -> EquationsSection:
@@ -109,7 +109,7 @@ def json(section: EquationsSection) -> Object:
     }
 
 
-def read(reader: ExpectReader, node: Node) -> tuple[Equation, ...]:
+def read(reader: ExpectReader, node: DocumentNode) -> tuple[Equation, ...]:
     """Equations that follow from those of motion."""
     equations = []
     for place, item in enumerate(reader.sections.items(node, "'equations'")):

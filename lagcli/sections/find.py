@@ -13,7 +13,7 @@ from lagcli.formatters.json_values import Object, string, strings, unless_none
 from lagcli.problem import Expect, Inequality, Lasting, Problem, Question, Reaching, Rewrite, Where
 from lagcli.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
 from lagcli.reader.expected_ranges import read_ranges
-from lagcli.reader.nodes import Node
+from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.nodes import Sequence as ListNode
 from lagcli.reader.schema_parts import ONE_OR_MORE
 from lagcli.reader.schema_parts import map_of as names_to
@@ -133,7 +133,7 @@ def tell(teller: Teller, section: FindSection) -> Iterator[Block]:
     return questions(teller, section)
 
 
-def read(reader: ExpectReader, node: Node) -> dict[str, tuple[Expression, ...]]:
+def read(reader: ExpectReader, node: DocumentNode) -> dict[str, tuple[Expression, ...]]:
     """The answers by question; ranges are kept beside them."""
     found = {}
     for key, value in reader.known(node, "find", list(reader.questions), "question"):

@@ -11,7 +11,7 @@ from lagcli.expression import Call, Expression, Product, operation_count, walk
 from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, by_name, string, strings
-from lagcli.reader.nodes import Node, Sequence
+from lagcli.reader.nodes import DocumentNode, Sequence
 from lagcli.reader.schema_parts import FORMULA, FORMULAS, list_of
 from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.scope import ANSWER
@@ -171,7 +171,7 @@ def tell(teller: Teller, section: ForcesSection) -> Iterator[Block]:
 
 
 def read(
-    reader: ExpectReader, node: Node
+    reader: ExpectReader, node: DocumentNode
 ) -> dict[str, dict[str, Expression | tuple[Expression, ...]]]:
     """By constraint and point: the signed force, or a list of components."""
     found: dict[str, dict[str, Expression | tuple[Expression, ...]]] = {}
@@ -188,7 +188,7 @@ def read(
     return found
 
 
-def read_friction(reader: ExpectReader, node: Node) -> dict[str, Expression]:
+def read_friction(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression]:
     """The least coefficients by normal force."""
     what = "the expected coefficient of friction at '{}'"
     known = reader.known(node, "friction_needed", reader.constraints, "constraint")

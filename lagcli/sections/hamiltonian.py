@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
     from lagcli.mechanics.stating import Stating
     from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import Node
+    from lagcli.reader.nodes import DocumentNode
 
 
 def derive(statements: Statements) -> HamiltonianSection:
@@ -85,7 +85,7 @@ def given(problem: Any) -> bool:
     return problem.hamiltonian is not None
 
 
-def read(reader: ExpectReader, node: Node) -> Expression:
+def read(reader: ExpectReader, node: DocumentNode) -> Expression:
     """One formula of coordinates and momenta."""
     return reader.sections.expression(node, "the expected Hamiltonian", PHASE_SPACE)
 

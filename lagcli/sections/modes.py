@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, Mode, ModesSection
+from lagcli.answers import Answers, ModesOfFrequency, ModesSection
 from lagcli.document import Block, Equations, Label, Paragraph, Row
 from lagcli.expression import Expression, Number, Power
 from lagcli.formatters.json_values import Object, by_name, place, string, unless_none
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import Node
+    from lagcli.reader.nodes import DocumentNode
 
 
 def derive(statements: Statements) -> ModesSection:
@@ -61,7 +61,7 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
             yield Equations(tuple(_shape(other)))
 
 
-def _mode(mode: Mode) -> Iterator[Row]:
+def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
     note = f"{mode.multiplicity} times" if mode.multiplicity > 1 else ""
     omega = own("omega")
     if mode.frequency is not None:
@@ -83,7 +83,7 @@ def json(section: ModesSection) -> Object:
     return {"modes": found}
 
 
-def _mode_json(mode: Mode) -> Object:
+def _mode_json(mode: ModesOfFrequency) -> Object:
     result = place(mode.at, mode.on) | {"frequency": string(mode.frequency)}
     if mode.frequency is None:
         result["frequency_squared"] = string(mode.frequency_squared)
@@ -100,7 +100,7 @@ def tell(teller: Teller, section: ModesSection) -> Iterator[Block]:
     return oscillations(teller, section)
 
 
-def read(reader: ExpectReader, node: Node) -> tuple[Expression, ...]:
+def read(reader: ExpectReader, node: DocumentNode) -> tuple[Expression, ...]:
     """Angular frequencies."""
     modes = []
     for place_, item in enumerate(reader.sections.items(node, "'modes'", "write [sqrt(g/l)]")):

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import Node
+    from lagcli.reader.nodes import DocumentNode
 
 
 def derive(statements: Statements) -> MomentaSection:
@@ -57,7 +57,7 @@ def json(section: MomentaSection) -> Object:
     return {"momenta": unless_none(section.momenta, by_name)}
 
 
-def read(reader: ExpectReader, node: Node) -> dict[str, Expression]:
+def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression]:
     """Formulas by coordinate."""
     return reader.by_coordinate(node, "momenta", "the expected momentum of '{}'")
 

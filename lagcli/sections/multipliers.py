@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
     from lagcli.mechanics.stating import Stating
     from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import Node
+    from lagcli.reader.nodes import DocumentNode
 
 
 def derive(statements: Statements) -> MultipliersSection:
@@ -125,7 +125,7 @@ def constrained(problem: Any) -> bool:
     return bool(problem.constraints)
 
 
-def read(reader: ExpectReader, node: Node) -> dict[str, Expression]:
+def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression]:
     """Formulas by constraint."""
     return {
         key.label: reader.sections.expression(

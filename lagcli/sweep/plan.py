@@ -27,7 +27,7 @@ class WrongPlan(Exception):
 
 
 @record
-class Range:
+class SweptRange:
     """What one quantity takes.
 
     Attributes
@@ -55,8 +55,8 @@ class Plan:
     seed : int
     """
 
-    parameters: tuple[Range, ...]
-    state: tuple[Range, ...]
+    parameters: tuple[SweptRange, ...]
+    state: tuple[SweptRange, ...]
     random: int | None = None
     seed: int = 0
 
@@ -111,7 +111,7 @@ def plan_of(problem: Problem, vary: Sequence[str], random: int | None, seed: int
     """
     parameters = [one.name for one in problem.parameters]
     state = [name for one in problem.coordinates for name in (one.name, f"{one.name}'")]
-    found: dict[str, Range] = {}
+    found: dict[str, SweptRange] = {}
     wrong: list[str] = []
     for text in vary:
         try:
@@ -137,7 +137,7 @@ def plan_of(problem: Problem, vary: Sequence[str], random: int | None, seed: int
     return plan
 
 
-def _range(text: str, names: Sequence[str], *, random: bool) -> Range:
+def _range(text: str, names: Sequence[str], *, random: bool) -> SweptRange:
     name, equals, rest = text.partition("=")
     name = name.strip()
     if not equals or not rest.strip():
@@ -149,10 +149,10 @@ def _range(text: str, names: Sequence[str], *, random: bool) -> Range:
     if random:
         if len(parts) != 2:
             raise ValueError("a random plan draws between two ends: write NAME=FIRST:LAST")
-        return Range(name, (_number(parts[0]), _number(parts[1])))
+        return SweptRange(name, (_number(parts[0]), _number(parts[1])))
     if len(parts) == 1:
-        return Range(name, tuple(_number(part) for part in rest.split(",")))
-    return Range(name, _spaced(parts))
+        return SweptRange(name, tuple(_number(part) for part in rest.split(",")))
+    return SweptRange(name, _spaced(parts))
 
 
 def _spaced(parts: Sequence[str]) -> tuple[float, ...]:

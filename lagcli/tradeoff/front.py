@@ -13,7 +13,7 @@ AS_GOOD = 1.5
 
 
 @record(kw_only=True)
-class Point:
+class RunPoint:
     """One run.
 
     Attributes
@@ -51,7 +51,7 @@ class Point:
 
 
 #: What a point costs; None where it has no such number.
-Cost = Callable[[Point], float | None]
+Cost = Callable[[RunPoint], float | None]
 
 COSTS: dict[str, Cost] = {
     "total": lambda point: point.total,
@@ -60,7 +60,7 @@ COSTS: dict[str, Cost] = {
 }
 
 
-def front(points: Iterable[Point], cost: Cost, resolved: float = 0.0) -> set[Point]:
+def front(points: Iterable[RunPoint], cost: Cost, resolved: float = 0.0) -> set[RunPoint]:
     """The points that no other beats in one of error and cost without losing in the other.
 
     Parameters
@@ -81,7 +81,7 @@ def front(points: Iterable[Point], cost: Cost, resolved: float = 0.0) -> set[Poi
         for place, point in enumerate(points)
         if point.error is not None and (paid := cost(point)) is not None
     ]
-    found: set[Point] = set()
+    found: set[RunPoint] = set()
     least = float("inf")
     for _, paid, _, point in sorted(known, key=lambda each: each[:3]):
         if paid < least:  # all that are at least as exact cost more
@@ -90,7 +90,7 @@ def front(points: Iterable[Point], cost: Cost, resolved: float = 0.0) -> set[Poi
     return found
 
 
-def cheapest(points: Sequence[Point], accuracy: float, cost: Cost) -> Point | None:
+def cheapest(points: Sequence[RunPoint], accuracy: float, cost: Cost) -> RunPoint | None:
     """The cheapest point with at most this error."""
     good = [
         (paid, place)
@@ -101,12 +101,12 @@ def cheapest(points: Sequence[Point], accuracy: float, cost: Cost) -> Point | No
 
 
 @record(kw_only=True)
-class Verdict:
+class AccuracyVerdict:
     """For one accuracy: the cheapest run that is certified, and what `auto` takes."""
 
     accuracy: float
-    best: Point | None
-    auto: Point | None
+    best: RunPoint | None
+    auto: RunPoint | None
 
     @property
     def ratio(self) -> float | None:
@@ -126,12 +126,12 @@ class Verdict:
         return same or (self.ratio is not None and self.ratio <= AS_GOOD)
 
 
-def verdict(points: Sequence[Point], accuracy: float) -> Verdict:
+def verdict(points: Sequence[RunPoint], accuracy: float) -> AccuracyVerdict:
     """Of the runs with a certificate for this accuracy."""
     asked = [point for point in points if point.accuracy == accuracy]
     named = [point for point in asked if point.method != "auto" and point.reached]
     chosen = [point for point in asked if point.method == "auto"]
-    return Verdict(
+    return AccuracyVerdict(
         accuracy=accuracy,
         best=cheapest(named, accuracy, COSTS["total"]),
         auto=chosen[0] if chosen else None,

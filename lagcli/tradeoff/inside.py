@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.numerics.methods import METHODS
 from lagcli.record import field, record
-from lagcli.tradeoff.front import ACCURACIES, COSTS, Point, cheapest
+from lagcli.tradeoff.front import ACCURACIES, COSTS, RunPoint, cheapest
 
 if TYPE_CHECKING:
     from lagcli.tradeoff.study import Study
@@ -28,7 +28,7 @@ def trades(study: Study) -> list[Trade]:
     return [trade for trade in found if trade is not None]
 
 
-def _with(study: Study, wanted: Callable[[tuple[str, ...]], bool]) -> list[Point]:
+def _with(study: Study, wanted: Callable[[tuple[str, ...]], bool]) -> list[RunPoint]:
     return [point for point in study.points if wanted(METHODS[point.method].properties)]
 
 

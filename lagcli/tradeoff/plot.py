@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from xml.sax.saxutils import escape
 
 from lagcli.numerics.methods import METHODS
-from lagcli.tradeoff.front import COSTS, Point
+from lagcli.tradeoff.front import COSTS, RunPoint
 from lagcli.tradeoff.study import Study
 
 _WIDTH, _HEIGHT = 840.0, 560.0
@@ -61,7 +61,7 @@ def to_svg(study: Study) -> str:
         When no run has a result.
     """
     cost = COSTS[study.cost]
-    lines: dict[str, list[tuple[float, float, Point]]] = {}
+    lines: dict[str, list[tuple[float, float, RunPoint]]] = {}
     for point in study.points:
         paid = cost(point)
         if point.error is not None and paid is not None and point.error < math.inf:

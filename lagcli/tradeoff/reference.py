@@ -22,7 +22,7 @@ from lagcli.numerics.scales import relative
 from lagcli.numerics.simulate import Simulation, simulate
 from lagcli.numerics.steps import Tolerance, component_scales
 from lagcli.record import record, replace
-from lagcli.tradeoff.trial import TooLong
+from lagcli.tradeoff.trial import LimitReached
 
 if TYPE_CHECKING:
     from lagcli.problem import Problem
@@ -43,7 +43,7 @@ Scales = Sequence[float] | None
 
 
 @record(kw_only=True)
-class Reference:
+class ReferenceMotion:
     """The motion at the samples.
 
     Attributes
@@ -106,7 +106,7 @@ def numbers(rows: Sequence[Sequence[str | None]]) -> Rows:
     return tuple(tuple(None if x is None else Decimal(x) for x in row) for row in rows)
 
 
-def reference(problem: Problem, asked: Asked, limit: float) -> Reference:
+def reference(problem: Problem, asked: Asked, limit: float) -> ReferenceMotion:
     """The motion, as well as it can be known within a time.
 
     Parameters
@@ -143,10 +143,10 @@ def reference(problem: Problem, asked: Asked, limit: float) -> Reference:
 
 def _precise(
     simulation: Simulation, modes: Modes, limit: float, warnings: list[str]
-) -> Reference | None:
+) -> ReferenceMotion | None:
     from lagcli.numerics.precise import prepared
 
-    best: Reference | None = None
+    best: ReferenceMotion | None = None
     for digits, coarse, fine in _LADDER:
         runs = []
         for carried, tolerance in ((digits - _BETWEEN, coarse), (digits, fine)):
@@ -164,7 +164,7 @@ def _precise(
             f"power series with {digits} digits; bound: twice the difference to a run with "
             f"{digits - _BETWEEN}"
         )
-        best = Reference(rows=runs[1], bound=bound, kind=kind, seconds=0.0, scales=scales)
+        best = ReferenceMotion(rows=runs[1], bound=bound, kind=kind, seconds=0.0, scales=scales)
         if bound <= _GOOD:
             return best
     return best if best is not None and best.bound < _FOLLOWS else None
@@ -198,7 +198,7 @@ def _run(
 
     def ticked(_: float) -> None:
         if process_time() > end:
-            raise TooLong
+            raise LimitReached
 
     asked, n = simulation.asked, len(simulation.equations.q)
     with made.precision():
@@ -206,7 +206,7 @@ def _run(
         bound = Tolerance(tolerance, n, asked.until, longest, None, made.floor)
         try:
             run = made.run(bound, 0, ticked, moved=False)
-        except TooLong:
+        except LimitReached:
             return None
         if run.stop is not None:
             return None
@@ -228,7 +228,7 @@ def _decimal(value: Any) -> Decimal | None:
 # -- the formulas of the file --------------------------------------------------------------------
 
 
-def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> Reference | None:
+def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> ReferenceMotion | None:
     """`expect: trajectory`, where it gives every coordinate."""
     from lagcli.expression import Name
     from lagcli.graph.derivative import partial
@@ -269,26 +269,26 @@ def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> Referen
         warnings.append("the motion does not follow the formulas of `expect: trajectory`")
         return None
     kind = f"the exact solution of the file, in {_EXACT_DIGITS} digits"
-    return Reference(rows=rows, bound=bound, kind=kind, seconds=0.0, scales=near[1])
+    return ReferenceMotion(rows=rows, bound=bound, kind=kind, seconds=0.0, scales=near[1])
 
 
 # -- doubles -------------------------------------------------------------------------------------
 
 
-def _doubles(problem: Problem, asked: Asked, limit: float) -> Reference:
+def _doubles(problem: Problem, asked: Asked, limit: float) -> ReferenceMotion:
     """The best that can be certified in doubles; its bound is no better than that."""
     end = 0.0
 
     def ticked(_: float) -> None:
         if process_time() > end:
-            raise TooLong
+            raise LimitReached
 
     last = ""
     for accuracy in _DOUBLES:
         end = process_time() + limit
         try:
             result = simulate(problem, replace(asked, accuracy=accuracy), ticked)
-        except TooLong:
+        except LimitReached:
             last = f"it takes more than {limit:g} s"
             continue
         last = result.refusal
@@ -302,4 +302,4 @@ def _doubles(problem: Problem, asked: Asked, limit: float) -> Reference:
     )
     kind = f"{result.method} with its certificate"
     scales = result.certificate.scales
-    return Reference(rows=rows(), bound=bound, kind=kind, seconds=0.0, scales=scales)
+    return ReferenceMotion(rows=rows(), bound=bound, kind=kind, seconds=0.0, scales=scales)

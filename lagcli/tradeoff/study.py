@@ -10,8 +10,8 @@ from typing import Any
 
 from lagcli.numerics.methods import METHODS, Entry
 from lagcli.record import record, replace
-from lagcli.tradeoff.front import ACCURACIES, COSTS, Point, Verdict, front, verdict
-from lagcli.tradeoff.reference import Reference, numbers, reference
+from lagcli.tradeoff.front import ACCURACIES, COSTS, AccuracyVerdict, RunPoint, front, verdict
+from lagcli.tradeoff.reference import ReferenceMotion, numbers, reference
 from lagcli.tradeoff.trial import Given, asked_of
 
 #: Local tolerances; those below the rounding of doubles are for methods with more digits.
@@ -53,10 +53,10 @@ class Study:
     name: str
     until: float
     samples: int
-    reference: Reference
-    points: tuple[Point, ...]
-    certified: tuple[Point, ...]
-    whole: tuple[Point, ...] = ()
+    reference: ReferenceMotion
+    points: tuple[RunPoint, ...]
+    certified: tuple[RunPoint, ...]
+    whole: tuple[RunPoint, ...] = ()
     unsuited: Mapping[str, str]
     cost: str
 
@@ -66,17 +66,17 @@ class Study:
         return self.reference.bound
 
     @property
-    def front(self) -> set[Point]:
+    def front(self) -> set[RunPoint]:
         """The single runs that pay."""
         return front(self.points, COSTS[self.cost], self.resolved)
 
     @property
-    def verdicts(self) -> tuple[Verdict, ...]:
+    def verdicts(self) -> tuple[AccuracyVerdict, ...]:
         """The cheapest for each accuracy."""
         return tuple(verdict(self.certified, accuracy) for accuracy in ACCURACIES)
 
     @property
-    def broken(self) -> tuple[Point, ...]:
+    def broken(self) -> tuple[RunPoint, ...]:
         """Runs whose certificate promises more than is true."""
         return tuple(
             point
@@ -118,8 +118,8 @@ def study(
     """
     problem, asked = asked_of(given)
     known = reference(problem, asked, _reference_limit(given))
-    maker = _Maker(given, known, repeat, progress, methods)
-    points: list[Point] = []
+    maker = _RunMaker(given, known, repeat, progress, methods)
+    points: list[RunPoint] = []
     unsuited: dict[str, str] = {}
     for name in methods:
         for point in maker.sweep(METHODS[name]):
@@ -128,7 +128,7 @@ def study(
             else:
                 points.append(point)
     suited = [name for name in methods if name not in unsuited]
-    whole: list[Point] = []
+    whole: list[RunPoint] = []
     if known.cut and suited:
         whole = list(maker.sweep(METHODS[suited[0]], whole=True))
     certified = [
@@ -152,13 +152,13 @@ def _reference_limit(given: Given) -> float:
     return 3 * given.limit
 
 
-class _Maker:
+class _RunMaker:
     """Makes runs, and counts them."""
 
     def __init__(
         self,
         given: Given,
-        known: Reference,
+        known: ReferenceMotion,
         repeat: int,
         progress: Progress | None,
         methods: Sequence[str],
@@ -169,10 +169,10 @@ class _Maker:
         self.unsuited = False
         self._too_long: dict[str, float] = {}  # the accuracy that took too long
 
-    def sweep(self, entry: Entry, *, whole: bool = False) -> Iterator[Point]:
+    def sweep(self, entry: Entry, *, whole: bool = False) -> Iterator[RunPoint]:
         """One method over its tolerances, until more of them say nothing."""
         finer = _FINER if "any precision" in entry.properties else ()
-        last: Point | None = None
+        last: RunPoint | None = None
         begun = self.made
         for tolerance in (*_TOLERANCES, *finer):
             point = self._point(
@@ -186,12 +186,12 @@ class _Maker:
             last = point
         self.made = begun + len(_TOLERANCES)
 
-    def certified(self, name: str, accuracy: float) -> Point:
+    def certified(self, name: str, accuracy: float) -> RunPoint:
         """One run with its certificate; none where a looser one took too long."""
         asked = replace(self.given, method=name, tolerance=None, accuracy=accuracy)
         if accuracy < self._too_long.get(name, 0.0):
             self.made += 1
-            return Point(
+            return RunPoint(
                 method=name, accuracy=accuracy, why=f"takes more than {self.given.limit:g} s"
             )
         point = self._point(asked)
@@ -199,7 +199,7 @@ class _Maker:
             self._too_long[name] = accuracy
         return point
 
-    def _point(self, given: Given) -> Point:
+    def _point(self, given: Given) -> RunPoint:
         if self.progress is not None:
             self.progress(self.made, self.total)
         self.made += 1
@@ -208,7 +208,7 @@ class _Maker:
             found.append(answer(given))
         first = found[0]
         self.unsuited = bool(first.get("unsuited"))
-        asked = Point(method=given.method, tolerance=given.tolerance, accuracy=given.accuracy)
+        asked = RunPoint(method=given.method, tolerance=given.tolerance, accuracy=given.accuracy)
         good = [each for each in found if "why" not in each]
         if not good:
             return replace(asked, why=first["why"])
@@ -229,7 +229,7 @@ class _Maker:
         )
 
 
-def _has_met_rounding(last: Point, point: Point) -> bool:
+def _has_met_rounding(last: RunPoint, point: RunPoint) -> bool:
     """Whether a finer tolerance has changed the steps and gained nothing."""
     assert last.error is not None
     assert point.error is not None

@@ -64,7 +64,7 @@ class Given:
     state: tuple[str, ...] = ()
 
 
-class TooLong(Exception):
+class LimitReached(Exception):
     """The limit is reached."""
 
 
@@ -82,14 +82,14 @@ def trial(given: Given) -> dict[str, Any]:
 
     def ticked(_: float) -> None:
         if process_time() > given.limit:
-            raise TooLong
+            raise LimitReached
 
     try:
         problem, asked = asked_of(given)
         if given.tolerance is None:
             return _certified(problem, asked, ticked)
         return _single(problem, asked, given, ticked)
-    except TooLong:
+    except LimitReached:
         return {"why": f"takes more than {given.limit:g} s", "long": True}
     except Refusal as refusal:
         return {"why": str(refusal)}

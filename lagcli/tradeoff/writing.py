@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from lagcli.tradeoff.front import AS_GOOD, Point, Verdict
+from lagcli.tradeoff.front import AS_GOOD, AccuracyVerdict, RunPoint
 from lagcli.tradeoff.inside import Trade, trades
 from lagcli.tradeoff.study import Study
 
@@ -60,7 +60,7 @@ def _size(error: float) -> str:
     return f"{error:.1e}" if error else "0"
 
 
-def _cells(point: Point, study: Study) -> list[str]:
+def _cells(point: RunPoint, study: Study) -> list[str]:
     error = "–"
     if point.error is not None:
         below = point.error <= study.resolved
@@ -77,7 +77,7 @@ def _cells(point: Point, study: Study) -> list[str]:
     ]
 
 
-def _verdict(verdict: Verdict) -> list[str]:
+def _verdict(verdict: AccuracyVerdict) -> list[str]:
     best, auto = verdict.best, verdict.auto
     ratio = verdict.ratio
     taken = "none"
@@ -165,7 +165,7 @@ def to_json(study: Study) -> str:
     return json.dumps(document, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def _document(point: Point) -> dict[str, Any]:
+def _document(point: RunPoint) -> dict[str, Any]:
     return {
         "method": point.method,
         "taken": point.taken or None,

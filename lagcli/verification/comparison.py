@@ -18,7 +18,7 @@ _NOTHING = arb(2) ** -90
 _THIN = arb(2) ** -40
 
 
-class Verdict(Enum):
+class ComparisonVerdict(Enum):
     """What came of a comparison."""
 
     EQUAL = "equal"
@@ -27,22 +27,22 @@ class Verdict(Enum):
     UNDEFINED = "undefined"  # no real value
 
 
-def compare(a: arb, b: arb) -> Verdict:
+def compare(a: arb, b: arb) -> ComparisonVerdict:
     """Whether a and b are equal."""
     if not (a.is_finite() and b.is_finite()):
-        return Verdict.UNDEFINED
+        return ComparisonVerdict.UNDEFINED
     difference = abs(a - b)
     largest = abs(a).union(abs(b)).abs_upper()
     if difference.abs_lower() > largest * _ROUNDING + _NOTHING:
-        return Verdict.DIFFERENT
+        return ComparisonVerdict.DIFFERENT
     wide = difference.abs_upper() > largest * _THIN + _NOTHING
-    return Verdict.UNDECIDED if wide else Verdict.EQUAL
+    return ComparisonVerdict.UNDECIDED if wide else ComparisonVerdict.EQUAL
 
 
-def compare_all(pairs: list[tuple[arb, arb]]) -> Verdict:
+def compare_all(pairs: list[tuple[arb, arb]]) -> ComparisonVerdict:
     """Whether all are equal: the first that is not says why."""
     for a, b in pairs:
         verdict = compare(a, b)
-        if verdict is not Verdict.EQUAL:
+        if verdict is not ComparisonVerdict.EQUAL:
             return verdict
-    return Verdict.EQUAL
+    return ComparisonVerdict.EQUAL

@@ -16,11 +16,11 @@ from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.problem import Problem
 from lagcli.reader import parse_text
-from lagcli.verification.comparison import Verdict, compare
+from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.linear import Unclear, rank
 from lagcli.verification.reference import Reference
 from lagcli.verification.states import State, phase_states, random_states
-from lagcli.verification.sweeps import Unknown, Values
+from lagcli.verification.sweeps import StepValues, Unknown
 
 #: States at which each claim is tried, and how many are looked at where it has no value.
 STATES = 3
@@ -36,10 +36,10 @@ Truth = Callable[[State], arb]
 #: Two lists of values at a state; None where the claim says nothing of it.
 Sides = Callable[[State], tuple[Sequence[arb], Sequence[arb]] | None]
 Truths = Callable[[State], Sequence[arb]]
-Scene = Callable[[State], Values]
+Scene = Callable[[State], StepValues]
 
 
-def at_state(state: State) -> Values:
+def at_state(state: State) -> StepValues:
     """The values of parameters, t, q, q', q'', multipliers and momenta there."""
     return state.at
 
@@ -201,7 +201,7 @@ class Examination:
         return True
 
     def _all_zero(self, value: Truth, count: int) -> bool:
-        return all(compare(value(s), arb(0)) is Verdict.EQUAL for s in self.states(count))
+        return all(compare(value(s), arb(0)) is ComparisonVerdict.EQUAL for s in self.states(count))
 
     @property
     def _on_branches(self) -> int:
@@ -227,11 +227,11 @@ class Examination:
             except Unknown as error:
                 self.refute(what, f"its printed form uses {error}, which is not declared")
                 return False
-            if verdict is Verdict.DIFFERENT:
+            if verdict is ComparisonVerdict.DIFFERENT:
                 self.refute(what, f"as derived it is {self._why}")
                 return False
-            tried += verdict is Verdict.EQUAL
-            undefined |= verdict is Verdict.UNDEFINED
+            tried += verdict is ComparisonVerdict.EQUAL
+            undefined |= verdict is ComparisonVerdict.UNDEFINED
         if tried:
             return True
         if undefined:
@@ -240,7 +240,7 @@ class Examination:
         self.unchecked.append(what)
         return True
 
-    def _at_state(self, sides: Sides, number: int) -> Verdict | None:
+    def _at_state(self, sides: Sides, number: int) -> ComparisonVerdict | None:
         """What one state says, with more bits where balls are too wide; None: nothing."""
         verdict = None
         for bits in PRECISIONS:
@@ -250,24 +250,30 @@ class Examination:
             with ctx.workprec(bits):
                 values = sides(states[-1])
                 verdict = None if values is None else self._compared(*values)
-            if verdict in {None, Verdict.EQUAL, Verdict.UNDEFINED} or self._exact(verdict):
+            if verdict in {
+                None,
+                ComparisonVerdict.EQUAL,
+                ComparisonVerdict.UNDEFINED,
+            } or self._exact(verdict):
                 break
         return verdict
 
-    def _exact(self, verdict: Verdict | None) -> bool:
+    def _exact(self, verdict: ComparisonVerdict | None) -> bool:
         """Whether no rounding of a projected state can be what makes a difference."""
-        return verdict is Verdict.DIFFERENT and not self.reference.rows
+        return verdict is ComparisonVerdict.DIFFERENT and not self.reference.rows
 
-    def _compared(self, left: Sequence[arb], right: Sequence[arb]) -> Verdict:
+    def _compared(self, left: Sequence[arb], right: Sequence[arb]) -> ComparisonVerdict:
         verdicts = []
         for a, b in zip(left, right, strict=True):
             verdict = compare(a, b)
-            if verdict is Verdict.DIFFERENT:
+            if verdict is ComparisonVerdict.DIFFERENT:
                 self._why = f"{_shown(a)} at a random state, where {_shown(b)} is right"
                 return verdict
             verdicts.append(verdict)
-        worse = (v for v in (Verdict.UNDECIDED, Verdict.UNDEFINED) if v in verdicts)
-        return next(worse, Verdict.EQUAL)
+        worse = (
+            v for v in (ComparisonVerdict.UNDECIDED, ComparisonVerdict.UNDEFINED) if v in verdicts
+        )
+        return next(worse, ComparisonVerdict.EQUAL)
 
     # -- findings -----------------------------------------------------------------------------
 

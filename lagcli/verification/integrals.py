@@ -15,13 +15,13 @@ from lagcli.expression import Expression, Name
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from lagcli.verification.program import Program
+    from lagcli.verification.program import VerificationProgram
 
 _NODES = 60  # of Gauss's rule on each panel: exp(-x^2) from 0 to 4 to 1e-40
 _PANELS = 4
 
 
-def integral(program: Program, node: tuple[Expression, ...]) -> int:
+def integral(program: VerificationProgram, node: tuple[Expression, ...]) -> int:
     """The step of an integral; inside, its variable is a symbol that nothing else is."""
     integrand, variable, start, end = node
     assert isinstance(variable, Name)
@@ -31,7 +31,7 @@ def integral(program: Program, node: tuple[Expression, ...]) -> int:
     return step(program, inner, inside, program.of(start), program.of(end))
 
 
-def step(program: Program, inner: int, inside: int, start: int, end: int) -> int:
+def step(program: VerificationProgram, inner: int, inside: int, start: int, end: int) -> int:
     """The step of the integral of a step by a symbol."""
     if inside == program.zero:
         return program.zero
@@ -43,7 +43,7 @@ def step(program: Program, inner: int, inside: int, start: int, end: int) -> int
     return program.step("integral", (inner, inside), (start, end, *outer))
 
 
-def slopes(program: Program, place: int) -> list[tuple[int, int]]:
+def slopes(program: VerificationProgram, place: int) -> list[tuple[int, int]]:
     """The partial derivatives of an integral by its limits and by what stands inside."""
     _, what, (start, end, *outer) = program.steps[place]
     inner, inside = what  # type: ignore[misc]
@@ -57,7 +57,7 @@ def slopes(program: Program, place: int) -> list[tuple[int, int]]:
     return found
 
 
-def substituted(program: Program, root: int, old: int, new: int) -> int:
+def substituted(program: VerificationProgram, root: int, old: int, new: int) -> int:
     """The step with one step in the place of another."""
     known = {old: new}
     for place in program.order([root]):

@@ -21,7 +21,7 @@ class Unclear(Exception):
 
 
 @record
-class Solution:
+class SolutionSpace:
     """x + span(kernel); `consistent` says whether the equations have a solution at all."""
 
     x: tuple[arb, ...]
@@ -40,7 +40,7 @@ def size(x: arb) -> float:
 
 def solve(
     rows: Sequence[Sequence[arb]], right: Sequence[arb], columns: int, clear: float = _CLEAR
-) -> Solution:
+) -> SolutionSpace:
     """Every solution of `rows . x = right`, by Gauss-Jordan with full pivoting.
 
     Pivots must be larger than `clear`, or 0 but for rounding.
@@ -98,7 +98,7 @@ def _eliminate(work: list[list[arb]], step: int, j: int) -> None:
             work[other] = [x - by * y for x, y in zip(row, pivot, strict=True)]
 
 
-def _solution(work: list[list[arb]], pivots: list[int], scales: list[arb]) -> Solution:
+def _solution(work: list[list[arb]], pivots: list[int], scales: list[arb]) -> SolutionSpace:
     columns = len(scales)
     x = [arb(0)] * columns
     for step, j in enumerate(pivots):
@@ -114,7 +114,7 @@ def _solution(work: list[list[arb]], pivots: list[int], scales: list[arb]) -> So
     rest = [size(row[-1]) for row in work[len(pivots) :]]
     largest = max([1.0, *(size(row[-1]) for row in work[: len(pivots)])])
     consistent = all(each < _CLEAR * largest for each in rest)
-    return Solution(tuple(x), tuple(kernel), consistent)
+    return SolutionSpace(tuple(x), tuple(kernel), consistent)
 
 
 def rank(rows: Sequence[Sequence[arb]], columns: int) -> int:

@@ -15,7 +15,7 @@ from flint import arb
 
 from lagcli.verification.linear import dot
 from lagcli.verification.reference import Reference
-from lagcli.verification.sweeps import Values, column
+from lagcli.verification.sweeps import StepValues, column
 
 if TYPE_CHECKING:
     from lagcli.verification.states import Environment
@@ -49,7 +49,7 @@ class PhasePoint:
         self.by_q, self.by_p = self._slopes = slopes
         self.at = self.with_values({})
 
-    def with_values(self, more: Mapping[tuple[str, int], arb]) -> Values:
+    def with_values(self, more: Mapping[tuple[str, int], arb]) -> StepValues:
         """The values of formulas that have further names."""
         return self.reference.values({(_HAMILTONIAN, 0): self.energy, **self.environment, **more})
 

@@ -22,7 +22,7 @@ Kind = Literal["number", "symbol", "sum", "product", "power", "call", "unspecifi
 Key = tuple[str, int]
 
 
-class Step(NamedTuple):
+class ProgramStep(NamedTuple):
     """One operation on earlier steps; `what` is the number, key, exponent or function."""
 
     kind: Kind
@@ -30,7 +30,7 @@ class Step(NamedTuple):
     parts: tuple[int, ...] = ()
 
 
-class Program:
+class VerificationProgram:
     """The steps of all formulas of one problem.
 
     Parameters
@@ -52,8 +52,8 @@ class Program:
         self.coordinates = frozenset(coordinates)
         self.functions = frozenset(functions)
         self.definitions = dict(definitions)
-        self.steps: list[Step] = []
-        self._place: dict[Step, int] = {}
+        self.steps: list[ProgramStep] = []
+        self._place: dict[ProgramStep, int] = {}
         self._trees: dict[int, tuple[Expression, int]] = {}
         self._named: dict[str, int] = {}
         self._slopes: dict[int, list[tuple[int, int]]] = {}
@@ -65,7 +65,7 @@ class Program:
 
     def step(self, kind: Kind, what: object, parts: tuple[int, ...] = ()) -> int:
         """The place of a step, made once."""
-        made = Step(kind, what, parts)
+        made = ProgramStep(kind, what, parts)
         place = self._place.get(made)
         if place is None:
             place = self._place[made] = len(self.steps)
@@ -296,20 +296,20 @@ Slopes = Callable[..., tuple[int, ...]]
 def _over(sign: int, square: int, exponent: Fraction) -> Slopes:
     """±(1 + square x^2)^exponent."""
 
-    def slope(p: Program, _: int, x: int) -> tuple[int, ...]:
+    def slope(p: VerificationProgram, _: int, x: int) -> tuple[int, ...]:
         inner = p.sum(p.one, p.product(p.number(Fraction(square)), p.product(x, x)))
         return (p.product(p.number(Fraction(sign)), p.power(inner, exponent)),)
 
     return slope
 
 
-def _atan2(p: Program, _: int, y: int, x: int) -> tuple[int, int]:
+def _atan2(p: VerificationProgram, _: int, y: int, x: int) -> tuple[int, int]:
     """d atan2(y, x) = (x dy - y dx)/(x^2 + y^2)."""
     over = p.power(p.sum(p.product(x, x), p.product(y, y)), Fraction(-1))
     return p.product(x, over), p.product(p.negative(y), over)
 
 
-def _acosh(p: Program, _: int, x: int) -> tuple[int, ...]:
+def _acosh(p: VerificationProgram, _: int, x: int) -> tuple[int, ...]:
     return (p.power(p.sum(p.product(x, x), p.number(Fraction(-1))), Fraction(-1, 2)),)
 
 

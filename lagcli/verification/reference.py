@@ -17,16 +17,16 @@ from lagcli.expression import Expression
 from lagcli.problem import Constraint, Problem
 from lagcli.record import record
 from lagcli.verification.functions import Instance
-from lagcli.verification.linear import Solution, dot, solve
-from lagcli.verification.program import Program
-from lagcli.verification.sweeps import Environment, Values, column
+from lagcli.verification.linear import SolutionSpace, dot, solve
+from lagcli.verification.program import VerificationProgram
+from lagcli.verification.sweeps import Environment, StepValues, column
 
 #: Unknowns q'' and lambda, beyond which solving for them (n^3) takes longer than all else.
 MANY = 24
 
 
 @record
-class Row:
+class ConstraintSteps:
     """One constraint f = 0: the steps of f and of df/dt (or f again), and the order of its row."""
 
     constraint: Constraint
@@ -41,7 +41,9 @@ class Reference:
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         self.names = tuple(c.name for c in problem.coordinates)
-        self.program = program = Program(self.names, problem.functions, problem.definitions)
+        self.program = program = VerificationProgram(
+            self.names, problem.functions, problem.definitions
+        )
         self.instances = {name: Instance(name, len(a)) for name, a in problem.functions.items()}
         self.time = program.symbol("t")
         self.q, self.v, self.a = (
@@ -107,15 +109,15 @@ class Reference:
     # -- constraints ------------------------------------------------------------------------
 
     @cached_property
-    def rows(self) -> list[Row]:
+    def rows(self) -> list[ConstraintSteps]:
         """The constraints."""
         return [self._row(constraint) for constraint in self.problem.constraints]
 
-    def _row(self, constraint: Constraint) -> Row:
+    def _row(self, constraint: Constraint) -> ConstraintSteps:
         program, equation = self.program, constraint.equation
         f = program.sum(program.of(equation.left), program.negative(program.of(equation.right)))
         moving = any((name, 1) in program.symbols([f]) for name in self.names)
-        return Row(constraint, f, f if moving else program.rate(f), not moving)
+        return ConstraintSteps(constraint, f, f if moving else program.rate(f), not moving)
 
     @cached_property
     def following(self) -> frozenset[tuple[str, int]]:
@@ -133,16 +135,16 @@ class Reference:
         """Whether there is an H alone, from which no Lagrangian follows."""
         return self.problem.hamiltonian is not None and self.problem.lagrangian is None
 
-    def values(self, environment: Environment) -> Values:
+    def values(self, environment: Environment) -> StepValues:
         """All formulas where the symbols have these values."""
-        return Values(self.program, self.instances, environment)
+        return StepValues(self.program, self.instances, environment)
 
     def place(self, node: Expression) -> int:
         """The step of a formula."""
         return self.program.of(node)
 
 
-class Dynamics:
+class DynamicsAtState:
     """What the laws say at one state: momenta, forces, accelerations, multipliers.
 
     Parameters
@@ -153,7 +155,7 @@ class Dynamics:
         Values at a state (parameters, t, q, q').
     """
 
-    def __init__(self, reference: Reference, at: Values) -> None:
+    def __init__(self, reference: Reference, at: StepValues) -> None:
         self.reference = reference
         self.at = at
         self.size = len(reference.names)
@@ -242,7 +244,7 @@ class Dynamics:
     # -- the motion -------------------------------------------------------------------------------
 
     @cached_property
-    def motion(self) -> Solution:
+    def motion(self) -> SolutionSpace:
         """(q'', lambda) of M q'' - A^T lambda = F, A q'' = -bias."""
         size, jacobian = self.size, self.jacobian
         rows = [[*self.mass_matrix[j], *(-a[j] for a in jacobian)] for j in range(size)]

@@ -19,7 +19,7 @@ from lagcli.problem import Coordinate, Parameter, Problem
 from lagcli.verification.functions import ball
 from lagcli.verification.linear import Unclear, least_step, size
 from lagcli.verification.phase_points import PhasePoint, PhaseState, with_momenta
-from lagcli.verification.reference import Dynamics, Reference
+from lagcli.verification.reference import DynamicsAtState, Reference
 from lagcli.verification.sweeps import Unknown, column
 
 _NEWTON_STEPS = 40
@@ -44,7 +44,7 @@ class State:
         self.reference = reference
         self.environment = environment
         self.at = reference.values(Completed(self))
-        self.laws = Dynamics(reference, self.at)
+        self.laws = DynamicsAtState(reference, self.at)
 
     @cached_property
     def following(self) -> Environment:

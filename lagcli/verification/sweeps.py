@@ -15,7 +15,7 @@ from flint import arb
 
 from lagcli.verification.functions import ELEMENTARY, Instance, ball, power
 from lagcli.verification.integrals import quadrature
-from lagcli.verification.program import Key, Program
+from lagcli.verification.program import Key, VerificationProgram
 
 
 class Environment(Protocol):
@@ -40,7 +40,7 @@ class Unknown(Exception):
     """A formula has a name that nothing declares."""
 
 
-class Values:
+class StepValues:
     """The values of steps where each symbol has a value, worked out when asked for.
 
     Parameters
@@ -54,7 +54,10 @@ class Values:
     """
 
     def __init__(
-        self, program: Program, instances: Mapping[str, Instance], environment: Environment
+        self,
+        program: VerificationProgram,
+        instances: Mapping[str, Instance],
+        environment: Environment,
     ) -> None:
         self.program = program
         self.instances = instances
@@ -118,7 +121,7 @@ class Values:
 
         def value(x: arb) -> arb:
             given = Inside(self.environment, key, x)  # type: ignore[arg-type]
-            return Values(self.program, self.instances, given)(inside)
+            return StepValues(self.program, self.instances, given)(inside)
 
         return quadrature(value, start, end)
 

@@ -31,7 +31,7 @@ from lagcli.pipeline import Request, read
 from lagcli.problem import Problem
 from lagcli.record import replace
 from lagcli.tradeoff.front import ACCURACIES
-from lagcli.tradeoff.reference import Reference, numbers, reference
+from lagcli.tradeoff.reference import ReferenceMotion, numbers, reference
 from lagcli.tradeoff.study import answer
 from lagcli.tradeoff.trial import Given, asked_of
 from tests.bench.measure import ROOT, Row, show
@@ -127,7 +127,7 @@ def examined(given: Given) -> Found:
     return found
 
 
-def _known(problem: Problem, asked: Asked, limit: float) -> Reference:
+def _known(problem: Problem, asked: Asked, limit: float) -> ReferenceMotion:
     """A reference, if it is good enough by a method that `auto` does not begin with."""
     try:
         found = reference(problem, replace(asked, method=_OTHER), limit)
@@ -136,7 +136,7 @@ def _known(problem: Problem, asked: Asked, limit: float) -> Reference:
     return found if found.bound <= _GOOD else reference(problem, asked, limit)
 
 
-def judged(told: Mapping[str, Any], accuracy: float, known: Reference) -> Found:
+def judged(told: Mapping[str, Any], accuracy: float, known: ReferenceMotion) -> Found:
     if "why" in told:
         return {"reached": False, "why": told["why"], "holds": True}
     rows = numbers(told["rows"])

@@ -103,7 +103,7 @@ def test_a_false_claim_is_named_and_chaos_may_decline():
 def test_what_is_shown_beyond_the_accuracy_is_no_claim():
     """A run that ends early is judged by the rows it shows."""
     numbers = certificate.numbers
-    reference = certificate.Reference(
+    reference = certificate.ReferenceMotion(
         rows=numbers([["0", "1", "2"], ["1", "2", "2"]]), bound=0.0, kind="", seconds=0.0
     )
     told = {"reached": False, "rows": [["0", "1", "2"], ["0.5", "7", "2"]], "method": "dop853"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from lagcli.check import Outcome
+from lagcli.check import CheckOutcome
 from lagcli.check.one import check_problem
 
 #: A free particle has five Noether symmetries; a force 3 F w x^2 leaves the energy alone.
@@ -54,14 +54,14 @@ def check(text):
 def test_the_unchanged_file_passes(text):
     report = check(text)
     assert report.findings == ()
-    assert report.outcome is Outcome.PASSED
+    assert report.outcome is CheckOutcome.PASSED
 
 
 @pytest.mark.parametrize(("text", "old", "new", "subjects"), SLIPS, ids=[s[2] for s in SLIPS])
 def test_a_slip_is_found_where_it_stands(text, old, new, subjects):
     assert text.count(old) == 1
     report = check(text.replace(old, new))
-    assert {f.outcome for f in report.findings} == {Outcome.WRONG}
+    assert {f.outcome for f in report.findings} == {CheckOutcome.WRONG}
     assert [f.subject for f in report.findings] == [f"algebra.{s}" for s in subjects.split()]
     place = report.findings[0].span
     assert place.line - 1 <= text[: text.index(old)].count("\n") <= place.line + 1

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from lagcli.check.findings import Outcome
+from lagcli.check.findings import CheckOutcome
 from lagcli.check.laws import SECTIONS, Laws
 from lagcli.check.one import check_problem
 from lagcli.effort import OutOfWork
@@ -75,7 +75,8 @@ def test_a_rate_that_is_not_the_charge_s(pendulum):
 
 
 @pytest.mark.parametrize(
-    ("error", "outcome"), [(ZeroDivisionError, Outcome.BROKEN), (OutOfWork, Outcome.UNDECIDED)]
+    ("error", "outcome"),
+    [(ZeroDivisionError, CheckOutcome.BROKEN), (OutOfWork, CheckOutcome.UNDECIDED)],
 )
 def test_a_section_that_could_not_be_made_is_not_called_wrong(monkeypatch, error, outcome):
     def fails(_self):

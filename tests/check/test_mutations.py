@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from lagcli.check import Outcome
+from lagcli.check import CheckOutcome
 from lagcli.check.one import check_problem
 
 HOOP = """\
@@ -83,7 +83,7 @@ def changed(old, new):
 def test_the_unchanged_file_passes():
     report = check(HOOP)
     assert report.findings == ()
-    assert report.outcome is Outcome.PASSED
+    assert report.outcome is CheckOutcome.PASSED
 
 
 @pytest.mark.long
@@ -91,7 +91,7 @@ def test_the_unchanged_file_passes():
 def test_a_slip_is_found_where_it_stands(old, new, subject):
     text = changed(old, new)
     report = check(text)
-    assert [(f.outcome, f.subject) for f in report.findings] == [(Outcome.WRONG, subject)]
+    assert [(f.outcome, f.subject) for f in report.findings] == [(CheckOutcome.WRONG, subject)]
     line = text.splitlines()[report.findings[0].span.line - 1]
     assert (
         subject.rpartition(".")[2].replace("0", "2*x").replace("1", "M*x") in line or "3*x" in line

@@ -7,7 +7,7 @@ from xml.etree import ElementTree  # noqa: ICN001
 
 import pytest
 
-from lagcli.check import Finding, Outcome, Report
+from lagcli.check import CheckOutcome, Finding, Report
 from lagcli.check.reports import FORMS
 from lagcli.diagnostics import Diagnostic, Source, Span
 
@@ -17,9 +17,13 @@ REPORTS = [
     Report(
         Source("a,b: 100%.yaml", ""),
         checks=2,
-        findings=(Finding(Outcome.WRONG, "accelerations.x", "expected <g>\x1b[0m & co", PLACE),),
+        findings=(
+            Finding(CheckOutcome.WRONG, "accelerations.x", "expected <g>\x1b[0m & co", PLACE),
+        ),
     ),
-    Report(Source("late.yaml", ""), findings=(Finding(Outcome.TOO_LONG, "time", "took long"),)),
+    Report(
+        Source("late.yaml", ""), findings=(Finding(CheckOutcome.TOO_LONG, "time", "took long"),)
+    ),
     Report(
         Source("bad.yaml", "T: x'\n"),
         diagnostics=(Diagnostic("no coordinates", Span(1, 1, 1, 2), "add some"),),

@@ -2,7 +2,7 @@
 
 import pytest
 
-from lagcli.check.findings import Outcome
+from lagcli.check.findings import CheckOutcome
 from lagcli.check.one import check_problem
 
 BALL = """
@@ -55,20 +55,20 @@ def test_a_known_motion_passes():
 )
 def test_a_changed_number_is_wrong_at_its_place(right, wrong, subject, line):
     assert BALL.count(right) == 1
-    assert outcomes(BALL.replace(right, wrong)) == [(Outcome.WRONG, subject, line)]
+    assert outcomes(BALL.replace(right, wrong)) == [(CheckOutcome.WRONG, subject, line)]
 
 
 def test_a_run_that_stops_early_is_wrong():
     text = BALL.replace(", restitution: e", "").replace("e^2*h, energy: 1/2 + e^2*g*h", "0")
     found = outcomes(text.replace("what: impact", "what: contact closes"))
-    assert found == [(Outcome.WRONG, "trajectory.at.1", 17)]
+    assert found == [(CheckOutcome.WRONG, "trajectory.at.1", 17)]
 
 
 def test_an_accuracy_that_is_not_reached_is_undecided():
     text = "{coordinates: [r], L: r'^2/2 + 1/r, initial: {r: 1}, expect: {trajectory: {at: [{t: 2, r: 0}]}}}"
-    assert [outcome for outcome, *_ in outcomes(text)] == [Outcome.UNDECIDED]
+    assert [outcome for outcome, *_ in outcomes(text)] == [CheckOutcome.UNDECIDED]
 
 
 def test_a_missing_value_is_undecided():
     text = "{coordinates: [x], parameters: [k], L: x'^2/2 - k*x^2, initial: {x: 1}, expect: {trajectory: {x: 1, until: 1}}}"
-    assert [outcome for outcome, *_ in outcomes(text)] == [Outcome.UNDECIDED]
+    assert [outcome for outcome, *_ in outcomes(text)] == [CheckOutcome.UNDECIDED]

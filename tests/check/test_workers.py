@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from lagcli.check import Outcome, check_all, workers
+from lagcli.check import CheckOutcome, check_all, workers
 from lagcli.check.findings import Report
 from lagcli.diagnostics import Source
 
@@ -60,14 +60,14 @@ def test_reports_come_in_the_order_of_the_files(files):
 def test_what_takes_too_long_is_ended_and_the_rest_goes_on(files):
     reports = list(check_all(files("endless-1", "a", "endless-2", "b"), 2, 1.0))
     assert [report.outcome for report in reports] == [
-        Outcome.TOO_LONG, Outcome.PASSED, Outcome.TOO_LONG, Outcome.PASSED,
+        CheckOutcome.TOO_LONG, CheckOutcome.PASSED, CheckOutcome.TOO_LONG, CheckOutcome.PASSED,
     ]  # fmt: skip
 
 
 def test_a_crash_and_a_bug_are_reported_as_such(files):
     crash, bug, fine = check_all(files("crash", "bug", "a"), 1, 60)
     assert [crash.outcome, bug.outcome, fine.outcome] == [
-        Outcome.BROKEN, Outcome.BROKEN, Outcome.PASSED,
+        CheckOutcome.BROKEN, CheckOutcome.BROKEN, CheckOutcome.PASSED,
     ]  # fmt: skip
     assert "status 3" in crash.findings[0].message
     assert "KeyError: 'of a test'" in bug.findings[0].message
@@ -75,7 +75,7 @@ def test_a_crash_and_a_bug_are_reported_as_such(files):
 
 def test_a_file_that_vanished_is_invalid(tmp_path):
     [report] = check_all([str(tmp_path / "gone.yaml")], 1, 60)
-    assert report.outcome is Outcome.INVALID
+    assert report.outcome is CheckOutcome.INVALID
 
 
 def test_workers_may_recurse_deeply(files):

@@ -9,19 +9,19 @@ import pytest
 
 from lagcli.extremes.cases import cases_of
 from lagcli.extremes.roles import alike, angles_of, light_speeds, singular_positions, unstable_rest
-from lagcli.extremes.scene import Scene, with_all_values
+from lagcli.extremes.scene import ExtremeScene, with_all_values
 from lagcli.pipeline import load, read
 
 
 def scene_of(text):
     found = read("case.yaml", text.encode())
     assert found.problem is not None, found.diagnostics
-    return Scene(with_all_values(found.problem)[0])
+    return ExtremeScene(with_all_values(found.problem)[0])
 
 
 def cases(text, kind):
     scene = scene_of(text)
-    return {case.name: Scene(case.problem) for case in cases_of(scene) if case.kind == kind}
+    return {case.name: ExtremeScene(case.problem) for case in cases_of(scene) if case.kind == kind}
 
 
 PENDULUM = """
@@ -167,7 +167,7 @@ initial: {x: 1}
 def test_a_library_problem_has_cases(name):
     """Without values and without a state: 1, and a state in which nothing is special."""
     path = Path(__file__).parents[2] / "problems" / f"{name}.yaml"
-    found = cases_of(Scene(with_all_values(load(path))[0]))
+    found = cases_of(ExtremeScene(with_all_values(load(path))[0]))
     names = [case.name for case in found]
     assert names[0] == "as given"
     assert len(names) == len(set(names))

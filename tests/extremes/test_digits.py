@@ -6,11 +6,11 @@ import mpmath
 import pytest
 
 from lagcli.diagnostics import Source
-from lagcli.extremes.case import Formula
+from lagcli.extremes.case import CaseFormula
 from lagcli.extremes.condition import mass_condition
 from lagcli.extremes.digits import DIGITS, losses
 from lagcli.extremes.formulas import printed_formulas
-from lagcli.extremes.scene import Scene, with_all_values
+from lagcli.extremes.scene import ExtremeScene, with_all_values
 from lagcli.pipeline import read
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.positions import Excerpt
@@ -27,7 +27,7 @@ def tree(text):
 
 
 def loss(text, **values):
-    formula = Formula(group="charges", name="Q", printed=tree(text))
+    formula = CaseFormula(group="charges", name="Q", printed=tree(text))
     [found] = losses([formula], values)
     return found.printed
 
@@ -104,7 +104,7 @@ initial: {a: 1, b: %s}
 @pytest.mark.parametrize("b", ["2", "1 + 1e-9"])
 def test_the_condition_of_a_double_pendulum(m, b):
     """Scaled, M is [[1, r], [r, 1]] with r^2 = m cos(a - b)^2/(1 + m): (1 + r)/(1 - r)."""
-    scene = Scene(problem(DOUBLE % (m, b)))
+    scene = ExtremeScene(problem(DOUBLE % (m, b)))
     with mpmath.workdps(50):
         mass, (x, y) = mpmath.mpf(scene.value("m")), map(mpmath.mpf, scene.q)
         r = abs(mpmath.cos(x - y)) * mpmath.sqrt(mass / (1 + mass))
@@ -113,7 +113,7 @@ def test_the_condition_of_a_double_pendulum(m, b):
 
 
 def test_a_mass_matrix_without_rank():
-    scene = Scene(problem(DOUBLE % ("0", "2")))
+    scene = ExtremeScene(problem(DOUBLE % ("0", "2")))
     assert mass_condition(scene) == math.inf
 
 

@@ -22,8 +22,8 @@ from lagcli.answers import (
     LagrangeEquation,
     LagrangianSection,
     MatrixFormSection,
-    Mode,
     ModelSection,
+    ModesOfFrequency,
     ModesSection,
     MomentaSection,
     Multiplier,
@@ -326,14 +326,14 @@ HOOP = Answers(
         ),
         "modes": ModesSection(
             modes=(
-                Mode(
+                ModesOfFrequency(
                     at={"theta": ZERO},
                     frequency=Call("sqrt", (Quotient(g, ell),)),
                     frequency_squared=Quotient(g, ell),
                     shape={"theta": ONE},
                     more_shapes=({"theta": M},),
                 ),
-                Mode(
+                ModesOfFrequency(
                     at={"theta": Name("pi")},
                     frequency=None,
                     frequency_squared=Negative(Quotient(g, ell)),

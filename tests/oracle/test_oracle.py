@@ -15,11 +15,12 @@ from mpmath import mp, mpf
 from lagcli.formatters.json import to_object
 from lagcli.pipeline import load, solve
 from lagcli.problem import Problem
+from tests.library.test_library import EXAMINED as SECTIONS
+from tests.library.test_library import LIBRARY
 
 from .examine import examine
 from .functions import ELEMENTARY, StandIn
 from .jets import Jet, Number, coefficient, constant, family, infinitesimal, power, real_part
-from .test_library import LIBRARY, SECTIONS
 
 POINTS = {"acosh": "1.7", "asin": "0.3", "acos": "0.3", "atanh": "0.3"}
 

@@ -10,7 +10,7 @@ from lagcli.numerics.known import numbers_of
 from lagcli.numerics.refusal import Refusal
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.pictures.figure import to_bytes
-from lagcli.pictures.kinds import Request, picture_of
+from lagcli.pictures.kinds import PictureRequest, picture_of
 from lagcli.pictures.page import to_html
 from lagcli.pictures.scene import scene
 from lagcli.pictures.terminal import Terminal, to_text
@@ -45,7 +45,7 @@ def drawn(path, *, written):
     made = []
     for kind in KINDS:
         try:
-            picture, _ = picture_of(problem, asked, Request(kind=kind))
+            picture, _ = picture_of(problem, asked, PictureRequest(kind=kind))
         except (CannotDraw, Refusal):
             continue
         made.append(kind)

@@ -7,7 +7,7 @@ import pytest
 from lagcli.numerics.asked import Asked
 from lagcli.numerics.columns import Column
 from lagcli.pictures.drawing import CannotDraw, Curve, Marks
-from lagcli.pictures.one_freedom import OneFreedom
+from lagcli.pictures.one_freedom import RemainingFreedom
 from lagcli.pictures.portrait import plane, portrait
 from lagcli.pictures.potential import potential
 from tests.pictures.problems import problem_of
@@ -67,7 +67,7 @@ def test_the_equilibria_of_the_pendulum_with_their_kinds():
 
 def test_every_corner_of_a_level_has_the_energy_of_the_level():
     problem = problem_of(PENDULUM)
-    energy = OneFreedom(problem).energy
+    energy = RemainingFreedom(problem).energy
     picture, _ = portrait(problem, STATES)
     levels = curves(picture, "level")
     assert len(levels) >= 7

@@ -3,19 +3,19 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lagcli.tradeoff.front import COSTS, Point, cheapest, front, verdict
+from lagcli.tradeoff.front import COSTS, RunPoint, cheapest, front, verdict
 
 TOTAL = COSTS["total"]
 
 
 def point(error, total, method="a", **other):
-    return Point(method=method, taken=method, error=error, total=total, **other)
+    return RunPoint(method=method, taken=method, error=error, total=total, **other)
 
 
 def test_the_front_is_what_no_other_beats():
     cheap, exact = point(1e-3, 1.0), point(1e-9, 5.0)
     beaten = point(1e-6, 6.0)
-    without = Point(method="b", why="takes more than 10 s")
+    without = RunPoint(method="b", why="takes more than 10 s")
     assert front([beaten, cheap, exact, without], TOTAL) == {cheap, exact}
 
 
@@ -56,7 +56,7 @@ def test_the_cheapest_reaches_the_accuracy():
 
 
 def certified(method, total, accuracy=1e-6, error=1e-8, taken=None, reached=True):
-    return Point(
+    return RunPoint(
         method=method, taken=taken or method, accuracy=accuracy, error=error, total=total,
         reached=reached,
     )  # fmt: skip

@@ -7,26 +7,26 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from lagcli.record import replace
-from lagcli.tradeoff.front import Point
+from lagcli.tradeoff.front import RunPoint
 from lagcli.tradeoff.plot import to_svg
-from lagcli.tradeoff.reference import Reference, difference
+from lagcli.tradeoff.reference import ReferenceMotion, difference
 from lagcli.tradeoff.study import Study
 from lagcli.tradeoff.writing import to_csv, to_json, to_text
 
 SVG = "{http://www.w3.org/2000/svg}"
 POINTS = tuple(
-    Point(method=name, taken=name, tolerance=t, error=e, total=c, integration=c / 10,
+    RunPoint(method=name, taken=name, tolerance=t, error=e, total=c, integration=c / 10,
           evaluations=100)
     for name, t, e, c in (
         ("dop853", 1e-4, 1e-5, 0.1), ("dop853", 1e-8, 1e-9, 0.2), ("dop853", 1e-12, 1e-12, 0.4),
         ("taylor", 1e-8, 1e-9, 0.5), ("taylor", 1e-20, 1e-20, 0.9),
     )
 )  # fmt: skip
-LOST = Point(method="taylor", tolerance=1e-24, why="takes more than 10 s")
+LOST = RunPoint(method="taylor", tolerance=1e-24, why="takes more than 10 s")
 
 
 def study_of(points=POINTS, name="a <b> & c.yaml", cost="total"):
-    known = Reference(rows=((Decimal(0),),), bound=1e-25, kind="made up", seconds=0.1)
+    known = ReferenceMotion(rows=((Decimal(0),),), bound=1e-25, kind="made up", seconds=0.1)
     return Study(
         name=name, until=1.0, samples=1, reference=known, points=points, certified=(),
         unsuited={"taylor80": "made up"}, cost=cost,
@@ -71,7 +71,7 @@ def test_rings_are_the_front():
 
 def test_no_error_at_all_is_0():
     """Of a particle at rest."""
-    rest = Point(method="dop853", taken="dop853", tolerance=1e-4, error=0.0, total=0.1)
+    rest = RunPoint(method="dop853", taken="dop853", tolerance=1e-4, error=0.0, total=0.1)
     study = study_of(points=(rest,))
     still = replace(study, reference=replace(study.reference, bound=0.0))
     assert "error at most 0, made" in to_text(still)

@@ -10,8 +10,8 @@ from flint import arb, ctx
 from lagcli.expression import FUNCTIONS
 from lagcli.reader import parse_text
 from lagcli.verification.functions import Instance
-from lagcli.verification.program import Program
-from lagcli.verification.sweeps import Values
+from lagcli.verification.program import VerificationProgram
+from lagcli.verification.sweeps import StepValues
 
 STEP = arb(2) ** -60
 POINT = {"x": 0.31, "y": 0.73}
@@ -32,15 +32,15 @@ def precision() -> Iterator[None]:
         yield
 
 
-def made(text: str) -> tuple[Program, int]:
-    program = Program(("x", "y"), ("U", "Phi"), {"w": parse_text("x*sin(y)")})
+def made(text: str) -> tuple[VerificationProgram, int]:
+    program = VerificationProgram(("x", "y"), ("U", "Phi"), {"w": parse_text("x*sin(y)")})
     return program, program.of(parse_text(text))
 
 
-def values(program: Program, shift: dict[str, arb]) -> Values:
+def values(program: VerificationProgram, shift: dict[str, arb]) -> StepValues:
     at = {(name, 0): arb(value) + shift.get(name, 0) for name, value in POINT.items()}
     at |= {("x", 1): arb(0.4), ("y", 1): arb(-0.7)}
-    return Values(program, {"U": Instance("U", 1), "Phi": Instance("Phi", 2)}, at)
+    return StepValues(program, {"U": Instance("U", 1), "Phi": Instance("Phi", 2)}, at)
 
 
 @pytest.mark.parametrize("text", FORMULAS)

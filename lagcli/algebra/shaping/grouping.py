@@ -16,7 +16,7 @@ from flint import Ordering, fmpz_mpoly_ctx
 
 from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.shaping.atoms import Atoms, Coefficient, Exponent, Term, Terms, multiply
-from lagcli.algebra.shaping.plan import Product, Sum, product, total
+from lagcli.algebra.shaping.plan import PlannedProduct, PlannedSum, product, total
 
 _MAX_FACTORED = 400  # terms
 _MAX_PLAIN = 10  # terms that may be left without any bracket
@@ -37,7 +37,7 @@ class Grouper:
         self.atoms = atoms
         self._shorter = shorter
         self._shortenings = _SHORTENINGS
-        self._memo: dict[tuple[frozenset[tuple[Term, int]], bool], Product | Sum] = {}
+        self._memo: dict[tuple[frozenset[tuple[Term, int]], bool], PlannedProduct | PlannedSum] = {}
         self._left = _EFFORT
         self._effort = 0
 
@@ -45,7 +45,7 @@ class Grouper:
         """The full effort for another formula."""
         self._left, self._shortenings = _EFFORT, _SHORTENINGS
 
-    def group(self, terms: Terms, *, spread: bool = False) -> Product | Sum:
+    def group(self, terms: Terms, *, spread: bool = False) -> PlannedProduct | PlannedSum:
         """The plan of a sum.
 
         Parameters
@@ -63,8 +63,10 @@ class Grouper:
         self._left += max(0, min(self._effort, before - 10))
         return plan if common == 1 else self._scaled(Fraction(1, common), plan)
 
-    def _scaled(self, number: Fraction, plan: Product | Sum) -> Product | Sum:
-        if isinstance(plan, Product):
+    def _scaled(
+        self, number: Fraction, plan: PlannedProduct | PlannedSum
+    ) -> PlannedProduct | PlannedSum:
+        if isinstance(plan, PlannedProduct):
             return product(self.atoms, number * plan.coefficient, list(plan.parts))
         outside = product(self.atoms, number, [(plan, 1)])
         inside = total(
@@ -72,7 +74,7 @@ class Grouper:
         )
         return inside if inside.score < outside.score else outside
 
-    def _group(self, terms: Integers, spread: bool) -> Product | Sum:
+    def _group(self, terms: Integers, spread: bool) -> PlannedProduct | PlannedSum:
         key = (frozenset(terms.items()), spread)
         known = self._memo.get(key)
         if known is None:
@@ -92,7 +94,7 @@ class Grouper:
             return terms
         return {t: int(v) for t, v in self.atoms.terms(other).items()}
 
-    def _search(self, terms: Integers, spread: bool) -> Product | Sum:
+    def _search(self, terms: Integers, spread: bool) -> PlannedProduct | PlannedSum:
         if len(terms) == 1:
             ((term, coefficient),) = terms.items()
             return product(self.atoms, coefficient, list(term))
@@ -104,24 +106,26 @@ class Grouper:
             if factored is not None:
                 return factored
         splits = self._splits(inner)
-        best: Sum | None = None
+        best: PlannedSum | None = None
         if len(inner) <= _MAX_PLAIN or not splits:
             best = total([product(self.atoms, c, list(t)) for t, c in inner.items()])
         for with_atom, without in splits:
-            parts: list[Product] = []
+            parts: list[PlannedProduct] = []
             for half in (with_atom, without):
                 plan = self._group(half, spread)
-                parts.extend(plan.terms if isinstance(plan, Sum) else (plan,))
+                parts.extend(plan.terms if isinstance(plan, PlannedSum) else (plan,))
             candidate = total(parts)
             if best is None or candidate.score < best.score:
                 best = candidate
         assert best is not None
         return best
 
-    def _times(self, number: int, common: Term, inner: Integers, spread: bool) -> Product | Sum:
+    def _times(
+        self, number: int, common: Term, inner: Integers, spread: bool
+    ) -> PlannedProduct | PlannedSum:
         plan = self._group(inner, spread)
-        if isinstance(plan, Product):
-            parts: list[tuple[int | Sum, Exponent]] = [*common, *plan.parts]
+        if isinstance(plan, PlannedProduct):
+            parts: list[tuple[int | PlannedSum, Exponent]] = [*common, *plan.parts]
             return product(self.atoms, number * plan.coefficient, parts)
         return product(self.atoms, number, [*common, (plan, 1)])
 
@@ -176,7 +180,7 @@ class Grouper:
                     found.append((square, {t: c for t, c in terms.items() if t not in square}))
         return found
 
-    def _factored(self, terms: Integers) -> Product | None:
+    def _factored(self, terms: Integers) -> PlannedProduct | None:
         """The product of the irreducible factors, None when there is only one."""
         if len(terms) > _MAX_FACTORED:
             return None
@@ -205,7 +209,7 @@ class Grouper:
         factors = with_squares(found)
         if len(factors) == 1 and int(factors[0][1]) == 1:
             return None
-        parts: list[tuple[int | Sum, Exponent]] = []
+        parts: list[tuple[int | PlannedSum, Exponent]] = []
         number: Coefficient = int(content)
         for factor, exponent in factors:
             inner: Integers = {}
@@ -217,7 +221,7 @@ class Grouper:
                 )
                 inner[term] = int(value)
             plan = self._group(inner, spread=False)
-            if isinstance(plan, Sum):
+            if isinstance(plan, PlannedSum):
                 parts.append((plan, int(exponent)))
             else:
                 number *= plan.coefficient ** int(exponent)

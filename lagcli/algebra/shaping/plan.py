@@ -21,7 +21,7 @@ _NESTED = 10_000
 
 
 @dataclass(frozen=True, slots=True)
-class Product:
+class PlannedProduct:
     """coefficient * prod part^exponent; a part is an atom or a sum.
 
     `cost` is the number of operations shown, `strain` that of operations inside
@@ -29,7 +29,7 @@ class Product:
     """
 
     coefficient: Coefficient
-    parts: tuple[tuple[int | Sum, Exponent], ...]
+    parts: tuple[tuple[int | PlannedSum, Exponent], ...]
     cost: int
     strain: int
     #: Whether a fraction occurs that no function holds.
@@ -40,17 +40,17 @@ class Product:
         """What is to be least: a short formula, but not at the price of nested brackets."""
         return OPERATION * self.cost + self.strain
 
-    def negated(self) -> Product:
+    def negated(self) -> PlannedProduct:
         """The product with the other sign."""
         cost = self.cost + (1 if self.coefficient.numerator > 0 else -1)
-        return Product(-self.coefficient, self.parts, cost, self.strain, self.fractional)
+        return PlannedProduct(-self.coefficient, self.parts, cost, self.strain, self.fractional)
 
 
 @dataclass(frozen=True, slots=True)
-class Sum:
+class PlannedSum:
     """A sum of products."""
 
-    terms: tuple[Product, ...]
+    terms: tuple[PlannedProduct, ...]
     cost: int
     strain: int
     fractional: bool = False
@@ -60,7 +60,7 @@ class Sum:
         """As for a product."""
         return OPERATION * self.cost + self.strain
 
-    def negated(self) -> Sum:
+    def negated(self) -> PlannedSum:
         """The sum with the other sign."""
         terms = tuple(t.negated() for t in self.terms)
         return total(list(terms))
@@ -71,36 +71,40 @@ class Sum:
 
 
 def product(
-    atoms: Atoms, coefficient: Coefficient, parts: list[tuple[int | Sum, Exponent]]
-) -> Product:
+    atoms: Atoms, coefficient: Coefficient, parts: list[tuple[int | PlannedSum, Exponent]]
+) -> PlannedProduct:
     """The product, its signs put where fewest are needed, and its cost."""
-    signed: list[tuple[int | Sum, Exponent]] = []
+    signed: list[tuple[int | PlannedSum, Exponent]] = []
     best = -1
     gain = 0
     for part, exponent in parts:
-        if isinstance(part, Sum) and exponent % 2 == 1:
+        if isinstance(part, PlannedSum) and exponent % 2 == 1:
             count, minus = len(part.terms), part.negatives()
             if 2 * minus > count:
                 part, coefficient, minus = part.negated(), -coefficient, count - minus
             if count - 2 * minus < 1 + (len(parts) == 1) and gain == 0:
                 # turning this sum round costs less than the sign of the product
                 best, gain = len(signed), 1
-        elif isinstance(part, Sum) and exponent % 2 == 0 and 2 * part.negatives() > len(part.terms):
+        elif (
+            isinstance(part, PlannedSum)
+            and exponent % 2 == 0
+            and 2 * part.negatives() > len(part.terms)
+        ):
             part = part.negated()
         signed.append((part, exponent))
     if coefficient.numerator < 0 and best >= 0:
         part, exponent = signed[best]
-        assert isinstance(part, Sum)
+        assert isinstance(part, PlannedSum)
         signed[best] = (part.negated(), exponent)
         coefficient = -coefficient
-    over_sum = any(e < 0 and isinstance(p, Sum) for p, e in signed)
+    over_sum = any(e < 0 and isinstance(p, PlannedSum) for p, e in signed)
     if coefficient.denominator != 1 and not over_sum:
         coefficient = _halved(atoms, coefficient, signed)
     above = below = cost = strain = 0
     fractional = coefficient.denominator != 1
     for part, exponent in signed:
         size = abs(exponent)
-        if isinstance(part, Sum):
+        if isinstance(part, PlannedSum):
             cost += part.cost
             strain += part.cost + part.strain
             fractional = fractional or part.fractional
@@ -118,16 +122,16 @@ def product(
     above += abs(coefficient.numerator) != 1 or not above
     below += coefficient.denominator != 1
     cost += above - 1 + below + (coefficient.numerator < 0)
-    return Product(coefficient, tuple(signed), cost, strain, fractional)
+    return PlannedProduct(coefficient, tuple(signed), cost, strain, fractional)
 
 
 def _halved(
-    atoms: Atoms, coefficient: Coefficient, parts: list[tuple[int | Sum, Exponent]]
+    atoms: Atoms, coefficient: Coefficient, parts: list[tuple[int | PlannedSum, Exponent]]
 ) -> Coefficient:
     """(a + 2*b)/2 as a/2 + b where that shows less; the sum in `parts` is replaced."""
     below = coefficient.denominator
     for position, (part, exponent) in enumerate(parts):
-        if not isinstance(part, Sum) or exponent != 1:
+        if not isinstance(part, PlannedSum) or exponent != 1:
             continue
         before = sum(abs(t.coefficient) != 1 for t in part.terms)
         divided = [Fraction(t.coefficient) / below for t in part.terms]
@@ -140,14 +144,14 @@ def _halved(
     return coefficient
 
 
-def total(terms: list[Product]) -> Sum:
+def total(terms: list[PlannedProduct]) -> PlannedSum:
     """The sum of two or more products."""
     cost = sum(t.cost for t in terms) + len(terms) - 1
     fractional = any(t.fractional for t in terms)
-    return Sum(tuple(terms), cost, sum(t.strain for t in terms), fractional)
+    return PlannedSum(tuple(terms), cost, sum(t.strain for t in terms), fractional)
 
 
-def cleared(atoms: Atoms, plan: Sum) -> tuple[Fraction, Sum]:
+def cleared(atoms: Atoms, plan: PlannedSum) -> tuple[Fraction, PlannedSum]:
     """(c, S) with c S the sum, no numbers below in S: 1/2 and cos(2x) - 3 of cos(2x)/2 - 3/2."""
     if not plan.fractional:
         return Fraction(1), plan
@@ -158,21 +162,21 @@ def cleared(atoms: Atoms, plan: Sum) -> tuple[Fraction, Sum]:
 
 
 def _cleared_parts(
-    atoms: Atoms, term: Product
-) -> tuple[Fraction, list[tuple[int | Sum, Exponent]]]:
+    atoms: Atoms, term: PlannedProduct
+) -> tuple[Fraction, list[tuple[int | PlannedSum, Exponent]]]:
     """The number before a term and its parts, every bracket in it cleared."""
     number, parts = Fraction(term.coefficient), []
     for part, exponent in term.parts:
-        if isinstance(part, Sum) and isinstance(exponent, int):
+        if isinstance(part, PlannedSum) and isinstance(exponent, int):
             factor, part = cleared(atoms, part)
             number *= factor**exponent
         parts.append((part, exponent))
     return number, parts
 
 
-def write(plan: Product | Sum, atoms: Atoms, writer: Writer) -> Expression:
+def write(plan: PlannedProduct | PlannedSum, atoms: Atoms, writer: Writer) -> Expression:
     """The tree of a plan."""
-    if isinstance(plan, Sum):
+    if isinstance(plan, PlannedSum):
         return writer.sum([write(t, atoms, writer) for t in plan.terms])
     factors: list[Factor] = [
         (atoms.trees[part] if isinstance(part, int) else write(part, atoms, writer), Fraction(e))

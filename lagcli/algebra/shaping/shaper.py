@@ -14,7 +14,15 @@ from lagcli.algebra.ring import Monomial, Poly, factorization
 from lagcli.algebra.shaping.atoms import Atoms, Exponent, Terms, multiply
 from lagcli.algebra.shaping.expansions import LONG, Expansions
 from lagcli.algebra.shaping.grouping import Grouper, with_squares
-from lagcli.algebra.shaping.plan import OPERATION, Product, Sum, cleared, product, total, write
+from lagcli.algebra.shaping.plan import (
+    OPERATION,
+    PlannedProduct,
+    PlannedSum,
+    cleared,
+    product,
+    total,
+    write,
+)
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression
 
@@ -49,7 +57,7 @@ class Shaper:
         self.field = field
         self.writer = writer
         self.scaled = scaled
-        self._known: dict[tuple[tuple[tuple[Monomial, int], ...], int], Product] = {}
+        self._known: dict[tuple[tuple[tuple[Monomial, int], ...], int], PlannedProduct] = {}
         self.atoms = Atoms(field, writer, self.shape, scaled=scaled)
         self.expansions = Expansions(field, self.atoms)
         self.grouper = Grouper(self.atoms, shorter)
@@ -58,7 +66,7 @@ class Shaper:
         """The tree of an element."""
         return self.written(self.plan(element))
 
-    def written(self, plan: Product | Sum) -> Expression:
+    def written(self, plan: PlannedProduct | PlannedSum) -> Expression:
         """The tree of a plan made here."""
         return write(plan, self.atoms, self.writer)
 
@@ -66,7 +74,7 @@ class Shaper:
         """The SymPy expression of a tree made here."""
         return self.atoms.to_sympy(tree)
 
-    def plan(self, element: Element, *, divide: bool = True) -> Product | Sum:
+    def plan(self, element: Element, *, divide: bool = True) -> PlannedProduct | PlannedSum:
         """The cheapest plan; `divide` allows Q + R/D."""
         element = self.field.lifted(element)
         if element.is_zero():
@@ -75,7 +83,7 @@ class Shaper:
             self.atoms.generator(index)  # so that the radicands are known
         above = self._factors(element.numerator)
         below = self._factors(element.denominator)
-        best: Product | Sum = self._joined(above, below)
+        best: PlannedProduct | PlannedSum = self._joined(above, below)
         by_roots = self._by_roots(element) if divide else ()
         for candidate in (*self._spread(element, below), *by_roots):
             if candidate.score < best.score:
@@ -87,13 +95,13 @@ class Shaper:
         return best
 
     @staticmethod
-    def _alike(candidate: Product | Sum, whole: Product | Sum) -> bool:
+    def _alike(candidate: PlannedProduct | PlannedSum, whole: PlannedProduct | PlannedSum) -> bool:
         """Whether Q and R/D share a factor, and N/D is not much longer."""
-        if not isinstance(candidate, Sum) or candidate.cost * _TOGETHER < whole.cost:
+        if not isinstance(candidate, PlannedSum) or candidate.cost * _TOGETHER < whole.cost:
             return False
         return bool(set.intersection(*({p for p, _ in term.parts} for term in candidate.terms)))
 
-    def _by_roots(self, element: Element) -> Iterator[Sum]:
+    def _by_roots(self, element: Element) -> Iterator[PlannedSum]:
         """A/r_1^3 + B/r_2^3: the parts of the numerator with different roots apart.
 
         A root that the denominator holds as well may belong to a common factor.
@@ -115,15 +123,15 @@ class Shaper:
                     for terms in groups.values()
                 )
 
-    def together(self, elements: Iterable[Element]) -> Sum:
+    def together(self, elements: Iterable[Element]) -> PlannedSum:
         """The sum of the plans of each."""
-        parts: list[Product] = []
+        parts: list[PlannedProduct] = []
         for each in elements:
             plan = self.plan(each, divide=False)
-            parts.extend(plan.terms if isinstance(plan, Sum) else (plan,))
+            parts.extend(plan.terms if isinstance(plan, PlannedSum) else (plan,))
         return total(parts)
 
-    def _divided(self, element: Element) -> Iterator[tuple[Product | Sum, bool]]:
+    def _divided(self, element: Element) -> Iterator[tuple[PlannedProduct | PlannedSum, bool]]:
         """N/D = Q + R/D for a factor D of the denominator, and whether it has fewer terms.
 
         What all of N has in common stays in front of the sum, or is multiplied into it.
@@ -146,7 +154,9 @@ class Shaper:
                 parts = [*outside.parts, (inner, 1)]
                 yield product(self.atoms, outside.coefficient, parts), shorter
 
-    def _sum_of(self, quotient: Poly, remainder: Poly, divisor: Poly, denominator: Poly) -> Sum:
+    def _sum_of(
+        self, quotient: Poly, remainder: Poly, divisor: Poly, denominator: Poly
+    ) -> PlannedSum:
         """Q D/denominator + R/denominator."""
         element = self.field.element
         return self.together(
@@ -167,12 +177,12 @@ class Shaper:
             if quotient != 0 and rest != 0 and terms <= len(numerator) + 1:
                 yield quotient, rest, terms < len(numerator)
 
-    def _joined(self, above: Product, below: Product) -> Product:
+    def _joined(self, above: PlannedProduct, below: PlannedProduct) -> PlannedProduct:
         inverse = [(p, -e) for p, e in below.parts]
-        over_sum = any(isinstance(p, Sum) for p, _ in below.parts)
+        over_sum = any(isinstance(p, PlannedSum) for p, _ in below.parts)
         number = Fraction(above.coefficient) / below.coefficient
         exponents: dict[int, Exponent] = {}
-        sums: list[tuple[int | Sum, Exponent]] = []
+        sums: list[tuple[int | PlannedSum, Exponent]] = []
         for part, exponent in [*above.parts, *inverse]:
             if isinstance(part, int):
                 exponents[part] = exponents.get(part, 0) + exponent
@@ -181,12 +191,14 @@ class Shaper:
                 factor, part = cleared(self.atoms, part)
                 number *= factor**exponent
             sums.append((part, exponent))
-        parts: list[tuple[int | Sum, Exponent]] = [
+        parts: list[tuple[int | PlannedSum, Exponent]] = [
             *((a, e) for a, e in sorted(exponents.items()) if e), *sums
         ]  # fmt: skip
         return product(self.atoms, number, parts)
 
-    def _spread(self, element: Element, below: Product) -> Iterator[Product | Sum]:
+    def _spread(
+        self, element: Element, below: PlannedProduct
+    ) -> Iterator[PlannedProduct | PlannedSum]:
         """Terms with denominators of their own, where these are products of atoms."""
         divisors = [(p, -e) for p, e in below.parts if isinstance(p, int)]
         if (
@@ -204,7 +216,7 @@ class Shaper:
 
     # -- polynomials ----------------------------------------------------------------------
 
-    def _factors(self, poly: Poly) -> Product:
+    def _factors(self, poly: Poly) -> PlannedProduct:
         """The plan of a polynomial: its factors, each in its shortest shape."""
         key = tuple(self.field.ring.terms(poly)), len(self.atoms.roots)
         known = self._known.get(key)
@@ -212,10 +224,10 @@ class Shaper:
             known = self._known[key] = self._of_factors(poly)
         return known
 
-    def _of_factors(self, poly: Poly) -> Product:
+    def _of_factors(self, poly: Poly) -> PlannedProduct:
         if len(poly) > _MAX_FACTORED:
             return _as_product(self.atoms, self.grouper.group(self.atoms.terms(poly)))
-        parts: dict[int | Sum, Exponent] = {}
+        parts: dict[int | PlannedSum, Exponent] = {}
         for radicand, term in self.atoms.roots:
             # c² - v² = (c - v)(c + v) is not to be told apart where its root occurs
             divisor = self.field.ring.lift(radicand)
@@ -234,7 +246,7 @@ class Shaper:
                     plan = other
                     ((atom, _),) = self.atoms.generator(cosine)
                     parts[atom] = parts.get(atom, 0) + degree
-            if isinstance(plan, Sum):
+            if isinstance(plan, PlannedSum):
                 parts[plan] = parts.get(plan, 0) + int(exponent)
                 continue
             number *= plan.coefficient ** int(exponent)
@@ -264,7 +276,7 @@ class Shaper:
                     found[number] = exponent
         return found
 
-    def _by_tangent(self, poly: Poly, cosine: int) -> tuple[int, Product | Sum]:
+    def _by_tangent(self, poly: Poly, cosine: int) -> tuple[int, PlannedProduct | PlannedSum]:
         """g cos + a sin as (1, g + a tan): the degree d in both and the rest of cos^d.
 
         The degree is 0 where the terms differ in it.
@@ -326,21 +338,23 @@ class Shaper:
             joined *= f**e
         plain = self.grouper.group(self.atoms.terms(joined))
         best = self._polynomial(joined)
-        if not isinstance(best, Product) or best.cost >= plain.cost:
+        if not isinstance(best, PlannedProduct) or best.cost >= plain.cost:
             return factors
         return [*(pair for pair in factors if pair not in single), (joined, 1)]
 
-    def _polynomial(self, poly: Poly) -> Product | Sum:
+    def _polynomial(self, poly: Poly) -> PlannedProduct | PlannedSum:
         """The shortest plan of an irreducible polynomial, its sign left to the product."""
-        best: Product | Sum | None = None
+        best: PlannedProduct | PlannedSum | None = None
         lowest = 0
         for terms in self.expansions.of(poly):
             plan = self.grouper.group(terms)
-            if isinstance(plan, Sum):
+            if isinstance(plan, PlannedSum):
                 turned = plan.negated()
                 score = min(plan.score, turned.score)
                 if turned.score < plan.score:
-                    plan = Product(Fraction(-1), ((turned, 1),), turned.cost + 1, turned.cost)
+                    plan = PlannedProduct(
+                        Fraction(-1), ((turned, 1),), turned.cost + 1, turned.cost
+                    )
             else:  # its sign goes to the whole product, as that of a sum does
                 score = plan.score - OPERATION * (plan.coefficient < 0)
             if best is None or score < lowest:
@@ -349,9 +363,9 @@ class Shaper:
         return best
 
 
-def _expanded(atoms: Atoms, terms: Terms) -> Sum:
+def _expanded(atoms: Atoms, terms: Terms) -> PlannedSum:
     return total([product(atoms, value, list(term)) for term, value in terms.items()])
 
 
-def _as_product(atoms: Atoms, plan: Product | Sum) -> Product:
-    return plan if isinstance(plan, Product) else product(atoms, Fraction(1), [(plan, 1)])
+def _as_product(atoms: Atoms, plan: PlannedProduct | PlannedSum) -> PlannedProduct:
+    return plan if isinstance(plan, PlannedProduct) else product(atoms, Fraction(1), [(plan, 1)])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 
-from lagcli.check.findings import Outcome, Report
+from lagcli.check.findings import CheckOutcome, Report
 from lagcli.diagnostics import NOWHERE, Span
 
 
@@ -16,7 +16,7 @@ def render(reports: Iterable[Report]) -> Iterator[str]:
         "schema": 1,
         "summary": {
             outcome.value: sum(report.outcome is outcome for report in everything)
-            for outcome in Outcome
+            for outcome in CheckOutcome
         },
         "problems": [_problem(report) for report in everything],
     }

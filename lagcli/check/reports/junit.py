@@ -9,13 +9,13 @@ import re
 from collections.abc import Iterable, Iterator
 from xml.sax.saxutils import escape, quoteattr
 
-from lagcli.check.findings import Outcome, Report
+from lagcli.check.findings import CheckOutcome, Report
 from lagcli.check.reports.text import place
 from lagcli.diagnostics import render as render_diagnostics
 
 #: What XML 1.0 cannot hold, even escaped.
 _FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-_ERRORS = (Outcome.INVALID, Outcome.BROKEN)
+_ERRORS = (CheckOutcome.INVALID, CheckOutcome.BROKEN)
 
 
 def render(reports: Iterable[Report]) -> Iterator[str]:

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from urllib.parse import quote
 
 from lagcli import __version__
-from lagcli.check.findings import Outcome, Report
+from lagcli.check.findings import CheckOutcome, Report
 from lagcli.diagnostics import NOWHERE, Span, printable
 
 _SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
@@ -22,8 +22,8 @@ def render(reports: Iterable[Report]) -> Iterator[str]:
     results = [result for report in reports for result in _results(report)]
     rules = [
         {"id": _rule(outcome), "shortDescription": {"text": outcome.value}}
-        for outcome in Outcome
-        if outcome is not Outcome.PASSED
+        for outcome in CheckOutcome
+        if outcome is not CheckOutcome.PASSED
     ]
     tool = {"driver": {"name": "lagcli", "version": __version__, "rules": rules}}
     log = {"$schema": _SCHEMA, "version": "2.1.0", "runs": [{"tool": tool, "results": results}]}
@@ -35,14 +35,14 @@ def _results(report: Report) -> Iterator[dict[str, object]]:
         advice = f" ({diagnostic.hint})" if diagnostic.hint else ""
         message = diagnostic.message + advice
         level = _LEVELS[diagnostic.severity]
-        yield _result(report, Outcome.INVALID, level, message, diagnostic.span)
+        yield _result(report, CheckOutcome.INVALID, level, message, diagnostic.span)
     for finding in report.findings:
         message = f"{finding.subject}: {finding.message}"
         yield _result(report, finding.outcome, "error", message, finding.span)
 
 
 def _result(
-    report: Report, outcome: Outcome, level: str, message: str, span: Span
+    report: Report, outcome: CheckOutcome, level: str, message: str, span: Span
 ) -> dict[str, object]:
     location: dict[str, object] = {"artifactLocation": {"uri": quote(report.source.name)}}
     if span != NOWHERE:
@@ -61,5 +61,5 @@ def _result(
     }
 
 
-def _rule(outcome: Outcome) -> str:
+def _rule(outcome: CheckOutcome) -> str:
     return outcome.value.replace(" ", "-")

@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator
 
-from lagcli.check.findings import Finding, Outcome, Report
+from lagcli.check.findings import CheckOutcome, Finding, Report
 from lagcli.diagnostics import NOWHERE, printable
 from lagcli.diagnostics import render as render_diagnostics
 
 
 def render(reports: Iterable[Report]) -> Iterator[str]:
     """The lines of each report when it comes, then how many ended how."""
-    outcomes: Counter[Outcome] = Counter()
+    outcomes: Counter[CheckOutcome] = Counter()
     checks = 0
     for report in reports:
         outcomes[report.outcome] += 1
         checks += report.checks
         yield "".join(f"{line}\n" for line in _lines(report))
-    told = [f"{outcomes[outcome]} {outcome.value}" for outcome in Outcome if outcomes[outcome]]
+    told = [f"{outcomes[outcome]} {outcome.value}" for outcome in CheckOutcome if outcomes[outcome]]
     problems = outcomes.total()
     yield f"{problems} problem{'s' * (problems != 1)}, {checks} checks: {', '.join(told)}\n"
 

@@ -29,7 +29,7 @@ from lagcli.mechanics.canonical.inverse import candidates
 from lagcli.mechanics.canonical.poisson import poisson
 from lagcli.mechanics.phase_states import PhaseStates
 from lagcli.mechanics.system import System
-from lagcli.problem import Transformation
+from lagcli.problem import CanonicalTransformation
 from lagcli.record import record
 
 #: States at which K is tested where the normal form does not decide.
@@ -37,7 +37,7 @@ _EVERYWHERE = 12
 
 
 @record
-class Bracket:
+class TestedBracket:
     """{left, right} = value, where `expected` should stand; the names are the new ones."""
 
     left: str
@@ -47,7 +47,7 @@ class Bracket:
 
 
 @record
-class Relation:
+class GeneratedRelation:
     """`left` = `right`, a derivative of the generating function, and whether it holds."""
 
     left: Expr
@@ -68,7 +68,7 @@ class CanonicalTest:
         The new variables in the old ones.
     """
 
-    def __init__(self, system: System, given: Transformation) -> None:
+    def __init__(self, system: System, given: CanonicalTransformation) -> None:
         self.system = system
         self.given = given
         self.old = (*system.q, *system.momenta)
@@ -108,12 +108,12 @@ class CanonicalTest:
         return first if constant else sympy.S.One
 
     @cached_property
-    def _verdicts(self) -> tuple[tuple[Bracket, bool | None, Verification | None], ...]:
+    def _verdicts(self) -> tuple[tuple[TestedBracket, bool | None, Verification | None], ...]:
         n, found = len(self.Q), []
         for i, j, value in self.brackets:
             expected = self.valence if j == i + n else sympy.S.Zero
             verdict, how = self.states.vanishes(value - expected)
-            bracket = Bracket(self.new[i].name, self.new[j].name, value, expected)
+            bracket = TestedBracket(self.new[i].name, self.new[j].name, value, expected)
             found.append((bracket, verdict, how))
         return tuple(found)
 
@@ -124,7 +124,7 @@ class CanonicalTest:
         return False if False in verdicts else None if None in verdicts else True
 
     @property
-    def failing(self) -> tuple[Bracket, ...]:
+    def failing(self) -> tuple[TestedBracket, ...]:
         """The brackets that are not what a canonical transformation has."""
         return tuple(bracket for bracket, verdict, _ in self._verdicts if verdict is False)
 
@@ -145,7 +145,7 @@ class CanonicalTest:
         return self.system.build.knowing(names)(self.given.generating)
 
     @cached_property
-    def relations(self) -> tuple[Relation, ...]:
+    def relations(self) -> tuple[GeneratedRelation, ...]:
         """What the derivatives of the given generating function should be, in the old variables."""
         F, c = self.generating, self.valence
         if F is None:
@@ -161,7 +161,7 @@ class CanonicalTest:
         pairs = [(c * k, of_old * F.diff(v)) for k, v in zip(kept, olds, strict=True)]
         pairs += [(m, of_new * F.diff(v)) for m, v in zip(made, news, strict=True)]
         return tuple(
-            Relation(
+            GeneratedRelation(
                 left,
                 simplify(right.xreplace(self.put_in)),
                 self.states.vanishes((left - right).xreplace(self.put_in))[0],

@@ -25,8 +25,8 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
-from lagcli.mechanics.discovery.search import Unknown
-from lagcli.mechanics.discovery.slots import Equations, Slot
+from lagcli.mechanics.discovery.search import SlotUnknown
+from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 from lagcli.mechanics.discovery.spectrum import (
     Exponent,
     differences,
@@ -57,7 +57,7 @@ class Kinds:
 
 def kinds(
     L: Expr,
-    equations: Equations,
+    equations: SlotEquations,
     units: Sequence[str | None] = (),
     constraints: Sequence[Expr] = (),
 ) -> Kinds:
@@ -100,7 +100,7 @@ def kinds(
     return found
 
 
-def _has_twin(x: Symbol, equations: Equations, L: Expr) -> bool:
+def _has_twin(x: Symbol, equations: SlotEquations, L: Expr) -> bool:
     """Whether another cyclic coordinate has its inertia, as x and y in z^2 (x'^2 + 4 y'^2).
 
     The two turn into each other, so they are lengths of a plane and no angles.
@@ -126,7 +126,7 @@ def _is_of_no_circle(inertia: Expr, q: Sequence[Symbol]) -> bool:
     return all(sympy.degree(above, x) != 2 for x in inside)
 
 
-def _exponentials(equations: Equations) -> list[Expr]:
+def _exponentials(equations: SlotEquations) -> list[Expr]:
     """Of the inertia: exp(x), its root and their inverses, as isometries have them."""
     atoms = {e for row in equations.mass for m in row for e in m.atoms(sympy.exp)}
     inside = [e.args[0] for e in sorted(atoms, key=sympy.default_sort_key)
@@ -135,7 +135,7 @@ def _exponentials(equations: Equations) -> list[Expr]:
     return list(dict.fromkeys(sympy.exp(k * x) for x in inside for k in powers))
 
 
-def _in_determinant(x: Symbol, equations: Equations) -> bool:
+def _in_determinant(x: Symbol, equations: SlotEquations) -> bool:
     """Whether det M changes with the angle: there its chart has poles, as at theta = 0."""
     if not any(x in m.free_symbols for row in equations.mass for m in row):
         return False
@@ -175,7 +175,7 @@ class TimeFunctions:
 
 
 def time_functions(
-    equations: Equations, accelerations: Sequence[Expr] | None, *, potential: bool
+    equations: SlotEquations, accelerations: Sequence[Expr] | None, *, potential: bool
 ) -> TimeFunctions:
     """1, t, t^2 (t^3 for translations) and the functions that the linear part suggests."""
     t = equations.t
@@ -283,18 +283,18 @@ def point_unknowns(
     spaces: Sequence[Expr],
     *,
     time_with_space: bool,
-) -> list[Unknown]:
+) -> list[SlotUnknown]:
     """T(t) g(q) for tau and every xi, those that may be eliminated first in front.
 
     Where L is quadratic in the velocities tau does not depend on q: the terms of third
     degree of the condition are T dtau/dq . q'.
     """
-    unknowns: list[Unknown] = []
+    unknowns: list[SlotUnknown] = []
     for k, slot in enumerate(slots):
         alone = slot.kind[0] == "tau" and not time_with_space
         for g in [sympy.S.One] if alone else spaces:
             unknowns += [
-                Unknown(k, T, g) for T in _times(times, slot, g, all_powers=len(spaces) <= _FEW)
+                SlotUnknown(k, T, g) for T in _times(times, slot, g, all_powers=len(spaces) <= _FEW)
             ]
     return ordered(unknowns)
 
@@ -316,15 +316,15 @@ def quadratic_unknowns(
     linear: Sequence[int],
     spaces: Sequence[Expr],
     times: Sequence[Expr] = (sympy.S.One,),
-) -> list[Unknown]:
+) -> list[SlotUnknown]:
     """T(t) g(q) for the components of a Killing tensor and of the linear part."""
-    return ordered([Unknown(k, T, g) for k in (*pairs, *linear) for g in spaces for T in times])
+    return ordered([SlotUnknown(k, T, g) for k in (*pairs, *linear) for g in spaces for T in times])
 
 
-def ordered(unknowns: list[Unknown]) -> list[Unknown]:
+def ordered(unknowns: list[SlotUnknown]) -> list[SlotUnknown]:
     """Those that may be eliminated first, the most complicated, in front."""
 
-    def cost(unknown: Unknown) -> tuple[int, int, str, int]:
+    def cost(unknown: SlotUnknown) -> tuple[int, int, str, int]:
         T, g = unknown.time, unknown.space
         return (2 * sympy.count_ops(T) + len(T.free_symbols), *_complexity(g), unknown.slot)
 

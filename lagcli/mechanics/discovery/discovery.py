@@ -46,7 +46,7 @@ from lagcli.mechanics.discovery.listing import led_momentum, more, rank_of, time
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.names import Naming, distinct
 from lagcli.mechanics.discovery.search import Search
-from lagcli.mechanics.discovery.slots import Equations, point_slots
+from lagcli.mechanics.discovery.slots import SlotEquations, point_slots
 from lagcli.mechanics.discovery.special import SpecialCase
 from lagcli.mechanics.discovery.special_search import special_cases
 from lagcli.mechanics.discovery.timed import TimedIntegrals
@@ -152,10 +152,10 @@ class Discovery:
                 self.stopped.append(f"{what}: a formula is infinite, so the search is incomplete")
 
     @cached_property
-    def equations(self) -> Equations:
+    def equations(self) -> SlotEquations:
         """The equations of motion without constraints."""
         lagrange = self.dynamics.lagrange
-        return Equations(
+        return SlotEquations(
             self.system.t,
             self.system.q,
             self.system.qdot,

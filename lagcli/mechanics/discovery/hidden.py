@@ -27,10 +27,10 @@ from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, pivot_columns
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled
-from lagcli.mechanics.discovery.search import Search, Solution
+from lagcli.mechanics.discovery.search import Search, SlotSolution
 from lagcli.mechanics.discovery.slots import (
-    Equations,
     Slot,
+    SlotEquations,
     combined,
     point_slots,
     quadratic_slots,
@@ -47,7 +47,7 @@ class QuadraticIntegrals:
     """The integrals of second degree of equations M(q) q'' = forcing without time in them."""
 
     def __init__(
-        self, noether: Noether, equations: Equations, kinds: Kinds, allowed: Allowance
+        self, noether: Noether, equations: SlotEquations, kinds: Kinds, allowed: Allowance
     ) -> None:
         self.noether = noether
         self.equations = equations
@@ -143,7 +143,7 @@ class QuadraticIntegrals:
                 total[j] = (total[j] + factor * u) % PRIME
         return total
 
-    def _scaled(self, search: Search, solution: Solution) -> Slots:
+    def _scaled(self, search: Search, solution: SlotSolution) -> Slots:
         parts = search.combination(solution)
         values = scaled([f for _, f in parts], self.constants)
         return [(slot, value) for (slot, _), value in zip(parts, values, strict=True)]
@@ -283,7 +283,7 @@ def _length(expression: Expr) -> tuple[int, str]:
     return sympy.count_ops(expression), str(expression)
 
 
-def is_gyroscopic(equations: Equations) -> bool:
+def is_gyroscopic(equations: SlotEquations) -> bool:
     """Whether the forces have terms of first degree in the velocities."""
     still = dict.fromkeys(equations.v, sympy.S.Zero)
     return any(

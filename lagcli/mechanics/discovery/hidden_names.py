@@ -15,7 +15,7 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.mechanics.discovery.ansatz import Kinds
-from lagcli.mechanics.discovery.slots import Equations, Slot
+from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
 
@@ -23,7 +23,7 @@ from lagcli.mechanics.system import System
 class HiddenNames:
     """Names by the shape of the Killing tensor and of the part without velocities."""
 
-    def __init__(self, system: System, equations: Equations, kinds: Kinds) -> None:
+    def __init__(self, system: System, equations: SlotEquations, kinds: Kinds) -> None:
         self.t = equations.t
         self.q = equations.q
         self.mass = equations.mass

@@ -38,8 +38,8 @@ from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.modular import NoPoint, pivot_columns
 from lagcli.mechanics.discovery.relation import Relation
-from lagcli.mechanics.discovery.search import Search, Unknown
-from lagcli.mechanics.discovery.slots import Equations, Slot
+from lagcli.mechanics.discovery.search import Search, SlotUnknown
+from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 
 _COORDINATES = (2, 3)
 
@@ -55,13 +55,13 @@ class Isometries:
         Of a system whose mass matrix depends on the coordinates.
     """
 
-    def __init__(self, equations: Equations, allowed: Allowance) -> None:
+    def __init__(self, equations: SlotEquations, allowed: Allowance) -> None:
         self.equations = equations
         self.allowed = allowed
         self.metric = Metric(equations)
 
     @staticmethod
-    def apply(equations: Equations) -> bool:
+    def apply(equations: SlotEquations) -> bool:
         """Whether coordinates are worth looking for: M depends on q, and on nothing that moves."""
         entries = sympy.Tuple(*(m for row in equations.mass for m in row))
         fixed = free_of(entries, [equations.t, *equations.v])
@@ -168,7 +168,7 @@ class Isometries:
         equations = self.equations
         symbols = [sympy.Dummy(f"X_{k}", real=True) for k in range(len(self.functions))]
         rates = [sympy.Dummy(f"Y_{k}", real=True) for k in range(len(self.functions))]
-        own = Equations(equations.t, tuple(symbols), tuple(rates), (), ())
+        own = SlotEquations(equations.t, tuple(symbols), tuple(rates), (), ())
         accelerations = [self._linear(D, [*symbols, *rates]) for D in self.translations]
         known = None if not accelerations or None in accelerations else accelerations
         return time_functions(own, known, potential=True)
@@ -204,7 +204,7 @@ class Isometries:
         shifts = range(1, 1 + len(self.translations))
         one = sympy.S.One
         unknowns = [
-            Unknown(k, T, one)
+            SlotUnknown(k, T, one)
             for k in range(len(slots))
             for T in (times.translations if k in shifts else times.others)
         ]

@@ -26,7 +26,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra import simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
-from lagcli.mechanics.discovery.slots import Equations
+from lagcli.mechanics.discovery.slots import SlotEquations
 
 _DIGITS = 30
 _SMALL = mpf(10) ** -15
@@ -36,7 +36,7 @@ _POINTS = (mpf(3) / 7, mpf(8) / 11)  # for the first symbol; the others follow a
 class Metric:
     """g(q) of a system without time in its kinetic energy."""
 
-    def __init__(self, equations: Equations) -> None:
+    def __init__(self, equations: SlotEquations) -> None:
         self.q = equations.q
         self.g = equations.mass
         self.n = len(self.q)

@@ -33,7 +33,7 @@ class NoPoint(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Compiled:
+class CompiledElement:
     """An element as lists of terms."""
 
     above: _Terms
@@ -80,9 +80,9 @@ class ModularPoints:
         values = self._drawn(self.constants, wanted=False)
         return [values[g] for g in range(len(self.field.generators))]
 
-    def compiled(self, element: Element) -> Compiled:
+    def compiled(self, element: Element) -> CompiledElement:
         """The element ready for `value`."""
-        return Compiled(self._terms(element.numerator), self._terms(element.denominator))
+        return CompiledElement(self._terms(element.numerator), self._terms(element.denominator))
 
     def constant_value(self, poly: Poly) -> int:
         """A polynomial in constants alone."""

@@ -15,13 +15,13 @@ from sympy import Expr, Symbol
 from lagcli.mechanics.discovery.boundary import gauge_of
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.scaling import scaled
-from lagcli.mechanics.discovery.search import Search, Solution
+from lagcli.mechanics.discovery.search import Search, SlotSolution
 from lagcli.mechanics.discovery.slots import combined
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
 
 def transformation_of(
-    search: Search, solution: Solution, constants: AbstractSet[Symbol]
+    search: Search, solution: SlotSolution, constants: AbstractSet[Symbol]
 ) -> Transformation:
     """tau and xi_j of a solution, scaled to be readable."""
     parts = search.combination(solution)

@@ -17,7 +17,7 @@ from lagcli.effort import EFFORT
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo
-from lagcli.mechanics.discovery.slots import Condition, Equations, Slot
+from lagcli.mechanics.discovery.slots import Condition, Slot, SlotEquations
 from lagcli.mechanics.discovery.tree import Memo, Tree
 
 _BAD_POINTS = 50
@@ -25,7 +25,7 @@ _OF_NODE = 150  # units of work: SymPy's second derivatives, by the nodes of M a
 
 
 @dataclass(frozen=True, slots=True)
-class Unknown:
+class SlotUnknown:
     """The coefficient of T(t) g(q) in the function f of a slot."""
 
     slot: int
@@ -39,10 +39,10 @@ class Unknown:
 
 
 @dataclass(frozen=True, slots=True)
-class Solution:
+class SlotSolution:
     """Nonzero coefficients by unknown."""
 
-    terms: tuple[tuple[Unknown, Expr], ...]
+    terms: tuple[tuple[SlotUnknown, Expr], ...]
 
 
 class Search:
@@ -61,9 +61,9 @@ class Search:
 
     def __init__(
         self,
-        equations: Equations,
+        equations: SlotEquations,
         slots: Sequence[Slot],
-        unknowns: Sequence[Unknown],
+        unknowns: Sequence[SlotUnknown],
         allowed: Allowance,
         more: Sequence[Expr] = (),
     ) -> None:
@@ -105,7 +105,7 @@ class Search:
         self.points = self.tree.points
         self._exact = ExactSolver(self.points)
 
-    def function_value(self, unknown: Unknown, point: Sequence[int]) -> int:
+    def function_value(self, unknown: SlotUnknown, point: Sequence[int]) -> int:
         """T g at a point."""
         memo: Memo = {}
         value = self.tree.value(unknown.time, point, memo)
@@ -186,7 +186,7 @@ class Search:
 
     # -- exactly -------------------------------------------------------------------------
 
-    def solutions(self, vectors: Sequence[dict[int, int]] | None = None) -> list[Solution]:
+    def solutions(self, vectors: Sequence[dict[int, int]] | None = None) -> list[SlotSolution]:
         """The solutions with exact coefficients, simplest last as the unknowns are."""
         exact = self._exact
         found = []
@@ -200,7 +200,7 @@ class Search:
                 self.unsolved += 1
                 continue
             found.append(
-                Solution(
+                SlotSolution(
                     tuple(
                         (self.unknowns[i], value)
                         for i, value in zip(indices, values, strict=True)
@@ -220,7 +220,7 @@ class Search:
             for condition in self.conditions[unknown.slot]
         ]
 
-    def combination(self, solution: Solution) -> list[tuple[Slot, Expr]]:
+    def combination(self, solution: SlotSolution) -> list[tuple[Slot, Expr]]:
         """The functions f of a solution, by slot."""
         functions: dict[int, list[Expr]] = {}
         for unknown, value in solution.terms:
@@ -228,7 +228,7 @@ class Search:
         return [(self.slots[s], sympy.Add(*parts)) for s, parts in sorted(functions.items())]
 
 
-def _formulas(equations: Equations) -> list[Expr]:
+def _formulas(equations: SlotEquations) -> list[Expr]:
     return [*(m for row in equations.mass for m in row), *equations.forcing]
 
 

@@ -45,7 +45,7 @@ Condition = list[tuple[int, Expr]]
 
 
 @dataclass(frozen=True, slots=True)
-class Equations:
+class SlotEquations:
     """M q'' = forcing, with the symbols it is written in."""
 
     t: Symbol
@@ -71,20 +71,20 @@ class Slot:
     kind: tuple[str | int, ...]
     vector: tuple[Expr, ...]
 
-    def a(self, equations: Equations) -> tuple[Expr, ...]:
+    def a(self, equations: SlotEquations) -> tuple[Expr, ...]:
         """a_i = sum_j u_j M_ji."""
         return tuple(
             sympy.Add(*(u * row[i] for u, row in zip(self.vector, equations.mass, strict=True)))
             for i in range(len(equations.q))
         )
 
-    def b(self, equations: Equations) -> Expr:
+    def b(self, equations: SlotEquations) -> Expr:
         """b = -sum_j u_j forcing_j."""
         return -sympy.Add(
             *(u * force for u, force in zip(self.vector, equations.forcing, strict=True))
         )
 
-    def conditions(self, equations: Equations) -> list[Condition]:
+    def conditions(self, equations: SlotEquations) -> list[Condition]:
         """The conditions (1), (2), (3), in an order that is the same for all slots."""
         q, v, D = equations.q, equations.v, equations.convected
         n = len(q)
@@ -108,7 +108,7 @@ class Slot:
         return conditions
 
 
-def point_slots(equations: Equations) -> list[Slot]:
+def point_slots(equations: SlotEquations) -> list[Slot]:
     """u = -q' for tau and the unit vectors for xi: the point transformations."""
     n = len(equations.q)
     zero, one = sympy.S.Zero, sympy.S.One
@@ -119,7 +119,7 @@ def point_slots(equations: Equations) -> list[Slot]:
     ]
 
 
-def quadratic_slots(equations: Equations) -> list[Slot]:
+def quadratic_slots(equations: SlotEquations) -> list[Slot]:
     """u = p_i e_j + p_j e_i (e_i p_i for i = j), p = M q': f is K^ij of Q = K^ij p_i p_j / 2."""
     n = len(equations.q)
     p = [

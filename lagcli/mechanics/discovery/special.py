@@ -29,7 +29,7 @@ from lagcli.algebra.signs import sign
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import NoPoint, pivot_columns
 from lagcli.mechanics.discovery.relation import Relation
-from lagcli.mechanics.discovery.slots import Equations
+from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.spectrum import Exponent
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
@@ -102,7 +102,7 @@ def new_charges(
     return tuple(found[k - len(known)] for k in pivot_columns(rows) if k >= len(known))
 
 
-def linear_powers(equations: Equations) -> list[Expr]:
+def linear_powers(equations: SlotEquations) -> list[Expr]:
     """What vanishes where a power of coordinates in the forcing is constant, or of degree one.
 
     Then the equation may be linear, with functions of time that no other exponent suggests.

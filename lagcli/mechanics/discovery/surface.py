@@ -34,7 +34,7 @@ _MOST_ORDERS = 2000
 Plan = list[tuple[list[Terms], list[int]]]
 
 
-class Surface:
+class FormulaSurface:
     """Formulas on the constraint surface, and their values at points of it.
 
     Parameters
@@ -268,7 +268,9 @@ def _compositions(total: int) -> Iterator[tuple[int, ...]]:
     yield from sorted(found, key=lambda sizes: (-len(sizes), sizes))
 
 
-def _sampled(vectors: Sequence[Sequence[Expr]], count: int, surface: Surface) -> list[list[int]]:
+def _sampled(
+    vectors: Sequence[Sequence[Expr]], count: int, surface: FormulaSurface
+) -> list[list[int]]:
     """At least so many rows of values at points of the surface; columns are the vectors."""
     rows: list[list[int]] = []
     bad = 0
@@ -295,7 +297,7 @@ def independent_on_surface(
     relations = dynamics.constraints.relations
     assert relations is not None
     values = [[relations.substitute(Q)] for Q in charges]
-    surface = Surface(dynamics, [e for v in values for e in v], allowed, same)
+    surface = FormulaSurface(dynamics, [e for v in values for e in v], allowed, same)
     rows = _sampled(values, len(values) + 4, surface)
     return [k - 1 for k in pivot_columns([[1, *row] for row in rows]) if k]
 
@@ -314,7 +316,7 @@ def relations_on_surface(
     assert relations is not None
     order = list(reversed(range(len(vectors))))
     values = [[relations.substitute(e) for e in vectors[k]] for k in order]
-    surface = Surface(dynamics, [e for v in values for e in v], allowed)
+    surface = FormulaSurface(dynamics, [e for v in values for e in v], allowed)
     _, kernel = kernel_modulo(_sampled(values, len(values) + 8, surface), len(values))
     exact = ExactSolver(surface.points)
     found = []

@@ -32,7 +32,7 @@ from lagcli.mechanics.discovery.admissible import Vector
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo, pivot_columns
-from lagcli.mechanics.discovery.surface import Surface
+from lagcli.mechanics.discovery.surface import FormulaSurface
 from lagcli.mechanics.discovery.tree import Memo
 from lagcli.mechanics.noether import Noether
 
@@ -42,7 +42,7 @@ _UNITS = 3  # of the coefficients that are put to 1 for that
 
 
 @dataclass(frozen=True, slots=True)
-class Term:
+class IntegralTerm:
     """T(t) g(q) times the J of the fields named, or the energy (-1,), or nothing ()."""
 
     fields: tuple[int, ...]
@@ -55,7 +55,7 @@ class Term:
         return self.time * self.space
 
 
-Integral = list[tuple[Term, Expr]]
+Integral = list[tuple[IntegralTerm, Expr]]
 _Jet = tuple[int, int]  # value and rate
 
 
@@ -80,7 +80,7 @@ class SurfaceIntegrals:
         self,
         noether: Noether,
         fields: Sequence[Vector],
-        terms: Sequence[Term],
+        terms: Sequence[IntegralTerm],
         known: Sequence[Expr],
         allowed: Allowance,
         same: Sequence[Expr] = (),
@@ -134,7 +134,7 @@ class SurfaceIntegrals:
         everything += [x for e in self._fields for pair in e for x in pair]
         everything += [x for pair in (*self._times.values(), *self._spaces.values()) for x in pair]
         everything += [x for row in (*mass, *rows) for x in row] + [*forcing, *biases, *drifts]
-        self.surface = Surface(self.dynamics, everything, self.allowed, self._same)
+        self.surface = FormulaSurface(self.dynamics, everything, self.allowed, self._same)
 
     def _convected(self, expression: Expr) -> Expr:
         system = self.system
@@ -259,7 +259,7 @@ class SurfaceIntegrals:
         self.unsolved += 1
         return None
 
-    def _rate(self, term: Term) -> Expr:
+    def _rate(self, term: IntegralTerm) -> Expr:
         """d/dt of a term as a formula in independent velocities."""
         T, dT = self._times[term.time]
         g, dg = self._spaces[term.space]

@@ -25,7 +25,7 @@ from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import Relation
-from lagcli.mechanics.discovery.slots import Equations, point_slots
+from lagcli.mechanics.discovery.slots import SlotEquations, point_slots
 from lagcli.mechanics.noether import Noether, NoetherCharge
 
 _MOST_UNKNOWNS = 600
@@ -40,7 +40,7 @@ class TimedIntegrals(QuadraticIntegrals):
     def __init__(
         self,
         noether: Noether,
-        equations: Equations,
+        equations: SlotEquations,
         kinds: Kinds,
         times: TimeFunctions,
         allowed: Allowance,
@@ -52,7 +52,7 @@ class TimedIntegrals(QuadraticIntegrals):
         self.functions = quadratic(kinds, _MOST_UNKNOWNS // (slots * len(self.times)))
 
     @staticmethod
-    def applies(equations: Equations, kinds: Kinds, known: Sequence[NoetherCharge]) -> bool:
+    def applies(equations: SlotEquations, kinds: Kinds, known: Sequence[NoetherCharge]) -> bool:
         """Whether there may be any: not where 2n integrals of first degree give them all."""
         n = len(equations.q)
         plain = [

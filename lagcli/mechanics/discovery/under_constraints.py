@@ -17,7 +17,7 @@ from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.momentum_equation import Momenta, MomentumEquations
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.surface import independent_on_surface
-from lagcli.mechanics.discovery.surface_integrals import Integral, SurfaceIntegrals, Term
+from lagcli.mechanics.discovery.surface_integrals import Integral, IntegralTerm, SurfaceIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
 _MOST_LINEAR = 420
@@ -90,7 +90,9 @@ class UnderConstraints:
             return []  # a single surface f = 0
         one = sympy.S.One
         functions = self._still([one]) if holonomic else [*self.kinds.lengths, *self.kinds.angles]
-        found = self._charges(self._integrals([Term((), one, g) for g in functions if g != 1], []))
+        found = self._charges(
+            self._integrals([IntegralTerm((), one, g) for g in functions if g != 1], [])
+        )
         if holonomic:
             self._same = [c.charge for c in found]
             return []
@@ -108,7 +110,7 @@ class UnderConstraints:
         terms = self._linear_terms()
         return self._charges(self._integrals(terms, known))
 
-    def _linear_terms(self) -> list[Term]:
+    def _linear_terms(self) -> list[IntegralTerm]:
         """All times with 1 and the lengths; the angles, and their products, without time."""
         one = sympy.S.One
         plain = [one, *self.kinds.lengths]
@@ -117,12 +119,12 @@ class UnderConstraints:
         while True:
             timed = [T for T in times if T != 1]
             fields = range(len(self.fields))
-            terms = [Term((a,), one, g) for a in fields for g in spaces]
-            terms += [Term((a,), T, one) for a in fields for T in translations if T != 1]
-            terms += [Term((a,), T, g) for a in fields for T in timed for g in plain[1:]]
-            terms += [Term(_ENERGY, T, one) for T in times]
+            terms = [IntegralTerm((a,), one, g) for a in fields for g in spaces]
+            terms += [IntegralTerm((a,), T, one) for a in fields for T in translations if T != 1]
+            terms += [IntegralTerm((a,), T, g) for a in fields for T in timed for g in plain[1:]]
+            terms += [IntegralTerm(_ENERGY, T, one) for T in times]
             terms += [
-                Term((), T, g)
+                IntegralTerm((), T, g)
                 for T in times
                 for g in (self._still(spaces) if T == 1 else self._still(plain))
                 if not T == g == 1
@@ -168,11 +170,13 @@ class UnderConstraints:
             return []
         functions = quadratic(self.kinds, _MOST_QUADRATIC // len(pairs)) or [sympy.S.One]
         one = sympy.S.One
-        terms = [Term(pair, one, g) for pair in pairs for g in functions]
+        terms = [IntegralTerm(pair, one, g) for pair in pairs for g in functions]
         if not all(is_zero(f.xreplace({v: -v for v in self.system.qdot}) - f) is True
                    for f in self.noether.dynamics.lagrange.forcing):  # fmt: skip
-            terms += [Term((a,), one, g) for a in range(len(self.fields)) for g in functions[:12]]
-        terms += [Term((), one, g) for g in self._potentials(functions)]
+            terms += [
+                IntegralTerm((a,), one, g) for a in range(len(self.fields)) for g in functions[:12]
+            ]
+        terms += [IntegralTerm((), one, g) for g in self._potentials(functions)]
         return self._charges(
             self._integrals(_ordered(terms), [*(c.charge for c in fixed), *products])
         )
@@ -190,7 +194,7 @@ class UnderConstraints:
 
     # -- common -----------------------------------------------------------------------------
 
-    def _integrals(self, terms: Sequence[Term], known: Sequence[Expr]) -> list[Integral]:
+    def _integrals(self, terms: Sequence[IntegralTerm], known: Sequence[Expr]) -> list[Integral]:
         search = SurfaceIntegrals(self.noether, self.fields, terms, known, self.allowed, self._same)
         found = search.found()
         self._J = [
@@ -240,10 +244,10 @@ class UnderConstraints:
         return [x + factor * e for x, e in zip(changes, field, strict=True)]
 
 
-def _ordered(terms: Sequence[Term]) -> list[Term]:
+def _ordered(terms: Sequence[IntegralTerm]) -> list[IntegralTerm]:
     """The simplest first."""
 
-    def cost(term: Term) -> tuple[int, int, int, str, tuple[int, ...]]:
+    def cost(term: IntegralTerm) -> tuple[int, int, int, str, tuple[int, ...]]:
         T, g = term.time, term.space
         return (
             2 * sympy.count_ops(T) + len(T.free_symbols),

@@ -15,7 +15,7 @@ from lagcli.algebra import is_zero, solve_linear
 from lagcli.document import Block, Equations, Label, Matrix, Row
 from lagcli.expression import ZERO, Expression, Name, operation_count
 from lagcli.mechanics.constraints import ConstraintEquation
-from lagcli.mechanics.dynamics import Motion
+from lagcli.mechanics.dynamics import SolvedMotion
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import matrix_law, names, quoted, says
 
@@ -70,7 +70,7 @@ def _unsolved(teller: Teller) -> Iterator[Block]:
 # -- without constraints ----------------------------------------------------------------------
 
 
-def _free(teller: Teller, motion: Motion) -> Iterator[Block]:
+def _free(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
     n = len(teller.system.names)
     M = teller.dynamics.lagrange.mass_matrix
     if n == 1:
@@ -107,7 +107,7 @@ def _diagonal(M: Sequence[Sequence[Expr]]) -> bool:
     )
 
 
-def _accelerations(teller: Teller, motion: Motion) -> Iterator[Row]:
+def _accelerations(teller: Teller, motion: SolvedMotion) -> Iterator[Row]:
     for name, value in zip(teller.accelerations, motion.accelerations, strict=True):
         yield Row(name, teller.readable.on_surface(value))
 
@@ -137,7 +137,7 @@ def _matrices(teller: Teller, kept: Sequence[ConstraintEquation]) -> Iterator[Bl
 # -- with constraints -------------------------------------------------------------------------
 
 
-def _with_multipliers(teller: Teller, motion: Motion) -> Iterator[Block]:
+def _with_multipliers(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
     dynamics = teller.dynamics
     kept = [dynamics.constraints.equations[k] for k in dynamics.independent_constraints]
     unknowns = len(teller.system.names) + len(kept)
@@ -199,7 +199,7 @@ def _derivatives(teller: Teller, kept: Sequence[ConstraintEquation]) -> Iterator
 
 
 def _eliminated(
-    teller: Teller, motion: Motion, kept: Sequence[ConstraintEquation]
+    teller: Teller, motion: SolvedMotion, kept: Sequence[ConstraintEquation]
 ) -> list[Block] | None:
     """The accelerations by the multipliers, and these by the constraints; None: too long."""
     by_multipliers = _by_multipliers(teller, kept)
@@ -257,7 +257,7 @@ def _by_multipliers(teller: Teller, kept: Sequence[ConstraintEquation]) -> list[
 
 
 def _agree(
-    teller: Teller, motion: Motion, by_multipliers: Sequence[Expr], conditions: Sequence[Expr]
+    teller: Teller, motion: SolvedMotion, by_multipliers: Sequence[Expr], conditions: Sequence[Expr]
 ) -> bool:
     """Whether the formulas on the way hold for the solution that is printed."""
     chosen: dict[Expr, Expr] = {
@@ -280,7 +280,7 @@ def _condition(teller: Teller, equation: ConstraintEquation, condition: Expr) ->
     return Row(by_terms(condition - rest), by_terms(-rest), equation.name)
 
 
-def _solution(teller: Teller, motion: Motion) -> Iterator[Block]:
+def _solution(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
     equations = teller.dynamics.constraints.equations
     rows, unknown = [], []
     for equation, value in zip(equations, motion.multipliers, strict=True):

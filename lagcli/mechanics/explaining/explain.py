@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from lagcli.explanation import Explanation, Step
+from lagcli.explanation import Explanation, ExplanationStep
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.explaining.conservation import charges, energy
 from lagcli.mechanics.explaining.elimination import elimination
@@ -36,22 +36,24 @@ def explanation(derivation: Derivation, also: Sequence[str] = ()) -> Explanation
     motion = dynamics.motion
     constrained = bool(dynamics.constraints.equations)
     steps = [
-        Step("The system", tuple(scene(teller))),
-        Step("The Lagrangian", tuple(lagrangian(teller))),
-        Step("Lagrange's equations", tuple(equations(teller))),
-        Step(
+        ExplanationStep("The system", tuple(scene(teller))),
+        ExplanationStep("The Lagrangian", tuple(lagrangian(teller))),
+        ExplanationStep("Lagrange's equations", tuple(equations(teller))),
+        ExplanationStep(
             "The multipliers are eliminated" if constrained else "The accelerations",
             tuple(elimination(teller)),
         ),
     ]
     if motion is not None:
-        steps.append(Step("The verification", tuple(check(teller, motion))))
+        steps.append(ExplanationStep("The verification", tuple(check(teller, motion))))
         if constrained:
-            steps.append(Step("What the multipliers mean", tuple(meaning(teller, motion))))
-    steps.append(Step("The energy", tuple(energy(teller))))
+            steps.append(
+                ExplanationStep("What the multipliers mean", tuple(meaning(teller, motion)))
+            )
+    steps.append(ExplanationStep("The energy", tuple(energy(teller))))
     found = tuple(charges(teller))
     if found:
-        steps.append(Step("Conserved quantities", found))
+        steps.append(ExplanationStep("Conserved quantities", found))
     missing = tuple(_missing(teller))
     if also:
         from lagcli.mechanics.explaining.further import further

@@ -11,7 +11,7 @@ from lagcli.document import Block, Equations, Label, Row
 from lagcli.expression import Name
 from lagcli.mechanics.constraint_force import forces_on_points
 from lagcli.mechanics.constraints import ConstraintEquation
-from lagcli.mechanics.dynamics import Motion
+from lagcli.mechanics.dynamics import SolvedMotion
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import names, says
 
@@ -20,7 +20,7 @@ _KINDS = {"m": "force", "cm": "force", "mm": "force", "km": "force", "rad": "tor
           "deg": "torque"}  # fmt: skip
 
 
-def check(teller: Teller, motion: Motion) -> Iterator[Block]:
+def check(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
     """How the solution was checked."""
     constrained = bool(teller.dynamics.constraints.equations)
     equations = "Lagrange's equations" if teller.letters.several else "Lagrange's equation"
@@ -43,7 +43,7 @@ def check(teller: Teller, motion: Motion) -> Iterator[Block]:
     )
 
 
-def meaning(teller: Teller, motion: Motion) -> Iterator[Block]:
+def meaning(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
     """Each constraint's force along the coordinates, its direction, and on the points."""
     dynamics = teller.dynamics
     on_points = forces_on_points(dynamics)

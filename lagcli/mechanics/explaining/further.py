@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 from lagcli.answers import EquilibriaSection, Section
 from lagcli.document import Block, Equations, Heading, Row
-from lagcli.explanation import Step
+from lagcli.explanation import ExplanationStep
 from lagcli.expression import ZERO, Expression
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 _ABSENT = "This was not found: see the warnings."
 
 
-def further(teller: Teller, also: Sequence[str]) -> tuple[list[Step], list[str]]:
+def further(teller: Teller, also: Sequence[str]) -> tuple[list[ExplanationStep], list[str]]:
     """The steps of these sections, and what was not found on the way."""
     statements = Statements(teller.derivation)
     steps = []
@@ -33,7 +33,7 @@ def further(teller: Teller, also: Sequence[str]) -> tuple[list[Step], list[str]]
             raise LookupError(f"the section '{name}' has no step in an explanation")
         section = statements.answers([name]).sections.get(name)
         blocks = [says(_ABSENT)] if section is None else told.blocks(teller, section)
-        steps.append(Step(told.title, tuple(blocks)))
+        steps.append(ExplanationStep(told.title, tuple(blocks)))
     missing = [each for each in statements.warnings if not each.endswith((ALL_CYCLIC, NONE_LEFT))]
     return steps, list(dict.fromkeys(missing))
 

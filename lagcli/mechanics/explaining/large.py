@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from lagcli.document import Block, Equations, Items, Row
-from lagcli.explanation import Explanation, Step
+from lagcli.explanation import Explanation, ExplanationStep
 from lagcli.expression import Diff, Name, Product, Rate
 from lagcli.graph.sharing import operations
-from lagcli.mechanics.closed_form import ClosedForm, Solution, names_of
+from lagcli.mechanics.closed_form import ClosedForm, ClosedSolution, names_of
 from lagcli.mechanics.explaining.words import (
     Letters,
     Part,
@@ -30,10 +30,16 @@ def explanation_of_large(form: MatrixForm) -> Explanation:
     charges = LargeCharges(form)
     solution = ClosedForm(form, names_of(problem)).motion
     steps = [
-        Step("The system", tuple(_system(form))),
-        Step("Lagrange's equations", tuple(_equations(form, solved=solution is not None))),
-        *([] if solution is None else [Step("The accelerations", tuple(_solved(form, solution)))]),
-        Step("The energy", tuple(_energy(form, charges))),
+        ExplanationStep("The system", tuple(_system(form))),
+        ExplanationStep(
+            "Lagrange's equations", tuple(_equations(form, solved=solution is not None))
+        ),
+        *(
+            []
+            if solution is None
+            else [ExplanationStep("The accelerations", tuple(_solved(form, solution)))]
+        ),
+        ExplanationStep("The energy", tuple(_energy(form, charges))),
     ]
     quantities = (*problem.coordinates, *problem.parameters)
     return Explanation(
@@ -71,7 +77,7 @@ def _system(form: MatrixForm) -> Iterator[Block]:
     )
 
 
-def _solved(form: MatrixForm, solution: Solution) -> Iterator[Block]:
+def _solved(form: MatrixForm, solution: ClosedSolution) -> Iterator[Block]:
     yield says(
         "Gauss's elimination solves them, row by row and then backwards. Each of its steps is an "
         "abbreviation that uses earlier ones only:"

@@ -10,7 +10,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, simplify, terms
 from lagcli.algebra.signs import sign
-from lagcli.answers import Mode, ModesSection, Section
+from lagcli.answers import ModesOfFrequency, ModesSection, Section
 from lagcli.document import Block, Equations, Label, Matrix, Row
 from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, operation_count
 from lagcli.mechanics.explaining.teller import Teller
@@ -85,7 +85,9 @@ def _linear(
 # -- without damping -----------------------------------------------------------------------------
 
 
-def _undamped(teller: Teller, modes: Sequence[Mode], *, gyroscopic: bool) -> Iterator[Block]:
+def _undamped(
+    teller: Teller, modes: Sequence[ModesOfFrequency], *, gyroscopic: bool
+) -> Iterator[Block]:
     """det(K - omega^2 M) = 0, or det(K + s C + s^2 M) = 0 in s^2 = -omega^2 alone."""
     omega, s = teller.letters.free("omega"), teller.letters.free("s")
     M, C, K = (Label(letter, matrix=True) for letter in "MCK")
@@ -102,7 +104,7 @@ def _undamped(teller: Teller, modes: Sequence[Mode], *, gyroscopic: bool) -> Ite
         yield from _mode(mode, omega)
 
 
-def _mode(mode: Mode, omega: Name) -> Iterator[Block]:
+def _mode(mode: ModesOfFrequency, omega: Name) -> Iterator[Block]:
     value = mode.frequency if mode.frequency is not None else mode.frequency_squared
     if value is None:
         count = mode.multiplicity

@@ -20,7 +20,7 @@ from mpmath import mpf
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
-from lagcli.algebra.elimination import Eliminated, eliminate
+from lagcli.algebra.elimination import EliminatedExpression, eliminate
 from lagcli.algebra.equations import written
 from lagcli.algebra.numeric import Evaluator
 from lagcli.effort import Work
@@ -136,7 +136,7 @@ class AlongTheMotion:
 
     def eliminated(
         self, expression: Expr, relations: Sequence[Expr], remove: Sequence[Symbol]
-    ) -> Eliminated:
+    ) -> EliminatedExpression:
         """The expression with symbols removed by the relations, within the time allowed."""
         return eliminate(expression, relations, remove, self.nonzero, work=self.work)
 

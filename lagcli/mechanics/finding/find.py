@@ -12,7 +12,7 @@ from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.finding.along_the_motion import UNITS, AlongTheMotion
 from lagcli.mechanics.finding.lasting import LastingAnswer
 from lagcli.mechanics.finding.passing import Passing
-from lagcli.mechanics.finding.where import Where
+from lagcli.mechanics.finding.where import WhereSearch
 from lagcli.mechanics.noether import Noether
 from lagcli.problem import Lasting, Reaching, Rewrite
 from lagcli.questions import Answer, FindSection, Rewritten
@@ -36,7 +36,7 @@ def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:
         elif isinstance(question, Lasting | Reaching):
             answers[question.name] = LastingAnswer(along, question, known).answer()
         else:
-            answers[question.name] = Where(along, question, known).solutions()
+            answers[question.name] = WhereSearch(along, question, known).solutions()
     return FindSection(answers=answers)
 
 

@@ -17,7 +17,7 @@ from lagcli.algebra.build import Builder
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
-from lagcli.mechanics.finding.line import Line, NotAlgebraic
+from lagcli.mechanics.finding.line import FunctionsOnLine, NotAlgebraic
 from lagcli.mechanics.finding.passing import Passing
 from lagcli.mechanics.finding.ranges import Bounds, Undecided, Values, ranges
 from lagcli.mechanics.finding.special_values import DIGITS, NoClosedForm, SpecialValues
@@ -204,7 +204,7 @@ class LastingAnswer:
     ) -> list[Bounds]:
         functions = [f.xreplace(values) for f in functions]
         start = start.with_values(values)
-        line = Line(u, functions)
+        line = FunctionsOnLine(u, functions)
         if line.rate is not None and start.target is not None:
             if line.rate != 1:
                 raise Undecided(f"{u} stands in sines and cosines and is no angle")
@@ -214,7 +214,7 @@ class LastingAnswer:
         events = self._events(line, start, wall)
         return self._ranges([u], [*functions, *start.formulas], events, walk.verdict)
 
-    def _events(self, line: Line, start: Start, wall: int) -> list[Expr]:
+    def _events(self, line: FunctionsOnLine, start: Start, wall: int) -> list[Expr]:
         events = [*line.events(), *line.at(start.place), start.velocity, start.acceleration]
         if start.target is not None:
             events += [*line.at(start.target), start.target - start.place]

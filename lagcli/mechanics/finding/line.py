@@ -32,7 +32,7 @@ class Factor:
     exponent: int  # negative in a denominator
 
 
-class Line:
+class FunctionsOnLine:
     """Several functions of u.
 
     Parameters

@@ -18,7 +18,7 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra.numeric import Evaluator
-from lagcli.mechanics.finding.line import Line
+from lagcli.mechanics.finding.line import FunctionsOnLine
 from lagcli.record import record
 
 DIGITS = 90
@@ -49,7 +49,7 @@ class Start:
 
 
 @record
-class Place:
+class PassedPlace:
     """A place on the way: the powers with which the functions vanish there, by their number."""
 
     distance: mpf
@@ -73,7 +73,7 @@ class Walk:
         The sign that u has by assumption, 0 without one: the motion ends at 0.
     """
 
-    def __init__(self, line: Line, start: Start, *, strict: bool, wall: int) -> None:
+    def __init__(self, line: FunctionsOnLine, start: Start, *, strict: bool, wall: int) -> None:
         self.line = line
         self.strict = strict
         self.wall = wall
@@ -132,7 +132,7 @@ class Walk:
             found += [(+mpmath.pi, f, power) for f, power in enumerate(at_infinity) if power]
         return found
 
-    def _places(self, direction: int, zeros: Sequence[tuple[mpf, int, int]]) -> list[Place]:
+    def _places(self, direction: int, zeros: Sequence[tuple[mpf, int, int]]) -> list[PassedPlace]:
         """What is met in a direction, in its order; back at the start on a circle."""
         distances: list[mpf] = []
         for place in [*(z[0] for z in zeros), *self._marks()]:
@@ -156,7 +156,7 @@ class Walk:
         distance = direction * (place - self.u0 * self._rate) % turn
         return distance if _SAME < distance < turn - _SAME else None
 
-    def _place_at(self, offset: mpf, zeros: Sequence[tuple[mpf, int, int]]) -> Place:
+    def _place_at(self, offset: mpf, zeros: Sequence[tuple[mpf, int, int]]) -> PassedPlace:
         rate = 1 if self._rate is None else self._rate
         here = self.u0 * rate + offset
         powers: dict[int, int] = {}
@@ -164,7 +164,7 @@ class Walk:
             if self._apart(place, here) < _SAME:
                 powers[function] = powers.get(function, 0) + power
         target = self._target is not None and self._apart(self._target * rate, here) < _SAME
-        return Place(abs(offset), powers, target)
+        return PassedPlace(abs(offset), powers, target)
 
     def _apart(self, one: mpf, other: mpf) -> mpf:
         distance = abs(one - other)
@@ -213,7 +213,7 @@ class Walk:
                 return FAILS
         return ENDS if any(sign < 0 for sign in signs[1 : self._last]) else None
 
-    def _check(self, place: Place, signs: Sequence[int] | None) -> str | None:
+    def _check(self, place: PassedPlace, signs: Sequence[int] | None) -> str | None:
         """What a place decides that is reached; None to go on."""
         if any(power < 0 for power in place.zeros.values()):
             return UNKNOWN

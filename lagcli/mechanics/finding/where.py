@@ -27,7 +27,7 @@ _EXACTLY = mpf(10) ** -40
 _ROUNDED = mpf(10) ** -10  # for roots given as decimals
 
 
-class Where:
+class WhereSearch:
     """One question; `known` holds what other questions found of the motion of coordinates."""
 
     def __init__(

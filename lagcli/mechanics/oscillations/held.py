@@ -46,7 +46,7 @@ class Friction:
 
 
 @record
-class OneSided:
+class OneSidedCondition:
     """A contact, or a constraint of the file (`given`) under conditions.
 
     The `gap` is positive where it is open; None: the model ends where it opens.
@@ -65,7 +65,7 @@ class OneSided:
 
 
 @record
-class Held:
+class HeldCombination:
     """One combination of what is closed, and what must not be negative at rest.
 
     Attributes
@@ -132,22 +132,24 @@ class Held:
         return self.sticking or bool(self.touching)
 
 
-def held(dynamics: Dynamics) -> list[Held]:
+def held(dynamics: Dynamics) -> list[HeldCombination]:
     """All combinations; the system itself where nothing may open or close and nothing sticks."""
     contacts, friction = one_sided(dynamics), _friction(dynamics)
     if not (any(each.may_open for each in contacts) or friction):
         demands = tuple(x for each in contacts for x in each.demands)
-        return [Held(RestPoints(dynamics), demands)]
+        return [HeldCombination(RestPoints(dynamics), demands)]
     names = [each.name for each in contacts if each.may_open][:_MOST_CONTACTS]
     variants = [
         _variant(dynamics, contacts, friction, opened)
         for size in range(len(names), -1, -1)
         for opened in combinations(names, size)
     ]
-    return [each for each in variants if each is not None] or [Held(RestPoints(dynamics))]
+    return [each for each in variants if each is not None] or [
+        HeldCombination(RestPoints(dynamics))
+    ]
 
 
-def one_sided(dynamics: Dynamics) -> list[OneSided]:
+def one_sided(dynamics: Dynamics) -> list[OneSidedCondition]:
     """The contacts, and the constraints that hold under a condition."""
     system, problem = dynamics.system, dynamics.system.problem
     found = []
@@ -159,19 +161,19 @@ def one_sided(dynamics: Dynamics) -> list[OneSided]:
         demand = difference if condition.comparison[0] == ">" else -difference
         side = pushing_sign(given.multiplier, condition) if given.on_loss == "release" else None
         gap = None if side is None else side * equation.f
-        found.append(OneSided(given.name, given.multiplier, (demand,), gap, given=True))
+        found.append(OneSidedCondition(given.name, given.multiplier, (demand,), gap, given=True))
     for each in problem.contacts:
         gap = system.build(each.equation.left) - system.build(each.equation.right)
-        found.append(OneSided(each.name, each.multiplier, (), gap, given=False))
+        found.append(OneSidedCondition(each.name, each.multiplier, (), gap, given=False))
     return found
 
 
 def _variant(
     dynamics: Dynamics,
-    contacts: Sequence[OneSided],
+    contacts: Sequence[OneSidedCondition],
     friction: Sequence[Friction],
     opened: Sequence[str],
-) -> Held | None:
+) -> HeldCombination | None:
     """The system with these contacts open; None where the others cannot be closed together."""
     system, problem = dynamics.system, dynamics.system.problem
     closed = [each for each in contacts if each.name not in opened]
@@ -201,7 +203,7 @@ def _variant(
     demands = [x for each in closed for x in each.demands or (symbol(each.multiplier),)]
     for k, each in enumerate(friction):
         demands += [each.f - symbol(f"#lambda{k}"), each.f + symbol(f"#lambda{k}")]
-    return Held(
+    return HeldCombination(
         RestPoints(derivation.dynamics),
         tuple(demands),
         tuple(x.gap for x in contacts if x.name in opened and x.gap is not None),

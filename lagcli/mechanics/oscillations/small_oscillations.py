@@ -19,13 +19,13 @@ from functools import cached_property
 from sympy import Expr, Symbol
 
 from lagcli.algebra.equations import written
-from lagcli.answers import EquilibriaSection, Equilibrium, Mode, ModesSection
+from lagcli.answers import EquilibriaSection, Equilibrium, ModesOfFrequency, ModesSection
 from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.equilibria import RestPoint
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
-from lagcli.mechanics.oscillations.held import Held, held
+from lagcli.mechanics.oscillations.held import HeldCombination, held
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
 from lagcli.mechanics.oscillations.singular import OnMeridians, is_singular
@@ -87,7 +87,7 @@ def modes(dynamics: Dynamics) -> ModesSection:
 class Place:
     """One equilibrium with the motion near it."""
 
-    def __init__(self, held: Held, point: RestPoint) -> None:
+    def __init__(self, held: HeldCombination, point: RestPoint) -> None:
         self.held, self.point = held, point
         self.linear = Linearization(held.rest, point)
         self.characteristic = Characteristic(self.linear)
@@ -181,10 +181,10 @@ class SmallOscillations:
             sticking=place.held.sticking,
         )
 
-    def modes(self, place: Place) -> list[Mode]:
+    def modes(self, place: Place) -> list[ModesOfFrequency]:
         """The modes about one equilibrium as statements."""
         return [
-            Mode(
+            ModesOfFrequency(
                 at=self._at(place.point),
                 on=relation_sides(place.point, self.system.q, self.system.order),
                 frequency=self._tree_or_none(mode.frequency),

@@ -12,7 +12,7 @@ from lagcli.algebra.signs import sign
 from lagcli.mechanics.reduction.readable import weak_sign
 
 
-class Known:
+class KnownSigns:
     """Signs at places where N >= 0."""
 
     def __init__(self, radicand: Expr, positive: Sequence[Expr]) -> None:

@@ -38,7 +38,7 @@ _BOUNDED = (sympy.acos, sympy.asin)
 ENERGY = ("E", "h", "E_0", "h_0")
 
 
-class OneFreedom:
+class ReducedFreedom:
     """The remaining coordinate q of a reduction with M(q), U_eff(q) and the constant E."""
 
     def __init__(self, routh: Routh) -> None:

@@ -28,7 +28,7 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 from lagcli.mechanics.parameter_values import admissible_values
-from lagcli.mechanics.reduction.one_freedom import OneFreedom
+from lagcli.mechanics.reduction.one_freedom import ReducedFreedom
 from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.record import record
 
@@ -46,7 +46,7 @@ Series = list[Expr]
 
 
 @record
-class PeriodSeries:
+class AmplitudeSeries:
     """T = 2 pi root (1 + sum of coefficients[k] a^(k + 1)) about one equilibrium.
 
     `point` None: about every place at which the derivative of U_eff vanishes.
@@ -69,13 +69,13 @@ class Periods:
         Whether one was found and is not the integral.
     """
 
-    def __init__(self, motion: OneFreedom) -> None:
+    def __init__(self, motion: ReducedFreedom) -> None:
         self.motion = motion
         self.reason = ""
         self.failed = False
 
     @cached_property
-    def series(self) -> tuple[PeriodSeries, ...]:
+    def series(self) -> tuple[AmplitudeSeries, ...]:
         """One series for each equilibrium that is a minimum, or may be one."""
         rest = RestPoints(self.motion.dynamics)
         points = rest.points
@@ -99,15 +99,15 @@ class Periods:
             self.reason = "U_eff has no minimum at which its second derivative is positive"
         return tuple(found)
 
-    def _anywhere(self) -> tuple[PeriodSeries, ...]:
+    def _anywhere(self) -> tuple[AmplitudeSeries, ...]:
         """2 pi sqrt(M/U'') at a place that is given by U' = 0 only."""
         motion = self.motion
         curvature = simplify(motion.potential.diff(motion.q, 2))
         if sign(curvature) in (0, -1):
             return ()
-        return (PeriodSeries(None, _root(motion.mass, curvature), (), ()),)
+        return (AmplitudeSeries(None, _root(motion.mass, curvature), (), ()),)
 
-    def _about(self, point: RestPoint) -> PeriodSeries | None:
+    def _about(self, point: RestPoint) -> AmplitudeSeries | None:
         motion = self.motion
         q, [place] = motion.q, [*point.values.values()]
         slopes = [at(motion.potential.diff(q, k), {q: place}) for k in range(2, ORDER + 3)]
@@ -127,7 +127,7 @@ class Periods:
         coefficients = [_on_branch(c, point.positive) for c in _readable(alpha, beta)]
         root = _on_branch(_root(masses[0], curvature), point.positive)
         where = (*point.positive, *(() if known == 1 else (curvature,)))
-        series = PeriodSeries(point, root, tuple(coefficients), where)
+        series = AmplitudeSeries(point, root, tuple(coefficients), where)
         agrees = self._agrees(series)
         if agrees:
             return series
@@ -139,7 +139,7 @@ class Periods:
 
     # -- the integral itself ----------------------------------------------------------------------
 
-    def _agrees(self, series: PeriodSeries) -> bool | None:
+    def _agrees(self, series: AmplitudeSeries) -> bool | None:
         """Whether the series is the integral at an amplitude of 1e-8, to 40 digits.
 
         None where no values of the parameters were found at which it is there.
@@ -154,7 +154,7 @@ class Periods:
                 return bool(off < _MARGIN * _AMPLITUDE ** (len(series.coefficients) + 2))
         return None
 
-    def _ratio(self, series: PeriodSeries, values: Mapping[Symbol, mpf]) -> mpf:
+    def _ratio(self, series: AmplitudeSeries, values: Mapping[Symbol, mpf]) -> mpf:
         motion = self.motion
         assert series.point is not None
         [place] = series.point.values.values()

@@ -16,15 +16,15 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of
 from lagcli.algebra.factors import factors_of
-from lagcli.mechanics.reduction.known_signs import Known
+from lagcli.mechanics.reduction.known_signs import KnownSigns
 from lagcli.mechanics.reduction.readable import deciding, weak_sign
 from lagcli.mechanics.reduction.root_integrals import ROOT, Integrals, Part, root_of
-from lagcli.mechanics.reduction.substitutions import Substitution, substitutions
+from lagcli.mechanics.reduction.substitutions import IntegralSubstitution, substitutions
 from lagcli.record import record
 
 
 @record
-class ClosedForm:
+class ElementaryAction:
     """W, a formula of x and `ROOT` = sqrt(`radicand`); where each of `positive` is > 0."""
 
     terms: tuple[Expr, ...]
@@ -34,7 +34,7 @@ class ClosedForm:
 
 def closed_forms(
     derivative: Expr, x: Symbol, positive: Sequence[Expr] = ()
-) -> tuple[ClosedForm, ...]:
+) -> tuple[ElementaryAction, ...]:
     """W by its derivative, case by case, each proved; none where it stays an integral.
 
     Parameters
@@ -54,7 +54,7 @@ def closed_forms(
             return ()
         plain.append(integral)
     if not roots:
-        return (ClosedForm(tuple(plain), S.One),)
+        return (ElementaryAction(tuple(plain), S.One),)
     if len(roots) > 1:
         return ()
     [(factor, radicand)] = roots
@@ -62,7 +62,7 @@ def closed_forms(
         found = _by_substitution(radicand, u, positive)
         if found:
             return tuple(
-                ClosedForm(
+                ElementaryAction(
                     (*(factor * term for term in each.terms), *plain), each.radicand, each.positive
                 )
                 for each in found
@@ -71,8 +71,8 @@ def closed_forms(
 
 
 def _by_substitution(
-    radicand: Expr, sub: Substitution, positive: Sequence[Expr]
-) -> tuple[ClosedForm, ...]:
+    radicand: Expr, sub: IntegralSubstitution, positive: Sequence[Expr]
+) -> tuple[ElementaryAction, ...]:
     """The integral of sqrt(radicand) dx in the variable of a substitution."""
     u = sub.variable
     split = _split(sub.radicand / sub.slope_squared, u)
@@ -90,7 +90,7 @@ def _by_substitution(
     parts = _parts(R, Q, u)
     if parts is None:
         return ()
-    known = Known(radicand, positive)
+    known = KnownSigns(radicand, positive)
     poles = {p for _, _, p in parts}
     if len(poles) == 1 and all(kind != "pair" for _, kind, _ in parts):
         integrated = _in_general(Q, parts, poles.pop(), known)
@@ -107,7 +107,7 @@ def _by_substitution(
     if free_of(turn, [sub.x]) and not beside:
         scale, inside = direction / turn, radicand
     return tuple(
-        ClosedForm(
+        ElementaryAction(
             tuple(
                 (direction * _with_moduli(term, where)).xreplace({u: sub.value, ROOT: scale * ROOT})
                 for term in terms
@@ -126,7 +126,7 @@ def _verified(terms: Sequence[Expr], Q: sympy.Poly, R: Expr) -> bool:
 
 
 def _in_general(
-    Q: sympy.Poly, parts: Sequence[Part], p: Expr, known: Known
+    Q: sympy.Poly, parts: Sequence[Part], p: Expr, known: KnownSigns
 ) -> list[tuple[tuple[Expr, ...], tuple[Expr, ...]]]:
     """The terms, and what must be positive, from the integrals with A, B, c as symbols."""
     u = Q.gen
@@ -187,8 +187,8 @@ def _arranged(term: Expr, put_in: dict[Expr, Expr]) -> Expr:
 
 
 def _with_sign(
-    expression: Expr, radicand: Expr, sub: Substitution, positive: Sequence[Expr]
-) -> tuple[ClosedForm, ...]:
+    expression: Expr, radicand: Expr, sub: IntegralSubstitution, positive: Sequence[Expr]
+) -> tuple[ElementaryAction, ...]:
     """The forms where the expression is positive: it takes the place of one of its symbols."""
     size = sympy.Dummy(positive=True)
     free = sorted(
@@ -199,7 +199,7 @@ def _with_sign(
         if not free_of(slope, [each]):
             continue
         put_in = {each: (size - expression.xreplace({each: S.Zero})) / slope}
-        within = Substitution(
+        within = IntegralSubstitution(
             sub.x,
             sub.variable,
             sub.value,
@@ -210,7 +210,7 @@ def _with_sign(
         known = [simplify(e.xreplace(put_in)) for e in positive]
         back = {size: expression}
         return tuple(
-            ClosedForm(
+            ElementaryAction(
                 tuple(term.xreplace(back) for term in form.terms),
                 sympy.expand(form.radicand.xreplace(back)),
                 (deciding(expression), *(e.xreplace(back) for e in form.positive)),

@@ -28,7 +28,7 @@ import sympy
 from sympy import Abs, Expr, S, Symbol
 
 from lagcli.algebra import simplify
-from lagcli.mechanics.reduction.known_signs import Known
+from lagcli.mechanics.reduction.known_signs import KnownSigns
 
 #: sqrt(Q) within a formula.
 ROOT = Symbol("#R", positive=True)
@@ -39,7 +39,7 @@ Part = tuple[Expr, str, Expr]
 class Integrals:
     """The integrals of the module's table for one Q."""
 
-    def __init__(self, Q: sympy.Poly, known: Known) -> None:
+    def __init__(self, Q: sympy.Poly, known: KnownSigns) -> None:
         self.u, self.known = Q.gen, known
         self.a, self.b, self.c = (Q.coeff_monomial(self.u**n) for n in range(3))
 

@@ -31,7 +31,7 @@ from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.factors import factors_of
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.driven import Driven, driven
-from lagcli.mechanics.reduction.known_signs import Known
+from lagcli.mechanics.reduction.known_signs import KnownSigns
 from lagcli.mechanics.reduction.minimal import minimal
 from lagcli.record import record
 
@@ -157,7 +157,7 @@ class Separation:
                     squared = root**2 if isinstance(root, sympy.Pow) else None
                     if squared is None or constant in found:
                         continue
-                    if Known(squared, found).sign(constant) == 1:
+                    if KnownSigns(squared, found).sign(constant) == 1:
                         found.append(constant)
         return tuple(found)
 

@@ -10,7 +10,7 @@ from lagcli.algebra.writing import Writer
 from lagcli.expression import Call, Expression, Name, operation_count
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.driven import Driven
-from lagcli.mechanics.reduction.quadrature import ClosedForm, closed_forms
+from lagcli.mechanics.reduction.quadrature import ElementaryAction, closed_forms
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.root_integrals import ROOT
 from lagcli.mechanics.reduction.separation import Separation
@@ -94,7 +94,7 @@ def _by_forces_of_time(separation: Separation, found: Driven) -> HamiltonJacobiS
     )
 
 
-def _functions(separation: Separation) -> dict[str, tuple[ClosedForm, ...]]:
+def _functions(separation: Separation) -> dict[str, tuple[ElementaryAction, ...]]:
     """W by coordinate, of those that are not cyclic, where it is elementary."""
     system, separated = separation.system, separation.separated
     if separated is None:
@@ -122,7 +122,7 @@ class _Writing:
         whole = shape(expression, self.order)
         return whole if operation_count(whole) < operation_count(by_terms) - 2 else by_terms
 
-    def function(self, form: ClosedForm) -> Expression:
+    def function(self, form: ElementaryAction) -> Expression:
         """W with its root written as a sum by the constants, the same in each term."""
         root = Call("sqrt", (self.sum(form.radicand),))
 

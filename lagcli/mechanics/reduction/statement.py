@@ -15,10 +15,10 @@ from lagcli.algebra.writing import Writer
 from lagcli.answers import EquationsSection, LagrangeEquation, ReductionSection
 from lagcli.expression import ONE, ZERO, Expression, Name, Number, Product, Quotient, Sum
 from lagcli.mechanics.derivation import Derivation
-from lagcli.mechanics.reduction.one_freedom import OneFreedom as Motion
+from lagcli.mechanics.reduction.one_freedom import ReducedFreedom as Motion
 from lagcli.mechanics.reduction.one_freedom import free_name
+from lagcli.mechanics.reduction.period import AmplitudeSeries as Found
 from lagcli.mechanics.reduction.period import Periods
-from lagcli.mechanics.reduction.period import PeriodSeries as Found
 from lagcli.mechanics.reduction.readable import conditions, effective_potential
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.motions import Irreducible, OneFreedom, PeriodSeries

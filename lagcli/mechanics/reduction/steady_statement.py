@@ -42,10 +42,10 @@ def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:
             SteadySection(conditions={}, motions=None, reason=routh.reason),
             [("the steady motions", routh.reason)],
         )
-    return _Statement(SteadyMotions(routh)).section()
+    return _SteadyStatement(SteadyMotions(routh)).section()
 
 
-class _Statement:
+class _SteadyStatement:
     def __init__(self, steady: SteadyMotions) -> None:
         self.steady = steady
         self.routh = steady.routh

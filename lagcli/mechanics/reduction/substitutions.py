@@ -20,7 +20,7 @@ _SINE, _COSINE = Symbol("#sin", positive=True), Symbol("#cos", positive=True)
 
 
 @record
-class Substitution:
+class IntegralSubstitution:
     """`value` = u(x), `slope` = du/dx by x, its square and the radicand by u."""
 
     x: Symbol
@@ -31,7 +31,7 @@ class Substitution:
     radicand: Expr
 
 
-def substitutions(radicand: Expr, x: Symbol) -> Iterator[Substitution]:
+def substitutions(radicand: Expr, x: Symbol) -> Iterator[IntegralSubstitution]:
     """The substitutions by which a radicand becomes a rational function, the simple ones first."""
     functions = [f for f in radicand.atoms(sympy.Function) if not free_of(f, [x])]
     if not functions:
@@ -48,17 +48,19 @@ def _rational(expression: Expr, u: Symbol) -> bool:
     return bool(expression.is_rational_function(u))
 
 
-def _powers(radicand: Expr, x: Symbol) -> Iterator[Substitution]:
+def _powers(radicand: Expr, x: Symbol) -> Iterator[IntegralSubstitution]:
     if not _rational(radicand, x):
         return
-    yield Substitution(x, x, x, S.One, S.One, radicand)
+    yield IntegralSubstitution(x, x, x, S.One, S.One, radicand)
     u = Symbol("#u", positive=True)
     squared = radicand.subs(x, sympy.sqrt(u))
     if _rational(squared, u):
-        yield Substitution(x, u, x**2, 2 * x, 4 * u, squared)
+        yield IntegralSubstitution(x, u, x**2, 2 * x, 4 * u, squared)
 
 
-def _exponential(radicand: Expr, x: Symbol, functions: list[Expr]) -> Iterator[Substitution]:
+def _exponential(
+    radicand: Expr, x: Symbol, functions: list[Expr]
+) -> Iterator[IntegralSubstitution]:
     rates = [f.args[0].diff(x) for f in functions]
     ratios = [sympy.cancel(rate / rates[0]) for rate in rates]
     if not all(r.is_Rational for r in ratios):
@@ -74,7 +76,7 @@ def _exponential(radicand: Expr, x: Symbol, functions: list[Expr]) -> Iterator[S
     there = radicand.xreplace(put_in)
     if free_of(there, [x]) and _rational(there, u):
         value = sympy.exp(k * x)
-        yield Substitution(x, u, value, k * value, k**2 * u**2, there)
+        yield IntegralSubstitution(x, u, value, k * value, k**2 * u**2, there)
 
 
 _Rule = tuple[Callable[[Expr], Expr], Callable[[Expr], Expr], Expr, Expr, Expr, Expr]
@@ -102,7 +104,7 @@ _CIRCULAR, _HYPERBOLIC = _table()
 
 def _circular(
     radicand: Expr, x: Symbol, functions: list[Expr], rules: tuple[_Rule, ...]
-) -> Iterator[Substitution]:
+) -> Iterator[IntegralSubstitution]:
     [angle, *others] = {f.args[0] for f in functions}
     k = angle.diff(x)
     if others or not free_of(k, [x]):
@@ -113,7 +115,9 @@ def _circular(
     for value, derivative, squared, sine, cosine, u in rules:
         there = plain.subs({_SINE: sine, _COSINE: cosine}, simultaneous=True)
         if free_of(there, [x]) and _rational(there, u):
-            yield Substitution(x, u, value(angle), k * derivative(angle), k**2 * squared, there)
+            yield IntegralSubstitution(
+                x, u, value(angle), k * derivative(angle), k**2 * squared, there
+            )
 
 
 def _by_sine_and_cosine(name: str) -> Expr:

@@ -15,7 +15,7 @@ from flint import arb, arb_mat
 from lagcli.answers import AlgebraSection, Charge
 from lagcli.expression import Name, walk
 from lagcli.record import replace
-from lagcli.verification.claims.canonical_samples import Sample, samples
+from lagcli.verification.claims.canonical_samples import CanonicalSample, samples
 from lagcli.verification.claims.near import eigenvalues
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, dot, rank, size
@@ -62,7 +62,7 @@ class Counted:
         self,
         x: Examination,
         section: AlgebraSection,
-        found: Sequence[Sample],
+        found: Sequence[CanonicalSample],
         places: Sequence[int],
         points: int,
     ) -> None:

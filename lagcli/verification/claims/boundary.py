@@ -17,10 +17,10 @@ from flint import arb
 
 from lagcli.answers import Charge
 from lagcli.expression import ZERO
-from lagcli.verification.comparison import Verdict, compare
+from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.examination import Examination
 from lagcli.verification.states import State
-from lagcli.verification.sweeps import Values
+from lagcli.verification.sweeps import StepValues
 
 
 def boundary_term(x: Examination, charge: Charge) -> bool:
@@ -81,13 +81,13 @@ def _is_total_derivative(x: Examination, change: int) -> bool:
     if not states:
         return False
     return all(
-        compare(_anywhere(state)(residual), arb(0)) is Verdict.EQUAL
+        compare(_anywhere(state)(residual), arb(0)) is ComparisonVerdict.EQUAL
         for state in states
         for residual in residuals
     )
 
 
-def _anywhere(state: State) -> Values:
+def _anywhere(state: State) -> StepValues:
     """The parameters of the state, q near it and its derivatives of orders 1 to 5 random."""
     random = Random(3)
     given = {

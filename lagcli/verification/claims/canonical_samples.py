@@ -22,7 +22,7 @@ from lagcli.verification.sweeps import column
 _ATTEMPTS = 8
 
 
-class Sample:
+class CanonicalSample:
     """One state, with the values of functions and their derivatives by q and p."""
 
     def __init__(self, state: State, functions: Sequence[int]) -> None:
@@ -52,15 +52,15 @@ class Sample:
         return poisson(self.slopes[i], self.slopes[j])
 
 
-def samples(x: Examination, functions: Sequence[int], count: int) -> list[Sample]:
+def samples(x: Examination, functions: Sequence[int], count: int) -> list[CanonicalSample]:
     """So many samples, fewer where no more are found."""
     states = x.states()
-    found: list[Sample] = []
+    found: list[CanonicalSample] = []
     if not states:
         return found
     for state in _nearby(states[0], count * _ATTEMPTS):
         try:
-            sample = Sample(state, functions)
+            sample = CanonicalSample(state, functions)
         except Unclear:
             continue
         if sample.finite:

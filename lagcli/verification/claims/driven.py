@@ -9,7 +9,7 @@ from flint import arb
 
 from lagcli.verification.linear import dot
 from lagcli.verification.states import State
-from lagcli.verification.sweeps import Values
+from lagcli.verification.sweeps import StepValues
 
 if TYPE_CHECKING:
     from lagcli.verification.claims.separation import Action
@@ -26,7 +26,7 @@ def solves_in_time(action: Action) -> bool:
     program = x.reference.program
     named = [program.symbol(name) for name in section.integrals]
 
-    def rate(at: Values, place: int) -> arb:
+    def rate(at: StepValues, place: int) -> arb:
         by = at.gradient(place)
         inner = [by.get(symbol, arb(0)) * at(f) for symbol, f in zip(named, integrals, strict=True)]
         return sum(inner, by.get(x.reference.time, arb(0)))

@@ -11,10 +11,10 @@ from lagcli.answers import EquilibriaSection, Equilibrium
 from lagcli.expression import Expression
 from lagcli.motions import SteadyMotion, SteadySection, Verdict
 from lagcli.record import replace
-from lagcli.verification.claims.near import NOTHING, Near, eigenvalues, occur
+from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues, occur
 from lagcli.verification.claims.rest import (
     BITS,
-    Place,
+    RestPlace,
     named,
     not_confirmed,
     with_closed_contacts,
@@ -41,9 +41,9 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
                 x.unchecked.append(what)
                 found.append(each)
                 continue
-            place = Place(x, what, each.at, {}, each.on, each.where)
+            place = RestPlace(x, what, each.at, {}, each.on, each.where)
             y = with_closed_contacts(x, place)
-            place = place if y is x else Place(y, what, each.at, {}, each.on, each.where)
+            place = place if y is x else RestPlace(y, what, each.at, {}, each.on, each.where)
             verdict = _stays(x, what, place, each.verdict, cyclic=0)
             if verdict is None:
                 return replace(section, equilibria=None, reason=not_confirmed("an equilibrium"))
@@ -59,7 +59,7 @@ def _another(x: Examination, found: list[Equilibrium]) -> str:
     """An equilibrium that none of these is; empty where none was found."""
     if x.reference.large or x.problem.contacts or any(each.sticking for each in found):
         return ""
-    places = [Place(x, "the equilibria", each.at, {}, each.on, each.where) for each in found]
+    places = [RestPlace(x, "the equilibria", each.at, {}, each.on, each.where) for each in found]
     near = next(unlisted(Balance(x), places), None)
     return "" if near is None else shown(near)
 
@@ -75,7 +75,7 @@ def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
             if each.rates is None:
                 found.append(each)
                 continue
-            place = Place(x, what, each.at, each.rates, each.on, each.where, section.eliminated)
+            place = RestPlace(x, what, each.at, each.rates, each.on, each.where, section.eliminated)
             verdict = _stays(x, what, place, each.verdict, cyclic=len(each.rates))
             if verdict is None or not _with_momenta(x, what, place, each):
                 return replace(section, motions=None, reason=not_confirmed("a steady motion"))
@@ -95,7 +95,7 @@ def _another_motion(x: Examination, section: SteadySection, found: list[SteadyMo
     if not turning or x.problem.contacts:
         return ""
     places = [
-        Place(x, "the steady motions", each.at, each.rates or {}, each.on, each.where)
+        RestPlace(x, "the steady motions", each.at, each.rates or {}, each.on, each.where)
         for each in found
     ]
     mirrored = [each.mirrored for each in found]
@@ -104,7 +104,7 @@ def _another_motion(x: Examination, section: SteadySection, found: list[SteadyMo
 
 
 def _stays(
-    x: Examination, what: str, place: Place, verdict: Verdict, *, cyclic: int
+    x: Examination, what: str, place: RestPlace, verdict: Verdict, *, cyclic: int
 ) -> Verdict | None:
     """The verdict, an undecided one where it is refuted; None where the state does not stay."""
     tried = 0
@@ -127,7 +127,7 @@ def _stays(
     return verdict
 
 
-def _constant(near: Near, eliminated: Sequence[str]) -> bool:
+def _constant(near: LinearMotion, eliminated: Sequence[str]) -> bool:
     """Whether q'' is 0 but for what the constraints eliminate: velocities are constant."""
     if not near.regular:
         return True
@@ -137,7 +137,7 @@ def _constant(near: Near, eliminated: Sequence[str]) -> bool:
     return all(float(abs(a).mid()) < NOTHING * scale for a in kept)
 
 
-def _with_momenta(x: Examination, what: str, place: Place, motion: SteadyMotion) -> bool:
+def _with_momenta(x: Examination, what: str, place: RestPlace, motion: SteadyMotion) -> bool:
     """The momenta, and the squared frequencies, are those of the motion."""
     names = x.reference.names
     momenta = x.places(what, list(motion.momenta.values()))
@@ -165,7 +165,7 @@ def _matrices(motion: SteadyMotion) -> tuple[tuple[tuple[Expression, ...], ...],
     return motion.mass, motion.velocity, motion.stiffness
 
 
-def _same_motion(near: Near, flat: Sequence[Sequence[arb]]) -> bool:
+def _same_motion(near: LinearMotion, flat: Sequence[Sequence[arb]]) -> bool:
     """Whether M a'' + C a' + K a = 0 has eigenvalues of the motion near it only."""
     size = isqrt(len(flat[0]))
     if not size or any(len(m) != size * size for m in flat):

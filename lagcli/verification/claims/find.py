@@ -16,7 +16,7 @@ from lagcli.expression import Expression
 from lagcli.problem import Rewrite, Where
 from lagcli.questions import Answer, FindSection, Rewritten, Solutions
 from lagcli.record import replace
-from lagcli.verification.comparison import Verdict, compare
+from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, least_step, rank, size
 from lagcli.verification.states import Environment, State
@@ -89,7 +89,8 @@ class Reached:
         return [
             place
             for place in (h, *momenta)
-            if states and all(compare(s.laws.rate(place), arb(0)) is Verdict.EQUAL for s in states)
+            if states
+            and all(compare(s.laws.rate(place), arb(0)) is ComparisonVerdict.EQUAL for s in states)
         ]
 
     def _independent(self, places: Sequence[int]) -> list[int]:

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 from flint import arb, ctx
 
-from lagcli.answers import Mode, ModesSection
+from lagcli.answers import ModesOfFrequency, ModesSection
 from lagcli.record import replace
-from lagcli.verification.claims.near import NOTHING, Near, occur
+from lagcli.verification.claims.near import NOTHING, LinearMotion, occur
 from lagcli.verification.claims.rest import (
     BITS,
-    Place,
+    RestPlace,
     named,
     not_confirmed,
     with_closed_contacts,
@@ -34,7 +34,7 @@ def modes(x: Examination, section: ModesSection) -> ModesSection:
         for each in section.modes:
             if not _is_mode(x, each):
                 return replace(section, modes=None, reason=not_confirmed("a normal mode"))
-        groups: dict[object, list[Mode]] = {}
+        groups: dict[object, list[ModesOfFrequency]] = {}
         for each in section.modes:
             groups.setdefault(repr((each.at, each.on)), []).append(each)
         places = [_all_modes(x, about) for about in groups.values()]
@@ -44,11 +44,11 @@ def modes(x: Examination, section: ModesSection) -> ModesSection:
     return section
 
 
-def _all_modes(x: Examination, about: Sequence[Mode]) -> Place | None:
+def _all_modes(x: Examination, about: Sequence[ModesOfFrequency]) -> RestPlace | None:
     """The equilibrium, if it has as many modes as it must have."""
     first = about[0]
     what = f"the number of normal modes about {named(first.at, first.on)}"
-    place = Place(x, what, first.at, {}, first.on, ())
+    place = RestPlace(x, what, first.at, {}, first.on, ())
     if with_closed_contacts(x, place) is not x:
         return place
     count = sum(mode.multiplicity for mode in about)
@@ -64,7 +64,7 @@ def _all_modes(x: Examination, about: Sequence[Mode]) -> Place | None:
     return place
 
 
-def _of_other_equilibria(x: Examination, places: Sequence[Place]) -> None:
+def _of_other_equilibria(x: Examination, places: Sequence[RestPlace]) -> None:
     """Note a stable equilibrium about which no modes are listed."""
     if not places or x.reference.large or x.problem.contacts:
         return
@@ -77,9 +77,9 @@ def _of_other_equilibria(x: Examination, places: Sequence[Place]) -> None:
             return
 
 
-def _is_mode(x: Examination, mode: Mode) -> bool:
+def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
     what = f"the normal modes about {named(mode.at, mode.on)}"
-    place = Place(x, what, mode.at, {}, mode.on, ())
+    place = RestPlace(x, what, mode.at, {}, mode.on, ())
     if with_closed_contacts(x, place) is not x:
         x.unchecked.append(what)  # on one side only the motion is that of the equations
         return True
@@ -107,7 +107,7 @@ def _is_mode(x: Examination, mode: Mode) -> bool:
     return True
 
 
-def _moves_so(near: Near, W: arb, shape: Sequence[arb]) -> bool:
+def _moves_so(near: LinearMotion, W: arb, shape: Sequence[arb]) -> bool:
     """Whether (dq''/dq) a = -omega^2 a, where velocities play no part."""
     by_q, by_v = near.slopes
     if any(abs(float(e.mid())) > NOTHING for row in by_v for e in row):

@@ -14,7 +14,7 @@ from flint import arb, arb_mat
 
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, rank, size, solve
-from lagcli.verification.reference import Dynamics
+from lagcli.verification.reference import DynamicsAtState
 from lagcli.verification.states import Environment
 
 _STEP = arb(2) ** -100
@@ -24,7 +24,7 @@ NOTHING = 1e-12
 _AGREE = 1e-9
 
 
-class Near:
+class LinearMotion:
     """One state that stays, and the linear motion near it."""
 
     def __init__(self, x: Examination, environment: Environment) -> None:
@@ -34,9 +34,9 @@ class Near:
         self.at = self.laws.at
         self.size = len(x.reference.names)
 
-    def _laws(self, environment: Environment) -> Dynamics:
+    def _laws(self, environment: Environment) -> DynamicsAtState:
         reference = self.x.reference
-        return Dynamics(reference, reference.values(environment))
+        return DynamicsAtState(reference, reference.values(environment))
 
     # -- that it stays --------------------------------------------------------------------------
 
@@ -162,7 +162,7 @@ def eigenvalues(rows: Sequence[Sequence[arb]]) -> list[complex]:
     return [complex(float(z.real.mid()), float(z.imag.mid())) for z in found]
 
 
-def occur(near: Near, squares: Sequence[arb]) -> bool:
+def occur(near: LinearMotion, squares: Sequence[arb]) -> bool:
     """Whether each omega^2 is minus the square of an eigenvalue, as often as it is there."""
     left = [-(z**2) for z in near.eigenvalues]
     scale = max([1e-6, *map(abs, left)])

@@ -21,14 +21,14 @@ from lagcli.phase_space import (
     PoissonBracket,
     TransformationsSection,
 )
-from lagcli.problem import JACOBI_FUNCTION, Problem, Transformation, charge_of
+from lagcli.problem import JACOBI_FUNCTION, CanonicalTransformation, Problem, charge_of
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot, size
 from lagcli.verification.phase_points import PhasePoint
 from lagcli.verification.states import State
-from lagcli.verification.sweeps import Values, column
+from lagcli.verification.sweeps import StepValues, column
 
 #: Two lists of values at a state.
 Sides = Callable[[State], tuple[list[arb], list[arb]]]
@@ -111,7 +111,9 @@ def transformations(x: Examination, section: TransformationsSection) -> Transfor
 class Tested:
     """One transformation and what is printed of it."""
 
-    def __init__(self, x: Examination, given: Transformation, each: ExaminedTransformation) -> None:
+    def __init__(
+        self, x: Examination, given: CanonicalTransformation, each: ExaminedTransformation
+    ) -> None:
         self.x, self.each = x, each
         self.name = f"the transformation '{each.name}'"
         names = list(given.coordinates)
@@ -207,7 +209,7 @@ class Tested:
 
     # -- generating functions -------------------------------------------------------------------
 
-    def _new(self, point: PhasePoint) -> Values:
+    def _new(self, point: PhasePoint) -> StepValues:
         """Formulas of the old and the new variables."""
         return point.with_values({(n, 0): point.at(place) for n, place in self.places.items()})
 
@@ -221,7 +223,7 @@ class Tested:
         if printed.kind != "F" and given is not None:
             known = x.reference.place(given)
 
-            def new(s: State) -> Values:
+            def new(s: State) -> StepValues:
                 return self._new(s.phase)
 
             if not x.holds(what, printed.function, lambda s: new(s)(known), new):

@@ -19,7 +19,7 @@ from lagcli.verification.claims.periods import periods
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot
 from lagcli.verification.states import State
-from lagcli.verification.sweeps import Values, column
+from lagcli.verification.sweeps import StepValues, column
 
 _WHY = "what was derived does not hold at random states"
 
@@ -80,7 +80,7 @@ def _equations(x: Examination, section: ReductionSection) -> bool:
     return x.decide("the reduced equations", both)
 
 
-def _at_rest(x: Examination, s: State) -> Values:
+def _at_rest(x: Examination, s: State) -> StepValues:
     """The state with the velocities 0, the momenta as they are."""
     still = {(name, 1): arb(0) for name in x.reference.names}
     return x.reference.values({**s.environment, **s.following, **still})
@@ -119,7 +119,7 @@ def _one_freedom(x: Examination, one: OneFreedom, R: Expression) -> bool:
         return False
     h, rate, *turning = places
 
-    def with_energy(s: State) -> Values:
+    def with_energy(s: State) -> StepValues:
         known = {**s.environment, **s.following, (one.constant, 0): s.at(h)}
         return x.reference.values(known)
 

@@ -11,7 +11,7 @@ from lagcli.formatters.grammar import to_grammar
 from lagcli.motions import Above
 from lagcli.problem import Constraint
 from lagcli.record import replace
-from lagcli.verification.claims.near import NOTHING, Near
+from lagcli.verification.claims.near import NOTHING, LinearMotion
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear, least_step, size
 from lagcli.verification.states import Environment
@@ -24,7 +24,7 @@ BITS = PRECISIONS[1]
 _NEWTON_STEPS = 30
 
 
-class Place:
+class RestPlace:
     """Where coordinates rest, with the conditions for it.
 
     Attributes
@@ -61,7 +61,7 @@ class Place:
         self.on = [program.sum(ties[0], program.negative(ties[1]))] if ties else []
         self.where = conditions(x, what, where)
 
-    def states(self) -> Iterator[Near]:
+    def states(self) -> Iterator[LinearMotion]:
         """States at this place for random parameters that the conditions allow."""
         count = 0
         for state in self.x.states(LOOKED_AT, BITS):
@@ -72,7 +72,7 @@ class Place:
             if count == WANTED:
                 return
 
-    def near(self, known: Environment) -> Near | None:
+    def near(self, known: Environment) -> LinearMotion | None:
         """The state here for these parameters; None where there is none."""
         reference = self.x.reference
         resting = {(name, 1) for name in reference.names} - self.values.keys()
@@ -86,7 +86,7 @@ class Place:
         at = reference.values(environment)
         allowed = all(at(place) > 0 for place in self.where)
         signs = all(_has_sign(c.assume, environment[c.name, 0]) for c in self.x.problem.coordinates)
-        return Near(self.x, environment) if allowed and signs else None
+        return LinearMotion(self.x, environment) if allowed and signs else None
 
     def _put_in(self, environment: Environment) -> bool:
         """Give the printed values; whether all are real."""
@@ -136,7 +136,7 @@ class Place:
         return False
 
 
-def with_closed_contacts(x: Examination, place: Place) -> Examination:
+def with_closed_contacts(x: Examination, place: RestPlace) -> Examination:
     """The examination in which the contacts that are closed at a place are constraints."""
     near = next(place.states(), None) if place.readable else None
     if near is None or not x.problem.contacts:

@@ -24,7 +24,7 @@ from lagcli.verification.claims.rest import conditions
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, dot, least_step, rank, size, solve
 from lagcli.verification.states import Environment, State
-from lagcli.verification.sweeps import Values, column
+from lagcli.verification.sweeps import StepValues, column
 
 _WHY = "what was derived does not hold at random states"
 _STEPS = 30
@@ -284,7 +284,7 @@ class Action:
             del x.unchecked[before:]  # the case of no random state
         return holds
 
-    def _tried(self, known: Environment) -> Iterator[Values]:
+    def _tried(self, known: Environment) -> Iterator[StepValues]:
         """The constants of a state, and of other energies."""
         for scale in (1, -1, 3):
             yield self.x.reference.values(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lagcli.motions import Above, Verdict
-from lagcli.verification.claims.near import Near, eigenvalues
+from lagcli.verification.claims.near import LinearMotion, eigenvalues
 from lagcli.verification.claims.rest import conditions
 from lagcli.verification.examination import Examination
 
@@ -13,7 +13,7 @@ from lagcli.verification.examination import Examination
 class Judged:
     """What the linear motion says of a printed verdict at one state."""
 
-    def __init__(self, near: Near, cyclic: int) -> None:
+    def __init__(self, near: LinearMotion, cyclic: int) -> None:
         everything = near.eigenvalues
         self.scale = max([1e-3, *map(abs, everything)])
         self.values = everything[2 * cyclic :]  # two are 0 for each cyclic coordinate
@@ -46,7 +46,7 @@ class Judged:
         return apart and all(abs(z) > 1e-7 * self.scale for z in self.values)
 
 
-def refutes(x: Examination, what: str, near: Near, verdict: Verdict, cyclic: int) -> str:
+def refutes(x: Examination, what: str, near: LinearMotion, verdict: Verdict, cyclic: int) -> str:
     """Why a verdict cannot be right at this state; empty where it can."""
     if not near.regular:
         return ""
@@ -87,7 +87,9 @@ def _positive(z: complex) -> bool:
     return z.real > 1e-12
 
 
-def _all_hold(x: Examination, what: str, near: Near, where: Sequence[Above] | None) -> bool | None:
+def _all_hold(
+    x: Examination, what: str, near: LinearMotion, where: Sequence[Above] | None
+) -> bool | None:
     """Whether all inequalities hold; None where there are none, or one is not decided."""
     if not where:
         return None

@@ -34,7 +34,7 @@ _UNKNOWN = QuantityUnit(unit=None, source="undetermined")
 
 def dimensions(x: Examination, section: DimensionsSection) -> DimensionsSection:
     """Every printed unit, by the values in two systems of units."""
-    scaled = Scaled(x, section)
+    scaled = ScaledUnits(x, section)
     if not section.units_given or not scaled.possible:
         return section
     if scaled.agrees():
@@ -47,7 +47,7 @@ def _given(units: Mapping[str, QuantityUnit]) -> dict[str, QuantityUnit]:
     return {n: each if each.source == "given" else _UNKNOWN for n, each in units.items()}
 
 
-class Scaled:
+class ScaledUnits:
     """The values of the quantities in other units.
 
     Attributes

@@ -17,8 +17,8 @@ from random import Random
 from flint import arb, ctx
 
 from lagcli.problem import Inequality
-from lagcli.verification.claims.near import Near, eigenvalues
-from lagcli.verification.claims.rest import Place
+from lagcli.verification.claims.near import LinearMotion, eigenvalues
+from lagcli.verification.claims.rest import RestPlace
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear, least_step, size
 from lagcli.verification.states import Environment, State
@@ -78,7 +78,7 @@ class Balance:
         self.sought += [(row.constraint.multiplier, 0) for row in reference.rows]
         self.symbols = [program.symbol(*key) for key in self.sought]
 
-    def found(self) -> Iterator[Near]:
+    def found(self) -> Iterator[LinearMotion]:
         """Regular places where it stays, from random starts."""
         with ctx.workprec(PRECISIONS[0]):
             random = Random(5)
@@ -102,7 +102,7 @@ class Balance:
             environment[f"p_{name}", 0] = arb(random.randint(-1536, 1536)) / 1024
         return environment
 
-    def _from(self, environment: Environment) -> Near | None:
+    def _from(self, environment: Environment) -> LinearMotion | None:
         """Newton's method; the last step is no longer than rounding."""
         reference = self.x.reference
         for _ in range(_STEPS):
@@ -117,7 +117,7 @@ class Balance:
                 return None
             longest = max(map(size, step), default=0.0)
             if max(map(size, residual)) < _ARRIVED and longest < _SAME:
-                return Near(self.x, environment)
+                return LinearMotion(self.x, environment)
             if not longest < 1e6:
                 return None
             shorter = arb(1 if longest < 1 else 1 / longest)
@@ -125,7 +125,7 @@ class Balance:
                 environment[key] = (environment[key] + d * shorter).mid()
         return None
 
-    def _counts(self, near: Near) -> bool:
+    def _counts(self, near: LinearMotion) -> bool:
         """Whether it is a regular place that the file allows, within one turn."""
         x = self.x
         if any(size(near.environment[n, 0]) > pi for n in x.reference.names):
@@ -141,7 +141,7 @@ class Balance:
         held = (c.holds_while for c in x.problem.constraints)
         return signs and all(h is None or _holds(x, near, h) for h in held)
 
-    def is_period(self, near: Near, listed: Near) -> bool:
+    def is_period(self, near: LinearMotion, listed: LinearMotion) -> bool:
         """Whether the laws at places this far from each other are the same."""
         reference = self.x.reference
         with ctx.workprec(PRECISIONS[0]):
@@ -156,15 +156,15 @@ class Balance:
             return all(size(one(f) - other(f)) < _SAME for f in self.conditions)
 
 
-def _holds(x: Examination, near: Near, condition: Inequality) -> bool:
+def _holds(x: Examination, near: LinearMotion, condition: Inequality) -> bool:
     at = x.reference.values(near.environment)
     gap = at(x.reference.place(condition.left)) - at(x.reference.place(condition.right))
     return bool(gap > 0 if condition.comparison[0] == ">" else gap < 0)
 
 
 def unlisted(
-    balance: Balance, places: Sequence[Place], *, mirrored: Sequence[bool] = ()
-) -> Iterator[Near]:
+    balance: Balance, places: Sequence[RestPlace], *, mirrored: Sequence[bool] = ()
+) -> Iterator[LinearMotion]:
     """The places found that none of these is, up to periods and reversed rates."""
     both = list(zip(places, mirrored or [False] * len(places), strict=True))
     for near in balance.found():
@@ -172,7 +172,7 @@ def unlisted(
             yield near
 
 
-def _is_at(balance: Balance, near: Near, place: Place, *, mirror: bool) -> bool:
+def _is_at(balance: Balance, near: LinearMotion, place: RestPlace, *, mirror: bool) -> bool:
     """Whether a listed motion is the one found, or with `mirror` that with opposite momenta."""
     sign = -1 if mirror else 1
     momenta = {(f"p_{n}", 0) for n in balance.turning}
@@ -190,11 +190,11 @@ def _is_at(balance: Balance, near: Near, place: Place, *, mirror: bool) -> bool:
     return same or (mirror and _is_at(balance, near, place, mirror=False))
 
 
-def _gap(a: Near, b: Near, key: tuple[str, int], sign: int = 1) -> float:
+def _gap(a: LinearMotion, b: LinearMotion, key: tuple[str, int], sign: int = 1) -> float:
     return float((a.environment[key] - sign * b.environment[key]).mid())
 
 
-def shown(near: Near, turning: Sequence[str] = ()) -> str:
+def shown(near: LinearMotion, turning: Sequence[str] = ()) -> str:
     """Where a place is."""
     names = near.x.reference.names
     parts = [f"{n} = {float(near.environment[n, 0]):.6g}" for n in names if n not in turning]
