@@ -5,11 +5,13 @@ from __future__ import annotations
 import random
 
 import pytest
+import sympy
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.signs import sign
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
+from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_statement import steady_motions
 from lagcli.pipeline import explain
@@ -82,6 +84,15 @@ def test_squares_that_are_not_zero_are_stated_so():
     text = "coordinates: [x, y]\nparameters: [m, q, B]\nL: (x'^2 + y'^2)/2 + q*B*(x*y' - y*x')/2\n"
     sentences = said(text, "Equilibria", "equilibria")
     assert "where B ≠ 0 and q ≠ 0" in sentences.replace("\N{NO-BREAK SPACE}", " ")
+
+
+@pytest.mark.parametrize("factors", ["q*s", "a*q*s", "q*s*b^2"])
+def test_the_sign_of_a_product_implies_that_its_factors_are_not_zero(factors):
+    factors = sympy.sympify(factors.replace("^", "**"), {n: sympy.Symbol(n) for n in "abqs"})
+    squares = [symbol**2 for symbol in factors.free_symbols]
+    alone = conditions([-factors], "abqs")
+    assert conditions([-factors, *squares], "abqs") == alone
+    assert len(conditions([-factors, sympy.Symbol("p") ** 2], "abqsp")) == len(alone) + 1
 
 
 # -- critical values ------------------------------------------------------------------------------

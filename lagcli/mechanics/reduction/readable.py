@@ -204,7 +204,8 @@ def _is_square(expression: Expr) -> bool:
 def _implies(given: Expr, expression: Expr) -> bool:
     """Whether the expression is a positive multiple of what is positive, and something positive."""
     if _is_square(expression) and expression.base.is_Symbol:  # given fails at x = 0
-        return weak_sign(given.xreplace({expression.base: S.Zero})) == -1 or given == expression
+        at_zero = given.xreplace({expression.base: S.Zero})
+        return at_zero == 0 or weak_sign(at_zero) == -1
     own, other = (e.expand().as_coefficients_dict() for e in (expression, given))
     ratios = {own[term] / other[term] for term in own if term in other}
     rests = (simplify(expression - ratio * given) for ratio in ratios if ratio.is_positive)
