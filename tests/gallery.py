@@ -23,7 +23,8 @@ from lagcli.formatters.mathml import MathmlPrinter
 from lagcli.library import LibraryEntry, entries
 from lagcli.numerics.refusal import Refusal
 from lagcli.pictures.drawing import CannotDraw
-from lagcli.pipeline import derive, explain
+from lagcli.pipeline import Request, derive, explain, state
+from lagcli.pipeline import render as render_answers
 
 _KINDS = ("path", "series")
 _STYLE = """
@@ -41,7 +42,7 @@ h2 { margin: 2rem 0 0.7rem; }
 
 
 class Card(NamedTuple):
-    """What the list has of a problem: its picture, or else its Lagrangian."""
+    """What the list has of a problem: its picture, or else T, L or H."""
 
     name: str
     title: str
@@ -55,23 +56,31 @@ def made(entry: LibraryEntry, folder: Path) -> Card:
     page.parent.mkdir(parents=True, exist_ok=True)
     below, picture = moved(problem)
     options = Options(standalone=True, below=(below,))
-    page.write_text(render([explain(derive(problem))], "html", options), "utf-8")
+    page.write_text(told(problem, options), "utf-8")
     return Card(entry.name, problem.title, shown(entry.name, problem, picture, folder))
 
 
 def shown(name, problem, picture, folder: Path) -> str:
-    """The picture of a problem, for a light and for a dark page, or its Lagrangian."""
+    """The picture of a problem, for a light and for a dark page, or its formula."""
     if picture is None:
-        lagrangian = lagcli.solve(problem, ["lagrangian"]).lagrangian.lagrangian
-        if lagrangian is None:
-            return "<span></span>"
-        return f"<span><math>{MathmlPrinter().show(lagrangian.expression)}</math></span>"
+        formula = problem.lagrangian or problem.hamiltonian or problem.kinetic
+        return f"<span><math>{MathmlPrinter().show(formula)}</math></span>" if formula else ""
     picture.save(folder / f"{name}.svg")
     picture.save(folder / f"{name}-dark.svg", dark=True)
     return (
         f"<picture><source media='(prefers-color-scheme: dark)' srcset='{name}-dark.svg'>"
         f"<img src='{name}.svg' alt='' loading='lazy'></picture>"
     )
+
+
+def told(problem, options: Options) -> str:
+    """The explanation; of a Hamiltonian without a Lagrangian its equations."""
+    derivation = derive(problem)
+    try:
+        return render([explain(derivation)], "html", options)
+    except ProblemError:
+        request = Request(sections=("hamiltonian", "canonical_equations"))
+        return render_answers([state(derivation, request)], "html", options)
 
 
 def moved(problem):

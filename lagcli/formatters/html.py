@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import re
 from collections.abc import Iterator, Sequence
 
 from lagcli.answers import Answers
@@ -45,6 +46,11 @@ h2 {{ font-size: 1.3rem; }}
 h3 {{ font-size: 1.1rem; }}
 p, ul {{ margin: 0.7rem 0; }}
 article + article {{ border-top: 1px solid #8886; margin-top: 3rem; padding-top: 1rem; }}
+.display {{ background:
+  linear-gradient(90deg, var(--paper) 30%, transparent) left / 3rem 100% local,
+  linear-gradient(-90deg, var(--paper) 30%, transparent) right / 3rem 100% local,
+  linear-gradient(90deg, #888a, transparent) left / 0.6rem 100%,
+  linear-gradient(-90deg, #888a, transparent) right / 0.6rem 100%; background-repeat: no-repeat; }}
 img, iframe {{ display: block; margin: 0.7rem 0; }}
 </style>
 </head>
@@ -54,7 +60,7 @@ _END = """</body>
 </html>
 """
 _DISPLAY = (
-    '<div style="overflow-x: auto; margin-bottom: 0.9em"><math display="block">'
+    '<div class="display" style="overflow-x: auto; margin-bottom: 0.9em"><math display="block">'
     '<mtable displaystyle="true" columnalign="right center left">'
 )
 _END_DISPLAY = "</mtable></math></div>"
@@ -66,6 +72,9 @@ _WHOLE_ROW = (
 )
 #: Above the first line of an equation, and above those that go on with it.
 _NEXT, _GOES_ON = "0.9em", "0.4em"
+#: A formula with a sign and another behind it, or with a punctuation mark.
+_FORMULA = "<math>(?:(?!</math>).)*</math>"
+_TORN = re.compile(rf"{_FORMULA}(?: [-+−=·] {_FORMULA})*[.,;:)]|{_FORMULA}(?: [-+−=·] {_FORMULA})+")
 #: A side of an equation is broken where its terms reach so many operations.
 _LONG = 24
 
@@ -108,11 +117,11 @@ def _block(block: Block, printer: MathmlPrinter) -> Iterator[str]:
             about = "" if formula is None else _part(formula, printer)
             yield f"<h{level + 1}>{escaped(text)} {about}".rstrip() + f"</h{level + 1}>"
         case Paragraph(parts=parts):
-            yield f"<p>{''.join(_part(part, printer) for part in parts)}</p>"
+            yield f"<p>{_sentence(parts, printer)}</p>"
         case Items(items=items):
             yield "<ul>"
             for item in items:
-                yield f"<li>{''.join(_part(part, printer) for part in item)}</li>"
+                yield f"<li>{_sentence(item, printer)}</li>"
             yield "</ul>"
         case Equations(rows=rows):
             yield _DISPLAY
@@ -123,6 +132,14 @@ def _block(block: Block, printer: MathmlPrinter) -> Iterator[str]:
             yield _DISPLAY
             yield _cells(_show(block.label, printer), "<mo>=</mo>", _matrix(block, printer))
             yield _END_DISPLAY
+
+
+def _sentence(parts: Sequence[str | Formula], printer: MathmlPrinter) -> str:
+    """Words and formulas; no line ends before a full stop, nor within `T + V`."""
+    return _TORN.sub(
+        r'<span style="white-space: nowrap">\g<0></span>',
+        "".join(_part(part, printer) for part in parts),
+    )
 
 
 def _part(part: str | Formula, printer: MathmlPrinter) -> str:
@@ -145,7 +162,8 @@ def _row(row: Row, printer: MathmlPrinter) -> Iterator[str]:
             first += note
     if above:
         for number, line in enumerate(above):
-            yield _WHOLE_ROW.format(content=line, above=_GOES_ON if number else _NEXT)
+            content = f"<mrow><mspace width='1em'/>{line}</mrow>" if number else line
+            yield _WHOLE_ROW.format(content=content, above=_GOES_ON if number else _NEXT)
         content = f"<mrow><mspace width='1em'/>{last}<mo>=</mo>{first}</mrow>"
         yield _WHOLE_ROW.format(content=content, above=_GOES_ON)
     else:

@@ -19,7 +19,8 @@ _STYLE = "max-width: 100%; height: auto"
 #: The frame is as high as what is in it.
 _FRAME = (
     '<iframe title="{title}" srcdoc="{page}" style="width: 100%; height: 36rem; border: 0" '
-    "onload=\"this.style.height = this.contentDocument.documentElement.offsetHeight + 8 + 'px'\">"
+    'onload="const page = this.contentDocument.documentElement; new ResizeObserver(() => '
+    "{{ this.style.height = page.offsetHeight + 8 + 'px'; }}).observe(page)\">"
     "</iframe>\n"
 )
 

@@ -15,6 +15,7 @@ from lagcli.answers import (
     Multiplier,
     MultipliersSection,
 )
+from lagcli.document import Document, Paragraph
 from lagcli.expression import Call, Name, Negative, Power, Quotient
 from lagcli.formatters import html, markdown
 from lagcli.formatters.mathml import MathmlPrinter, mathml_name
@@ -153,3 +154,10 @@ def test_mathml_names():
         "<msub><mover accent='true'><mi>θ</mi><mo style='padding-bottom: 0.1em'>˙</mo></mover>"
         "<mrow><mn>1</mn></mrow></msub>"
     )
+
+
+def test_no_line_of_a_page_ends_before_a_full_stop_or_a_sign():
+    parts = ("it equals ", Name("T"), " + ", Name("V"), ", and ", Name("h"), " is ", Name("L"))
+    page = html.pages([Document("Page", (Paragraph((*parts, ".")),))], Options())
+    kept = re.findall(r'<span style="white-space: nowrap">(.*?)</span>', page)
+    assert [re.sub("<[^>]*>", "", text) for text in kept] == ["T + V,", "L."]
