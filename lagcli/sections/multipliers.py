@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 from lagcli.answers import Answers, ConstraintKind, Multiplier, MultipliersSection
 from lagcli.document import Block, Equations, Paragraph, Row
@@ -157,7 +157,7 @@ SECTION = Declaration(
             {
                 "symbol": {"type": "string"},
                 "value": OR_NULL,
-                "kind": {"enum": ["holonomic", "integrable", "nonholonomic", None]},
+                "kind": {"enum": [*get_args(ConstraintKind), None]},
             },
         )
     ),

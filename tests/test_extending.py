@@ -1,0 +1,72 @@
+"""The recipes of the manual that change lagcli itself, each carried out in a copy of it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.test_manual import EXTENDING, ROOT, blocks
+
+
+def changed(text: str, old: list[str], new: list[str]) -> str:
+    before, after = "\n".join(old), "\n".join(new)
+    assert text.count(before) == 1, before
+    return text.replace(before, after)
+
+
+def carry_out(recipe: str, folder: Path) -> None:
+    """Change the files under a folder as a recipe says: lines with -, +, or neither."""
+    for part in recipe.split("+++ ")[1:]:
+        name, *lines = part.rstrip("\n").split("\n")
+        old = [line[1:] for line in lines if line[0] in " -"]
+        new = [line[1:] for line in lines if line[0] in " +"]
+        path = folder / name
+        path.write_text(changed(path.read_text("utf-8"), old, new), "utf-8")
+
+
+@pytest.fixture
+def call(tmp_path):
+    """Run a command of a copy of lagcli that a recipe has changed."""
+
+    def called(file: str, problem: str, *arguments: str):
+        shutil.copytree(ROOT / "lagcli", tmp_path / "lagcli", dirs_exist_ok=True)
+        [recipe] = [body for body in blocks("diff", EXTENDING) if file in body]
+        carry_out(recipe, tmp_path)
+        (tmp_path / "p.yaml").write_text(problem)
+        return subprocess.run(
+            [sys.executable, "-m", "lagcli", *arguments, "p.yaml"],
+            cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(tmp_path), "LAGCLI_NO_CACHE": "1"},
+            capture_output=True, text=True, check=False,
+        )  # fmt: skip
+
+    return called
+
+
+def test_a_diagnostic(call):
+    problem = "coordinates: [x]\npoints:\n  a: {position: [x], mass: 2 - 3}\n"
+    done = call("value_checks.py", problem, "solve")
+    assert (done.returncode, "p.yaml:3:28: error" in done.stderr) == (2, True)
+    assert "the mass of the point 'a' is negative" in done.stderr
+
+
+def test_a_simplification_rule(call):
+    problem = "coordinates: [x]\nT: x'^2/2\nV: asinh(sinh(x))^2/2\n"
+    done = call("algebra/build.py", problem, "solve", "-f", "json")
+    assert done.stderr == ""
+    assert '"accelerations": {\n    "x": "-x"\n  }' in done.stdout
+
+
+def test_a_kind_of_constraint(call):
+    problem = (
+        "coordinates: [x, y]\nparameters: [v]\nT: (x'^2 + y'^2)/2\n"
+        "constraints: {moving: x = v*t, resting: y = 1}\n"
+    )
+    done = call("constraints.py", problem, "solve", "--show", "multipliers")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "(moving: rheonomic)" in done.stdout
+    assert "(resting: holonomic)" in done.stdout
