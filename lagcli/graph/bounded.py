@@ -8,47 +8,28 @@ value at u = 0.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 
-from lagcli.graph.nodes import Call, Graph, Node, Product, Sum, ancestry
+from lagcli.graph.nodes import Call, Graph, Node, Product, ancestry
+from lagcli.graph.rewriting import rewritten
 
 _NONE, _TWO = Fraction(0), Fraction(2)
 
 
 def bounded(graph: Graph, roots: Sequence[Node]) -> list[Node]:
     """The same formulas without quotients of functions that are no doubles."""
-    nodes = ancestry(roots)
-    if not any(isinstance(node, Call) and node.function == "cosh" for node in nodes):
+    if not any(isinstance(node, Call) and node.function == "cosh" for node in ancestry(roots)):
         return list(roots)
-    known: dict[Node, Node] = {}
-    for node in nodes:
-        known[node] = _rebuilt(graph, node, known)
-    return [known[root] for root in roots]
+    return rewritten(graph, roots, _quotient)
 
 
-def _rebuilt(graph: Graph, node: Node, known: dict[Node, Node]) -> Node:
-    match node:
-        case Sum():
-            pairs = [(known[term], number) for term, number in node.terms]
-            return graph.combination([*pairs, (graph.one, node.constant)])
-        case Product():
-            return _quotient(graph, [(known[base], e) for base, e in node.factors])
-        case Call(function="^", arguments=(base, exponent)):
-            return graph.power(known[base], known[exponent])
-        case Call():
-            arguments = tuple(known[part] for part in node.arguments)
-            return graph.call(node.function, arguments, node.indices)
-        case _:
-            return node
-
-
-def _quotient(graph: Graph, factors: Iterable[tuple[Node, Fraction]]) -> Node:
+def _quotient(graph: Graph, node: Node) -> Node:
     """A product, sinh and cosh of one argument as powers of tanh."""
-    exponents: dict[Node, Fraction] = {}
-    for base, exponent in factors:
-        exponents[base] = exponents.get(base, _NONE) + exponent
-    for base, exponent in list(exponents.items()):
+    if not isinstance(node, Product):
+        return node
+    exponents = dict(node.factors)
+    for base, exponent in node.factors:
         if not (isinstance(base, Call) and base.function == "cosh"):
             continue
         above = exponents.get(graph.call("sinh", base.arguments), _NONE)

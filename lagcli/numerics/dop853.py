@@ -145,7 +145,7 @@ class Dop853:
                 if kinks.sticks(t, q, v):
                     self.reached = kinks.reached
                     return
-                kinks.pass_through()
+                v = kinks.pass_through(t, q, v, moved=tolerance.moved)
                 rate = self._rate(t, q, v)
             factor = _SAFETY * error ** (-1 / ORDER) if error else _GROW
             h = min(h * min(grow, max(_SHRINK, factor)), tolerance.longest)

@@ -12,6 +12,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from lagcli.expression import Expression
+from lagcli.graph.corners import with_corners
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Call, Node, Symbol, ancestry
 from lagcli.graph.stable import Stable, stable_dynamics
@@ -263,6 +264,7 @@ def _stable(form: MatrixForm) -> tuple[tuple[tuple[Node, ...], ...], tuple[Node,
     """M and the forcing, so written that they keep their digits."""
     mass, forcing = form.mass_matrix, form.forcing
     n = len(forcing)
-    nodes = stable_dynamics(form.graph, [*(entry for row in mass for entry in row), *forcing])
+    entries = [*(entry for row in mass for entry in row), *forcing]
+    nodes = stable_dynamics(form.graph, with_corners(form.graph, entries))
     rows = tuple(tuple(nodes[i * n : (i + 1) * n]) for i in range(n))
     return rows, tuple(nodes[n * n :])

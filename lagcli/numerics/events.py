@@ -137,7 +137,7 @@ class Watch:
         rounding = self._rounding(t)
         for condition in conditions:
             raw = float(condition.margin(t, q, v))
-            noise = _ROUNDINGS * self._felt(condition, t, q, v, rounding)
+            noise = _ROUNDINGS * self.felt(condition, t, q, v, rounding)
             if touched is not None and touched.condition.name == condition.name:
                 noise = max(noise, touched.band)
             if condition.two_sided and condition.name not in self._sign and abs(raw) > noise:
@@ -292,9 +292,9 @@ class Watch:
         """How much the margin changes when each component errs by what is allowed."""
         t = step.start + x * step.h
         q, v = self._state_at(step, t)
-        return self._felt(condition, t, q, v, self._allowed())
+        return self.felt(condition, t, q, v, self._allowed())
 
-    def _felt(
+    def felt(
         self, condition: Condition, t: float, q: Vector, v: Vector, errors: Sequence[float]
     ) -> float:
         """Sum over the components of |d margin/d x_j| error_j."""

@@ -11,9 +11,10 @@ Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., s
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
-from lagcli.numerics.motion import Motion
+from lagcli.numerics.motion import ROUNDINGS, Motion
 from lagcli.numerics.steps import Inside
 
 _PLACES = (0.25, 0.5, 0.75)
@@ -21,6 +22,15 @@ _HALVINGS = 60
 #: Branches that change again and again within this part of the span: something sticks.
 _AT_ONCE = 1e-9
 _AGAIN = 8
+#: Roundings of the time within which a crossing is found; near a touch it is farther away.
+_ULPS = 1e5
+
+
+def lateness(t: float, u: float, rate: float, noise: float) -> tuple[float, float]:
+    """How long ago u was 0, and how much its noise makes of that; 0 near a touch."""
+    if not rate or not abs(u) + noise <= _ULPS * math.ulp(t) * abs(rate):
+        return 0.0, 0.0
+    return u / rate, abs(noise / rate)
 
 
 class Kinks:
@@ -95,11 +105,26 @@ class Kinks:
         recent = self._times[-_AGAIN:]
         return len(recent) == _AGAIN and recent[-1] - recent[0] < _AT_ONCE * span
 
-    def pass_through(self) -> None:
-        """Change the branch that has been reached."""
+    def pass_through(
+        self, t: float, q: Sequence[float], v: Sequence[float], *, moved: bool = False
+    ) -> list[float]:
+        """Change the branch that has been reached; v as if it had been changed in time.
+
+        The step ends where doubles see the argument u on the other side, u/u' late: there
+        v errs by that time the jump of q''.  In a run that is moved v errs by what the rounding
+        of u makes of that time, always the same way.
+        """
         assert self.reached is not None
-        self.motion.signs[self.reached] *= -1
-        self.reached = None
+        motion, k, self.reached = self.motion, self.reached, None
+        before = motion.accelerations(t, *q, *v)
+        u = float(motion.kink_arguments(t, *q, *v)[k])
+        rate = float(motion.kink_rates(t, *q, *v, *before)[k])
+        noise = motion.kink_noise(t, q, v)[k] / ROUNDINGS if moved else 0.0
+        motion.signs[k] *= -1
+        late, unsure = lateness(t, u, rate, noise)
+        after = motion.accelerations(t, *q, *v)
+        jump = [b - a for a, b in zip(before, after, strict=True)]
+        return [x + late * d + math.copysign(unsure * d, x) for x, d in zip(v, jump, strict=True)]
 
     def why(self) -> str:
         """What holds the motion at a kink."""

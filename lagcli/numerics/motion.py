@@ -24,7 +24,8 @@ Function = Callable[..., tuple[Any, ...]]
 _AFTER = 1e-6
 _NUDGE = 1e-6
 #: An argument of a sign within so many roundings of its terms is 0.
-_ROUNDINGS = 100 * 2.2e-16
+ROUNDINGS = 100
+_ROUNDINGS = ROUNDINGS * 2.2e-16
 
 
 class Motion:
@@ -210,14 +211,14 @@ class Motion:
         return tuple(k for k, node in enumerate(self.kinks) if node.mask & mask)
 
     def kink_noise(self, t: float, q: Sequence[float], v: Sequence[float]) -> list[float]:
-        """How much rounding of the state changes the arguments of abs and sign."""
-        state = [*q, *v]
-        here = self.kink_arguments(t, *state)
+        """How much rounding of the time and the state changes the arguments of abs and sign."""
+        state = [t, *q, *v]
+        here = self.kink_arguments(*state)
         noise = [0.0] * len(here)
         for j, x in enumerate(state):
             if x:
                 moved = [*state[:j], x * (1 + _NUDGE), *state[j + 1 :]]
-                for k, y in enumerate(self.kink_arguments(t, *moved)):
+                for k, y in enumerate(self.kink_arguments(*moved)):
                     noise[k] += abs(y - here[k]) / _NUDGE * _ROUNDINGS
         return noise
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
-from lagcli.numerics.events import Event, Occurrence, Watch
+from lagcli.numerics.events import Condition, Event, Occurrence, Watch
+from lagcli.numerics.kinks import lateness
 from lagcli.numerics.modes import Mode
 from lagcli.numerics.steps import CannotGoOn, Method, Step, Tolerance, component_scales
 from lagcli.numerics.surface import Surface
 from lagcli.numerics.transitions import Transitions, Turn
-from lagcli.record import record
+from lagcli.record import record, replace
 
 Vector = list[Any]
 
@@ -28,6 +29,8 @@ _WINDOWS = 200
 _AT_ONCE = 20
 #: The first of so many parts of the rows; what has grown so much has another scale there.
 _BEGINNING, _GROWN = 20, 1e3
+#: A part of the span over which the rate of a margin is found.
+_RATE_OVER = 1e-7
 
 
 @record
@@ -209,7 +212,7 @@ class Run:
             end = t if found is None else found.t
             self._mark_until(step, end)
             if found is not None:
-                following = self.transitions.after(mode, found, *self._state_in(step, end))
+                following = self._following(mode, found, *self._state_in(step, end))
                 if following.mode is not None:  # a sample that nobody can tell from it: before it
                     self._mark_until(step, end * (1 + min(self._allowed, _COINCIDES)))
                 self._end(end, *self._state_in(step, end))
@@ -222,6 +225,39 @@ class Run:
             self._end(t, q, v)
             return t, self.transitions.closes(mode, t, skipped, q, v)
         return t, None
+
+    def _following(self, mode: Mode, found: Occurrence, q: Vector, v: Vector) -> Turn:
+        """What follows an occurrence, as if it had been met at the time itself.
+
+        Doubles find the margin u of a contact u/u' late: the state goes back by that time
+        before what happens, and forth by it after.  In a run that is moved it errs by what the
+        rounding of u makes of that time.
+        """
+        condition, t = found.condition, found.t
+        late, unsure = (0.0, 0.0) if found.touches else self._lateness(mode, condition, t, q, v)
+        if condition.kind not in {"gap", "loss"} or not late + unsure:
+            return self.transitions.after(mode, found, q, v)
+        late += unsure if self.tolerance.moved else 0.0
+        following = self.transitions.after(mode, found, *_shifted(mode, t, q, v, -late))
+        if following.mode is None:
+            return replace(following, q=q, v=v)
+        q, v = _shifted(following.mode, t, following.q, following.v, late)
+        return replace(following, q=q, v=v)
+
+    def _lateness(
+        self, mode: Mode, condition: Condition, t: float, q: Vector, v: Vector
+    ) -> tuple[float, float]:
+        def at(time: float) -> float:
+            return float(condition.margin(t + time, *_shifted(mode, t, q, v, time)))
+
+        h = _RATE_OVER * self._times[-1]
+        try:
+            u, rate = at(0.0), (at(h) - at(-h)) / (2 * h)
+            errors = [_EPSILON * abs(float(x)) for x in (*q, *v)]
+            noise = self._watch.felt(condition, t, q, v, errors)
+        except (ArithmeticError, ValueError):
+            return 0.0, 0.0
+        return lateness(t, u, rate, noise)
 
     def _steps(self, method: Method, turn: Turn, until: float, begin: float) -> Iterator[Step]:
         """The steps of a phase; none is longer than what a bounce takes to its highest point."""
@@ -307,3 +343,11 @@ class Run:
         scales = self.tolerance.scales[len(q) :]
         for a, b, scale in zip(rate, slope, scales, strict=True):
             self.defect = max(self.defect, step.h * abs(float(a - b)) / scale)
+
+
+def _shifted(mode: Mode, t: float, q: Vector, v: Vector, time: float) -> tuple[Vector, Vector]:
+    """The state a time later that is nothing beside the motion's own."""
+    rates = mode.motion.accelerations(t, *q, *v)
+    half = time / 2
+    places = [x + time * (u + half * a) for x, u, a in zip(q, v, rates, strict=True)]
+    return places, [u + time * a for u, a in zip(v, rates, strict=True)]

@@ -166,7 +166,8 @@ class CompiledTaylor:
                 if kinks.sticks(end, q, v):
                     self.reached = kinks.reached
                     return
-                kinks.pass_through()
+                v = kinks.pass_through(end, q, v, moved=tolerance.moved)
+                state[self.n : both] = v
             t = end
             if self.evaluations % (_LOOK * self.order) == 0:
                 self.machine.improve(self.evaluations / self.order * until / t, self.order)
