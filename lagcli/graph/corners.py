@@ -1,6 +1,6 @@
 """What has a corner or a jump, by `abs` and `sign`, whose changes a motion stops at.
 
-    (u^2)^(k/2) = |u|^k
+    (u^2)^(k/2) = |u|^k = u^k, or u^k sign(u) for odd k
     atan2(y, x) = 2 sign(x) atan(y/(r + |x|)) + (1 - sign(x)) sign(y) pi/2,    r^2 = x^2 + y^2
 
 On each side of x = 0 and y = 0 both are smooth; the second is that of the half angle.
@@ -56,10 +56,9 @@ def _absolute(graph: Graph, base: Node, exponent: Fraction) -> Node:
 
 
 def _power(graph: Graph, u: Node, exponent: Fraction) -> list[tuple[Node, Fraction]]:
-    """|u|^k, by |u| where k is odd."""
-    if exponent % 2 == 0:
-        return [(u, exponent)]
-    return [(graph.call("abs", (u,)), Fraction(1)), (u, exponent - 1)]
+    """|u|^k, which is sign(u) u^k for odd k: u sign(u)/u has no pole left."""
+    side = [] if exponent % 2 == 0 else [(graph.call("sign", (u,)), Fraction(1))]
+    return [(u, exponent), *side]
 
 
 def _phase(graph: Graph, y: Node, x: Node) -> Node:

@@ -1,0 +1,134 @@
+"""Corners, jumps and impacts: what is claimed against closed forms, after many of them."""
+
+import random
+
+import mpmath
+import pytest
+
+from tests.numerics.running import simulated
+from tests.numerics.test_narrow import held
+
+FREE = """
+coordinates: [x]
+T: x'^2/2
+{given}
+initial: {{x: {x}, x': {v}}}
+"""
+ACCURACIES = (1e-6, 1e-9, 1e-12)
+
+
+def given_to(text, x="0", v="0"):
+    return FREE.format(given=text, x=x, v=v)
+
+
+def claims_hold(file, until, place, speed):
+    """Whether what is claimed at each accuracy holds; at 1e-9 something is claimed."""
+    for accuracy in ACCURACIES:
+        result = simulated(file, float(until), accuracy)
+        assert held(result, "x", place)
+        assert held(result, "x'", speed)
+        if accuracy == 1e-9:
+            assert result.certificate.reached
+
+
+@pytest.mark.parametrize("potential", ["abs(x)", "sqrt(x^2)"])
+@pytest.mark.parametrize("seed", range(2))
+def test_well_with_a_corner(seed, potential):
+    """V = |x| from rest: four parabolas in a period of 4 sqrt(2 x0)."""
+    draw = random.Random(seed)
+    x0, until = f"{draw.uniform(0.5, 3):.4g}", f"{draw.uniform(100, 400):.5g}"
+    mpmath.mp.dps = 25
+    x, t = mpmath.mpf(x0), mpmath.mpf(until)
+    quarter = mpmath.sqrt(2 * x)
+    s = t - 4 * quarter * mpmath.floor(t / (4 * quarter))
+    turns = int(mpmath.nint(s / (2 * quarter)))  # of the nearest turning point
+    u = s - 2 * quarter * turns
+    side = (-1) ** turns
+    claims_hold(given_to(f"V: {potential}", x0), until, side * (x - u * u / 2), -side * u)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_square_wave(seed):
+    draw = random.Random(seed)
+    rate, until = f"{draw.uniform(1, 3):.4g}", f"{draw.uniform(50, 200):.5g}"
+    mpmath.mp.dps = 25
+    w, end = mpmath.mpf(rate), mpmath.mpf(until)
+    x = v = t = mpmath.mpf(0)
+    for k in range(int(w * end / mpmath.pi) + 1):
+        h = min(end, (k + 1) * mpmath.pi / w) - t
+        x, v, t = x + v * h + (-1) ** k * h * h / 2, v + (-1) ** k * h, t + h
+    claims_hold(given_to(f'forces: {{x: "sign(sin({rate}*t))"}}'), until, x, v)
+
+
+def test_two_jumps_that_nearly_coincide():
+    """A force of 1e6 for a time of 1e-6: its end is no double."""
+    file = given_to('forces: {x: "1e6*(sign(t - 3) - sign(t - 3.000001))/2"}')
+    mpmath.mp.dps = 25
+    for accuracy in ACCURACIES:
+        result = simulated(file, 10, accuracy)
+        assert held(result, "x'", 1)
+        assert held(result, "x", 7 - mpmath.mpf("5e-7"))
+
+
+@pytest.mark.parametrize("until", ["1.2", "4.1", "10"])
+def test_the_branch_cut_of_a_phase(until):
+    """atan2(sin 2 t, cos 2 t)/2 is t less a multiple of pi."""
+    file = given_to('forces: {x: "atan2(sin(2*t), cos(2*t))/2"}')
+    mpmath.mp.dps = 25
+    end, pi = mpmath.mpf(until), mpmath.pi
+    x = v = t = mpmath.mpf(0)
+    k = 0
+    while t < end:
+        h = min(end, (k + mpmath.mpf(1) / 2) * pi) - t
+        a = t - k * pi
+        x, v, t = x + v * h + a * h**2 / 2 + h**3 / 6, v + a * h + h * h / 2, t + h
+        k += 1
+    claims_hold(file, until, x, v)
+
+
+def test_a_jump_in_a_composed_function_is_an_end():
+    result = simulated(given_to('forces: {x: "atan(tan(t))"}'), 10, 1e-6)
+    assert not result.certificate.reached
+    assert result.certificate.holds_until < 1.5708
+
+
+BALL = """
+coordinates: [x]
+T: x'^2/2
+V: {g}*x
+contacts: {{floor: {{gap: x >= 0, restitution: 1}}}}
+initial: {{x: {x}, x': {v}}}
+"""
+BETWEEN = """
+coordinates: [x]
+T: x'^2/2
+contacts:
+  left: {{gap: x >= 0, restitution: 1}}
+  right: {{gap: 1 - x >= 0, restitution: 1}}
+initial: {{x: {x}, x': {v}}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_ball_that_bounces_many_times(seed):
+    draw = random.Random(seed)
+    g, x, v, until = (
+        f"{draw.uniform(*ends):.4g}" for ends in ((5, 12), (0.3, 2), (-1, 1), (30, 70))
+    )
+    mpmath.mp.dps = 25
+    a, x0, v0, t = map(mpmath.mpf, (g, x, v, until))
+    speed = mpmath.sqrt(v0**2 + 2 * a * x0)
+    first, flight = (v0 + speed) / a, 2 * speed / a
+    s = t - first - flight * mpmath.floor((t - first) / flight)
+    claims_hold(BALL.format(g=g, x=x, v=v), until, speed * s - a * s * s / 2, speed - a * s)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_particle_between_walls(seed):
+    draw = random.Random(seed)
+    x, v, until = (f"{draw.uniform(*ends):.4g}" for ends in ((0.1, 0.9), (1, 4), (50, 90)))
+    mpmath.mp.dps = 25
+    way = mpmath.mpf(x) + mpmath.mpf(v) * mpmath.mpf(until)
+    turns = int(way)
+    place = way - turns if turns % 2 == 0 else turns + 1 - way
+    claims_hold(BETWEEN.format(x=x, v=v), until, place, (-1) ** turns * mpmath.mpf(v))
