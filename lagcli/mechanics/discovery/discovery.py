@@ -8,7 +8,7 @@ Ibragimov, *Elementary Lie Group Analysis and Ordinary Differential Equations*, 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cached_property
 
@@ -49,6 +49,7 @@ from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.slots import SlotEquations, point_slots
 from lagcli.mechanics.discovery.special import SpecialCase
 from lagcli.mechanics.discovery.special_search import special_cases
+from lagcli.mechanics.discovery.third_degree import CubicIntegrals
 from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.discovery.under_constraints import UnderConstraints
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
@@ -136,11 +137,11 @@ class Discovery:
             self.words.append("nothing")
             self.stopped.append(why)
             return
-        searches = [(self._points, "point symmetries")]
+        searches: list[tuple[Callable[[], None], str]] = [(self._points, "point symmetries")]
         if self.dynamics.constraints.equations:
             searches += [(self._on_surface, "integrals on the constraint surface")]
         else:
-            searches += [(self._hidden, "Killing tensors")]
+            searches += [(self._hidden, "Killing tensors"), (self._cubic, "cubic integrals")]
         for search, what in searches:
             try:
                 search()
@@ -397,6 +398,26 @@ class Discovery:
             if timed.functions:
                 self.words.append("and with the same functions of time as coefficients")
                 self._keep_hidden(timed)
+
+    def _cubic(self) -> None:
+        """Those of third degree, where fewer than n are known that do not contain the time."""
+        t, n = self.system.t, len(self.system.q)
+        fixed = [c for c in self.charges if t not in c.charge.free_symbols]
+        if not self.canonical or not self.quadratic_mass or not 0 < len(fixed) < n:
+            return
+        if not CubicIntegrals.applies(self.equations):
+            return
+        self.words.append(
+            "and of third degree, with the terms of V and of its gradient times monomials in the "
+            "part of first degree"
+        )
+        found = CubicIntegrals(self.noether, self.equations, self.allowed).found(self.charges)
+        known = [c.name for c in self.charges]
+        kept = [charge for charge in found if self._lasts(charge)]
+        names = distinct([*known, *("" for _ in kept)])[len(known) :]
+        self.hidden_charges += tuple(
+            replace(charge, name=name) for name, charge in zip(names, kept, strict=True)
+        )
 
     def _by_killing_vectors(self) -> bool:
         """All integrals of second degree of L = T - V, where the ansatz has not all of them."""

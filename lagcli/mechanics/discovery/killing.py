@@ -26,14 +26,12 @@ from lagcli.mechanics.discovery.ansatz import Kinds
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, expanded
 from lagcli.mechanics.discovery.isometries import Isometries, Vector
-from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo, pivot_columns
+from lagcli.mechanics.discovery.modular import PRIME, kernel_modulo, pivot_columns
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.slots import Slot
-from lagcli.mechanics.discovery.tree import Memo, Tree
+from lagcli.mechanics.discovery.tree import Tree
 from lagcli.mechanics.noether import Noether, NoetherCharge
-
-_BAD_POINTS = 50
 
 
 class KillingIntegrals(QuadraticIntegrals):
@@ -90,39 +88,19 @@ class KillingIntegrals(QuadraticIntegrals):
         multipliers = [slot.vector for slot in self.pairs]
         everything = [e for rows in (curls, products, multipliers) for row in rows for e in row]
         tree = Tree(everything, (self.equations.t, *q, *self.equations.v), self.allowed)
-        _, kernel = kernel_modulo(list(self._rows(tree, curls, len(curls) + 8)), len(curls))
+        _, kernel = kernel_modulo(tree.rows(curls, len(curls) + 8), len(curls))
         kernel.reverse()
         table = [
             [*row[: len(products)], *(
                 sum(c * row[len(products) + k] for k, c in vector.items()) % PRIME
                 for vector in kernel
             )]
-            for row in self._rows(tree, [*products, *multipliers], len(products) + 8 + len(curls))
+            for row in tree.rows([*products, *multipliers], len(products) + 8 + len(curls))
         ]  # fmt: skip
         if not kernel:
             return []
         new = [kernel[k - len(products)] for k in pivot_columns(table) if k >= len(products)]
         return [each for vector in new for each in self._proved(tree, curls, vector)]
-
-    def _rows(
-        self, tree: Tree, columns: Sequence[Sequence[Expr]], count: int
-    ) -> Iterator[list[int]]:
-        """At least so many rows of values of vectors of functions."""
-        made = bad = 0
-        while made < count:
-            self.allowed.check()
-            point = tree.points.point()
-            memo: Memo = {}
-            try:
-                values = [[tree.value(e, point, memo) for e in column] for column in columns]
-            except NoPoint:
-                bad += 1
-                if bad > _BAD_POINTS:
-                    raise
-                continue
-            for row in zip(*values, strict=True):
-                made += 1
-                yield list(row)
 
     def _proved(
         self, tree: Tree, curls: Sequence[Sequence[Expr]], vector: dict[int, int]

@@ -17,6 +17,8 @@ from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, NoPoint
 
 Memo = dict[Expr, int]
 
+_BAD_POINTS = 50
+
 
 class Tree:
     """Expressions with a field for their leaves.
@@ -32,6 +34,7 @@ class Tree:
     def __init__(
         self, expressions: Iterable[Expr], variables: Sequence[Symbol], allowed: Allowance
     ) -> None:
+        self.allowed = allowed
         leaves = _leaves(expressions)
         self.field = Field(leaves)
         elements = {}
@@ -70,6 +73,30 @@ class Tree:
         EFFORT.done += 1
         memo[expression] = result = result % PRIME
         return result
+
+    def rows(self, columns: Sequence[Sequence[Expr]], count: int) -> list[list[int]]:
+        """At least so many rows of values of vectors of functions, from random points.
+
+        Raises
+        ------
+        NoPoint
+            Where too many points have no values.
+        """
+        rows: list[list[int]] = []
+        bad = 0
+        while len(rows) < count:
+            self.allowed.check()
+            point = self.points.point()
+            memo: Memo = {}
+            try:
+                values = [[self.value(e, point, memo) for e in column] for column in columns]
+            except NoPoint:
+                bad += 1
+                if bad > _BAD_POINTS:
+                    raise
+                continue
+            rows += [list(row) for row in zip(*values, strict=True)]
+        return rows
 
 
 def _leaves(expressions: Iterable[Expr]) -> list[Expr]:

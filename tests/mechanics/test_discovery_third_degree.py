@@ -1,0 +1,70 @@
+"""Integrals of third degree in the velocities.
+
+Hietarinta, Phys. Rep. 147 (1987) 87, section 3 (Holt; Fokas and Lagerstrom); Henon, Phys. Rev. B
+9 (1974) 1921 (Toda); Bogoyavlensky, Commun. Math. Phys. 51 (1976) 201 (open chains).
+"""
+
+import pytest
+
+from lagcli.mechanics.discovery.summary import summary
+
+from .derived import derive
+from .test_discovery_literature import kept, problem
+
+T2, T3 = "m*(x'^2 + y'^2)/2", "m*(x'^2 + y'^2 + z'^2)/2"
+TURNED = "((3*x + 4*y)/5)", "((3*y - 4*x)/5)"
+
+
+def holt(x, y):
+    return f"k*(3*{x}^2/4 + {y}^2 + d)/{x}^(2/3)"
+
+
+PLANE = {
+    "Holt": f"{T2} - {holt('x', 'y')}",
+    "Holt, turned": f"{T2} - {holt(*TURNED)}",
+    "Fokas and Lagerstrom": f"{T2} - k/(x^2 - y^2)^(2/3)",
+    "Fokas and Lagerstrom, turned": f"{T2} - k/(x*y)^(2/3)",
+    "Toda's in relative coordinates":
+        f"{T2} - k*(exp(2*a*y) + exp(a*(sqrt(3)*x - y)) + exp(-a*(sqrt(3)*x + y)))",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", PLANE)
+def test_an_integral_of_third_degree_makes_it_integrable(name):
+    text = problem(PLANE[name], parameters="m k a d")
+    found = summary(derive(text).discovery)
+    assert (found.independent, found.in_involution, found.integrable) == (2, 2, True)
+    assert min(kept(text, name).values()) > 20
+
+
+@pytest.mark.parametrize("chain", [
+    "k*(exp(a*(x - y)) + exp(a*(y - z)) + exp(a*(z - x)))", "k*exp(x - y) + b*exp(y - z)",
+    "k*exp(a*(x - y)) + b*exp(a*(y - z)) + c*exp(a*(z - x)) + d*(x + y + z)",
+])  # fmt: skip
+def test_three_masses_of_toda(chain):
+    text = problem(f"{T3} - ({chain})", "[x, y, z]", "m k a b c d")
+    derivation = derive(text)
+    assert "third degree" in derivation.discovery.ansatz
+    assert summary(derivation.discovery).integrable is True
+
+
+@pytest.mark.parametrize("V", [
+    "k*(exp(x - y) + exp(y - z) + 2*exp(2*(z - x)))", "k*((x - y)^4 + (y - z)^4 + (z - x)^2)",
+])  # fmt: skip
+def test_a_chain_of_another_force_has_none(V):
+    found = derive(problem(f"{T3} - {V}", "[x, y, z]", "m k")).discovery
+    assert {c.name for c in found.charges} == {"energy", "momentum", "boost"}
+    assert summary(found).integrable is None
+
+
+@pytest.mark.parametrize("V", [
+    "x^2*y^2", "k*(x^2 + y^2)/2 + x^2*y + 5*y^3", "k*(x^2 + 3*y^2)/x^(2/3)",
+])  # fmt: skip
+def test_what_is_not_integrable_gets_no_third_degree(V):
+    found = derive(problem(f"{T2} - {V}", parameters="m k")).discovery
+    assert [c.name for c in found.charges] == ["energy"]
+
+
+def test_what_lower_degrees_decide_is_not_searched():
+    found = derive(problem(f"{T2} + k/sqrt(x^2 + y^2)", parameters="m k")).discovery
+    assert "third degree" not in found.ansatz
