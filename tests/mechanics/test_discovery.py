@@ -59,7 +59,7 @@ KNOWN = {
     "central/two-bodies": (7, "energy momentum_x L_z L_z_relative boost_y", "Galilei", True),
     "discovery/relativistic-free-particle": (10, "boost_x boost_z L_y", "iso(3,1)", True),
     "relativity/lorentz-group-plane": (6, "boost_x L_z p_x", "iso(2,1)", True),
-    "discovery/toda-lattice": (3, "energy momentum boost", "Galilei", None),
+    "discovery/toda-lattice": (3, "energy momentum boost charge_1", None, True),
     "particles/free-particle-in-rotating-frame": (8, "energy L_z conformal", "sch(2)", True),
     "particles/charge-and-magnetic-monopole": (6, "L_x L_y dilation", "so(3) + sl(2,R)", True),
     "classics/swinging-atwood-machine-integrable": (1, "energy charge_1", "R^2", True),
