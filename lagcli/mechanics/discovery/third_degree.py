@@ -32,7 +32,7 @@ from lagcli.mechanics.discovery.hidden import is_gyroscopic
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, kernel_modulo, pivot_columns
 from lagcli.mechanics.discovery.scaling import scaled
-from lagcli.mechanics.discovery.slots import Equations
+from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.tree import Tree
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
@@ -51,7 +51,7 @@ class CubicIntegrals:
         Of a system to which they `apply`.
     """
 
-    def __init__(self, noether: Noether, equations: Equations, allowed: Allowance) -> None:
+    def __init__(self, noether: Noether, equations: SlotEquations, allowed: Allowance) -> None:
         self.noether = noether
         self.equations = equations
         self.allowed = allowed
@@ -63,7 +63,7 @@ class CubicIntegrals:
         self._functions = self._of_potential()
 
     @staticmethod
-    def applies(equations: Equations) -> bool:
+    def applies(equations: SlotEquations) -> bool:
         """Whether T is that of Cartesian coordinates, and the forces are those of a V(q)."""
         entries = sympy.Tuple(*(m for row in equations.mass for m in row))
         moving = [equations.t, *equations.q, *equations.v]
@@ -125,7 +125,7 @@ class CubicIntegrals:
             for row in tree.rows([*products, *values], start + len(kernel) + 8)
         ]  # fmt: skip
         exact = ExactSolver(tree.points)
-        found = []
+        found: list[NoetherCharge] = []
         for k in pivot_columns(table):
             if k >= start:
                 indices = sorted(kernel[k - start])
