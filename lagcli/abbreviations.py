@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
-from lagcli.answers import Answers
 from lagcli.expression import (
     Call,
     Expression,
@@ -27,6 +26,7 @@ from lagcli.expression import (
 )
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt, rewritten
+from lagcli.statements.answers import Answers
 from lagcli.statements.registry import in_order
 
 #: Operations beyond which a formula is not written out: it would fill some thirty pages.

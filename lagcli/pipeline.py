@@ -18,12 +18,12 @@ from lagcli.record import record
 if TYPE_CHECKING:
     from os import PathLike
 
-    from lagcli.answers import Answers, Section
-    from lagcli.explanation import Explanation
     from lagcli.formatters import Options
     from lagcli.mechanics.derivation import Derivation
     from lagcli.mechanics.stating import Stating
     from lagcli.problem import Problem
+    from lagcli.statements.answers import Answers, Section
+    from lagcli.statements.explanation import Explanation
 
 #: Off only where the cost of verification is measured.
 VERIFYING = True
@@ -189,8 +189,8 @@ def _without_charges(request: Request, answers: Answers) -> Answers:
 
 def _with_words(problem: Problem, sections: Mapping[str, Section]) -> Mapping[str, Section]:
     """The reason of the energy without the letters that mean something else in the file."""
-    from lagcli.answers import EnergySection
     from lagcli.letters import sentence
+    from lagcli.statements.answers import EnergySection
 
     energy = sections.get("energy")
     if not isinstance(energy, EnergySection):
@@ -259,9 +259,9 @@ def _ended(work: Callable[[], Made]) -> Made:
     TimeoutError
         If it does.
     """
-    from lagcli.effort import OutOfWork
-    from lagcli.limited import limited
     from lagcli.mechanics.stating import SECONDS, TOO_MUCH, UNITS
+    from lagcli.platform.effort import OutOfWork
+    from lagcli.platform.limited import limited
 
     try:
         return limited(work, UNITS, SECONDS)

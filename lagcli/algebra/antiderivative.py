@@ -17,8 +17,8 @@ from sympy.core.function import AppliedUndef
 
 from lagcli.algebra.build import ELEMENTARY, free_of, unspecified
 from lagcli.algebra.simplification import is_zero
-from lagcli.effort import OutOfWork
-from lagcli.limited import limited
+from lagcli.platform.effort import OutOfWork
+from lagcli.platform.limited import limited
 
 _MOST_PARTS = 60
 _LONGEST = 1000  # operations while integrating by parts

@@ -18,7 +18,7 @@ from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients
 from lagcli.algebra.field import Element
 from lagcli.algebra.ring import Poly, factorization
-from lagcli.effort import EFFORT, Work
+from lagcli.platform.effort import EFFORT, Work
 
 _PASSES = 12
 _MAX_TERMS = 4000

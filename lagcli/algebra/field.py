@@ -14,7 +14,7 @@ from fractions import Fraction
 from sympy import Expr
 
 from lagcli.algebra.ring import Poly, Ring
-from lagcli.effort import EFFORT
+from lagcli.platform.effort import EFFORT
 
 
 @dataclass(frozen=True, slots=True)

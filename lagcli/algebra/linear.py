@@ -19,7 +19,7 @@ from lagcli.algebra.relations import Relations
 from lagcli.algebra.shapes import Shapes
 from lagcli.algebra.simplification import ReadableShapes
 from lagcli.algebra.writing import Writer
-from lagcli.effort import OutOfWork
+from lagcli.platform.effort import OutOfWork
 
 Matrix = Sequence[Sequence[Expr]]
 _Rows = list[dict[int, Element]]

@@ -17,8 +17,8 @@ from lagcli.algebra.ring import Monomial, Poly, factorization
 from lagcli.algebra.shaping.plan import OPERATION
 from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.writing import Writer
-from lagcli.effort import EFFORT
 from lagcli.expression import Expression, has_nested_fraction, operation_count
+from lagcli.platform.effort import EFFORT
 
 _LONG = 60  # terms of an element of which ...
 _OF_LONG = 2  # ... no more than these equal forms are shaped

@@ -21,7 +21,7 @@ from lagcli.algebra.resultants import without
 from lagcli.algebra.ring import factorization
 from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import is_zero, simplify
-from lagcli.effort import Work
+from lagcli.platform.effort import Work
 
 _MAX_BRANCHES = 256
 

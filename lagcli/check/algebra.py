@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from lagcli.answers import AlgebraSection, SpecialValue
 from lagcli.check.comparison import Comparison
 from lagcli.check.findings import Judged
 from lagcli.expression import Equation
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
 from lagcli.problem import ExpectAlgebra, ExpectSpecial
+from lagcli.statements.answers import AlgebraSection, SpecialValue
 from lagcli.values import Values, substituted
 
 _PATH = ["algebra"]

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Charge
 from lagcli.check.findings import Finding
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.problem import NOT_CONSERVED
+from lagcli.statements.answers import Charge
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
-from lagcli.answers import Answers
 from lagcli.check.comparison import Comparison
 from lagcli.check.findings import CheckOutcome, Finding
 from lagcli.check.free import of_phase_space, of_reductions
@@ -14,6 +13,7 @@ from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.problem import Expect
+from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration
 from lagcli.statements.registry import built_in, find_expected
 

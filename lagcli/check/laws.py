@@ -12,9 +12,14 @@ from typing import cast
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.answers import AccelerationsSection, Answers, ChargesSection, MultipliersSection
 from lagcli.check.findings import CheckOutcome, Finding
 from lagcli.mechanics.derivation import Derivation
+from lagcli.statements.answers import (
+    AccelerationsSection,
+    Answers,
+    ChargesSection,
+    MultipliersSection,
+)
 
 #: The sections that have laws.
 SECTIONS = ("accelerations", "multipliers", "charges")

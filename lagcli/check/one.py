@@ -10,8 +10,8 @@ from lagcli.diagnostics import ProblemError, Source
 from lagcli.pipeline import Read, Request, derive, read, state
 
 if TYPE_CHECKING:
-    from lagcli.answers import Answers
     from lagcli.mechanics.derivation import Derivation
+    from lagcli.statements.answers import Answers
 
 
 def check_problem(name: str, data: bytes) -> Report:

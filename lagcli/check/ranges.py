@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.problem import Inequality
-from lagcli.questions import Range
+from lagcli.statements.questions import Range
 
 Equal = Callable[[Expression, Expression], bool | None]
 

@@ -9,18 +9,24 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import simplify
-from lagcli.answers import EquilibriaSection, Equilibrium, ReductionSection
 from lagcli.check.findings import Judged
 from lagcli.expression import Equation, Expression, Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.reduction.readable import deciding
-from lagcli.motions import Above, HamiltonJacobiSection, SteadyMotion, SteadySection, Verdict
 from lagcli.problem import (
     ExpectEquilibrium,
     ExpectHamiltonJacobi,
     ExpectReduction,
     ExpectSteady,
     Inequality,
+)
+from lagcli.statements.answers import EquilibriaSection, Equilibrium, ReductionSection
+from lagcli.statements.motions import (
+    Above,
+    HamiltonJacobiSection,
+    SteadyMotion,
+    SteadySection,
+    Verdict,
 )
 
 if TYPE_CHECKING:

@@ -14,9 +14,9 @@ from pathlib import Path
 from lagcli.check.findings import Report
 from lagcli.check.one import broken, check_problem, too_long
 from lagcli.diagnostics import Diagnostic, Source
-from lagcli.failures import describe
+from lagcli.platform.failures import describe
+from lagcli.platform.stack import with_deep_stack
 from lagcli.sparing import keep_what_is_there, spare_sympy
-from lagcli.stack import with_deep_stack
 
 #: Forked workers share what the parent has imported: SymPy's start-up is paid once.
 _FORKS = sys.platform == "linux"

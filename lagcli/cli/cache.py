@@ -20,7 +20,7 @@ def cache(clear: Clear = False) -> None:
 
     Example: lagcli cache --clear
     """
-    from lagcli.cache import Cache, folder
+    from lagcli.platform.cache import Cache, folder
 
     place = folder(os.environ)
     if place is None:

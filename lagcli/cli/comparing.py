@@ -9,8 +9,8 @@ from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
 from lagcli.pipeline import read, with_lagrangian
+from lagcli.platform.stack import with_deep_stack
 from lagcli.problem import Problem
-from lagcli.stack import with_deep_stack
 
 
 def compare_files(old: str, new: str) -> Status:

@@ -12,8 +12,8 @@ from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
 from lagcli.pipeline import Request, derive, read, state
+from lagcli.platform.stack import with_deep_stack
 from lagcli.problem import Problem
-from lagcli.stack import with_deep_stack
 
 
 def export_file(name: str, language: str, output: Path | None, settings: tuple[str, ...]) -> Status:

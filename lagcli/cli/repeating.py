@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from lagcli.cache import Cache, Entry, folder, key
 from lagcli.cli.delivering import deliver, has_place
 from lagcli.cli.files import read_input
 from lagcli.cli.printing import Printing
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line, tell_text
+from lagcli.platform.cache import Cache, Entry, folder, key
 
 if TYPE_CHECKING:
     from lagcli.cli.solving import Input, SolvingOutcome
@@ -101,7 +101,7 @@ def _solved(
     from lagcli.cli.asking import asked
     from lagcli.cli.solving import solve_files
     from lagcli.cli.working import WORKS
-    from lagcli.stack import with_deep_stack
+    from lagcli.platform.stack import with_deep_stack
 
     work = WORKS[options.command]
     mistakes = work.mistakes(printing.format_name)

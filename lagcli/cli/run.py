@@ -75,7 +75,7 @@ def run(arguments: Sequence[str]) -> int:
     except Exception as error:  # noqa: BLE001 - the last resort: no traceback reaches a user
         if interrupted():
             return Status.INTERRUPTED
-        from lagcli.failures import describe
+        from lagcli.platform.failures import describe
 
         sys.stderr.write(f"lagcli: error: {describe(error)}\n")
         return Status.NOT_FOUND

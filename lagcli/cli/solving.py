@@ -13,9 +13,9 @@ from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.cli.working import CommandWork, Result
 from lagcli.diagnostics import ProblemError
-from lagcli.failures import describe
 from lagcli.formatters.registry import BUILT_IN
 from lagcli.pipeline import Request, derive, read
+from lagcli.platform.failures import describe
 from lagcli.problem import Problem
 from lagcli.sparing import keep_what_is_there, spare_sympy
 from lagcli.statements.registry import is_built_in

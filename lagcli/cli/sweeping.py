@@ -127,7 +127,7 @@ def _options(
 
 def _digest(wish: SimulateOptions, problem: Problem, plan: Plan, *, along: bool) -> str:
     """Names the sweep by all that its rows depend on, the program included."""
-    from lagcli.cache import key
+    from lagcli.platform.cache import key
 
     options = [repr(plan), wish.until, wish.accuracy, wish.samples, wish.settings, wish.state,
                wish.show, wish.method, along]  # fmt: skip

@@ -8,12 +8,12 @@ from typing import Any
 import sympy
 
 from lagcli.algebra.build import Builder
-from lagcli.answers import Answers
 from lagcli.export.identifiers import identifiers
 from lagcli.expression import Call, Expression, Name, PartialCall, walk
 from lagcli.problem import Problem
 from lagcli.record import record
 from lagcli.rewriting import rebuilt
+from lagcli.statements.answers import Answers
 
 
 class NoCode(Exception):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from lagcli.answers import AccelerationsSection, ChargesSection, MultipliersSection
 from lagcli.expression import Expression, operation_count
 from lagcli.extremes.case import CaseFormula, Group
 from lagcli.graph.nodes import Graph
@@ -13,6 +12,7 @@ from lagcli.graph.sharing import operations, written_out
 from lagcli.graph.stable import Stable
 from lagcli.pipeline import solve
 from lagcli.problem import Problem
+from lagcli.statements.answers import AccelerationsSection, ChargesSection, MultipliersSection
 
 #: Longer formulas are not looked at.
 _LONGEST = 20_000

@@ -14,10 +14,10 @@ from typing import Any
 from lagcli.extremes.case import Case, CaseFormula, Trial
 from lagcli.extremes.formulas import printed_formulas
 from lagcli.extremes.trial import Wanted, trial
-from lagcli.failures import describe
+from lagcli.platform.failures import describe
+from lagcli.platform.stack import with_deep_stack
 from lagcli.problem import Problem
 from lagcli.sparing import spare_sympy
-from lagcli.stack import with_deep_stack
 
 _FORKS = sys.platform == "linux"
 _PROCESSES = multiprocessing.get_context("fork") if _FORKS else multiprocessing.get_context("spawn")

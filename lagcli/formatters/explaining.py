@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from importlib import import_module
 
 from lagcli.document import Block, Document, Heading, Paragraph
-from lagcli.explanation import Explanation
 from lagcli.formatters.options import Options
+from lagcli.statements.explanation import Explanation
 
 #: The formats that set pages; `json` lists the steps.
 PAGES = ("text", "latex", "markdown", "html")

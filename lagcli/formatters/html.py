@@ -6,7 +6,6 @@ import html
 import re
 from collections.abc import Iterator, Sequence
 
-from lagcli.answers import Answers
 from lagcli.document import (
     Block,
     Bracket,
@@ -27,6 +26,7 @@ from lagcli.formatters.options import Options
 from lagcli.formatters.page import to_document
 from lagcli.formatters.plain import harmless
 from lagcli.formatters.units import mathml_unit
+from lagcli.statements.answers import Answers
 from lagcli.units import Unit
 
 _HEAD = """<!DOCTYPE html>

@@ -9,9 +9,9 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 
-from lagcli.answers import Answers
 from lagcli.formatters.json_values import SCHEMA, Object, Value, by_name
 from lagcli.formatters.options import Options
+from lagcli.statements.answers import Answers
 from lagcli.statements.registry import in_order
 
 

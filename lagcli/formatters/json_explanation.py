@@ -10,11 +10,11 @@ import json
 from collections.abc import Sequence
 
 from lagcli.document import Block, Equations, Formula, Heading, Items, Label, Matrix, Paragraph
-from lagcli.explanation import Explanation
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import SCHEMA, Object, Value
 from lagcli.formatters.options import Options
+from lagcli.statements.explanation import Explanation
 
 
 def render(explanations: Sequence[Explanation], options: Options) -> str:

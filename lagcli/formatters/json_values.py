@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
-from lagcli.motions import Above
+from lagcli.statements.motions import Above
 
 #: The version of the contract.
 SCHEMA = 1

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from lagcli.answers import Answers
 from lagcli.document import (
     Block,
     Document,
@@ -23,6 +22,7 @@ from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.layout import joined
 from lagcli.formatters.options import Options
 from lagcli.formatters.page import to_document
+from lagcli.statements.answers import Answers
 
 _PREAMBLE = r"""\documentclass{article}
 \usepackage{amsmath}

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from lagcli.answers import Answers
 from lagcli.document import (
     Block,
     Document,
@@ -23,6 +22,7 @@ from lagcli.formatters.layout import joined
 from lagcli.formatters.options import Options
 from lagcli.formatters.page import to_document
 from lagcli.formatters.plain import harmless
+from lagcli.statements.answers import Answers
 
 #: Characters that mean something to HTML or to GitHub, and those that a backslash disarms.
 _ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", "$": "&#36;", "@": "&#64;"}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 from lagcli.record import field, record
 
 if TYPE_CHECKING:
-    from lagcli.answers import Answers
+    from lagcli.statements.answers import Answers
 
 
 @record(kw_only=True)

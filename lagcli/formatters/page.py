@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from lagcli.answers import Answers
 from lagcli.document import Block, Document, Heading, Paragraph
 from lagcli.expression import Expression, Name, walk
 from lagcli.letters import names_in, settled
 from lagcli.rewriting import rewritten
+from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration
 from lagcli.statements.registry import in_order
-from lagcli.wording import listed, rows_by_name
+from lagcli.statements.wording import listed, rows_by_name
 
 
 def to_document(answers: Answers) -> Document:

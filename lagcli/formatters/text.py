@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from lagcli.answers import Answers
 from lagcli.document import (
     Block,
     Bracket,
@@ -35,6 +34,7 @@ from lagcli.formatters.page import to_document
 from lagcli.formatters.plain import FIRM_SPACE, filled, harmless
 from lagcli.formatters.unicode import AsciiPrinter, UnicodePrinter
 from lagcli.formatters.units import unicode_unit
+from lagcli.statements.answers import Answers
 from lagcli.units import Unit
 
 _EQUALS = " = "

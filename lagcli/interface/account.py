@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lagcli.explanation import Explanation
+from lagcli.statements.explanation import Explanation
 
 
 class Account:

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import is_dataclass, replace
 from typing import Any
 
-from lagcli.answers import Answers
 from lagcli.expression import Expression
 from lagcli.interface.formula import Formula
 from lagcli.problem import Problem
+from lagcli.statements.answers import Answers
 from lagcli.statements.registry import find_section, in_order
 
 

@@ -24,12 +24,12 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import Relations, is_zero, nullspace, rank, simplify
 from lagcli.algebra.build import free_of, without_jumps
-from lagcli.answers import ConstraintKind
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.branches import restricting, vanishing_factors
 from lagcli.mechanics.system import System
 from lagcli.problem import Constraint
 from lagcli.record import record
+from lagcli.statements.answers import ConstraintKind
 
 
 @record

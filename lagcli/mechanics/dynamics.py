@@ -20,7 +20,6 @@ from sympy import Expr
 from lagcli.algebra import Shapes, is_zero, left_nullspace, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
-from lagcli.answers import Verification
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.euler_lagrange import EulerLagrange
@@ -30,6 +29,7 @@ from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates
 from lagcli.mechanics.system import System
 from lagcli.mechanics.verify import Verifier, ZeroVerdict
 from lagcli.record import record
+from lagcli.statements.answers import Verification
 
 #: Beyond this many unknowns a symbolic solution is no longer readable: matrix form only.
 READABLE_UNKNOWNS = 12

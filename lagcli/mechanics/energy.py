@@ -26,11 +26,11 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import free_of
-from lagcli.answers import Verification
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.record import record
-from lagcli.wording import CONSERVED, enumerated
+from lagcli.statements.answers import Verification
+from lagcli.statements.wording import CONSERVED, enumerated
 
 
 @record

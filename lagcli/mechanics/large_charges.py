@@ -9,14 +9,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cached_property
 
-from lagcli.answers import ChargeSource, Verification
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node
 from lagcli.mechanics.identities import vanish
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.problem import Symmetry
 from lagcli.record import record
-from lagcli.wording import CHANGE_OF_L, CONSERVED, enumerated
+from lagcli.statements.answers import ChargeSource, Verification
+from lagcli.statements.wording import CHANGE_OF_L, CONSERVED, enumerated
 
 _NOT_SOLVED = "the system is too large to solve the motion in formulas"
 

@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from lagcli.answers import Section
 from lagcli.expression import Expression
 from lagcli.graph.nodes import Node
 from lagcli.graph.sharing import operations, written_out
 from lagcli.mechanics.large_charges import LargeCharges
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.mechanics.stating import Stating
+from lagcli.statements.answers import Section
 from lagcli.statements.declaration import Declaration
 
 #: A section whose formulas show more operations than this is not written out.

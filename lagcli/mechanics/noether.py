@@ -32,14 +32,14 @@ from sympy import Expr
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import without_jumps
 from lagcli.algebra.jumps import is_continuous
-from lagcli.answers import ChargeSource, Verification
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.energy import EnergyFunction
 from lagcli.mechanics.gauge import Gauge, GaugeSearch
 from lagcli.mechanics.translations import constant_nullspace
 from lagcli.problem import Symmetry
 from lagcli.record import record, replace
-from lagcli.wording import CHANGE_OF_L, enumerated
+from lagcli.statements.answers import ChargeSource, Verification
+from lagcli.statements.wording import CHANGE_OF_L, enumerated
 
 _NO_GAUGE_KNOWN = "no gauge was found, and whether there is one was not decided"
 _OTHER_GAUGE = "the gauge that the file gives (without it the right one is found)"

@@ -8,12 +8,12 @@ from typing import Any
 from sympy import Expr
 
 from lagcli.algebra import shape
-from lagcli.answers import Section
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.hamiltonian import GivenHamiltonian
 from lagcli.mechanics.stating import Stating
+from lagcli.statements.answers import Section
 from lagcli.statements.declaration import Declaration
 from lagcli.statements.registry import in_order
 

@@ -11,9 +11,9 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.numeric import Evaluator
-from lagcli.answers import Verification
 from lagcli.mechanics.states import DIGITS, Contradiction, State, is_real, random_value
 from lagcli.mechanics.system import System
+from lagcli.statements.answers import Verification
 
 _ATTEMPTS = 60
 _TESTED = 3

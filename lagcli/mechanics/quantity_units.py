@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from lagcli.answers import DimensionsSection, QuantityUnit
 from lagcli.dimensions.demands import ACTION, LAGRANGIAN, small_parameter
 from lagcli.dimensions.forms import Form, minus, unknown
 from lagcli.dimensions.inference import Inference, gives_units, quantities
 from lagcli.problem import Problem
+from lagcli.statements.answers import DimensionsSection, QuantityUnit
 from lagcli.units import Unit, read_unit
 
 _ENERGY, _TORQUE = read_unit("J"), read_unit("N m")

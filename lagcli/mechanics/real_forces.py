@@ -21,7 +21,6 @@ from sympy import Expr, S
 from lagcli.algebra import is_zero
 from lagcli.algebra.signs import sign
 from lagcli.expression import Expression
-from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.mechanics.constraint_force import Vector, on_points, turning_coordinates
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import Dynamics
@@ -29,6 +28,7 @@ from lagcli.mechanics.parameter_values import exact_values
 from lagcli.mechanics.readable import Readable
 from lagcli.problem import Constraint, pushing_sign
 from lagcli.record import record
+from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
 
 _UNSOLVED = "the multipliers were not solved in closed form"
 _NO_POINTS = "the file has no `points`, so where the forces act is not known"

@@ -8,10 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 from sympy import Expr
 
-from lagcli.answers import (
-    Answers,
-    Section,
-)
 from lagcli.expression import Expression
 from lagcli.manners import Manner
 from lagcli.mechanics.branches import of_another_rank, sentence
@@ -20,6 +16,10 @@ from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
 from lagcli.problem import Problem
 from lagcli.record import replace
+from lagcli.statements.answers import (
+    Answers,
+    Section,
+)
 from lagcli.statements.declaration import Declaration
 
 if TYPE_CHECKING:

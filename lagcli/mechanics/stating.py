@@ -6,13 +6,13 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
-from lagcli.answers import Answers, Section
 from lagcli.diagnostics import ProblemError
-from lagcli.effort import OutOfWork
 from lagcli.expression import Expression
-from lagcli.failures import describe
-from lagcli.limited import limited
+from lagcli.platform.effort import OutOfWork
+from lagcli.platform.failures import describe
+from lagcli.platform.limited import limited
 from lagcli.problem import Problem
+from lagcli.statements.answers import Answers, Section
 from lagcli.statements.declaration import Declaration
 from lagcli.statements.registry import built_in, in_order
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.closed_form import ClosedForm
     from lagcli.mechanics.matrix_form import MatrixForm
 
-#: Work that one section may take (see `lagcli.effort`), and processor time.
+#: Work that one section may take (see `lagcli.platform.effort`), and processor time.
 UNITS = 30_000_000
 SECONDS = 45.0
 

@@ -15,11 +15,11 @@ from sympy import Add, Expr
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.numeric import Evaluator
-from lagcli.answers import Verification
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.row_rank import Elimination, independent_rows
 from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates, State, random_value
 from lagcli.record import record
+from lagcli.statements.answers import Verification
 
 _STATES = 3
 #: A surface may have branches: of x^2 y = x y^2 three states met one, twelve all of three.

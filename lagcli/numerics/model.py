@@ -12,7 +12,6 @@ from contextlib import suppress
 from itertools import compress
 from typing import Any
 
-from lagcli.answers import ModelSection
 from lagcli.expression import Name
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node, Sum, Symbol
@@ -29,6 +28,7 @@ from lagcli.numerics.refusal import Refusal
 from lagcli.numerics.simulate import Simulation
 from lagcli.numerics.straight_line import straight_line
 from lagcli.problem import Problem
+from lagcli.statements.answers import ModelSection
 
 #: States at which it is seen whether L depends on a coordinate, and what counts as 0 there.
 _STATES, _ZERO = 6, 1e-9

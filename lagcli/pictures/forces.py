@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from lagcli.expression import Expression, Product
-from lagcli.forces import ForcesSection
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.statements import Statements
 from lagcli.pictures.points import Track
 from lagcli.problem import Problem
 from lagcli.record import record
+from lagcli.statements.forces import ForcesSection
 
 
 @record(kw_only=True)

@@ -6,7 +6,6 @@ import itertools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lagcli.answers import AlgebraSection, Answers, SpecialValue
 from lagcli.document import Block, Heading, Paragraph
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, by_name, string
@@ -14,8 +13,9 @@ from lagcli.problem import ExpectAlgebra
 from lagcli.reader.expected_algebra import read_algebra
 from lagcli.reader.schema_parts import COUNT, FORMULAS, TEXT, YES_OR_NO, list_of, record_of, ref
 from lagcli.record import replace
+from lagcli.statements.answers import AlgebraSection, Answers, SpecialValue
 from lagcli.statements.declaration import Declaration, Expected, Told
-from lagcli.wording import rows_by_name
+from lagcli.statements.wording import rows_by_name
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers
 from lagcli.document import Block, Bracket, Equations, Paragraph, Row
 from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import Object, by_name, string, unless_none
-from lagcli.phase_space import BracketsSection, PoissonBracket
 from lagcli.problem import Problem
 from lagcli.reader.phase_space import read_expected_brackets
 from lagcli.reader.schema_parts import FORMULAS
+from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.phase_space import BracketsSection, PoissonBracket
 from lagcli.values import substituted
 
 if TYPE_CHECKING:

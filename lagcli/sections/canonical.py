@@ -6,23 +6,23 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers
 from lagcli.document import Block, Bracket, Equations, Formula, Heading, Label, Paragraph, Row
 from lagcli.expression import Name, Number
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, by_name, string, unless_none
-from lagcli.phase_space import (
-    ExaminedTransformation,
-    GeneratingFunction,
-    TransformationsSection,
-)
 from lagcli.problem import ExpectCanonical, Problem
 from lagcli.reader.phase_space import VERDICTS, read_expected_canonical
 from lagcli.reader.schema_parts import FORMULA as EXPRESSION
 from lagcli.reader.schema_parts import YES_OR_NO
 from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.schema_parts import record_of as record
+from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.phase_space import (
+    ExaminedTransformation,
+    GeneratingFunction,
+    TransformationsSection,
+)
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, CanonicalPair, CanonicalSection
 from lagcli.document import Block, Equations, Row
 from lagcli.expression import Expression, Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import FORMULA, Object, map_of, record_of, unless_none
 from lagcli.sections.hamiltonian import fold_of, given
+from lagcli.statements.answers import Answers, CanonicalPair, CanonicalSection
 from lagcli.statements.declaration import Declaration, Told
-from lagcli.wording import fold, not_found
+from lagcli.statements.wording import fold, not_found
 
 if TYPE_CHECKING:
     from sympy import Expr

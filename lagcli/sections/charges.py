@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, Charge, ChargesSection
 from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row
 from lagcli.expression import ZERO, Expression
 from lagcli.formatters.json_values import (
@@ -23,8 +22,9 @@ from lagcli.problem import NOT_CONSERVED
 from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.schema_parts import FORMULAS
 from lagcli.reader.scope import ANSWER
+from lagcli.statements.answers import Answers, Charge, ChargesSection
 from lagcli.statements.declaration import Declaration, Expected, always
-from lagcli.wording import conditions
+from lagcli.statements.wording import conditions
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, ConstraintForcesSection
 from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row
 from lagcli.expression import Expression
 from lagcli.formatters.json_values import Object, by_name, map_of, strings, unless_none
@@ -14,6 +13,7 @@ from lagcli.reader.schema_parts import FORMULAS
 from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.scope import ANSWER
 from lagcli.sections.multipliers import constrained
+from lagcli.statements.answers import Answers, ConstraintForcesSection
 from lagcli.statements.declaration import Declaration, Expected
 
 if TYPE_CHECKING:

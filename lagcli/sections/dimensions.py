@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, DimensionsSection, QuantityUnit
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph
 from lagcli.formatters.json_values import Object, unless_none
+from lagcli.statements.answers import Answers, DimensionsSection, QuantityUnit
 from lagcli.statements.declaration import Declaration, Told
-from lagcli.wording import unit_rows
+from lagcli.statements.wording import unit_rows
 
 if TYPE_CHECKING:
     from lagcli.mechanics.explaining.teller import Teller

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from lagcli.answers import ChargesSection
 from lagcli.document import Block
 from lagcli.expression import Expression
 from lagcli.formatters.json_values import Object
@@ -13,6 +12,7 @@ from lagcli.reader.schema_parts import FORMULAS
 from lagcli.record import replace
 from lagcli.sections.charges import CHARGES, blocks, charges_json, read_charge, stated_charge
 from lagcli.sections.charges import compare as compare_charges
+from lagcli.statements.answers import ChargesSection
 from lagcli.statements.declaration import Declaration, Expected, Told
 
 if TYPE_CHECKING:

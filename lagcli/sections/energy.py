@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, EnergySection
 from lagcli.document import Block, Label, Paragraph
 from lagcli.expression import Expression
 from lagcli.formatters.json_values import OR_NULL, Object, record_of, string
 from lagcli.reader.schema_parts import FORMULA
 from lagcli.reader.scope import STATE
+from lagcli.statements.answers import Answers, EnergySection
 from lagcli.statements.declaration import Declaration, Expected, always
-from lagcli.wording import not_found, one_row
+from lagcli.statements.wording import not_found, one_row
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, EquationsSection, LagrangeEquation
 from lagcli.document import Block, Equations, Paragraph, Row
 from lagcli.expression import ZERO, Equation
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
 from lagcli.formatters.json_values import FORMULA, Object, record_of, unless_none
 from lagcli.reader.schema_parts import list_of, ref
 from lagcli.reader.scope import EQUATION
+from lagcli.statements.answers import Answers, EquationsSection, LagrangeEquation
 from lagcli.statements.declaration import Declaration, Expected, always
-from lagcli.wording import not_found
+from lagcli.statements.wording import not_found
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

@@ -6,15 +6,15 @@ import itertools
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, EquilibriaSection, Equilibrium
 from lagcli.document import Block, Formula, Paragraph
 from lagcli.expression import Name
 from lagcli.formatters.json_values import Object, above, inequalities, place, unless_none
 from lagcli.problem import ExpectEquilibrium
 from lagcli.reader.expected_reduction import read_equilibria
 from lagcli.reader.schema_parts import FORMULAS, STABLE, list_of, record_of, ref
+from lagcli.statements.answers import Answers, EquilibriaSection, Equilibrium
 from lagcli.statements.declaration import Declaration, Expected, Told
-from lagcli.wording import conditions, holding, none_found, stability, state_blocks
+from lagcli.statements.wording import conditions, holding, none_found, stability, state_blocks
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
 from lagcli.expression import Expression, Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, string, strings, unless_none
 from lagcli.problem import Expect, Inequality, Lasting, Problem, Question, Reaching, Rewrite, Where
-from lagcli.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
 from lagcli.reader.expected_ranges import read_ranges
 from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.nodes import Sequence as ListNode
 from lagcli.reader.schema_parts import ONE_OR_MORE
 from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.scope import ANSWER
+from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Expected, Told
-from lagcli.wording import remark
+from lagcli.statements.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
+from lagcli.statements.wording import remark
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

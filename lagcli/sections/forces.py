@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
 from lagcli.expression import Call, Expression, Product, operation_count, walk
-from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, by_name, string, strings
 from lagcli.reader.nodes import DocumentNode, Sequence
 from lagcli.reader.schema_parts import FORMULA, FORMULAS, list_of
 from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.scope import ANSWER
+from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

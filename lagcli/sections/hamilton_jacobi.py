@@ -6,7 +6,6 @@ import itertools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers
 from lagcli.document import (
     Block,
     Equations,
@@ -18,12 +17,13 @@ from lagcli.document import (
 )
 from lagcli.expression import ZERO, Expression, Name, Negative, Product
 from lagcli.formatters.json_values import Object, by_name, inequalities, string, unless_none
-from lagcli.motions import ActionPart, HamiltonJacobiSection
 from lagcli.problem import ExpectHamiltonJacobi
 from lagcli.reader.expected_reduction import read_hamilton_jacobi
 from lagcli.reader.schema_parts import FORMULAS, YES_OR_NO, record_of
+from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Expected, Told
-from lagcli.wording import conditions, listed, not_found
+from lagcli.statements.motions import ActionPart, HamiltonJacobiSection
+from lagcli.statements.wording import conditions, listed, not_found
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

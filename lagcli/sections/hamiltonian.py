@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from lagcli.answers import Answers, HamiltonianSection
 from lagcli.document import Block, Label
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import OR_NULL, Object, string
 from lagcli.reader.schema_parts import FORMULA
 from lagcli.reader.scope import PHASE_SPACE
+from lagcli.statements.answers import Answers, HamiltonianSection
 from lagcli.statements.declaration import Declaration, Expected
-from lagcli.wording import fold, not_found, one_row
+from lagcli.statements.wording import fold, not_found, one_row
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

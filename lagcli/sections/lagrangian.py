@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, LagrangianSection
 from lagcli.document import Block, Label
 from lagcli.formatters.json_values import OR_NULL, Object, string
+from lagcli.statements.answers import Answers, LagrangianSection
 from lagcli.statements.declaration import Declaration, always
-from lagcli.wording import not_found, one_row
+from lagcli.statements.wording import not_found, one_row
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements

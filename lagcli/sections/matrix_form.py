@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, MatrixFormSection
 from lagcli.document import Block, Formula, Label, Matrix, Paragraph
 from lagcli.expression import Expression
 from lagcli.formatters.json_values import (
@@ -17,8 +16,9 @@ from lagcli.formatters.json_values import (
     record_of,
     strings,
 )
+from lagcli.statements.answers import Answers, MatrixFormSection
 from lagcli.statements.declaration import Declaration
-from lagcli.wording import not_found, rows_by_name
+from lagcli.statements.wording import not_found, rows_by_name
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements

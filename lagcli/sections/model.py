@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, ModelSection
 from lagcli.document import Block, Paragraph
 from lagcli.expression import Name
 from lagcli.formatters.json_values import Object, by_name
+from lagcli.statements.answers import Answers, ModelSection
 from lagcli.statements.declaration import Declaration, Told
-from lagcli.wording import listed, not_found, rows_by_name
+from lagcli.statements.wording import listed, not_found, rows_by_name
 
 if TYPE_CHECKING:
     from lagcli.mechanics.explaining.teller import Teller

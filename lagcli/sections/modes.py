@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, ModesOfFrequency, ModesSection
 from lagcli.document import Block, Equations, Label, Paragraph, Row
 from lagcli.expression import Expression, Number, Power
 from lagcli.formatters.json_values import Object, by_name, place, string, unless_none
@@ -14,8 +13,9 @@ from lagcli.letters import own
 from lagcli.problem import Expect
 from lagcli.reader.schema_parts import FORMULA, list_of
 from lagcli.reader.scope import CONSTANTS
+from lagcli.statements.answers import Answers, ModesOfFrequency, ModesSection
 from lagcli.statements.declaration import Declaration, Expected, Told
-from lagcli.wording import state_blocks
+from lagcli.statements.wording import state_blocks
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, MomentaSection
 from lagcli.document import Block, Paragraph
 from lagcli.expression import Expression
 from lagcli.formatters.json_values import FORMULA, Object, by_name, map_of, unless_none
 from lagcli.reader.schema_parts import FORMULAS
+from lagcli.statements.answers import Answers, MomentaSection
 from lagcli.statements.declaration import Declaration, Expected, always
-from lagcli.wording import listed, not_found, rows_by_name
+from lagcli.statements.wording import listed, not_found, rows_by_name
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

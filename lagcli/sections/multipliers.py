@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, get_args
 
-from lagcli.answers import Answers, ConstraintKind, Multiplier, MultipliersSection
 from lagcli.document import Block, Equations, Paragraph, Row
 from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import OR_NULL, Object, map_of, record_of, string
 from lagcli.reader.schema_parts import FORMULAS
 from lagcli.reader.scope import ANSWER
+from lagcli.statements.answers import Answers, ConstraintKind, Multiplier, MultipliersSection
 from lagcli.statements.declaration import Declaration, Expected
-from lagcli.wording import substituted
+from lagcli.statements.wording import substituted
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

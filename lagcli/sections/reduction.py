@@ -6,7 +6,6 @@ import itertools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers, ReductionSection
 from lagcli.document import (
     Block,
     Equations,
@@ -26,13 +25,14 @@ from lagcli.formatters.json_values import (
     unless_none,
 )
 from lagcli.letters import own
-from lagcli.motions import OneFreedom, PeriodSeries
 from lagcli.problem import ExpectReduction
 from lagcli.reader.expected_reduction import read_reduction
 from lagcli.reader.schema_parts import FORMULA, FORMULAS, list_of, record_of
 from lagcli.sections.equations import equation_json
+from lagcli.statements.answers import Answers, ReductionSection
 from lagcli.statements.declaration import Declaration, Expected, Told
-from lagcli.wording import POTENTIAL, conditions, irreducible, state_blocks
+from lagcli.statements.motions import OneFreedom, PeriodSeries
+from lagcli.statements.wording import POTENTIAL, conditions, irreducible, state_blocks
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

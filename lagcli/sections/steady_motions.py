@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagcli.answers import Answers
 from lagcli.document import (
     Block,
     Equations,
@@ -21,12 +20,13 @@ from lagcli.document import (
 from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.formatters.json_values import Object, by_name, inequalities, place, strings, unless_none
 from lagcli.letters import own
-from lagcli.motions import SteadyMotion, SteadySection
 from lagcli.problem import ExpectSteady
 from lagcli.reader.expected_reduction import read_steady_motions
 from lagcli.reader.schema_parts import FORMULA, FORMULAS, STABLE, list_of, record_of
+from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Expected, Told
-from lagcli.wording import conditions, none_found, place_rows, steady_stability
+from lagcli.statements.motions import SteadyMotion, SteadySection
+from lagcli.statements.wording import conditions, none_found, place_rows, steady_stability
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found

@@ -1,1 +1,1 @@
-"""What a section of the answers declares, and the sections by name."""
+"""What is stated of a derivation: the records of all sections, and what a section declares."""

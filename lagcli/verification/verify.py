@@ -7,7 +7,9 @@ from typing import Any
 
 from flint import ctx
 
-from lagcli.answers import (
+from lagcli.problem import Problem
+from lagcli.record import replace
+from lagcli.statements.answers import (
     AccelerationsSection,
     AlgebraSection,
     Answers,
@@ -28,12 +30,10 @@ from lagcli.answers import (
     ReductionSection,
     Section,
 )
-from lagcli.forces import ForcesSection
-from lagcli.motions import HamiltonJacobiSection, SteadySection
-from lagcli.phase_space import BracketsSection, TransformationsSection
-from lagcli.problem import Problem
-from lagcli.questions import FindSection
-from lagcli.record import replace
+from lagcli.statements.forces import ForcesSection
+from lagcli.statements.motions import HamiltonJacobiSection, SteadySection
+from lagcli.statements.phase_space import BracketsSection, TransformationsSection
+from lagcli.statements.questions import FindSection
 from lagcli.verification.claims import (
     algebra,
     charges,

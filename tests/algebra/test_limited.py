@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
-from lagcli.effort import EFFORT, OutOfWork, work_done
-from lagcli.limited import limited
+from lagcli.platform.effort import EFFORT, OutOfWork, work_done
+from lagcli.platform.limited import limited
 
 x, y, z = sp.symbols("x y z", real=True)
 

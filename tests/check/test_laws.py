@@ -10,9 +10,9 @@ import pytest
 from lagcli.check.findings import CheckOutcome
 from lagcli.check.laws import SECTIONS, Laws
 from lagcli.check.one import check_problem
-from lagcli.effort import OutOfWork
 from lagcli.expression import Negative, Number, Product
 from lagcli.pipeline import Request, derive, read, state
+from lagcli.platform.effort import OutOfWork
 from lagcli.sections import charges as room
 
 PENDULUM = b"""\

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from lagcli.cache import Cache, Entry, folder, key
+from lagcli.platform.cache import Cache, Entry, folder, key
 
 FREE = "coordinates: [x]\nparameters: {m: {assume: positive, value: 3}}\nL: m*x'^2/2\n"
 WRONG = "coordinates: [x]\nL: x'^2/2 + y\n"
@@ -23,7 +23,7 @@ import sys
 from lagcli.cli.run import run
 status = run(sys.argv[1:])
 sys.stdout.flush()
-heavy = ("sympy", "flint", "mpmath", "lark", "yaml", "rich", "lagcli.answers", "lagcli.reader")
+heavy = ("sympy", "flint", "mpmath", "lark", "yaml", "rich", "lagcli.statements.answers", "lagcli.reader")
 sys.stderr.write("loaded: " + ",".join(name for name in heavy if name in sys.modules))
 sys.exit(status)
 """
@@ -218,7 +218,7 @@ def test_an_entry_under_a_wrong_name_is_not_believed(tmp_path):
 @pytest.mark.long
 def test_processes_at_once_see_whole_entries(tmp_path):
     code = (
-        "import sys; from lagcli.cache import Cache, Entry\n"
+        "import sys; from lagcli.platform.cache import Cache, Entry\n"
         f"cache, entry = Cache(sys.argv[1]), Entry(0, 'x' * 200_000, ('said',))\n"
         "for _ in range(100):\n"
         f"    cache.keep({KEY!r}, entry)\n"
@@ -232,7 +232,7 @@ def test_processes_at_once_see_whole_entries(tmp_path):
 
 def test_a_killed_writer_leaves_no_wrong_entry(tmp_path):
     code = (
-        "import sys; from lagcli.cache import Cache, Entry\n"
+        "import sys; from lagcli.platform.cache import Cache, Entry\n"
         "while True:\n"
         f"    Cache(sys.argv[1]).keep({KEY!r}, Entry(0, 'x' * 3_000_000))\n"
     )
@@ -346,7 +346,7 @@ def test_another_program_is_another_answer(monkeypatch, tmp_path):
     keys.append(key({}, []))
     monkeypatch.setattr(sys, "version", "4.0")
     keys.append(key({}, []))
-    monkeypatch.setattr("lagcli.cache._versions", lambda: [["sympy", "2.0"]])
+    monkeypatch.setattr("lagcli.platform.cache._versions", lambda: [["sympy", "2.0"]])
     keys.append(key({}, []))
     assert len(set(keys)) == len(keys)
 

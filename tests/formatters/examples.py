@@ -4,7 +4,20 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from lagcli.answers import (
+from lagcli.expression import (
+    Call,
+    Diff,
+    Expression,
+    Name,
+    Negative,
+    Number,
+    PartialCall,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+)
+from lagcli.statements.answers import (
     AccelerationsSection,
     AlgebraSection,
     Answers,
@@ -33,21 +46,8 @@ from lagcli.answers import (
     SpecialValue,
     UnitSource,
 )
-from lagcli.expression import (
-    Call,
-    Diff,
-    Expression,
-    Name,
-    Negative,
-    Number,
-    PartialCall,
-    Power,
-    Product,
-    Quotient,
-    Sum,
-)
-from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
-from lagcli.motions import (
+from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
+from lagcli.statements.motions import (
     Above,
     ActionPart,
     HamiltonJacobiSection,
@@ -57,7 +57,7 @@ from lagcli.motions import (
     SteadySection,
     Verdict,
 )
-from lagcli.phase_space import (
+from lagcli.statements.phase_space import (
     BracketsSection,
     ExaminedTransformation,
     FailingBracket,
@@ -65,7 +65,7 @@ from lagcli.phase_space import (
     PoissonBracket,
     TransformationsSection,
 )
-from lagcli.questions import FindSection, Range, Ranges, Rewritten, Solutions
+from lagcli.statements.questions import FindSection, Range, Ranges, Rewritten, Solutions
 from lagcli.units import Unit, read_unit
 
 

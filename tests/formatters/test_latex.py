@@ -13,7 +13,6 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import lagcli
-from lagcli.answers import Answers, LagrangianSection
 from lagcli.document import Equations, Row
 from lagcli.expression import Call, Diff, Name, Negative, PartialCall, Power, Quotient, Rate
 from lagcli.formatters.latex import render
@@ -22,6 +21,7 @@ from lagcli.formatters.latex_math import WIDEST, LatexPrinter
 from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.options import Options
+from lagcli.statements.answers import Answers, LagrangianSection
 
 from .examples import (
     HOOP,

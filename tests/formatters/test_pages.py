@@ -8,20 +8,20 @@ from xml.etree import ElementTree as ET
 import pytest
 from hypothesis import given, settings
 
-from lagcli.answers import (
+from lagcli.document import Document, Paragraph
+from lagcli.expression import Call, Name, Negative, Power, Quotient
+from lagcli.formatters import html, markdown
+from lagcli.formatters.mathml import MathmlPrinter, mathml_name
+from lagcli.formatters.options import Options
+from lagcli.record import replace
+from lagcli.statements.answers import (
     EquilibriaSection,
     Equilibrium,
     LagrangianSection,
     Multiplier,
     MultipliersSection,
 )
-from lagcli.document import Document, Paragraph
-from lagcli.expression import Call, Name, Negative, Power, Quotient
-from lagcli.formatters import html, markdown
-from lagcli.formatters.mathml import MathmlPrinter, mathml_name
-from lagcli.formatters.options import Options
-from lagcli.motions import Verdict
-from lagcli.record import replace
+from lagcli.statements.motions import Verdict
 
 from .examples import HOOP, HOSTILE, g, number, plus, sin, square, times, x
 from .strategies import expressions

@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import pytest
 
-from lagcli.answers import Answers
 from lagcli.check.expectations import sections_expected
 from lagcli.check.initial import initial_mistakes
 from lagcli.check.laws import SECTIONS as LAWS
@@ -29,6 +28,7 @@ from lagcli.mechanics.derivation import Derivation
 from lagcli.pipeline import Request, derive, explain, load, state
 from lagcli.problem import Problem
 from lagcli.record import replace
+from lagcli.statements.answers import Answers
 from lagcli.statements.registry import built_in
 from tests.formatters.test_latex import compiled, needs_latex
 from tests.oracle.examine import examine

@@ -6,8 +6,8 @@ from sympy import Expr
 
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.finding.find import answer_questions
-from lagcli.questions import Rewritten, Solutions
 from lagcli.reader import read_problem
+from lagcli.statements.questions import Rewritten, Solutions
 
 from .formulas import normal
 

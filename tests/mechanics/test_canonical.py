@@ -9,13 +9,13 @@ from lagcli.mechanics.canonical.inverse import undone
 from lagcli.mechanics.canonical.poisson import poisson, rate
 from lagcli.mechanics.canonical.transformation import CanonicalTest
 from lagcli.mechanics.derivation import Derivation
-from lagcli.phase_space import (
+from lagcli.pipeline import Request, state
+from lagcli.reader import parse_text
+from lagcli.statements.phase_space import (
     BracketsSection,
     ExaminedTransformation,
     TransformationsSection,
 )
-from lagcli.pipeline import Request, state
-from lagcli.reader import parse_text
 
 from .derived import derive
 

@@ -8,7 +8,7 @@ import pytest
 
 from lagcli.diagnostics import ProblemError
 from lagcli.mechanics.finding import find
-from lagcli.questions import Rewritten, Solutions
+from lagcli.statements.questions import Rewritten, Solutions
 
 from .formulas import formula, formulas
 from .questions import answers, roots, value

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from lagcli.formatters.grammar import to_grammar
-from lagcli.questions import Ranges
+from lagcli.statements.questions import Ranges
 from tests.numerics.running import column, simulated
 
 from .formulas import formula, normal

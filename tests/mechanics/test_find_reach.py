@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from lagcli.formatters.grammar import to_grammar
-from lagcli.questions import Solutions
+from lagcli.statements.questions import Solutions
 
 from .formulas import formulas
 from .questions import answers, roots

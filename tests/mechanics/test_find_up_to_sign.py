@@ -8,7 +8,7 @@ import pytest
 
 from lagcli.algebra import is_zero
 from lagcli.mechanics.statements import Statements
-from lagcli.questions import Rewritten
+from lagcli.statements.questions import Rewritten
 from tests.mechanics.derived import derive
 
 HEAD = """

@@ -9,13 +9,13 @@ import pytest
 import sympy
 from sympy import Expr
 
-from lagcli.answers import Answers
-from lagcli.forces import ForcesSection
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.statements import Statements
 from lagcli.pipeline import load
 from lagcli.reader import parse_text
+from lagcli.statements.answers import Answers
+from lagcli.statements.forces import ForcesSection
 
 from .derived import derive, same
 

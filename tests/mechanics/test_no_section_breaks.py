@@ -8,16 +8,16 @@ import random
 import jsonschema
 import pytest
 
-from lagcli.answers import Answers
-from lagcli.effort import EFFORT
 from lagcli.formatters import Options
 from lagcli.formatters.schema import answers_schema
 from lagcli.mechanics import stating
 from lagcli.mechanics.statements import Statements
 from lagcli.pipeline import Request, derive, read, render, state
+from lagcli.platform.effort import EFFORT
 from lagcli.reader import parse_text
 from lagcli.record import replace
 from lagcli.sections import energy, equilibria
+from lagcli.statements.answers import Answers
 from lagcli.statements.registry import built_in
 
 HEAD = """

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from lagcli.wording import CHANGE_OF_L
+from lagcli.statements.wording import CHANGE_OF_L
 
 from .derived import charge, derive, same
 

@@ -10,12 +10,12 @@ from sympy import Expr, Rational, S, Symbol
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import Builder, symbol
-from lagcli.answers import ReductionSection
 from lagcli.expression import Expression, Name, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.reduction.period import ratio_series
 from lagcli.mechanics.reduction.statement import Missing, reduction
 from lagcli.reader import parse_text
+from lagcli.statements.answers import ReductionSection
 
 from .derived import derive
 from .formulas import formula, normal

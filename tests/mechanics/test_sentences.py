@@ -23,7 +23,7 @@ from lagcli.mechanics.reduction.readable import conditions, opposites
 from lagcli.mechanics.reduction.statement import reduction
 from lagcli.mechanics.statements import Statements
 from lagcli.pipeline import explain
-from lagcli.wording import conditions as in_words
+from lagcli.statements.wording import conditions as in_words
 
 from .derived import derive
 from .test_explanation import rows, words

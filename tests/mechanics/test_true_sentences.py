@@ -15,7 +15,7 @@ from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_statement import steady_motions
 from lagcli.pipeline import explain
-from lagcli.wording import enumerated
+from lagcli.statements.wording import enumerated
 
 from .derived import derive
 from .test_explanation import words

@@ -15,14 +15,12 @@ from fractions import Fraction
 
 from sympy import Expr, Symbol
 
-from lagcli.answers import Equilibrium
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import Expression, Name, Negative, Number, Power, Sum
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
 from lagcli.mechanics.parameter_values import parameter_values, random_value
 from lagcli.mechanics.reduction.steady_statement import steady_motions
-from lagcli.motions import Above, SteadyMotion, Verdict
 from lagcli.numerics.asked import Asked
 from lagcli.numerics.columns import Column
 from lagcli.numerics.refusal import Refusal
@@ -30,6 +28,8 @@ from lagcli.numerics.simulate import simulate
 from lagcli.problem import Problem
 from lagcli.reader.columns import usual_columns
 from lagcli.record import replace
+from lagcli.statements.answers import Equilibrium
+from lagcli.statements.motions import Above, SteadyMotion, Verdict
 
 #: First distance of the runs.
 BESIDE = 1e-5

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from lagcli.answers import Answers
 from lagcli.expression import Expression, Number, Product, Sum
 from lagcli.pipeline import _statements as statements
 from lagcli.pipeline import derive, load
 from lagcli.problem import Problem
 from lagcli.record import replace
 from lagcli.rewriting import rewritten
+from lagcli.statements.answers import Answers
 
 LIBRARY = Path(__file__).parents[2] / "problems"
 

@@ -6,13 +6,13 @@ import json
 
 import pytest
 
-from lagcli.answers import Answers, Charge, ChargesSection
 from lagcli.formatters.json import to_object
 from lagcli.formatters.options import Options
-from lagcli.motions import Verdict
 from lagcli.pipeline import render
 from lagcli.reader import parse_text, read_problem
 from lagcli.record import replace
+from lagcli.statements.answers import Answers, Charge, ChargesSection
+from lagcli.statements.motions import Verdict
 from lagcli.verification import verified
 
 from .sheets import derived, each_spoiled

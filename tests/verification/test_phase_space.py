@@ -6,10 +6,10 @@ from fractions import Fraction
 
 import pytest
 
-from lagcli.answers import QuantityUnit
 from lagcli.formatters.grammar import to_grammar
 from lagcli.record import replace
 from lagcli.rewriting import rewritten
+from lagcli.statements.answers import QuantityUnit
 from lagcli.units import Unit, read_unit
 from lagcli.verification import verified
 

@@ -11,12 +11,13 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, shape, simplify
 from lagcli.algebra.build import Builder, free_of
-from lagcli.answers import Verification
 from lagcli.expression import Expression, Name, walk
 from lagcli.mechanics.canonical.poisson import poisson, rate
 from lagcli.mechanics.canonical.transformation import CanonicalTest
 from lagcli.mechanics.derivation import Derivation
-from lagcli.phase_space import (
+from lagcli.problem import BracketQuestion, CanonicalKind, Problem
+from lagcli.statements.answers import Verification
+from lagcli.statements.phase_space import (
     BracketsSection,
     ExaminedTransformation,
     FailingBracket,
@@ -24,7 +25,6 @@ from lagcli.phase_space import (
     PoissonBracket,
     TransformationsSection,
 )
-from lagcli.problem import BracketQuestion, CanonicalKind, Problem
 
 #: What could not be found, and why.
 Missing = list[tuple[str, str]]

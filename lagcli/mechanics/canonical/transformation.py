@@ -24,13 +24,13 @@ from sympy import Expr, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of, symbol
-from lagcli.answers import Verification
 from lagcli.mechanics.canonical.inverse import candidates
 from lagcli.mechanics.canonical.poisson import poisson
 from lagcli.mechanics.phase_states import PhaseStates
 from lagcli.mechanics.system import System
 from lagcli.problem import CanonicalTransformation
 from lagcli.record import record
+from lagcli.statements.answers import Verification
 
 #: States at which K is tested where the normal form does not decide.
 _EVERYWHERE = 12

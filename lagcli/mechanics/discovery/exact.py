@@ -13,9 +13,9 @@ from sympy import Expr, Rational
 from lagcli.algebra import nullspace, simplify
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.ring import Monomial, Poly
-from lagcli.effort import EFFORT
 from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, small_fraction
+from lagcli.platform.effort import EFFORT
 
 _TOGETHER = 3  # parameters in one recognized monomial
 _MOST_OPERATIONS = 30000

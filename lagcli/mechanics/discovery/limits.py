@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lagcli.effort import EFFORT, Work
+from lagcli.platform.effort import EFFORT, Work
 
 #: Units of work for the whole of a discovery: what is not done by then is left out, and said so.
 UNITS = 16_000_000

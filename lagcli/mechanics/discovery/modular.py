@@ -18,7 +18,7 @@ from sympy import Symbol
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.ring import Poly
-from lagcli.effort import EFFORT
+from lagcli.platform.effort import EFFORT
 
 #: p = 7 mod 8 and p != 1 mod 3, 5, 7: odd roots are unique, square roots a power; the square
 #: roots of 2, 3, 5, 7 … and of 2 + sqrt(2), 5 + sqrt(5) … that linear chains have are there too.

@@ -12,9 +12,9 @@ from collections.abc import Mapping, Sequence
 from flint import nmod_mat, nmod_poly
 
 from lagcli.algebra.ring import Monomial, Poly, factorization
-from lagcli.effort import EFFORT
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, pivot_columns
+from lagcli.platform.effort import EFFORT
 
 #: Entries by column.
 Row = dict[int, Poly]

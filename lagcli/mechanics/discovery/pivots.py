@@ -14,11 +14,11 @@ from sympy import Expr
 
 from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.signs import sign
-from lagcli.effort import EFFORT
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular_rank import ModularRank, Row
 from lagcli.mechanics.discovery.search import Search
+from lagcli.platform.effort import EFFORT
 
 _MOST_TERMS = 80
 

@@ -8,7 +8,7 @@ from sympy import Expr
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.system import System
-from lagcli.motions import Above
+from lagcli.statements.motions import Above
 
 
 def real_where(charge: NoetherCharge, system: System) -> tuple[Above, ...]:

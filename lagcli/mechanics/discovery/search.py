@@ -13,12 +13,12 @@ from dataclasses import dataclass
 import sympy
 from sympy import Expr
 
-from lagcli.effort import EFFORT
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo
 from lagcli.mechanics.discovery.slots import Condition, Slot, SlotEquations
 from lagcli.mechanics.discovery.tree import Memo, Tree
+from lagcli.platform.effort import EFFORT
 
 _BAD_POINTS = 50
 _OF_NODE = 150  # units of work: SymPy's second derivatives, by the nodes of M and of the forcing

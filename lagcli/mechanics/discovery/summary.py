@@ -10,13 +10,13 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero
-from lagcli.answers import AlgebraSection
 from lagcli.mechanics.discovery.brackets import Brackets, NoState, Structure
 from lagcli.mechanics.discovery.constrained import rank_on_surface
 from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.lie_algebra import name_of
 from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.states import Contradiction
+from lagcli.statements.answers import AlgebraSection
 
 _SMALL = 1e-12
 _MOST_FOR_SQUARES = 9  # two bodies in space: P, L and L_rel

@@ -11,9 +11,9 @@ from collections.abc import Iterable, Sequence
 from sympy import Expr, Symbol
 
 from lagcli.algebra.entry import Field
-from lagcli.effort import EFFORT
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, NoPoint
+from lagcli.platform.effort import EFFORT
 
 Memo = dict[Expr, int]
 

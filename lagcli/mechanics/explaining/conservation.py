@@ -14,7 +14,7 @@ from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, listed, says, shows
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.noether import NoetherCharge
-from lagcli.wording import enumerated
+from lagcli.statements.wording import enumerated
 
 
 def energy(teller: Teller) -> Iterator[Block]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from lagcli.explanation import Explanation, ExplanationStep
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.explaining.conservation import charges, energy
 from lagcli.mechanics.explaining.elimination import elimination
@@ -14,6 +13,7 @@ from lagcli.mechanics.explaining.lagrangian import lagrangian
 from lagcli.mechanics.explaining.large import UNSOLVED
 from lagcli.mechanics.explaining.scene import scene
 from lagcli.mechanics.explaining.teller import Teller
+from lagcli.statements.explanation import Explanation, ExplanationStep
 
 
 def explanation(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:

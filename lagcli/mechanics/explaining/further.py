@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
-from lagcli.answers import EquilibriaSection, Section
 from lagcli.document import Block, Equations, Heading, Row
-from lagcli.explanation import ExplanationStep
 from lagcli.expression import ZERO, Expression
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.mechanics.statements import Statements
+from lagcli.statements.answers import EquilibriaSection, Section
+from lagcli.statements.explanation import ExplanationStep
 from lagcli.statements.registry import find_section
-from lagcli.wording import conditions as inequalities
-from lagcli.wording import holding, place_rows, stability, unless
+from lagcli.statements.wording import conditions as inequalities
+from lagcli.statements.wording import holding, place_rows, stability, unless
 
 if TYPE_CHECKING:
     from lagcli.mechanics.oscillations.equilibria import RestPoints

@@ -20,7 +20,7 @@ from lagcli.document import Block
 from lagcli.expression import Name
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import says
-from lagcli.motions import SteadyMotion
+from lagcli.statements.motions import SteadyMotion
 
 
 def two_rates(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from lagcli.document import Block, Equations, Items, Row
-from lagcli.explanation import Explanation, ExplanationStep
 from lagcli.expression import Diff, Name, Product, Rate
 from lagcli.graph.sharing import operations
 from lagcli.mechanics.closed_form import ClosedForm, ClosedSolution, names_of
@@ -20,6 +19,7 @@ from lagcli.mechanics.explaining.words import (
 )
 from lagcli.mechanics.large_charges import LargeCharges
 from lagcli.mechanics.matrix_form import MatrixForm
+from lagcli.statements.explanation import Explanation, ExplanationStep
 
 UNSOLVED = "the accelerations and multipliers were not solved in closed form"
 

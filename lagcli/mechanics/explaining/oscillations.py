@@ -10,12 +10,12 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, simplify, terms
 from lagcli.algebra.signs import sign
-from lagcli.answers import ModesOfFrequency, ModesSection, Section
 from lagcli.document import Block, Equations, Label, Matrix, Row
 from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, operation_count
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, says, shows
-from lagcli.wording import place_rows
+from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
+from lagcli.statements.wording import place_rows
 
 if TYPE_CHECKING:
     from lagcli.mechanics.oscillations.small_oscillations import Place

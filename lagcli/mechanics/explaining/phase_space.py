@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import cast
 
-from lagcli.answers import CanonicalSection, Section
 from lagcli.document import (
     Block,
     Bracket,
@@ -17,9 +16,10 @@ from lagcli.document import (
 from lagcli.expression import ZERO, Diff, Expression, Name, Negative, Product
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
-from lagcli.motions import HamiltonJacobiSection
-from lagcli.phase_space import BracketsSection
-from lagcli.wording import conditions, fold
+from lagcli.statements.answers import CanonicalSection, Section
+from lagcli.statements.motions import HamiltonJacobiSection
+from lagcli.statements.phase_space import BracketsSection
+from lagcli.statements.wording import conditions, fold
 
 
 def canonical_equations(teller: Teller, section: Section) -> Iterator[Block]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import cast
 
-from lagcli.answers import DimensionsSection, ModelSection, QuantityUnit, Section
 from lagcli.document import Block, Equations, Items, Label, Row
 from lagcli.expression import Name
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import names, says
-from lagcli.wording import unit_rows
+from lagcli.statements.answers import DimensionsSection, ModelSection, QuantityUnit, Section
+from lagcli.statements.wording import unit_rows
 
 
 def model(_: Teller, section: Section) -> Iterator[Block]:

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import cast
 
-from lagcli.answers import Section
 from lagcli.document import Block, Equations, Heading, Row
 from lagcli.expression import ZERO, Expression, Name
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, listed, says, shows
 from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
 from lagcli.problem import Lasting, Question, Reaching, Rewrite, Where
-from lagcli.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
-from lagcli.wording import remark
+from lagcli.statements.answers import Section
+from lagcli.statements.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
+from lagcli.statements.wording import remark
 
 _COMPARISONS = {"<": " < ", "<=": " ≤ ", ">": " > ", ">=": " ≥ "}
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import cast
 
-from lagcli.answers import Section
 from lagcli.document import Block, Equations, Heading, Label, Row
 from lagcli.expression import Name, walk
-from lagcli.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.mechanics.constraint_force import on_points
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, says, shows
+from lagcli.statements.answers import Section
+from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
 
 _KINDS = {"normal": "normal force", "friction": "friction", "tension": "tension"}
 

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import cast
 
-from lagcli.answers import ReductionSection, Section
 from lagcli.document import Block, Equations, Label, Row
 from lagcli.expression import ZERO, Expression, Name, Number, Power, Product, walk
 from lagcli.mechanics.explaining.teller import Teller
@@ -14,8 +13,9 @@ from lagcli.mechanics.explaining.words import Part, names, says, shows
 from lagcli.mechanics.reduction.averaged import averaged
 from lagcli.mechanics.reduction.minimal import minimal
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
-from lagcli.motions import OneFreedom, PeriodSeries
-from lagcli.wording import POTENTIAL, conditions, irreducible, place_rows
+from lagcli.statements.answers import ReductionSection, Section
+from lagcli.statements.motions import OneFreedom, PeriodSeries
+from lagcli.statements.wording import POTENTIAL, conditions, irreducible, place_rows
 
 _TWICE = "the period is twice the time between the turning points."
 

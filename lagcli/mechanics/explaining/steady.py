@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import cast
 
-from lagcli.answers import Section
 from lagcli.document import (
     Block,
     Equations,
@@ -20,8 +19,9 @@ from lagcli.mechanics.explaining.given_momenta import two_rates
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, listed, names, says, shows
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
-from lagcli.motions import SteadyMotion, SteadySection
-from lagcli.wording import POTENTIAL, conditions, place_rows, steady_stability, unless
+from lagcli.statements.answers import Section
+from lagcli.statements.motions import SteadyMotion, SteadySection
+from lagcli.statements.wording import POTENTIAL, conditions, place_rows, steady_stability, unless
 
 _BALANCED = {
     (): "vanish",

@@ -10,7 +10,6 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, shape, simplify
 from lagcli.algebra.build import free_of
-from lagcli.answers import AlgebraSection, Charge, ChargesSection, Section
 from lagcli.document import Block, Bracket, Equations, Heading, Label, Row
 from lagcli.expression import ZERO, Expression, Name, walk
 from lagcli.mechanics.canonical.poisson import poisson
@@ -19,7 +18,8 @@ from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, says, shows
-from lagcli.wording import conditions
+from lagcli.statements.answers import AlgebraSection, Charge, ChargesSection, Section
+from lagcli.statements.wording import conditions
 
 #: A table of brackets of more charges than these is not read.
 _MOST = 7

@@ -8,13 +8,13 @@ from typing import cast
 from sympy import Expr, Symbol
 
 from lagcli.algebra import shape
-from lagcli.answers import Section
 from lagcli.document import Block, Bracket, Equations, Formula, Heading, Label, Row
 from lagcli.expression import Diff, Expression, Name, Negative, Number, Product, walk
 from lagcli.mechanics.canonical.transformation import CanonicalTest
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import says, shows
-from lagcli.phase_space import ExaminedTransformation, TransformationsSection
+from lagcli.statements.answers import Section
+from lagcli.statements.phase_space import ExaminedTransformation, TransformationsSection
 
 _CHECKED = {
     "exact": "exactly",

@@ -23,7 +23,6 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.elimination import EliminatedExpression, eliminate
 from lagcli.algebra.equations import written
 from lagcli.algebra.numeric import Evaluator
-from lagcli.effort import Work
 from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.finding.level_set import LevelSet
@@ -32,6 +31,7 @@ from lagcli.mechanics.initial import InitialState, initial_state
 from lagcli.mechanics.noether import Noether
 from lagcli.mechanics.parameter_values import parameter_values
 from lagcli.mechanics.states import State
+from lagcli.platform.effort import Work
 
 #: Units of work for one question.
 UNITS = 12_000_000

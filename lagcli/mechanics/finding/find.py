@@ -7,15 +7,15 @@ from collections.abc import Sequence
 from sympy import Expr, Symbol, sqrt
 
 from lagcli.algebra import simplify
-from lagcli.effort import Work
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.finding.along_the_motion import UNITS, AlongTheMotion
 from lagcli.mechanics.finding.lasting import LastingAnswer
 from lagcli.mechanics.finding.passing import Passing
 from lagcli.mechanics.finding.where import WhereSearch
 from lagcli.mechanics.noether import Noether
+from lagcli.platform.effort import Work
 from lagcli.problem import Lasting, Reaching, Rewrite
-from lagcli.questions import Answer, FindSection, Rewritten
+from lagcli.statements.questions import Answer, FindSection, Rewritten
 
 
 def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:

@@ -24,7 +24,7 @@ from lagcli.mechanics.finding.special_values import DIGITS, NoClosedForm, Specia
 from lagcli.mechanics.finding.walk import Start, Walk
 from lagcli.mechanics.parameter_values import exact_values
 from lagcli.problem import Inequality, Lasting, Reaching
-from lagcli.questions import Range, Ranges
+from lagcli.statements.questions import Range, Ranges
 
 _SMALL = mpf(10) ** -60
 

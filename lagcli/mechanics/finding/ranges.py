@@ -25,9 +25,9 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra.numeric import Evaluator
-from lagcli.effort import EFFORT, Work
 from lagcli.mechanics.finding.special_values import DIGITS, SpecialValues
 from lagcli.mechanics.parameter_values import random_value
+from lagcli.platform.effort import EFFORT, Work
 from lagcli.record import record
 
 _DRAWS = 6

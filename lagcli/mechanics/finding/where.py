@@ -19,7 +19,7 @@ from lagcli.mechanics.finding.reach import real_value
 from lagcli.mechanics.finding.remarks import Remark, as_parts, in_words
 from lagcli.mechanics.parameter_values import admissible_values, exact_values
 from lagcli.problem import Where as WhereQuestion
-from lagcli.questions import Solutions
+from lagcli.statements.questions import Solutions
 
 _CHOICES = 24  # of parameter values, where the file gives none
 _VERIFIED = 3  # of these, at which a root is substituted

@@ -19,7 +19,6 @@ from functools import cached_property
 from sympy import Expr, Symbol
 
 from lagcli.algebra.equations import written
-from lagcli.answers import EquilibriaSection, Equilibrium, ModesOfFrequency, ModesSection
 from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
@@ -40,6 +39,7 @@ from lagcli.mechanics.stability.judge import (
 )
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.record import replace
+from lagcli.statements.answers import EquilibriaSection, Equilibrium, ModesOfFrequency, ModesSection
 
 _STICKS = "static friction holds it with force to spare"
 _PRESSED = "it is pressed against what it touches"

@@ -18,7 +18,7 @@ from lagcli.algebra.leaves import Translator
 from lagcli.algebra.signs import sign, sign_beside_zero, sign_of_circle
 from lagcli.algebra.writing import Writer
 from lagcli.expression import ZERO, Expression, operation_count
-from lagcli.motions import Above
+from lagcli.statements.motions import Above
 
 #: A potential may have so many operations more than another form, and is left as it was given.
 _LONGER = 1

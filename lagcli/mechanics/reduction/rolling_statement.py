@@ -9,7 +9,7 @@ from lagcli.expression import Expression
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.rolling import RollingMotion, RollingMotions
 from lagcli.mechanics.stability.statement import stated
-from lagcli.motions import SteadyMotion, SteadySection
+from lagcli.statements.motions import SteadyMotion, SteadySection
 
 
 def rolling_section(found: RollingMotions) -> SteadySection:

@@ -15,8 +15,8 @@ from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.root_integrals import ROOT
 from lagcli.mechanics.reduction.separation import Separation
 from lagcli.mechanics.reduction.statement import Missing
-from lagcli.motions import ActionPart, HamiltonJacobiSection
 from lagcli.rewriting import rebuilt
+from lagcli.statements.motions import ActionPart, HamiltonJacobiSection
 
 
 def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Missing]:

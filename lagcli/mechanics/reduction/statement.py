@@ -12,7 +12,6 @@ from lagcli.algebra import shape, terms
 from lagcli.algebra.build import symbol
 from lagcli.algebra.equations import written
 from lagcli.algebra.writing import Writer
-from lagcli.answers import EquationsSection, LagrangeEquation, ReductionSection
 from lagcli.expression import ONE, ZERO, Expression, Name, Number, Product, Quotient, Sum
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom as Motion
@@ -21,7 +20,8 @@ from lagcli.mechanics.reduction.period import AmplitudeSeries as Found
 from lagcli.mechanics.reduction.period import Periods
 from lagcli.mechanics.reduction.readable import conditions, effective_potential
 from lagcli.mechanics.reduction.routh import Routh
-from lagcli.motions import Irreducible, OneFreedom, PeriodSeries
+from lagcli.statements.answers import EquationsSection, LagrangeEquation, ReductionSection
+from lagcli.statements.motions import Irreducible, OneFreedom, PeriodSeries
 
 #: What was asked for and not found, and why.
 Missing = list[tuple[str, str]]

@@ -26,8 +26,8 @@ from lagcli.mechanics.reduction.steady import Steady, SteadyMotions
 from lagcli.mechanics.stability.judge import GRAZES, Stability, by_curvature, judge, undecided
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.mechanics.theorems import LAGRANGE_DIRICHLET, ROUTH
-from lagcli.motions import Above, SteadyMotion, SteadySection, Verdict
 from lagcli.record import replace
+from lagcli.statements.motions import Above, SteadyMotion, SteadySection, Verdict
 
 
 def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:

@@ -13,7 +13,7 @@ from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.reduction.readable import conditions, opposites
 from lagcli.mechanics.stability.judge import Stability, always
 from lagcli.mechanics.system import System
-from lagcli.motions import Above, Verdict
+from lagcli.statements.motions import Above, Verdict
 
 Stated = Callable[[Sequence[Expr]], tuple[Above, ...]]
 

@@ -19,7 +19,7 @@ from importlib.machinery import PathFinder
 from pathlib import Path
 from typing import Any
 
-from lagcli.cache import Cache, Entry, folder
+from lagcli.platform.cache import Cache, Entry, folder
 
 #: Releases of llvmlite whose C interface is the one declared below.
 _RELEASES = ("0.50.",)

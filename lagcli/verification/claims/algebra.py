@@ -12,9 +12,9 @@ from collections.abc import Sequence
 
 from flint import arb, arb_mat
 
-from lagcli.answers import AlgebraSection, Charge
 from lagcli.expression import Name, walk
 from lagcli.record import replace
+from lagcli.statements.answers import AlgebraSection, Charge
 from lagcli.verification.claims.canonical_samples import CanonicalSample, samples
 from lagcli.verification.claims.near import eigenvalues
 from lagcli.verification.examination import Examination

@@ -15,8 +15,8 @@ from random import Random
 
 from flint import arb
 
-from lagcli.answers import Charge
 from lagcli.expression import ZERO
+from lagcli.statements.answers import Charge
 from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.examination import Examination
 from lagcli.verification.states import State

@@ -12,9 +12,9 @@ from collections.abc import Callable
 
 from flint import arb
 
-from lagcli.answers import Charge, ChargesSection
 from lagcli.expression import ONE, ZERO
 from lagcli.record import replace
+from lagcli.statements.answers import Charge, ChargesSection
 from lagcli.verification.claims.boundary import boundary_term
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot

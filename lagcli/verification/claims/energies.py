@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from flint import arb
 
-from lagcli.answers import CanonicalSection, EnergySection, HamiltonianSection, MomentaSection
 from lagcli.record import replace
+from lagcli.statements.answers import (
+    CanonicalSection,
+    EnergySection,
+    HamiltonianSection,
+    MomentaSection,
+)
 from lagcli.verification.examination import Examination
 from lagcli.verification.states import State
 

@@ -7,10 +7,10 @@ from math import isqrt
 
 from flint import arb, arb_mat, ctx
 
-from lagcli.answers import EquilibriaSection, Equilibrium
 from lagcli.expression import Expression
-from lagcli.motions import SteadyMotion, SteadySection, Verdict
 from lagcli.record import replace
+from lagcli.statements.answers import EquilibriaSection, Equilibrium
+from lagcli.statements.motions import SteadyMotion, SteadySection, Verdict
 from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues, occur
 from lagcli.verification.claims.rest import (
     BITS,

@@ -11,11 +11,11 @@ from random import Random
 
 from flint import arb
 
-from lagcli.answers import Charge, ChargesSection
 from lagcli.expression import Expression
 from lagcli.problem import Rewrite, Where
-from lagcli.questions import Answer, FindSection, Rewritten, Solutions
 from lagcli.record import replace
+from lagcli.statements.answers import Charge, ChargesSection
+from lagcli.statements.questions import Answer, FindSection, Rewritten, Solutions
 from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, least_step, rank, size

@@ -9,10 +9,10 @@ from collections.abc import Mapping, Sequence
 
 from flint import arb
 
-from lagcli.answers import ConstraintForcesSection
 from lagcli.expression import ZERO, Expression, Product
-from lagcli.forces import ForcesSection, FrictionNeeded
 from lagcli.record import replace
+from lagcli.statements.answers import ConstraintForcesSection
+from lagcli.statements.forces import ForcesSection, FrictionNeeded
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot
 from lagcli.verification.states import State

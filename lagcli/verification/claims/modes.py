@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from flint import arb, ctx
 
-from lagcli.answers import ModesOfFrequency, ModesSection
 from lagcli.record import replace
+from lagcli.statements.answers import ModesOfFrequency, ModesSection
 from lagcli.verification.claims.near import NOTHING, LinearMotion, occur
 from lagcli.verification.claims.rest import (
     BITS,

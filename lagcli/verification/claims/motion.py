@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from flint import arb
 
-from lagcli.answers import (
+from lagcli.record import replace
+from lagcli.statements.answers import (
     AccelerationsSection,
     EquationsSection,
     LagrangianSection,
@@ -12,7 +13,6 @@ from lagcli.answers import (
     Multiplier,
     MultipliersSection,
 )
-from lagcli.record import replace
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot
 from lagcli.verification.states import State

@@ -13,7 +13,7 @@ from random import Random
 
 from flint import arb, ctx
 
-from lagcli.motions import OneFreedom, PeriodSeries
+from lagcli.statements.motions import OneFreedom, PeriodSeries
 from lagcli.verification.claims.rest import BITS, conditions
 from lagcli.verification.examination import LOOKED_AT, Examination
 from lagcli.verification.linear import size

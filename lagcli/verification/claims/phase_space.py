@@ -13,7 +13,10 @@ from collections.abc import Callable, Iterator, Sequence
 from flint import arb
 
 from lagcli.expression import Expression, Name, walk
-from lagcli.phase_space import (
+from lagcli.problem import JACOBI_FUNCTION, CanonicalTransformation, Problem, charge_of
+from lagcli.record import replace
+from lagcli.rewriting import rebuilt
+from lagcli.statements.phase_space import (
     BracketsSection,
     ExaminedTransformation,
     FailingBracket,
@@ -21,9 +24,6 @@ from lagcli.phase_space import (
     PoissonBracket,
     TransformationsSection,
 )
-from lagcli.problem import JACOBI_FUNCTION, CanonicalTransformation, Problem, charge_of
-from lagcli.record import replace
-from lagcli.rewriting import rebuilt
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot, size
 from lagcli.verification.phase_points import PhasePoint

@@ -11,10 +11,10 @@ from collections.abc import Sequence
 
 from flint import arb
 
-from lagcli.answers import ModelSection, ReductionSection
 from lagcli.expression import Expression
-from lagcli.motions import OneFreedom
 from lagcli.record import replace
+from lagcli.statements.answers import ModelSection, ReductionSection
+from lagcli.statements.motions import OneFreedom
 from lagcli.verification.claims.periods import periods
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot

@@ -8,9 +8,9 @@ from flint import arb
 
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
-from lagcli.motions import Above
 from lagcli.problem import Constraint
 from lagcli.record import replace
+from lagcli.statements.motions import Above
 from lagcli.verification.claims.near import NOTHING, LinearMotion
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear, least_step, size

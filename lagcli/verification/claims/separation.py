@@ -17,8 +17,8 @@ from random import Random
 from flint import arb
 
 from lagcli.expression import Expression
-from lagcli.motions import Above, HamiltonJacobiSection
 from lagcli.record import replace
+from lagcli.statements.motions import Above, HamiltonJacobiSection
 from lagcli.verification.claims.driven import solves_in_time
 from lagcli.verification.claims.rest import conditions
 from lagcli.verification.examination import Examination

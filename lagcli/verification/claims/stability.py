@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lagcli.motions import Above, Verdict
+from lagcli.statements.motions import Above, Verdict
 from lagcli.verification.claims.near import LinearMotion, eigenvalues
 from lagcli.verification.claims.rest import conditions
 from lagcli.verification.examination import Examination

@@ -11,8 +11,8 @@ from fractions import Fraction
 
 from flint import arb
 
-from lagcli.answers import DimensionsSection, QuantityUnit
 from lagcli.expression import ZERO
+from lagcli.statements.answers import DimensionsSection, QuantityUnit
 from lagcli.units import Unit
 from lagcli.units.table import meaning
 from lagcli.verification.examination import Examination

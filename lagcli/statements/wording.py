@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 
-from lagcli.answers import QuantityUnit, Verification
 from lagcli.document import Block, Equations, Formula, Label, Paragraph, Row
 from lagcli.expression import (
     ZERO,
@@ -18,8 +17,9 @@ from lagcli.expression import (
     Sum,
     operation_count,
 )
-from lagcli.motions import Above, Irreducible, SteadyMotion, Verdict
-from lagcli.questions import Answer, Solutions
+from lagcli.statements.answers import QuantityUnit, Verification
+from lagcli.statements.motions import Above, Irreducible, SteadyMotion, Verdict
+from lagcli.statements.questions import Answer, Solutions
 
 Part = str | Formula
 

@@ -11,13 +11,13 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 from lagcli.expression import Expression
-from lagcli.motions import (
+from lagcli.record import field, record
+from lagcli.statements.motions import (
     Above,
     Irreducible,
     OneFreedom,
     Verdict,
 )
-from lagcli.record import field, record
 from lagcli.units import Unit
 
 #: How an answer was checked before it was printed: "exact", or at 50 digits.

@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable
 from typing import TypeVar
 
-from lagcli.effort import OutOfWork, work_done
+from lagcli.platform.effort import OutOfWork, work_done
 
 _EVERY = 0.2  # seconds between two looks; a look takes 0.3 ms
 _AGAIN = 10  # looks after which a call that has swallowed the exception is given another
