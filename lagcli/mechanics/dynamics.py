@@ -24,6 +24,7 @@ from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.euler_lagrange import EulerLagrange
 from lagcli.mechanics.motion_at_states import MotionAtStates
+from lagcli.mechanics.partly_determined import determined_unknowns
 from lagcli.mechanics.row_rank import independent_rows
 from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates
 from lagcli.mechanics.system import System
@@ -186,17 +187,12 @@ class Dynamics:
         n, m = len(self.system.q), len(kept)
         if n + m > READABLE_UNKNOWNS:
             return None
-        rows = [self.constraints.equations[k] for k in kept]
-        zero = sympy.S.Zero
-        matrix = [[*self.lagrange.mass_matrix[i], *(-e.row[i] for e in rows)] for i in range(n)] + [
-            [*e.row, *([zero] * m)] for e in rows
-        ]
-        right = [*self.lagrange.forcing, *(-e.bias for e in rows)]
+        matrix, right = self._bordered
         solution = solve_linear(matrix, right, shapes=self.shapes)
         if solution is None or solution.singular:
             return None
         accelerations = tuple(solution.values[:n])
-        chosen = [zero] * len(self.constraints)
+        chosen = [sympy.S.Zero] * len(self.constraints)
         for k, value in zip(kept, solution.values[n:], strict=True):
             chosen[k] = value
         verified = self._verified(accelerations, tuple(chosen))
@@ -205,6 +201,31 @@ class Dynamics:
         undetermined = self._undetermined
         multipliers = tuple(None if k in undetermined else value for k, value in enumerate(chosen))
         return SolvedMotion(accelerations, multipliers, tuple(chosen), verified)
+
+    @property
+    def _bordered(self) -> tuple[list[list[Expr]], list[Expr]]:
+        """[[M, -A^T], [A, 0]] and (forcing, -bias), dependent rows left out."""
+        rows = [self.constraints.equations[k] for k in self.independent_constraints]
+        none = [sympy.S.Zero] * len(rows)
+        M = self.lagrange.mass_matrix
+        matrix = [[*line, *(-e.row[i] for e in rows)] for i, line in enumerate(M)]
+        matrix += [[*e.row, *none] for e in rows]
+        return matrix, [*self.lagrange.forcing, *(-e.bias for e in rows)]
+
+    @cached_property
+    def determined_multipliers(self) -> tuple[tuple[Expr | None, ...], Verification | None]:
+        """Those that the equations determine though q'' is not, and how that was verified."""
+        nothing = (None,) * len(self.constraints), None
+        if self.motion is not None or not self.constraints.equations:
+            return nothing
+        matrix, right = self._bordered
+        if len(right) > READABLE_UNKNOWNS or self.redundant or not self.undetermined:
+            return nothing
+        state = self.states.take(1)[0]
+        found = determined_unknowns(matrix, right, state, self.verifier, self.shapes)
+        if found is None:
+            return nothing
+        return tuple(found[0][len(self.system.q) :]), found[1].how
 
     @cached_property
     def _undetermined(self) -> frozenset[int]:
@@ -302,19 +323,17 @@ class Dynamics:
         present = expression.free_symbols
         if not present & {*self.system.qddot, *self.system.multipliers}:
             return expression
-        if self.motion is None:
-            return None
-        values: dict[Expr, Expr] = dict(
-            zip(self.system.qddot, self.motion.accelerations, strict=True)
-        )
-        for equation, value in zip(
-            self.constraints.equations, self.motion.multipliers, strict=True
-        ):
+        values: dict[Expr, Expr] = {}
+        multipliers = self.determined_multipliers[0]
+        if self.motion is not None:
+            values.update(zip(self.system.qddot, self.motion.accelerations, strict=True))
+            multipliers = self.motion.multipliers
+        for equation, value in zip(self.constraints.equations, multipliers, strict=True):
             if value is not None:
                 values[equation.multiplier] = value
-            elif equation.multiplier in present:
-                return None
-        return expression.xreplace(values)
+        replaced = expression.xreplace(values)
+        unknown = {*self.system.qddot, *self.system.multipliers}
+        return None if replaced.free_symbols & unknown else replaced
 
     def simplified(self, expression: Expr) -> Expr:
         """The readable form on the constraint surface."""

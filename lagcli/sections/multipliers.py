@@ -33,7 +33,9 @@ def derive(statements: Statements) -> MultipliersSection:
         if solved is not None:
             return solved
         statements.unsolved()
-    values = (None,) * len(equations) if motion is None else motion.multipliers
+        values, verified = dynamics.determined_multipliers
+    else:
+        values, verified = motion.multipliers, motion.verified
     statements.note_redundant(dynamics.redundant)
     return MultipliersSection(
         multipliers={
@@ -41,7 +43,7 @@ def derive(statements: Statements) -> MultipliersSection:
                 symbol=equation.multiplier.name,
                 value=None if value is None else statements.on_surface(value),
                 kind=kinds[equation.name],
-                verified=None if motion is None or value is None else motion.verified,
+                verified=None if value is None else verified,
             )
             for equation, value in zip(equations, values, strict=True)
         },

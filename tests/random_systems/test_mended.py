@@ -54,6 +54,12 @@ MENDED = {
         constraints={"c1": "(x - z)*y = 0", "c2": "(z - b)*(z - x)*(x + 2*z) = 0"},
         symmetries={"s": {"x": "1", "y": "3"}},
     ),
+    "x' + y' is all that L knows, and x + y = b t leaves no force": System(
+        coordinates=dict.fromkeys("xy"),
+        parameters=M,
+        L="m*(x' + y')^2/2 - k*(x + y)^2/2",
+        constraints={"c1": "x + y = b*t"},
+    ),
     "a gauge that is 0 where exp(x - y) = 1": System(
         coordinates=dict.fromkeys("xyz"),
         parameters=M,
