@@ -19,7 +19,7 @@ from lagcli.algebra import Shapes, solve_linear
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.row_rank import independent_rows
 from lagcli.mechanics.states import DIGITS, State
-from lagcli.mechanics.verify import Verdict, Verifier
+from lagcli.mechanics.verify import Verifier, ZeroVerdict
 
 _DEPENDENT = mpf(10) ** -25  # of the length of a row at 60 digits
 
@@ -32,7 +32,7 @@ def determined_unknowns(
     state: State,
     verifier: Verifier,
     shapes: Shapes,
-) -> tuple[list[Expr | None], Verdict] | None:
+) -> tuple[list[Expr | None], ZeroVerdict] | None:
     """The unknowns of K x = right that every solution has in common; None for the others.
 
     Parameters

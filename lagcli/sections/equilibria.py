@@ -31,7 +31,8 @@ def derive(statements: Statements) -> EquilibriaSection:
     if section.equilibria is None:
         statements.lacks("the equilibria", section.reason)
     elif not section.complete:
-        statements.warnings.append("there may be equilibria that are not listed")
+        others = f": other solutions of {section.reason}" if section.reason else ""
+        statements.warnings.append(f"there may be equilibria that are not listed{others}")
     return section
 
 

@@ -105,3 +105,25 @@ def test_others_are_announced():
     d = derive("coordinates: [x]\nT: x'^2/2\nV: x*sin(x)")
     answers = Statements(d).answers(["equilibria"])
     assert any("not listed" in warning for warning in answers.warnings)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_minimum_at_a_kink_is_not_denied(seed):
+    """a |x - b| + c x + k y²: the convex V has its minimum at the kink where |c| < a."""
+    source = random.Random(seed)
+    a = source.randint(1, 5)
+    c = source.choice([c for c in range(-7, 8) if abs(c) != a])
+    b, k = source.randint(-2, 2), source.randint(1, 3)
+    points, complete = _found(f"{a}*abs(x - {b}) + {c}*x + {k}*y^2")
+    if abs(c) > a:
+        assert (points, complete) == ([], True)
+    else:
+        assert points or not complete
+
+
+def test_what_the_others_solve_is_quoted():
+    from lagcli.mechanics.statements import Statements
+
+    d = derive("coordinates: [x]\nT: x'^2/2\nV: x*sin(x)")
+    [told] = Statements(d).answers(["equilibria"]).warnings
+    assert told.endswith("other solutions of x*cos(x) + sin(x) = 0")

@@ -128,3 +128,24 @@ constraints: {wheel: x = a}
 """).discovery
     )
     assert (found.in_involution, found.integrable) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("rod", "squared"),
+    [
+        ("sqrt(x^2 + y^2) = l", "x^2 + y^2 = l^2"),
+        ("l - sqrt((x - 2)^2 + y^2) = 0", "(x - 2)^2 + y^2 = l^2"),
+        ("y = sqrt(l^2 + x^2)", "y^2 = l^2 + x^2"),
+    ],
+)
+def test_a_root_in_a_constraint_finds_what_its_square_finds(rod, squared):
+    text = """
+coordinates: [x, y, z]
+parameters: {m: {assume: positive}, k: {assume: positive}, l: {assume: positive}}
+T: m*(x'^2 + y'^2 + z'^2)/2
+V: k*z
+constraints: {rod: "%s"}
+"""
+    found = [derive(text % each).discovery for each in (rod, squared)]
+    assert not found[0].stopped
+    assert len(found[0].charges) == len(found[1].charges) > 3

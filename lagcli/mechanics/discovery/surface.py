@@ -67,7 +67,8 @@ class FormulaSurface:
         self._rows, self._drifts = self._velocity_rows(
             [f for f in remaining if f.free_symbols & v], self._moving
         )
-        parts = [e for row in self._rows for e in row] + self._drifts
+        self._squared = [_without_root(f) for f in self._positions]
+        parts = [e for row in self._rows for e in row] + self._drifts + self._squared
         variables = (self.system.t, *self.system.q, *self.system.qdot)
         self._same = list(same)
         self._values: list[int] | None = None
@@ -109,7 +110,7 @@ class FormulaSurface:
         """Orders in which the position constraints can be solved, one by one or jointly."""
         polynomials = []
         field = self.points.field
-        for f in self._positions:
+        for f in self._squared:
             element = field(f)
             polynomials.append(
                 [(c % PRIME, monomial) for monomial, c in field.ring.terms(element.numerator)]
@@ -221,12 +222,20 @@ class FormulaSurface:
                         return None
                     values[self._partner(g)] = other
         early = [g for g in roots if not self._has_velocity(g)]
-        if not self._drawn(values, early):
+        if not self._drawn(values, early) or not self._on_constraints(values):
             return None
         self._solve_velocities(values)
         if not self._drawn(values, [g for g in roots if g not in early]):
             return None
         return [values[g] for g in range(len(generators))]
+
+    def _on_constraints(self, values: dict[int, int]) -> bool:
+        """Whether the roots were drawn with the sign that the constraints demand."""
+        if self._squared == self._positions:
+            return True
+        point = [values.get(g, 0) for g in range(len(self.points.field.generators))]
+        memo: Memo = {}
+        return not any(self.tree.value(f, point, memo) for f in self._positions)
 
     def _has_velocity(self, g: int) -> bool:
         symbols = self.points.field.generators[g].expression.free_symbols
@@ -257,6 +266,20 @@ class FormulaSurface:
                 x * values[self._last[j]] for j, x in enumerate(entries[:-1]) if j != pivot
             )
             values[self._last[pivot]] = -rest % PRIME
+
+
+def _without_root(form: Expr) -> Expr:
+    """A² - B² u for A + B sqrt(u), the same where the root has the right sign; else the form."""
+    roots = [p for p in form.atoms(sympy.Pow) if p.exp == sympy.Rational(1, 2) and p.free_symbols]
+    if len(roots) != 1:
+        return form
+    r = sympy.Dummy()
+    open_ = form.xreplace({roots[0]: r})
+    B = open_.diff(r)
+    if r in B.free_symbols or open_.has(roots[0].base ** sympy.Rational(-1, 2)):
+        return form
+    A = open_.xreplace({r: sympy.S.Zero})
+    return sympy.expand(A**2 - B**2 * roots[0].base)
 
 
 def _compositions(total: int) -> Iterator[tuple[int, ...]]:

@@ -30,9 +30,13 @@ from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.family import Family, exists_where, family
+from lagcli.mechanics.oscillations.kinks import at_kinks
 from lagcli.record import record
 
 _MAX_EVIDENT = 64
+_NO_CLOSED_SOLUTION = "the conditions of equilibrium have no closed solution"
+_AT_A_KINK = "a force jumps where its sign changes, and rest at such a kink is not decided"
+_LONGEST = 120  # characters of conditions that are quoted
 _LAST_DIGITS = sympy.Float("1e-13")
 _PERIODIC = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 
@@ -80,12 +84,13 @@ class RestPoints:
         found, lost = self._found(equations)
         if lost and self._along_one:
             found, lost = self._found(self._along_one)
-        self.complete &= not lost
+        kinks = at_kinks(self.forces_at_rest, equations, self.system.q, found)
+        self.complete &= not lost and not kinks
         if not self.complete:
             known = {tuple(p.values.get(q, q) for q in self.system.q) for p in found}
             found += [p for p in self._evident() if tuple(p.values.values()) not in known]
             if not found:
-                self.reason = "the conditions of equilibrium have no closed solution"
+                self.reason = _AT_A_KINK if kinks else _NO_CLOSED_SOLUTION
                 return None
         from lagcli.mechanics.oscillations.singular import survives
 
@@ -187,6 +192,15 @@ class RestPoints:
                 for vector in _polynomial(nullspace(constraints.jacobian))
             ]
         return [e for e in (*conditions, *forces) if is_zero(e) is not True]
+
+    @property
+    def conditions(self) -> str:
+        """What the coordinates of an equilibrium solve; empty where that is long."""
+        short = [simplify(e) for e in self.equations]
+        short = [-e if e.could_extract_minus_sign() else e for e in short]
+        texts = [f"{e} = 0".replace("**", "^") for e in short]
+        whole = ", ".join(texts)
+        return whole if len(whole) <= _LONGEST else ""
 
     @cached_property
     def unless(self) -> tuple[Expr, ...]:

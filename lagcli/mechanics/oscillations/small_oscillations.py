@@ -56,6 +56,7 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     return EquilibriaSection(
         equilibria=tuple(map(oscillations.equilibrium, places)),
         complete=oscillations.complete,
+        reason="" if oscillations.complete else oscillations.rest.conditions,
         unless=()
         if places
         else tuple(written(e, dynamics.system.order) for e in oscillations.rest.unless),

@@ -1,0 +1,68 @@
+"""Equilibria at kinks of the potential: |x| + x/2 has a minimum at 0, where its force jumps.
+
+The force takes every value between those on the two sides of u = 0 (Clarke's generalized
+gradient), so that sign(u) = s with some s from -1 to 1 is to be solved for there.
+
+References
+----------
+Clarke, *Optimization and Nonsmooth Analysis*, section 2.3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Protocol
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra import is_zero
+from lagcli.algebra.signs import sign
+from lagcli.algebra.systems import solve_system
+
+
+class Place(Protocol):
+    """A known equilibrium."""
+
+    @property
+    def values(self) -> Mapping[Symbol, Expr]:
+        """Of the coordinates."""
+        ...
+
+
+def at_kinks(
+    forces: Sequence[Expr],
+    equations: Sequence[Expr],
+    coordinates: Sequence[Symbol],
+    known: Sequence[Place],
+) -> bool:
+    """Whether there may be equilibria where a force jumps, beside the known ones.
+
+    Parameters
+    ----------
+    forces
+        At rest.
+    equations
+        What vanishes at an equilibrium.
+    coordinates
+        The unknowns.
+    known
+        The equilibria at which they do, sign(0) being 0.
+    """
+    jumps = {jump.args[0] for force in forces for jump in force.atoms(sympy.sign)}
+    moving = [u for u in jumps if u.free_symbols & {*coordinates}]
+    return any(_may_rest(u, equations, coordinates, known) for u in sorted(moving, key=str))
+
+
+def _may_rest(
+    u: Expr, equations: Sequence[Expr], coordinates: Sequence[Symbol], known: Sequence[Place]
+) -> bool:
+    if any(is_zero(u.xreplace(dict(place.values))) is True for place in known):
+        return False
+    s = sympy.Dummy("s", real=True)
+    there = {sympy.sign(u): s, sympy.Abs(u): s * u}
+    solved = solve_system([u, *(e.xreplace(there) for e in equations)], [*coordinates, s])
+    if not solved.complete:
+        return True
+    between = (each.values.get(s, sympy.S.Zero) for each in solved.solutions)
+    return any(sign(1 - x**2) != -1 for x in between)
