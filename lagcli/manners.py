@@ -30,6 +30,7 @@ from lagcli.expression import (
 )
 from lagcli.problem import Problem
 from lagcli.rewriting import rebuilt
+from lagcli.signs_of_sums import sign_at_random
 
 Key: TypeAlias = tuple[object, ...]
 
@@ -91,6 +92,8 @@ class Manner:
         self._signs: dict[Key, int] = {}  # of a sum: that of the file, 0 where it has both
         self._known: dict[tuple[Expression, bool], Expression] = {}
         self._below: dict[Key, int] = {}  # of a denominator: its sign when it was first written
+        quantities = (*problem.parameters, *problem.coordinates)
+        self._positive = frozenset(q.name for q in quantities if q.assume == "positive")
         for node in given(problem):
             for part in walk(node):
                 if isinstance(part, Sum):
@@ -149,6 +152,8 @@ class Manner:
         given = self._signs.get(key, 0) or (self._below.get(key, 0) if below else 0)
         if given:
             return given != sign
+        if below and (found := sign_at_random(node, self._positive)):
+            return found < 0
         number = next((t for t in node.terms if _is_number(t)), None)
         if number is not None:
             return isinstance(number, Negative)
@@ -162,8 +167,11 @@ class Manner:
         return turned if node.function in _EVEN else Negative(turned)
 
     def _power(self, node: Power) -> Expression:
-        if isinstance(node.base, Sum) and self._wrong(node.base) and _parity(node.exponent) == 0:
-            return Power(negative_of(node.base), node.exponent)
+        base = node.base
+        if isinstance(base, Sum) and _parity(node.exponent) == 0:
+            wrong = self._wrong(base)
+            if wrong or (wrong is None and _begins_better(base)):
+                return Power(negative_of(base), node.exponent)
         return _with_whole_powers(node)
 
     def _signed(self, node: Expression, *, inside: bool) -> Expression:
@@ -284,6 +292,15 @@ def _difference_of_angles(one: Expression, other: Expression) -> Expression | No
             return Call("sin", (Sum((a, Negative(b))),))
         case _:
             return None
+
+
+def _begins_better(node: Sum) -> bool:
+    """Whether the square of −f(x) y + x is better written as that of x − f(x) y."""
+    match node.terms:
+        case (first, Negative(operand=Name())):
+            return not isinstance(first, (Name, Negative, Number))
+        case _:
+            return False
 
 
 def _accelerates(node: Expression) -> bool:

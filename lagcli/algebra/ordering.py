@@ -21,6 +21,7 @@ from lagcli.expression import (
     walk,
 )
 
+_AFTER_NUMBERS = 10**6
 #: sin(x)*cos(x), but other functions by name.
 _RANK = {"sin": "co", "sinh": "co"}
 
@@ -54,13 +55,15 @@ class Ordering:
         match node:
             case Number(value=value):
                 return (0, value)
+            case Name(name="pi"):
+                return (0, _AFTER_NUMBERS)
             case Name(name=name, primes=primes):
                 return (1, primes, self._place(node), name)
             case Power(base=base, exponent=exponent):
                 return (*self._factor(base), *self._factor(exponent))
             case Call(function="sqrt"):
                 return (2, *self._parts(node))
-            case Sum() if self._is_constant(node):  # (m1 + m2) g l, m g (R + h)
+            case Sum() if self._is_plain(node):  # (m1 + m2) g l, m g (R + h), g (a sin b - c)
                 first = min((self._place(n) for n in walk(node) if isinstance(n, Name)), default=0)
                 return (1, 0, first, "~", *self._parts(node))
             case Sum():
@@ -101,7 +104,7 @@ class Ordering:
         names = list(_factor_names(node))
         most = max((part.primes for part in names), default=0)
         for part in names:
-            index = self._index.get(part.name, -1)
+            index = self._index.get(part.name.removeprefix("p_"), -1)
             if part.primes == most and index > self._first_variable:
                 yield index
 
@@ -120,6 +123,12 @@ class Ordering:
             part.primes == 0 and self._index.get(part.name, -1) < self._first_variable
             for part in walk(node)
             if isinstance(part, Name)
+        )
+
+    def _is_plain(self, node: Sum) -> bool:
+        """Whether only parameters occur, and no functions of them."""
+        return self._is_constant(node) and not any(
+            isinstance(part, (Call, PartialCall)) for part in walk(node)
         )
 
     def _letters(self, node: Expression) -> Key:
@@ -166,7 +175,7 @@ def _factor_names(node: Expression) -> Iterator[Name]:
     match node:
         case Name():
             yield node
-        case Power(base=Sum(terms=terms)):  # (x + a)² + y²
+        case Power(base=Sum(terms=terms)) | Sum(terms=terms):  # (x + a)² + y², m (x'² + y'²)
             for term in terms:
                 yield from _factor_names(term)
         case Negative(operand=inner) | Quotient(numerator=inner) | Power(base=inner):

@@ -7,6 +7,7 @@ an equation of motion is read term by term: m1 l1² θ1'²/2 + m2 l1 l2 θ1' θ2
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
+from fractions import Fraction
 
 import sympy
 from sympy import Expr
@@ -18,11 +19,23 @@ from lagcli.algebra.ring import Monomial
 from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.simplification import shape
 from lagcli.algebra.writing import Writer
-from lagcli.expression import Expression, Negative, Product, Quotient, Sum, operation_count
+from lagcli.expression import (
+    Expression,
+    Negative,
+    Number,
+    Product,
+    Quotient,
+    Sum,
+    operation_count,
+    walk,
+)
 from lagcli.record import record
 
 #: A bracket is worth it from this share of the operations of the terms one by one.
 _WORTH_A_BRACKET = 0.72
+
+#: The potential energy stays as the file has it up to so many times the operations.
+_GIVEN = 1.2
 
 Term = tuple[Monomial, int]
 
@@ -61,7 +74,7 @@ def terms(
     given = Translator(writer).tree(expression)
     at_rest = _given_at_rest(expression, leading, writer)
     static = writer.sum(split.static)
-    if at_rest is not None and operation_count(at_rest) <= operation_count(static):
+    if at_rest is not None and operation_count(at_rest) <= _GIVEN * operation_count(static):
         static = at_rest
     result = writer.sum([*split.moving, static])
     return given if operation_count(given) <= operation_count(result) else result
@@ -148,7 +161,7 @@ class _Splitter:
 
     def _bracketed(self, groups: list[list[Term]], whole: Element) -> list[Expression]:
         """One expression for each group, or one bracket where that is flat and much shorter."""
-        single = [self._shape(group, whole) for group in groups]
+        single = [self._alike(group, whole) for group in self._with_equal_factors(groups)]
         if len(groups) < 2:
             return single
         together = self._shape([term for group in groups for term in group], whole)
@@ -157,19 +170,75 @@ class _Splitter:
             return [together]
         return single
 
+    def _with_equal_factors(self, groups: list[list[Term]]) -> list[list[list[Term]]]:
+        """The groups, the squares with the same factor together: c (x'² + y'²)."""
+        found: dict[object, list[list[Term]]] = {}
+        for place, group in enumerate(groups):
+            fast, _ = self._factor(group[0][0])
+            is_square = len(fast) == 1 and fast[0][1] == 2
+            rest = frozenset((self._factor(monomial)[1], c) for monomial, c in group)
+            found.setdefault(rest if is_square else place, []).append(group)
+        return list(found.values())
+
+    def _factor(self, monomial: Monomial) -> tuple[Monomial, Monomial]:
+        """The leading quantities of a monomial, and the rest."""
+        fast = tuple(pair for pair in monomial if self._is_leading(pair[0]))
+        return fast, tuple(pair for pair in monomial if pair not in fast)
+
+    def _alike(self, groups: list[list[Term]], whole: Element) -> Expression:
+        """The shape of groups that differ in their squares alone."""
+        if len(groups) == 1:
+            return self._shape(groups[0], whole)
+        writer = self.shaper.writer
+        squares = []
+        for group in groups:
+            ((index, exponent),) = self._factor(group[0][0])[0]
+            name = self.shaper.atoms.trees[self.shaper.atoms.generator(index)[0][0]]
+            squares.append(writer.power(name, Fraction(exponent)))
+        factor = self._shape([(self._factor(m)[1], c) for m, c in groups[0]], whole)
+        one = Fraction(1)
+        return writer.product(one, [(factor, one), (writer.sum(squares), one)])
+
     def _without_leading(self, static: list[Term], whole: Element) -> list[Expression]:
         """The terms by their functions; those of the shortest sum where that is much shorter."""
         apart = self._bracketed(self._by_function(static), whole)
-        if len(apart) > 1 and not whole.is_polynomial():
+        if len(apart) > 1:
             together = self._shape(static, whole)
             count = sum(map(operation_count, apart)) + len(apart) - 1
+            if _has_one_minus(together) and operation_count(together) < count:
+                return [together]
             if isinstance(together, Sum) and operation_count(together) <= _WORTH_A_BRACKET * count:
                 return list(together.terms)
-        return apart
+        return [part for each in apart for part in self._halved(each)]
+
+    def _halved(self, node: Expression) -> list[Expression]:
+        """k (r - l)²/2 - m w² r²/2, not (k (r - l)² - m w² r²)/2: the terms of the file."""
+        match node:
+            case Negative(operand=inner):
+                return list(map(self.shaper.writer.negative, self._halved(inner)))
+            case Quotient(numerator=Sum(terms=parts), denominator=Number(value=value)) if any(
+                isinstance(each, Sum) for each in walk(Product(parts))
+            ):
+                product = self.shaper.writer.product
+                return [product(1 / value, [(part, Fraction(1))]) for part in parts]
+            case _:
+                return [node]
 
     def _shape(self, group: Iterable[Term], whole: Element) -> Expression:
         numerator = self.field.ring.build(group)
         return self.shaper.shape(self.field.element(numerator, whole.denominator))
+
+
+def _has_one_minus(node: Expression) -> bool:
+    """Whether it is a product with a bracket 1 - f: k (1 - cos x) beats k - k cos x."""
+    match node:
+        case Negative(operand=inner) | Quotient(numerator=inner):
+            return _has_one_minus(inner)
+        case Product(factors=factors):
+            sums = [each for each in factors if isinstance(each, Sum)]
+            return len(sums) == 1 and any(isinstance(term, Number) for term in sums[0].terms)
+        case _:
+            return False
 
 
 def is_flat(node: Expression) -> bool:

@@ -18,6 +18,7 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    operation_count,
 )
 
 Factor = tuple[Expression, Fraction]  # base and exponent
@@ -46,7 +47,8 @@ class Writer:
         coefficient, pairs = _flattened(coefficient, factors)
         coefficient, pairs = _single_angles(coefficient, _merged(pairs))
         pairs = self._joined_exponentials(_tangents(pairs))
-        coefficient, pairs = self._joined_roots(coefficient, _without_moduli(pairs))
+        pairs = self._into_roots(_without_moduli(pairs))
+        coefficient, pairs = self._joined_roots(coefficient, pairs)
         if coefficient < 0:
             coefficient, pairs = self._turned(coefficient, pairs)
         above = self._factors(pairs, 1)
@@ -90,6 +92,29 @@ class Writer:
         chosen = [(base, exponent * sign) for base, exponent in pairs if exponent * sign > 0]
         chosen.sort(key=lambda pair: self.ordering.rank(pair[0]))
         return [self.power(base, exponent) for base, exponent in chosen]
+
+    def _into_roots(self, pairs: list[Factor]) -> list[Factor]:
+        """sqrt(r² a + b) |r|/r² as sqrt(a + b/r²)."""
+        half = Fraction(1, 2)
+        exponents = dict(pairs)
+        for modulus, power in pairs:
+            if not isinstance(modulus, Call) or modulus.function != "abs":
+                continue
+            (inner,) = modulus.arguments
+            if power + exponents.get(inner, Fraction(0)) != -1:
+                continue
+            for root, exponent in pairs:
+                if not isinstance(root, Sum) or exponent != half:
+                    continue
+                square = (inner, Fraction(-2))
+                divided = self.sum(
+                    self.product(Fraction(1), [(term, Fraction(1)), square]) for term in root.terms
+                )
+                if operation_count(divided) <= operation_count(root):
+                    for each in (modulus, inner, root):
+                        exponents.pop(each, None)
+                    return self._into_roots([*exponents.items(), (divided, half)])
+        return pairs
 
     def _joined_roots(
         self, coefficient: Fraction, pairs: list[Factor]
@@ -146,6 +171,8 @@ class Writer:
         """The terms in a textbook's order, a positive one first where there is one."""
         parts: list[Expression] = []
         for term in terms:
+            if isinstance(term, Negative) and isinstance(term.operand, Sum):
+                term = self.negative_sum(term.operand)
             parts.extend(term.terms if isinstance(term, Sum) else (term,))
         parts = [part for part in parts if part != ZERO]
         if not parts:

@@ -12,6 +12,8 @@ from lagcli.expression import Expression
 from lagcli.manners import Manner
 from lagcli.mechanics.branches import of_another_rank, sentence
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.hamiltonian import GivenHamiltonian
+from lagcli.mechanics.hamiltonian_form import hamiltonian_form
 from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
 from lagcli.problem import Problem
@@ -101,6 +103,13 @@ class Statements(Stating):
     def by_terms(self, expression: Expr, *, as_given: bool = False) -> Expression:
         """Term by term in velocities, accelerations, multipliers, as L and h are read."""
         return self.readable.by_terms(expression, as_given=as_given)
+
+    def hamiltonian(self) -> Expression | None:
+        """H with its energies apart; None where it was not found."""
+        found = self.derivation.hamiltonian
+        if isinstance(found, GivenHamiltonian):
+            return self.as_written(found.function)
+        return hamiltonian_form(found, self.readable)
 
     def on_surface(self, expression: Expr) -> Expression:
         """Readable, with the constraints used."""

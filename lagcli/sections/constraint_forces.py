@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row
-from lagcli.expression import Expression
+from lagcli.expression import ZERO, Expression
 from lagcli.formatters.json_values import Object, by_name, map_of, strings, unless_none
 from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.schema_parts import FORMULAS
@@ -106,7 +106,9 @@ def blocks(section: ConstraintForcesSection, _: Answers) -> Iterator[Block]:
 
 
 def _forces(forces: Mapping[str, Expression]) -> Equations:
-    return Equations(tuple(Row(Label("Q", (name,)), force) for name, force in forces.items()))
+    """The components that are not 0; one 0 where all are."""
+    rows = [Row(Label("Q", (name,)), force) for name, force in forces.items() if force != ZERO]
+    return Equations(tuple(rows) or (Row(Label("Q"), ZERO),))
 
 
 def json(section: ConstraintForcesSection) -> Object:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Paragraph, Row
-from lagcli.expression import ZERO, Equation
+from lagcli.expression import ZERO, Equation, Expression, Name, operation_count, walk
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
 from lagcli.formatters.json_values import FORMULA, Object, record_of, unless_none
 from lagcli.reader.schema_parts import list_of, ref
@@ -17,6 +17,7 @@ from lagcli.statements.wording import not_found
 
 if TYPE_CHECKING:
     from lagcli.check.expectations import Expectations, Found
+    from lagcli.mechanics.constraints import ConstraintEquation
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
@@ -40,8 +41,35 @@ def derive(statements: Statements) -> EquationsSection:
     )
     return EquationsSection(
         equations=equations,
-        constraints={e.name: (statements.as_written(e.f), ZERO) for e in constraints},
+        constraints={e.name: (_as_given(statements, e), ZERO) for e in constraints},
     )
+
+
+def _as_given(statements: Statements, constraint: ConstraintEquation) -> Expression:
+    """The left side less the right side of the file, unless there is a shorter way to write it."""
+    from lagcli.algebra.writing import Writer
+
+    short = statements.as_written(constraint.f)
+    writer = Writer(statements.system.order)
+    for each in statements.problem.constraints:
+        if each.name != constraint.name:
+            continue
+        sides = [each.equation.left, writer.negative(each.equation.right)]
+        given = writer.sum([side for side in sides if side != ZERO])
+        if operation_count(given) <= operation_count(short) + 1 and _is_of(
+            constraint, given, statements
+        ):
+            return given
+    return short
+
+
+def _is_of(constraint: ConstraintEquation, given: Expression, statements: Statements) -> bool:
+    """Whether an expression of the file is the function of a constraint, in its own names."""
+    names = {symbol.name for symbol in constraint.f.free_symbols}
+    if any(isinstance(n, Name) and str(n) not in names and n.name != "pi" for n in walk(given)):
+        return False
+    difference = statements.system.build(given) - constraint.f
+    return bool(difference == 0 or difference.expand() == 0)
 
 
 def large(statements: LargeStatements) -> EquationsSection:

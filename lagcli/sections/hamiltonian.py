@@ -29,11 +29,10 @@ def derive(statements: Statements) -> HamiltonianSection:
     """By the Legendre transform, with abbreviations where the inverse of M grew too long."""
     hamiltonian = statements.derivation.hamiltonian
     try:
-        function = hamiltonian.function
+        written = statements.hamiltonian()
     except ArithmeticError:  # the inverse of M grew too long
-        function = None
-    if function is not None:
-        written = statements.as_written(function)
+        written = None
+    if written is not None:
         return HamiltonianSection(hamiltonian=written, reason=hamiltonian.reason)
     meeting = fold_of(statements)
     return _abbreviated(statements) or _none(statements, hamiltonian.reason, meeting)

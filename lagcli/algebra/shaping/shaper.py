@@ -30,6 +30,8 @@ _MAX_FACTORED = 1500  # terms
 #: How many times as long N/D may be and still be kept together, where Q + R/D is another way
 #: and both have a factor in common: (M + m) g sin²α/(M + m sin²α), not g − M g cos²α/(…).
 _TOGETHER = 1.35
+#: Twice the terms of a numerator that is kept together although a number could be taken out.
+_TOGETHER_TERMS = 8
 _FEW = 3  # terms that are also shown without factoring: c² - v²
 
 _CIRCULAR = ("cos", "sin")
@@ -149,6 +151,8 @@ class Shaper:
             if common.is_constant():
                 continue
             for quotient, remainder, shorter in self._quotients(primitive, divisor):
+                if quotient.is_constant() and 2 * len(primitive) <= _TOGETHER_TERMS:
+                    continue  # (a - b)/(a + b), not 1 - 2 b/(a + b)
                 inner = self._sum_of(quotient, remainder, divisor, element.denominator)
                 outside = self._factors(common)
                 parts = [*outside.parts, (inner, 1)]
