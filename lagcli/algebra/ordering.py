@@ -175,9 +175,13 @@ def _factor_names(node: Expression) -> Iterator[Name]:
     match node:
         case Name():
             yield node
-        case Power(base=Sum(terms=terms)) | Sum(terms=terms):  # (x + a)² + y², m (x'² + y'²)
+        case Power(base=Sum(terms=terms)):  # (x + a)² + y²
             for term in terms:
                 yield from _factor_names(term)
+        case Sum(terms=terms):  # m (x'² + y'²)
+            for part in (name for term in terms for name in _factor_names(term)):
+                if part.primes or part.name.startswith("p_"):
+                    yield part
         case Negative(operand=inner) | Quotient(numerator=inner) | Power(base=inner):
             yield from _factor_names(inner)
         case Product(factors=factors):
