@@ -86,7 +86,7 @@ def test_the_hamiltonian_is_that_of_the_book(given, book):
     given = dict(given)
     if "functions" in given:
         text = (
-            "coordinates: [x, y]\nparameters: {w: {assume: positive}}\nfunctions: {{U: [x, y]}}\n"
+            "coordinates: [x, y]\nparameters: {w: {assume: positive}}\nfunctions: {U: [x, y]}\n"
             f'L: "{given["lagrangian"]}"\n'
         )
         found = lagcli.solve(lagcli.loads(text), sections=["hamiltonian"])
