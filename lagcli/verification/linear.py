@@ -107,9 +107,9 @@ def _solution(work: list[list[arb]], pivots: list[int], scales: list[arb]) -> So
     for free in range(columns):
         if free not in pivots:
             vector = [arb(0)] * columns
-            vector[free] = arb(1)
+            vector[free] = scales[free]
             for step, j in enumerate(pivots):
-                vector[j] = -work[step][free]
+                vector[j] = -work[step][free] * scales[j]
             kernel.append(tuple(vector))
     rest = [size(row[-1]) for row in work[len(pivots) :]]
     largest = max([1.0, *(size(row[-1]) for row in work[: len(pivots)])])

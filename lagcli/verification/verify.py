@@ -49,6 +49,7 @@ from lagcli.verification.claims import (
     units,
 )
 from lagcli.verification.claims.given_hamiltonian import legendre_transform
+from lagcli.verification.claims.point_symmetries import no_other_point_symmetry
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear
 from lagcli.verification.sweeps import Unknown
@@ -108,8 +109,10 @@ def verified(problem: Problem, answers: Answers) -> Answers:
             sections["find"] = _tried(
                 examination, "find", asked, lambda x, s: find.find(x, s, known)
             )
+        listed = sections.get("discovered")
+        if isinstance(listed, ChargesSection) and listed.sought:
+            no_other_point_symmetry(examination, listed)
         if isinstance(counted := sections.get("algebra"), AlgebraSection):
-            listed = sections.get("discovered")
             found = listed.charges if isinstance(listed, ChargesSection) else ()
             sections["algebra"] = _tried(
                 examination, "algebra", counted, lambda x, s: algebra.algebra(x, s, found)

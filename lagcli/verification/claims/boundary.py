@@ -11,6 +11,7 @@ identically (Euler's operator; Olver, *Applications of Lie Groups to Differentia
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from random import Random
 
 from flint import arb
@@ -50,12 +51,14 @@ def boundary_term(x: Examination, charge: Charge) -> bool:
 
 def _change_of_action(x: Examination, charge: Charge) -> int | None:
     """The step of K."""
-    program, reference = x.reference.program, x.reference
-    names = (*reference.names, "t")
+    names = (*x.reference.names, "t")
     places = x.places("", [charge.transformation.get(name, ZERO) for name in names])
-    if places is None:
-        return None
-    *changes, time = places
+    return None if places is None else change_of_action(x, places[:-1], places[-1])
+
+
+def change_of_action(x: Examination, changes: Sequence[int], time: int) -> int:
+    """The step of K of the steps of Delta q and Delta t."""
+    program, reference = x.reference.program, x.reference
     L = reference.lagrangian
     stretch = program.rate(time)
 
@@ -69,15 +72,20 @@ def _change_of_action(x: Examination, charge: Charge) -> int | None:
     return program.sum(*terms)
 
 
-def _is_total_derivative(x: Examination, change: int) -> bool:
-    """Whether Euler's operator gives 0 at random states, with random higher derivatives."""
+def euler_operator(x: Examination, change: int) -> list[int]:
+    """The steps of dK/dq_j - d/dt dK/dq_j' + d^2/dt^2 dK/dq_j''."""
     program, reference = x.reference.program, x.reference
     residuals = []
     for q, v, a in zip(reference.q, reference.v, reference.a, strict=True):
         parts = [program.derivative(change, {each: program.one}) for each in (q, v, a)]
         rates = program.rate(parts[1]), program.rate(program.rate(parts[2]))
         residuals.append(program.sum(parts[0], program.negative(rates[0]), rates[1]))
-    states = x.states()
+    return residuals
+
+
+def _is_total_derivative(x: Examination, change: int) -> bool:
+    """Whether Euler's operator gives 0 at random states, with random higher derivatives."""
+    residuals, states = euler_operator(x, change), x.states()
     if not states:
         return False
     return all(
