@@ -38,7 +38,7 @@ LEFT_OUT = ("explaining", "float_states")
 #: CPU seconds after which a mutant is stopped: most problems take one or two.
 LIMIT = 60
 #: Problems that each mutant solves.
-EACH = 4
+EACH = 3
 
 ASKED: dict[str, tuple[str, ...]] = {
     "hoop": (
