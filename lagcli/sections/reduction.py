@@ -180,6 +180,7 @@ def _one_freedom_json(motion: OneFreedom) -> Object:
         "turning_points": unless_none(motion.turning_points, strings),
         "rate": string(motion.rate),
         "periods": [_period_json(each) for each in motion.periods],
+        "reason": motion.reason,
     }
 
 

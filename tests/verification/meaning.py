@@ -149,12 +149,25 @@ class _Values:
         from tests.oracle.states import random_states
 
         self.reference = Reference(problem)
+        self.where = where
+        self._more = 3
         try:
             states = random_states(self.reference, 4)
             self.moments = [with_momenta(self.reference, s) for s in states]
         except AssertionError:
             self.moments = []
-        self.where = where
+
+    def _widened(self) -> bool:
+        """Have three times as many states, where formulas had no value; False at the end."""
+        from tests.oracle.examine import with_momenta
+        from tests.oracle.states import random_states
+
+        self._more -= 1
+        if self._more < 0 or not self.moments:
+            return False
+        states = random_states(self.reference, 3 * len(self.moments), seed=5)
+        self.moments = [with_momenta(self.reference, s) for s in states]
+        return True
 
     def equal(self, a: str, b: str) -> bool:
         """Whether two formulas, equations or inequalities say the same."""
@@ -163,8 +176,12 @@ class _Values:
         for sign in (">", "<", "=", "!="):
             if f" {sign}" in a and f" {sign}" in b:
                 return self._same_relation(sign, a, b)
-        pairs = list(zip(self._of(a, 0), self._of(b, 1), strict=True))
-        known = [pair for pair in pairs if pair != (None, None)]
+        known: list[tuple[Any, Any]] = []
+        while not known:
+            pairs = zip(self._of(a, 0), self._of(b, 1), strict=True)
+            known = [pair for pair in pairs if pair != (None, None)]
+            if not known and not self._widened():
+                return False
         return bool(known) and all(
             x is not None and y is not None and agree(x, y) for x, y in known
         )

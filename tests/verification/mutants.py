@@ -219,7 +219,7 @@ def judge(result: Outcome, name: str, before: Any, after: Any) -> None:
 
     problem = load(ROOT / f"problems/{name}.yaml")
     derived = Meaning(problem, before, after["derived"]).differences()
-    wrong = [d for d in derived if d.kind == "wrong" or not _said(d, before, after["derived"])]
+    wrong = [d for d in derived if not _said(d, before, after["derived"])]
     if not wrong:
         result.refused += [name] if derived else []
         return
@@ -228,22 +228,33 @@ def judge(result: Outcome, name: str, before: Any, after: Any) -> None:
     left = [
         d
         for d in printed
-        if (d.kind == "wrong" and not _warned(d, after["warnings"]))
-        or (d.kind == "weaker" and not _said(d, before, after["printed"]))
+        if not _said(d, before, after["printed"]) and not _warned(d, after["warnings"])
     ]
     if left:
         result.escaped[name] = [str(d) for d in left]
 
 
 def _said(difference: Difference, before: Any, sheet: Any) -> bool:
-    """Whether a weaker answer has its sentence: a warning that is new, or a reason."""
-    if difference.kind == "wrong":
+    """Whether an answer that claims less has its sentence: a new warning, or a new reason."""
+    path, _, rest = difference.path.partition(":")
+    if difference.kind == "wrong" and not rest.endswith(" 0 others"):
         return False
-    if difference.path.endswith(UNDECIDED):
+    if difference.kind == "weaker" and path.endswith(UNDECIDED):
         return True
-    section = sheet.get(difference.path.split("/")[0])
-    reasons = json.dumps(section).count('"reason": "') + json.dumps(section).count('"note": "')
-    return len(sheet["warnings"]) > len(before["warnings"]) or bool(reasons)
+    section = path.split("/")[0]
+    reasons = [set(_reasons(each.get(section))) for each in (before, sheet)]
+    return bool(set(sheet["warnings"]) - set(before["warnings"])) or not reasons[1] <= reasons[0]
+
+
+def _reasons(part: Any) -> Iterator[str]:
+    """Every reason and note of a section."""
+    if isinstance(part, list):
+        for each in part:
+            yield from _reasons(each)
+    elif isinstance(part, dict):
+        yield from (v for k, v in part.items() if k in {"reason", "note"} and v)
+        for each in part.values():
+            yield from _reasons(each)
 
 
 #: A null here is the word "undecided", or claims nothing.

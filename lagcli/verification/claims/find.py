@@ -52,7 +52,8 @@ def _answer(x: Examination, name: str, answer: Answer, charges: Sequence[Charge]
     reached = Reached(x, charges)
     if isinstance(answer, Rewritten) and isinstance(question, Rewrite):
         values = [v for v in (answer.value, *answer.values) if v is not None]
-        if not values or _is_value(x, what, question.value, values, reached):
+        allowed = _is_in_terms_of(x, what, question, values)
+        if not values or (allowed and _is_value(x, what, question.value, values, reached)):
             return answer
         return replace(answer, value=None, values=(), note=_NOTE)
     if isinstance(answer, Solutions) and isinstance(question, Where) and answer.solutions:
@@ -61,6 +62,21 @@ def _answer(x: Examination, name: str, answer: Answer, charges: Sequence[Charge]
             return answer
         return replace(answer, solutions=None, note=_NOTE)
     return answer
+
+
+def _is_in_terms_of(
+    x: Examination, what: str, question: Rewrite, values: Sequence[Expression]
+) -> bool:
+    """Whether the answer has no moving quantity but those that the question names."""
+    names = x.reference.names
+    moving = {("t", 0), *((n, k) for n in names for k in (0, 1, 2))}
+    moving |= {(f"p_{n}", 0) for n in names}
+    wanted = {(each.name, each.primes) for each in question.in_terms_of}
+    used = x.reference.program.symbols(x.places(what, values) or [])
+    other = sorted((used & moving) - wanted)
+    if other:
+        x.refute(what, f"it contains {other[0][0] + chr(39) * other[0][1]}")
+    return not other
 
 
 _NOTE = "what was derived does not hold at random states"
