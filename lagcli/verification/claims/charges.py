@@ -8,7 +8,7 @@ For Delta q = Dq, Delta t = Dt and the boundary term G (Noether 1918; Hill, Rev.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 
 from flint import arb
 
@@ -16,15 +16,64 @@ from lagcli.expression import ONE, ZERO
 from lagcli.record import replace
 from lagcli.statements.answers import Charge, ChargesSection
 from lagcli.verification.claims.boundary import boundary_term
+from lagcli.verification.comparison import Verdict, compare
 from lagcli.verification.examination import Examination
-from lagcli.verification.linear import dot
+from lagcli.verification.linear import Unclear, dot, rank
 from lagcli.verification.states import State
+from lagcli.verification.sweeps import column
 
 
 def charges(x: Examination, section: ChargesSection) -> ChargesSection:
     """Each charge of a section."""
     checked = tuple(_charge(x, charge) for charge in section.charges)
+    if not any(charge.source == "discovered" for charge in checked):
+        _evident_are_listed(x, checked)
     return section if checked == section.charges else replace(section, charges=checked)
+
+
+def _evident_are_listed(x: Examination, charges: Sequence[Charge]) -> None:
+    """Note a momentum of a cyclic coordinate, or the energy, that depends on none of these."""
+    states, reference = x.states(), x.reference
+    if not states or reference.large or reference.of_phase_space or not x.regular:
+        return
+    for what, place, conserved in evident(x):
+        if not conserved(states):
+            continue
+        known = [each for c in charges if c.conserved for each in x.places("", [c.charge]) or ()]  # type: ignore[list-item]
+        known += [row.value for row in reference.rows] + [row.velocity for row in reference.rows]
+        symbols = [*reference.q, *reference.v, reference.time]
+        rows = [column(states[0].at.gradient(each), symbols) for each in known]
+        own = column(states[0].at.gradient(place), symbols)
+        try:
+            missing = rank([*rows, own], len(symbols)) > rank(rows, len(symbols))
+        except Unclear:
+            continue
+        if missing:
+            x.refute("that all evident conserved quantities are listed", f"{what} is conserved")
+
+
+def evident(x: Examination) -> Iterator[tuple[str, int, Callable[[Sequence[State]], bool]]]:
+    """p_j where L does not contain q_j, and the energy function where it does not contain t."""
+    program, reference = x.reference.program, x.reference
+    L = reference.lagrangian
+    momenta = [program.derivative(L, {v: program.one}) for v in reference.v]
+    products = [program.product(v, p) for v, p in zip(reference.v, momenta, strict=True)]
+    h = program.sum(*products, program.negative(L))
+    named = [
+        (f"p_{n}", q, p) for n, q, p in zip(reference.names, reference.q, momenta, strict=True)
+    ]
+    for what, symbol, place in (*named, ("the energy function", reference.time, h)):
+        slope = program.derivative(L, {symbol: program.one})
+
+        def conserved(states: Sequence[State], place: int = place, slope: int = slope) -> bool:
+            """Whether the slope and the rate are 0."""
+            return all(
+                compare(value, arb(0)) is Verdict.EQUAL
+                for s in states
+                for value in (s.at(slope), s.laws.rate(place))
+            )
+
+        yield what, place, conserved
 
 
 def _charge(x: Examination, charge: Charge) -> Charge:

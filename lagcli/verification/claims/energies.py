@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from flint import arb
 
 from lagcli.record import replace
@@ -31,7 +33,20 @@ def momenta(x: Examination, section: MomentaSection) -> MomentaSection:
         for name in section.cyclic
         if x.vanishes(f"that {name} is cyclic", lambda s, n=name: s.laws.slopes[names.index(n)])  # type: ignore[misc]
     )
+    if section.momenta is not None and not x.reference.large:
+        _all_cyclic(x, cyclic)
     return section if cyclic == section.cyclic else replace(section, cyclic=cyclic)
+
+
+def _all_cyclic(x: Examination, listed: Sequence[str]) -> None:
+    """Note a coordinate that L does not contain and that is not called cyclic."""
+    program, reference = x.reference.program, x.reference
+    for name, q in zip(reference.names, reference.q, strict=True):
+        if name not in listed and x.states():
+            slope = program.derivative(reference.lagrangian, {q: program.one})
+            values = [s.loose.at(slope) for s in x.states()]
+            if all(value == 0 for value in values):
+                x.refute("which coordinates are cyclic", f"L does not depend on {name}")
 
 
 def energy(x: Examination, section: EnergySection) -> EnergySection:
