@@ -12,8 +12,8 @@ from random import Random
 
 from flint import arb
 
-from lagcli.answers import ChargesSection
 from lagcli.expression import ZERO
+from lagcli.statements.answers import ChargesSection
 from lagcli.verification.claims.boundary import change_of_action, euler_operator
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, dot, rank, solve
