@@ -16,7 +16,7 @@ from lagcli.expression import ONE, ZERO
 from lagcli.record import replace
 from lagcli.statements.answers import Charge, ChargesSection
 from lagcli.verification.claims.boundary import boundary_term
-from lagcli.verification.comparison import Verdict, compare
+from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, dot, rank
 from lagcli.verification.states import State
@@ -68,7 +68,7 @@ def evident(x: Examination) -> Iterator[tuple[str, int, Callable[[Sequence[State
         def conserved(states: Sequence[State], place: int = place, slope: int = slope) -> bool:
             """Whether the slope and the rate are 0."""
             return all(
-                compare(value, arb(0)) is Verdict.EQUAL
+                compare(value, arb(0)) is ComparisonVerdict.EQUAL
                 for s in states
                 for value in (s.at(slope), s.laws.rate(place))
             )
