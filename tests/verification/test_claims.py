@@ -8,7 +8,7 @@ import pytest
 
 from lagcli.formatters.json import to_object
 from lagcli.formatters.options import Options
-from lagcli.pipeline import render
+from lagcli.pipeline import Request, derive, render, state
 from lagcli.reader import parse_text, read_problem
 from lagcli.record import replace
 from lagcli.statements.answers import Answers, Charge, ChargesSection
@@ -187,3 +187,31 @@ def test_an_equilibrium_that_is_left_out_is_found() -> None:
     assert not found.sections["equilibria"].complete
     assert not found.complete
     assert "no other equilibrium" in found.warnings[-1]
+
+
+ROLLING = """
+coordinates: [x, phi, theta]
+parameters: {M: {assume: positive}, m: {assume: positive}, R: {assume: positive},
+             g: {assume: positive}}
+T: M*x'^2/2 + M*R^2*phi'^2/2 + m*(x'^2 + R^2*theta'^2 + 2*R*x'*theta'*cos(theta))/2
+V: -m*g*R*cos(theta)
+constraints: {rolling: "%s"}
+"""
+
+
+@pytest.mark.parametrize("rolling", ["x = R*phi", "phi = x/R", "2*x - 2*R*phi = 0", "x' = R*phi'"])
+def test_the_momentum_of_a_coordinate_that_rolls_is_that_of_the_reduced_lagrangian(rolling):
+    """p = dL/dphi' + R dL/dx' after x = R phi; half of it, or that of L alone, is refuted."""
+    problem = read_problem("rolling", (ROLLING % rolling).encode()).problem
+    answers = state(derive(problem), Request(sections=("reduction", "steady_motions")))
+    if rolling != "x' = R*phi'":  # what rolls only so keeps its multiplier
+        assert answers.sections["reduction"].routhian is not None
+        assert len(answers.sections["steady_motions"].motions) == 2
+    assert not any("confirmed" in warning for warning in answers.warnings)
+    section = answers.sections["reduction"]
+    for name in section.momenta:
+        for text in ("m*R*theta'", "M*x'", f"M*R^2*{name}'"):
+            momenta = {**section.momenta, name: parse_text(text)}
+            wrong = replace(section, momenta=momenta)
+            found = verified(problem, replace(answers, sections={"reduction": wrong}))
+            assert found.sections["reduction"].routhian is None

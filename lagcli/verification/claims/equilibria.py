@@ -11,6 +11,7 @@ from lagcli.expression import Expression
 from lagcli.record import replace
 from lagcli.statements.answers import EquilibriaSection, Equilibrium
 from lagcli.statements.motions import SteadyMotion, SteadySection, Verdict
+from lagcli.verification.claims.eliminated import reduced_momenta
 from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues, occur
 from lagcli.verification.claims.rest import (
     BITS,
@@ -145,8 +146,11 @@ def _with_momenta(x: Examination, what: str, place: RestPlace, motion: SteadyMot
     matrices = [x.places(what, [e for row in m for e in row]) for m in _matrices(motion)]
     if momenta is None or squares is None or None in matrices:
         return False
+    told = {*motion.at, *(motion.rates or ())}
+    gone = [j for j, name in enumerate(names) if x.reference.rows and name not in told]
     for near in place.states():
-        true = [near.laws.momenta[names.index(name)] for name in motion.momenta]
+        p = reduced_momenta(near.laws, gone)
+        true = [p[names.index(name)] for name in motion.momenta]
         printed = [near.at(p) for p in momenta]
         if not all(_close(a, b) for a, b in zip(printed, true, strict=True) if a.is_finite()):
             x.refute(what, "the momenta are not those of its rates")
