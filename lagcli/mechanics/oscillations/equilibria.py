@@ -337,5 +337,5 @@ def _vanishes(expression: Expr) -> bool:
 def without_unknowns(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[Expr, ...]:
     """The conditions that no choice of the unknowns fulfils, but perhaps one of parameters."""
     open_ = [simplify(e) for e in conditions if free_of(e, unknowns)]
-    deciding = [[f for f, _ in factors_of(e) if sign(f) not in (1, -1)] for e in open_]
+    deciding = [[f for f, k in factors_of(e) if k > 0 and sign(f) not in (1, -1)] for e in open_]
     return tuple(sympy.Mul(*each) for each in deciding) if all(deciding) else ()

@@ -32,7 +32,7 @@ from lagcli.mechanics.stability.higher import (
     potential_derivatives,
 )
 from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
-from lagcli.mechanics.stability.near import Near, contradictory
+from lagcli.mechanics.stability.near import Near, contradictory, one_is_negative
 from lagcli.mechanics.stability.signs import is_positive, sign_of, weak_sign
 from lagcli.mechanics.stability.spectrum import conditions_of
 from lagcli.mechanics.theorems import (
@@ -54,6 +54,7 @@ GRAZES = "nothing presses on the contact, which may open"
 _INDEFINITE = "the kinetic energy is not positive definite"
 #: Of a system without a degree of freedom.
 EXCLUDED = "the constraints exclude every displacement"
+_FALLING = "a squared frequency is negative, since {V} has no minimum there"
 _GROWING = "a root of the characteristic polynomial has a positive real part"
 _ALL_ROOTS = "all roots have negative real parts"
 _NO_SECOND = "{V} has no minimum of second order"
@@ -236,9 +237,7 @@ def _no_minimum(near: Near) -> str:
         return f"{{V}} has no minimum there, and all motions are damped ({name})"
     if linear.gyroscopic:
         return ""
-    return "{V} has no minimum there" + (
-        "" if linear.damped else ": a squared frequency is negative"
-    )
+    return "{V} has no minimum there" if linear.damped else _FALLING
 
 
 # -- a minimum -------------------------------------------------------------------------------------
@@ -351,6 +350,8 @@ def by_roots(near: Near) -> Stability:
         return undecided("to first order it is at the limit of stability")
     open_ = tuple(e for e, s in zip(conditions, signs, strict=True) if s is None)
     if contradictory(open_, near.positive):
+        if one_is_negative(open_, near.positive):
+            return unstable(_no_minimum(near) or _GROWING)
         return Stability(opposed=open_)
     if near.even:
         return _imaginary(near, open_)
@@ -440,7 +441,7 @@ def by_curvature(
     square = simplify(curvature / mass)
     known = sign_of(square, positive)
     if known == -1:
-        return unstable("{V} has no minimum there: a squared frequency is negative")
+        return unstable(_FALLING)
     if known == 1:
         reason = f"{{V}} has a strict minimum there ({LAGRANGE_DIRICHLET.name})"
         return Stability(stable=True, reason=reason, by=LAGRANGE_DIRICHLET, minimum=())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Sequence
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, permutations
 
 import sympy
 from mpmath import mpf
@@ -22,6 +22,7 @@ from lagcli.mechanics.oscillations.characteristic import (
 )
 from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.reduction.readable import deciding
 from lagcli.mechanics.stability.evenness import even
 from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
 from lagcli.mechanics.stability.signs import is_positive, sign_of, weak_sign
@@ -335,6 +336,20 @@ def contradictory(conditions: Sequence[Expr], positive: Sequence[Expr] = ()) -> 
         return False
     source = random.Random(0)
     return not any(_all_positive(evaluate, symbols, source) for _ in range(_DRAWS))
+
+
+def one_is_negative(conditions: Sequence[Expr], positive: Sequence[Expr] = ()) -> bool:
+    """Whether for all values one is negative: a positive multiple of one and another are."""
+    plain = [deciding(e, positive) for e in conditions]
+    for first, second in permutations(plain, 2):
+        own, other = (e.expand().as_coefficients_dict() for e in (first, second))
+        ratios = {-own[term] / other[term] for term in own if term in other}
+        if any(
+            ratio.is_positive and sign_of(simplify(first + ratio * second), positive) == -1
+            for ratio in ratios
+        ):
+            return True
+    return False
 
 
 def _all_positive(evaluate: Evaluator, symbols: Sequence[Symbol], source: random.Random) -> bool:
