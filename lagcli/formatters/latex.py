@@ -60,7 +60,7 @@ def _lines(document: Document, displays: Environments) -> Iterator[str]:
     before: Block | None = None
     for block in document.blocks:
         if isinstance(block, Paragraph) and isinstance(before, Paragraph):
-            yield ""
+            yield "\n" + r"\smallskip"
         yield from _block(block, display, displays)
         before = block
 
