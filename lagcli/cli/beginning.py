@@ -25,7 +25,8 @@ def write_problem(name: str, template_name: str) -> Status:
     except OSError as error:
         tell_line(f"{path}: error: {reason(error)}")
         return Status.USAGE
-    sys.stdout.write(f"{path} written: {TEMPLATES[template_name]}.  Now:\n  lagcli solve {path}\n")
+    steps = "".join(f"  lagcli {command} {path}\n" for command in ("solve", "explain", "plot"))
+    sys.stdout.write(f"{path} written: {TEMPLATES[template_name]}.  Now:\n{steps}")
     return Status.WELL
 
 

@@ -105,7 +105,7 @@ def test_sections_are_attributes_and_items(pendulum):
     assert solution.charges["energy"].conserved is True
     assert solution["momenta"]["theta"].grammar == "m*l^2*theta'"
     assert solution.sections["energy"].is_total_energy is True
-    with pytest.raises(AttributeError, match="there are momenta, energy, charges"):
+    with pytest.raises(AttributeError, match="available are momenta, energy, charges"):
         _ = solution.accelerations
     with pytest.raises(ValueError, match="unknown sections"):
         lagcli.solve(pendulum, ["acceleration"])
