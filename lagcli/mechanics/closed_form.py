@@ -24,26 +24,24 @@ Featherstone, *Rigid Body Dynamics Algorithms*, chapter 6 (the same along a chai
 from __future__ import annotations
 
 import random
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations_with_replacement
 
-from lagcli.expression import Expression, operation_count
+from lagcli.expression import Expression
 from lagcli.graph.derivative import partial
-from lagcli.graph.nodes import Call, Graph, Node, Sum, Symbol
-from lagcli.graph.sharing import GraphWriter, in_order_of_use, operations, repeated
+from lagcli.graph.nodes import Node, Symbol
+from lagcli.graph.sharing import operations
 from lagcli.graph.substitution import Substitution
 from lagcli.graph.values import Digits, Program
+from lagcli.mechanics.abbreviation import Labels, Written, abbreviated
 from lagcli.mechanics.gathering import gathered
 from lagcli.mechanics.matrix_form import MatrixForm
+from lagcli.mechanics.symbolic_elimination import StepNames, SymbolicElimination
 from lagcli.problem import Problem
 from lagcli.record import record
 
-#: More abbreviations than this fill more than a page; a chain of six links on a cart has 74.
-MOST_NAMES = 100
-#: Operations of all of them; the same chain has 900.
-MOST_OPERATIONS = 2_000
 _DIGITS = 50
 _CLOSE = 30  # digits to which the residuals vanish
 _ATTEMPTS = 20
@@ -56,14 +54,6 @@ class ClosedSolution:
 
     accelerations: tuple[Expression, ...]
     multipliers: tuple[Expression, ...]
-    where: Mapping[str, Expression]
-
-
-@record(kw_only=True)
-class Written:
-    """Trees, and the abbreviations that they use in order."""
-
-    values: tuple[Expression, ...]
     where: Mapping[str, Expression]
 
 
@@ -109,7 +99,7 @@ class ClosedForm:
         names = (*form.problem.parameters, *form.problem.coordinates)
         self.order = tuple(quantity.name for quantity in names)
         self._wide = len(form.q) + len(form.constraints) > 9
-        self._labels: _Labels | None = None
+        self._labels: Labels | None = None
 
     @cached_property
     def motion(self) -> ClosedSolution | None:
@@ -119,8 +109,8 @@ class ClosedForm:
             return None
         matrix = self._bordered(self._mass_matrix)
         bias = [self.graph.scaled(row.bias, -1) for row in form.constraints]
-        names = _Names(self.taken, wide=self._wide)
-        steps = _ClosedElimination(self.graph, matrix, [*self._forcing, *bias], names)
+        names = StepNames(self.taken, wide=self._wide)
+        steps = SymbolicElimination(self.graph, matrix, [*self._forcing, *bias], names)
         if not self._holds(steps, self._bordered(form.mass_matrix), [*form.forcing, *bias]):
             return None
         self._steps = steps
@@ -132,7 +122,7 @@ class ClosedForm:
         trees = written.values
         return ClosedSolution(accelerations=trees[:n], multipliers=trees[n:], where=written.where)
 
-    def _multipliers(self, steps: _ClosedElimination) -> list[Node]:
+    def _multipliers(self, steps: SymbolicElimination) -> list[Node]:
         return [self.graph.scaled(x, -1) for x in steps.solution[len(self.form.q) :]]
 
     @cached_property
@@ -151,12 +141,12 @@ class ClosedForm:
     def _written(self, named: Mapping[Symbol, Node], values: Sequence[Node]) -> Written | None:
         """The trees, parts named as they were named before."""
         if self._labels is None:
-            self._labels = _Labels(self.taken)
+            self._labels = Labels(self.taken)
         momenta = tuple(f"p_{q.name}" for q in self.form.q)
         varying = self.form.varying
         for symbol in (*named, *map(self.graph.symbol, momenta)):
             varying |= symbol.mask
-        return _written(named, values, (*self.order, *momenta), self._labels, varying)
+        return abbreviated(named, values, (*self.order, *momenta), self._labels, varying)
 
     @cached_property
     def _mass_matrix(self) -> Sequence[Sequence[Node]]:
@@ -241,7 +231,9 @@ class ClosedForm:
         momenta = [graph.symbol(f"p_{q.name}") for q in form.q]
         right = [graph.difference(p, b) for p, b in zip(momenta, self._first_degree, strict=True)]
         matrix = [list(row) for row in self._mass_matrix]
-        steps = _ClosedElimination(graph, matrix, right, _Names(self.taken, "z", wide=self._wide))
+        steps = SymbolicElimination(
+            graph, matrix, right, StepNames(self.taken, "z", wide=self._wide)
+        )
         if not self._holds(steps, [list(row) for row in form.mass_matrix], right):
             return None
         square = [
@@ -255,7 +247,7 @@ class ClosedForm:
     # -- the check ------------------------------------------------------------------------------
 
     def _holds(
-        self, steps: _ClosedElimination, matrix: Sequence[Sequence[Node]], right: Sequence[Node]
+        self, steps: SymbolicElimination, matrix: Sequence[Sequence[Node]], right: Sequence[Node]
     ) -> bool:
         """Whether K x = r at a random state, to 50 digits: the steps put in one after another."""
         import mpmath
@@ -301,212 +293,3 @@ class _State(dict[str, object]):
         size = mpmath.mpf(self._source.randint(6000, 17000)) / 10007
         value = self[name] = -size if name in self._negative else size
         return value
-
-
-class _Names:
-    """Letters for the steps that no name of the file has."""
-
-    def __init__(self, taken: Collection[str], values: str = "y", *, wide: bool) -> None:
-        self.between = "_" if wide else ""
-        self.matrix = free_stem(("u", "U", "w"), taken)
-        self.right = free_stem((values, "Y", "v"), taken)
-        self.solution = free_stem(("a", "x", "b"), taken)
-
-
-def free_stem(stems: Sequence[str], taken: Collection[str]) -> str:
-    """The first stem with which no name of the file begins before its digits."""
-    used = {name.rstrip("0123456789_") for name in taken}
-    for stem in stems:
-        if stem not in used:
-            return stem
-    stem = stems[0]
-    while stem in used:
-        stem += stems[0]
-    return stem
-
-
-class _ClosedElimination:
-    """The steps: what each name stands for, as nodes of one graph."""
-
-    def __init__(
-        self,
-        graph: Graph,
-        matrix: Sequence[Sequence[Node]],
-        right: Sequence[Node],
-        names: _Names,
-    ) -> None:
-        self.graph = graph
-        self.named: dict[Symbol, Node] = {}
-        self._names = names
-        size = len(right)
-        self._rows: list[list[Node]] = []
-        self.values: list[Node] = []
-        for i in range(size):
-            self._rows.append([self._entry(matrix, i, j) for j in range(size)])
-            parts = ((row[i], y, row[k]) for k, (row, y) in enumerate(self._before(i)))
-            self.values.append(self._name(f"{names.right}{i + 1}", self._less(right[i], parts)))
-        self.pivots = [row[i] for i, row in enumerate(self._rows)]
-        self.forward = dict(self.named)
-        self.solution = self._backward()
-
-    def _before(self, i: int) -> Iterator[tuple[list[Node], Node]]:
-        return zip(self._rows[:i], self.values, strict=False)
-
-    def _entry(self, matrix: Sequence[Sequence[Node]], i: int, j: int) -> Node:
-        """u_ij, 0 below the diagonal."""
-        if j < i:
-            return self.graph.zero
-        parts = ((row[i], row[j], row[k]) for k, row in enumerate(self._rows))
-        name = f"{self._names.matrix}{i + 1}{self._names.between}{j + 1}"
-        return self._name(name, self._less(matrix[i][j], parts))
-
-    def _less(self, start: Node, parts: Iterable[tuple[Node, Node, Node]]) -> Node:
-        """start - sum u v / d."""
-        graph = self.graph
-        terms = [
-            graph.scaled(graph.quotient(graph.product(u, v), d), -1)
-            for u, v, d in parts
-            if graph.zero not in (u, v)
-        ]
-        return graph.sum([start, *terms])
-
-    def _name(self, name: str, node: Node) -> Node:
-        """A symbol for what shows more than one operation."""
-        if operations([node]) < 2:
-            return node
-        symbol = self.graph.symbol(name)
-        self.named[symbol] = node
-        return symbol
-
-    def _backward(self) -> list[Node]:
-        graph, size = self.graph, len(self.values)
-        found = [graph.zero] * size
-        for i in reversed(range(size)):
-            row = self._rows[i]
-            known = [graph.product(row[j], found[j]) for j in range(i + 1, size)]
-            rest = graph.sum([self.values[i], *(graph.scaled(each, -1) for each in known)])
-            whole = graph.quotient(rest, self.pivots[i])
-            # the first is used by no other
-            found[i] = self._name(f"{self._names.solution}{i + 1}", whole) if i else whole
-        return found
-
-    @property
-    def unfolded(self) -> list[Node]:
-        """The solution with every step put in."""
-        whole: dict[Symbol, Node] = {}
-        for symbol, node in self.named.items():
-            whole[symbol] = Substitution(self.graph, whole)(node)
-        return [Substitution(self.graph, whole)(x) for x in self.solution]
-
-
-# -- the page ----------------------------------------------------------------------------------
-
-
-def _written(
-    named: Mapping[Symbol, Node],
-    values: Sequence[Node],
-    order: Sequence[str],
-    labels: _Labels,
-    varying: int,
-) -> Written | None:
-    """The values and the abbreviations that they use, in order; None for more than a page."""
-    needed = _needed(named, values)
-    roots = [*needed.values(), *values]
-    where: dict[str, Expression] = {}
-    writer, shared = GraphWriter(order), repeated(roots) | labels.known
-    labels.take(symbol.name for symbol in named)
-    definitions = [(symbol.name, node) for symbol, node in needed.items()]
-    for name, root in [*definitions, *(("", value) for value in values)]:
-        for node in in_order_of_use([root]):
-            if node in shared and node not in writer.names and not (name and node is root):
-                label = labels(node)
-                where[label] = writer.tree(node)
-                writer.name(node, label, leading=not node.mask & varying)
-        if name:
-            where[name] = writer.tree(root)
-    trees = tuple(map(writer.tree, values))
-    count = sum(map(operation_count, (*where.values(), *trees)))
-    if len(where) > MOST_NAMES or count > MOST_OPERATIONS:
-        return None
-    return Written(values=trees, where=where)
-
-
-def _needed(named: Mapping[Symbol, Node], values: Sequence[Node]) -> dict[Symbol, Node]:
-    """The names that the values use, directly or through others."""
-    mask = 0
-    for value in values:
-        mask |= value.mask
-    kept: list[Symbol] = []
-    for symbol in reversed(list(named)):
-        if symbol.mask & mask:
-            mask |= named[symbol].mask
-            kept.append(symbol)
-    return {symbol: named[symbol] for symbol in reversed(kept)}
-
-
-class _Labels:
-    """Names by what is named: s12 = sin(θ1 − θ2), m23 = m2 + m3, else k1, k2, …
-
-    A part that was named keeps its name.
-    """
-
-    def __init__(self, taken: Collection[str]) -> None:
-        self._taken = set(taken)
-        self._stem = free_stem(("k", "h", "shared"), taken)
-        self._of: dict[Node, str] = {}
-        self._count = 0
-
-    @property
-    def known(self) -> set[Node]:
-        """What has a name."""
-        return set(self._of)
-
-    def take(self, names: Iterable[str]) -> None:
-        """Give no part one of these names."""
-        self._taken.update(names)
-
-    def __call__(self, node: Node) -> str:
-        known = self._of.get(node)
-        if known is None:
-            known = self._of[node] = self._new(_label(node))
-        return known
-
-    def _new(self, wanted: str) -> str:
-        if not wanted or wanted in self._taken:
-            self._count += 1
-            wanted = f"{self._stem}{self._count}"
-        self._taken.add(wanted)
-        return wanted
-
-
-def _label(node: Node) -> str:
-    match node:
-        case Call(function="sin" | "cos" as function, arguments=(angle,)):
-            indices = _indices(angle)
-            return function[0] + indices if indices else ""
-        case Sum(constant=constant, terms=terms) if not constant:
-            parts = [_stem(term) for term, number in terms if number == 1]
-            stems = {stem for stem, _ in parts}
-            if len(stems) == 1 and len(parts) == len(terms) and all(i for _, i in parts):
-                return stems.pop() + "".join(index for _, index in parts)
-    return ""
-
-
-def _indices(angle: Node) -> str:
-    """12 of θ1 - θ2, 1 of θ1."""
-    if isinstance(angle, Symbol):
-        return _stem(angle)[1]
-    if not isinstance(angle, Sum) or angle.constant or len(angle.terms) != 2:
-        return ""
-    (a, one), (b, other) = angle.terms
-    first, second = _stem(a), _stem(b)
-    alike = first[0] == second[0] and first[0] and one == 1 and other == -1
-    return first[1] + second[1] if alike and first[1] and second[1] else ""
-
-
-def _stem(node: Node) -> tuple[str, str]:
-    """(theta, 1) of theta1 and of theta_1."""
-    if not isinstance(node, Symbol) or node.primes:
-        return "", ""
-    stem = node.name.rstrip("0123456789")
-    return stem.rstrip("_"), node.name[len(stem) :]
