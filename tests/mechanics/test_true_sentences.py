@@ -241,9 +241,35 @@ def test_alternatives_of_which_one_always_holds_are_no_condition():
     assert not one_is_negative([pair[0], 5 * m * k - gamma**2])
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+def test_what_vanishes_with_a_parameter_in_every_condition_is_not_denied(seed):
+    source = random.Random(seed)
+    x, y, a, b = sympy.symbols("x y a b", real=True)
+    k = sympy.Symbol("k", positive=True)
+    first, second = (sympy.exp(x) * source.randint(1, 5), (1 + y**2) * k)
+    assert without_unknowns([a * first, -a * b * second], [x, y]) == (a,)
+    assert without_unknowns([a * first, b * second], [x, y]) == ()
+    assert without_unknowns([k * first, k * second], [x, y]) == ()
+    assert without_unknowns([a * first, b], [x, y]) == (b,)
+    assert without_unknowns([], [x, y]) == ()
+
+
 def test_a_tangent_vanishes_with_its_sine_only():
     alpha, m = sympy.Symbol("alpha", real=True), sympy.Symbol("m", positive=True)
     assert without_unknowns([m * sympy.tan(alpha)], []) == (sympy.sin(alpha),)
+
+
+@pytest.mark.parametrize(
+    "rolling", ["x' - R*theta' = 0", "x - R*theta = 0, again: x' - R*theta' = 0"]
+)
+def test_a_steady_motion_for_special_parameters_is_not_denied(rolling):
+    """A hoop on an incline whose angle may be 0, and it then rolls on."""
+    text = (
+        "coordinates: [x, theta]\nparameters: {m: {assume: positive}, R: {assume: positive}, "
+        "g: {assume: positive}, alpha: {unit: rad}}\nT: m*x'^2/2 + m*R^2*theta'^2/2\n"
+        f"V: -m*g*x*sin(alpha)\nconstraints: {{rolling: {rolling}}}\n"
+    )
+    assert "unless … = 0." in said(text, "Steady motions", "steady_motions")
 
 
 @pytest.mark.parametrize("power", [4, 6])

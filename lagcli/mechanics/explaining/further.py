@@ -94,7 +94,9 @@ def _none(rest: RestPoints, states: EquilibriaSection) -> list[Part]:
     assert rest.points is not None
     if rest.at_singular_coordinates:
         where = "These hold only where the coordinates are singular"
-        return [f"{where}, and in regular coordinates that is not an equilibrium: there is none."]
+        lead = f"{where}, and in regular coordinates that is not an equilibrium: "
+        none = unless("equilibrium", states.unless) if states.unless else ["there is none"]
+        return [lead, *none, "."]
     return ["These have no solution: ", *unless("equilibrium", states.unless), "."]
 
 

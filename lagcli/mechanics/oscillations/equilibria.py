@@ -335,7 +335,20 @@ def _vanishes(expression: Expr) -> bool:
 
 
 def without_unknowns(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[Expr, ...]:
-    """The conditions that no choice of the unknowns fulfils, but perhaps one of parameters."""
+    """What no choice of the unknowns makes 0, but perhaps one of parameters."""
     open_ = [simplify(e) for e in conditions if free_of(e, unknowns)]
-    deciding = [[f for f, k in factors_of(e) if k > 0 and sign(f) not in (1, -1)] for e in open_]
-    return tuple(sympy.Mul(*each) for each in deciding) if all(deciding) else ()
+    if open_:
+        deciding = [_perhaps_zero(e, unknowns) for e in open_]
+        return tuple(sympy.Mul(*each) for each in deciding) if all(deciding) else ()
+    factors = [_perhaps_zero(e, unknowns) for e in conditions]
+    common = [f for f in factors[0] if all(f in other for other in factors)] if factors else []
+    return (sympy.Mul(*common),) if common else ()
+
+
+def _perhaps_zero(condition: Expr, unknowns: Sequence[Symbol]) -> list[Expr]:
+    """The factors without unknowns that can vanish."""
+    return [
+        f
+        for f, k in factors_of(condition)
+        if k > 0 and free_of(f, unknowns) and sign(f) not in (1, -1)
+    ]

@@ -29,7 +29,7 @@ from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.characteristic import determinant, determinant_in
-from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.equilibria import at, without_unknowns
 from lagcli.mechanics.reduction.minimal import minimal
 from lagcli.mechanics.stability.judge import Stability, by_polynomial, undecided
 from lagcli.record import record
@@ -145,6 +145,11 @@ class RollingMotions:
         still = {self.system.qdot[j]: S.Zero for j in self.coordinates}
         pairs = zip(self.velocities, self._equations or (), strict=True)
         return {j: simplify(f.xreplace(still)) for j, f in pairs}
+
+    @property
+    def unless(self) -> tuple[Expr, ...]:
+        """What only values of the parameters make 0, so that there may be a steady motion."""
+        return without_unknowns(list(self.conditions.values()), (*self.system.q, *self.system.qdot))
 
     # -- the motions ------------------------------------------------------------------------------
 

@@ -19,6 +19,7 @@ def rolling_section(found: RollingMotions) -> SteadySection:
         conditions={names[j]: written(c, order) for j, c in found.conditions.items()},
         motions=tuple(_motion(found, motion) for motion in found.motions or ()),
         complete=found.complete,
+        unless=() if found.motions else tuple(written(e, order) for e in found.unless),
         eliminated=tuple(n for j, n in enumerate(names) if j not in found.velocities),
     )
 
