@@ -59,6 +59,7 @@ _MOST_COORDINATES = 9
 _DIGITS = 40
 _MOST_FOR_TENSORS = 6
 _FEW_TERMS = 3
+_MOST_IN_SPACE = 4
 
 
 class Discovery:
@@ -346,7 +347,10 @@ class Discovery:
         if freedom > 1 and rank_on_surface(self.dynamics, self._values()) == 2 * freedom:
             self.words.append("all others are functions of these")
         elif freedom > 1 and self.system.t not in self.equations_symbols:
-            found = [c for c in search.quadratic(self.point_charges) if self._lasts(c)]
+            found = search.quadratic(self.point_charges)
+            if self._few([*self.point_charges, *found]):
+                found += search.of_velocities([*self.point_charges, *found])
+            found = [c for c in found if self._lasts(c)]
             names = distinct([*(c.name for c in self.point_charges), *("" for _ in found)])
             self.hidden_charges = tuple(
                 replace(c, name=name)
@@ -359,6 +363,16 @@ class Discovery:
             self.stopped.append(
                 f"{more(search.unsolved, 'integral')} there, whose coefficients were not solved"
             )
+
+    def _few(self, known: Sequence[NoetherCharge]) -> bool:
+        """Whether fewer than n are known that do not contain the time, on a surface at rest."""
+        constraints = self.dynamics.constraints
+        still = all(e.drift == 0 for e in constraints.equations)
+        holonomic = all(kind == "holonomic" for kind in constraints.kinds.values())
+        fixed = [c.charge for c in known if self.system.t not in c.charge.free_symbols]
+        freedom = self.dynamics.degrees_of_freedom
+        few = len(self.system.q) <= _MOST_IN_SPACE
+        return few and still and holonomic and rank_on_surface(self.dynamics, fixed) < freedom
 
     def _values(self) -> list[Expr]:
         return [c.charge for c in self.point_charges]

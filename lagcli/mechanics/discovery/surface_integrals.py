@@ -29,6 +29,7 @@ from flint import nmod_mat
 from sympy import Expr
 
 from lagcli.mechanics.discovery.admissible import Vector
+from lagcli.mechanics.discovery.chart import solved_in_chart
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo, pivot_columns
@@ -43,11 +44,15 @@ _UNITS = 3  # of the coefficients that are put to 1 for that
 
 @dataclass(frozen=True, slots=True)
 class IntegralTerm:
-    """T(t) g(q) times the J of the fields named, or the energy (-1,), or nothing ()."""
+    """T(t) g(q) times the J of the fields named, or the energy (-1,), or nothing ().
+
+    With `velocities` times these too, by the numbers of their coordinates.
+    """
 
     fields: tuple[int, ...]
     time: Expr
     space: Expr
+    velocities: tuple[int, ...] = ()
 
     @property
     def function(self) -> Expr:
@@ -120,6 +125,8 @@ class SurfaceIntegrals:
         }
         kept = [dynamics.constraints.equations[k] for k in dynamics.independent_constraints]
         moving = any(e.drift != 0 for e in kept) and any(-1 in x.fields for x in self.terms)
+        moving = moving or any(x.velocities for x in self.terms)
+        self._velocities = [on(v) for v in system.qdot]
         self._equations = (
             [[on(m) for m in row] for row in lagrange.mass_matrix],
             [[on(a) for a in e.row] for e in kept],
@@ -130,7 +137,14 @@ class SurfaceIntegrals:
         if not moving:
             self._equations = ([], [], [], [], [])
         mass, rows, forcing, biases, drifts = self._equations
-        everything = [*self._momenta, *self._pushes, self._energy, self._power, *self._known]
+        everything = [
+            *self._momenta,
+            *self._velocities,
+            *self._pushes,
+            self._energy,
+            self._power,
+            *self._known,
+        ]
         everything += [x for e in self._fields for pair in e for x in pair]
         everything += [x for pair in (*self._times.values(), *self._spaces.values()) for x in pair]
         everything += [x for row in (*mass, *rows) for x in row] + [*forcing, *biases, *drifts]
@@ -164,24 +178,26 @@ class SurfaceIntegrals:
             rate = sum(x * y for x, y in zip(De, p, strict=True))
             rate += sum(x * y for x, y in zip(e, push, strict=True))
             jets[(a,)] = value, rate % PRIME
-        jets[(-1,)] = at(self._energy), (at(self._power) - self._work(at)) % PRIME
+        accelerations, work = self._motion(at)
+        jets[(-1,)] = at(self._energy), (at(self._power) - work) % PRIME
+        moving = list(zip(map(at, self._velocities), accelerations, strict=False))
         times = {T: (at(x), at(y)) for T, (x, y) in self._times.items()}
         spaces = {g: (at(x), at(y)) for g, (x, y) in self._spaces.items()}
         values, rates = [], []
         for term in self.terms:
-            jet = times[term.time], spaces[term.space], *(jets[(a,)] for a in term.fields)
+            jet = [times[term.time], spaces[term.space], *(jets[(a,)] for a in term.fields)]
             value, rate = 1, 0
-            for x, y in jet:
+            for x, y in [*jet, *(moving[i] for i in term.velocities)]:
                 value, rate = value * x % PRIME, (rate * x + value * y) % PRIME
             values.append(value)
             rates.append(rate)
         return values, rates, [at(Q) for Q in self._known]
 
-    def _work(self, at: Callable[[Expr], int]) -> int:
-        """sum lambda_k b_k, from M q'' - A^T lambda = forcing, A q'' = -bias."""
+    def _motion(self, at: Callable[[Expr], int]) -> tuple[list[int], int]:
+        """q'' and sum lambda_k b_k, from M q'' - A^T lambda = forcing, A q'' = -bias."""
         mass, rows, forcing, biases, drifts = self._equations
         if not rows:
-            return 0
+            return [], 0
         n, m = len(mass), len(rows)
         A = [[at(x) for x in row] for row in rows]
         table = [
@@ -192,8 +208,9 @@ class SurfaceIntegrals:
         reduced, rank = nmod_mat(table, PRIME).rref()
         if rank < n + m:
             raise NoPoint
-        multipliers = [int(row[n + m]) for row in reduced.table()[n : n + m]]
-        return sum(x * at(b) for x, b in zip(multipliers, drifts, strict=True)) % PRIME
+        last = [int(row[n + m]) for row in reduced.table()]
+        work = sum(x * at(b) for x, b in zip(last[n : n + m], drifts, strict=True)) % PRIME
+        return last[:n], work
 
     def _samples(self, count: int) -> Iterator[tuple[list[int], list[int], list[int]]]:
         bad = 0
@@ -240,7 +257,7 @@ class SurfaceIntegrals:
         numbers = [vector[i] for i in indices]
         terms = [self.terms[chosen[i]] for i in indices]
         moved = self._equations[0] and any(-1 in x.fields for x in terms)
-        linear = not self.surface.curved and not moved
+        linear = not self.surface.curved and not moved and not any(x.velocities for x in terms)
         units = list(reversed(numbers))
         tries = [(unit, False) for unit in units]
         if not linear and len(numbers) <= _MOST_OF_DIFFERENCES:
@@ -256,8 +273,16 @@ class SurfaceIntegrals:
             solved = exact.solved([[self._rate(term)] for term in terms])
             if solved is not None:
                 return list(zip(terms, solved, strict=True))
+        charted = None
+        if all(x.velocities or not x.fields for x in terms):
+            charted = solved_in_chart([self._value(x) for x in terms], self.dynamics, self.allowed)
+        if charted is not None:
+            return list(zip(terms, charted, strict=True))
         self.unsolved += 1
         return None
+
+    def _value(self, term: IntegralTerm) -> Expr:
+        return term.function * sympy.Mul(*(self.system.qdot[i] for i in term.velocities))
 
     def _rate(self, term: IntegralTerm) -> Expr:
         """d/dt of a term as a formula in independent velocities."""

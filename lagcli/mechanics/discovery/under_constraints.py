@@ -161,10 +161,6 @@ class UnderConstraints:
 
     def quadratic(self, known: Sequence[NoetherCharge]) -> list[NoetherCharge]:
         """Integrals of second degree without explicit time that are no products of others."""
-        t = self.system.t
-        fixed = [c for c in known if t not in c.charge.free_symbols]
-        linear = [c.charge for c in fixed if c.transformation.time == 0]
-        products = [a * b for a, b in combinations_with_replacement(linear, 2)]
         pairs = list(combinations_with_replacement(range(len(self.fields)), 2))
         if not pairs:
             return []
@@ -177,9 +173,28 @@ class UnderConstraints:
                 IntegralTerm((a,), one, g) for a in range(len(self.fields)) for g in functions[:12]
             ]
         terms += [IntegralTerm((), one, g) for g in self._potentials(functions)]
-        return self._charges(
-            self._integrals(_ordered(terms), [*(c.charge for c in fixed), *products])
-        )
+        return self._charges(self._integrals(_ordered(terms), self._products(known)))
+
+    def of_velocities(self, known: Sequence[NoetherCharge]) -> list[NoetherCharge]:
+        """Integrals K_ij(q) q_i' q_j' + S: K q' is tangent only with a part along the gradients.
+
+        Jacobi's integral of the geodesics of an ellipsoid is one,
+        sum x_i^2/a_i^4 sum x_i'^2/a_i^2 (Arnold, *Mathematical Methods*, section 47).
+        """
+        n = len(self.system.q)
+        pairs = list(combinations_with_replacement(range(n), 2))
+        functions = quadratic(self.kinds, _MOST_QUADRATIC // len(pairs))
+        one = sympy.S.One
+        terms = [IntegralTerm((), one, g, pair) for pair in pairs for g in functions]
+        terms += [IntegralTerm((), one, g) for g in self._potentials(functions)]
+        return self._charges(self._integrals(_ordered(terms), self._products(known)))
+
+    def _products(self, known: Sequence[NoetherCharge]) -> list[Expr]:
+        """Known integrals without the time, and products of those of first degree."""
+        fixed = [c for c in known if self.system.t not in c.charge.free_symbols]
+        linear = [c.charge for c in fixed if c.transformation.time == 0]
+        products = [a * b for a, b in combinations_with_replacement(linear, 2)]
+        return [*(c.charge for c in fixed), *products]
 
     def _potentials(self, functions: Sequence[Expr]) -> list[Expr]:
         """The terms of L at rest with monomials and with the functions of the tensor."""
@@ -189,7 +204,11 @@ class UnderConstraints:
             t.as_independent(*q, as_Add=False)[1] for t in sympy.Add.make_args(sympy.expand(rest))
         } - {sympy.S.One}
         monomials = [sympy.S.One, *q, *(x * y for i, x in enumerate(q) for y in q[: i + 1])]
-        made = [a * b for a in terms for b in dict.fromkeys([*monomials, *functions[:20]])]
+        # z/sqrt(x^2 + y^2) of Kepler's problem on a sphere suggests x/sqrt(x^2 + y^2)
+        cores = [t / m for t in terms for m in [_monomial(t, q)] if m not in (1, t)]
+        terms |= set(cores)
+        made = [a * b for a in sorted(terms, key=sympy.default_sort_key)
+                for b in dict.fromkeys([*monomials, *functions[:20]])]  # fmt: skip
         return [m for m in dict.fromkeys([*monomials, *functions, *made]) if not free_of(m, q)]
 
     # -- common -----------------------------------------------------------------------------
@@ -219,10 +238,13 @@ class UnderConstraints:
         """The charge of Dq = f_a e_a + g_ab (J_a e_b + J_b e_a), Dt = -c, S = -G."""
         n = len(self.system.q)
         changes: list[Expr] = [sympy.S.Zero] * n
-        time = gauge = sympy.S.Zero
+        time = gauge = form = sympy.S.Zero
         for term, value in integral:
             c = value * term.function
-            if not term.fields:
+            if term.velocities:
+                i, k = term.velocities
+                form += c * self.system.qdot[i] * self.system.qdot[k]
+            elif not term.fields:
                 gauge -= c
             elif term.fields == _ENERGY:
                 time -= c
@@ -233,6 +255,12 @@ class UnderConstraints:
                 changes = self._moved(changes, c * self._J[a], self.fields[b])
                 changes = self._moved(changes, c * self._J[b], self.fields[a])
                 gauge += c * self._J[a] * self._J[b]
+        if form != 0:
+            form, gauge = scaled((form, gauge), set(self.system.parameters))
+            tangent = Transformation(self._tangent(form), sympy.S.Zero)
+            charge = self.noether.charge("", "discovered", tangent, gauge + form)
+            # p.eta = 2 Q on the surface, and Q is shorter as it was found
+            return changed(charge, charge=simplify(form - gauge))
         *changes, gauge, time = scaled((*changes, gauge, time), set(self.system.parameters))
         if time != 0 and not time.free_symbols & {self.system.t, *self.system.q}:
             # a moving energy: Q = h + ...
@@ -240,8 +268,29 @@ class UnderConstraints:
         transformation = Transformation(tuple(changes), time)
         return self.noether.charge("", "discovered", transformation, gauge)
 
+    def _tangent(self, form: Expr) -> Vector:
+        """dQ/dp of a form in the velocities, without its part along the gradients.
+
+        eta = M^-1 (dQ/dq' - A^T mu) with A eta = 0.
+        """
+        kept = [
+            self.dynamics.constraints.equations[k] for k in self.dynamics.independent_constraints
+        ]
+        rows = sympy.Matrix([list(e.row) for e in kept])
+        inverse = sympy.Matrix([list(r) for r in self.dynamics.lagrange.mass_matrix]).inv("ADJ")
+        slopes = sympy.Matrix([form.diff(v) for v in self.system.qdot])
+        along = inverse * rows.T
+        mu = (rows * along).inv("ADJ") * (rows * (inverse * slopes))
+        return tuple(simplify(x) for x in inverse * slopes - along * mu)
+
     def _moved(self, changes: Sequence[Expr], factor: Expr, field: Vector) -> list[Expr]:
         return [x + factor * e for x, e in zip(changes, field, strict=True)]
+
+
+def _monomial(term: Expr, q: Sequence[Expr]) -> Expr:
+    """The coordinates that are factors of a term, with positive powers."""
+    powers = (f.as_base_exp() for f in sympy.Mul.make_args(term))
+    return sympy.Mul(*(b**e for b, e in powers if b in q and e.is_positive))
 
 
 def _ordered(terms: Sequence[IntegralTerm]) -> list[IntegralTerm]:
