@@ -46,6 +46,7 @@ def test_too_much_work_is_too_much_even_when_it_has_ended_meanwhile() -> None:
     assert limited(quick, 1100, 1e9) == 1
 
 
+@pytest.mark.long
 def test_one_who_swallows_the_exception_gets_it_again() -> None:
     swallowed = []
 

@@ -89,6 +89,7 @@ def test_simplify_gives_something_equal(expression: Expr) -> None:
         assert close(before, after)
 
 
+@pytest.mark.long
 @quick
 @given(expressions)
 def test_the_printed_tree_reads_back_as_something_equal(expression: Expr) -> None:

@@ -50,6 +50,7 @@ def check(text):
     return check_problem("test.yaml", text.encode())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("text", [PUSHED, FREE], ids=["pushed", "free"])
 def test_the_unchanged_file_passes(text):
     report = check(text)
@@ -57,6 +58,7 @@ def test_the_unchanged_file_passes(text):
     assert report.outcome is CheckOutcome.PASSED
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("text", "old", "new", "subjects"), SLIPS, ids=[s[2] for s in SLIPS])
 def test_a_slip_is_found_where_it_stands(text, old, new, subjects):
     assert text.count(old) == 1

@@ -26,6 +26,7 @@ def problem(**changed):
 GAUGES = ["x'*y + x*y'", "2*x*x'", "cos(x)*x'", "3*t^2", "y' + x*y'*0", "exp(y)*y'"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(12))
 def test_a_total_derivative_and_another_shape_change_nothing(seed):
     draw = random.Random(seed)
@@ -95,6 +96,7 @@ def test_shards_are_a_partition(tmp_path, capsysbinary):
         assert b"such as 1/4" in capsysbinary.readouterr().err
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["hoop", "kepler", "chaplygin-sleigh", "double-atwood"])
 def test_a_file_is_the_same_as_itself(name):
     assert differences(lagcli.load(name), lagcli.load(name)) == []

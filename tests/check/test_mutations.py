@@ -98,6 +98,7 @@ def test_a_slip_is_found_where_it_stands(old, new, subject):
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("old", "new"), REWRITINGS, ids=[new for _, new in REWRITINGS])
 def test_another_way_to_write_it_is_no_slip(old, new):
     report = check(changed(old, new))

@@ -41,6 +41,7 @@ def test_a_known_motion_passes():
     assert report.checks - without.checks == 8
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("right", "wrong", "subject", "line"),
     [

@@ -135,6 +135,7 @@ def test_the_cache_can_be_turned_off(solve, here, off):
     assert not entries(here)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("arguments", [["missing.yaml"], ["free.yaml", "-f", "nothing"]])
 def test_what_may_change_by_itself_is_not_kept(solve, here, arguments):
     (status, _, _), _ = solve(*arguments)

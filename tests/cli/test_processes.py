@@ -18,6 +18,7 @@ from tests.cli.conftest import FILES
 MOMENTA = ("--show", "momenta", "-f", "json")
 
 
+@pytest.mark.long
 def test_a_problem_may_come_from_standard_input(lagcli):
     done = lagcli("solve", "-", *MOMENTA, input=(FILES / "pendulum.yaml").read_bytes())
     assert json.loads(done.stdout)["momenta"] == {"theta": "m*l^2*theta'"}
@@ -40,6 +41,7 @@ def test_the_same_input_gives_the_same_bytes(lagcli):
     assert one.returncode == 0
 
 
+@pytest.mark.long
 def test_a_reader_that_leaves_is_no_error(lagcli):
     reading, writing = os.pipe()
     os.close(reading)
@@ -74,6 +76,7 @@ def test_a_closed_standard_output_is_told():
     assert (done.stderr, done.returncode) == ("standard output: error: it is closed\n", 2)
 
 
+@pytest.mark.long
 def test_an_interrupt_ends_with_130_and_without_a_traceback(tmp_path):
     pipe = tmp_path / "pipe.yaml"  # nobody ever writes to it: lagcli waits
     os.mkfifo(pipe)
@@ -118,6 +121,7 @@ def test_an_interrupt_while_modules_are_loaded_ends_with_130_and_without_a_word(
     assert (done.returncode, done.stdout, done.stderr) == (130, b"", b"")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("closed", ["<&-", "2>&-"])
 def test_closed_streams_are_no_bug(closed):
     line = shlex.join([sys.executable, "-m", "lagcli", "solve", "-"]) + " " + closed
@@ -136,6 +140,7 @@ def test_text_is_ascii_where_the_terminal_is(lagcli):
     assert b"theta" in done.stdout
 
 
+@pytest.mark.long
 def test_a_mistake_of_lagcli_is_one_line(lagcli, tmp_path):
     (tmp_path / "sitecustomize.py").write_text(
         "import lagcli.mechanics.derivation as d\n"
@@ -152,6 +157,7 @@ def test_a_mistake_of_lagcli_is_one_line(lagcli, tmp_path):
     assert b"Traceback" in lagcli("solve", "pendulum.yaml", env=env).stderr
 
 
+@pytest.mark.long
 def test_deep_formulas_are_solved(lagcli, tmp_path):
     deep = "(" * 190 + "theta" + " + 1)" * 190
     (tmp_path / "deep.yaml").write_text(
@@ -162,6 +168,7 @@ def test_deep_formulas_are_solved(lagcli, tmp_path):
     assert json.loads(done.stdout)["accelerations"] == {"theta": "-1"}
 
 
+@pytest.mark.long
 def test_a_missing_file_does_not_stop_the_others(lagcli):
     done = lagcli("solve", "nowhere.yaml", "pendulum.yaml", *MOMENTA)
     assert [each["title"] for each in json.loads(done.stdout)] == ["Pendulum"]

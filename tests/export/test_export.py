@@ -61,6 +61,7 @@ def random_arguments(count, of, seed=1):
     ]
 
 
+@pytest.mark.long
 def test_python_gives_what_the_formulas_give(problem, tmp_path, capsysbinary):
     """rhs against the printed accelerations, evaluated by another route."""
     code = module_of(exported(problem, "python", tmp_path, capsysbinary))
@@ -81,6 +82,7 @@ def test_python_gives_what_the_formulas_give(problem, tmp_path, capsysbinary):
         assert got[k] == y[len(coordinates) + k]
 
 
+@pytest.mark.long
 def test_the_jacobian_is_the_derivative(problem, tmp_path, capsysbinary):
     """Against central differences of rhs."""
     code = module_of(exported(problem, "python", tmp_path, capsysbinary))
@@ -156,6 +158,7 @@ def compiled_c(path, module):
     return call
 
 
+@pytest.mark.long
 def test_c_gives_what_python_gives(problem, tmp_path, capsysbinary):
     code = module_of(exported(problem, "python", tmp_path, capsysbinary))
     call = compiled_c(exported(problem, "c", tmp_path, capsysbinary), "mech")
@@ -167,6 +170,7 @@ def test_c_gives_what_python_gives(problem, tmp_path, capsysbinary):
         )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["plane-pendulum", "kepler"])
 def test_a_motion_by_the_exported_code_is_that_of_simulate(name, tmp_path, capsysbinary):
     """Four thousand steps of the classical Runge-Kutta method on the C code."""
@@ -196,6 +200,7 @@ def printed(values, suffix="", comma=", "):
     return comma.join(f"{value!r}{suffix}" for value in values)
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not shutil.which("gfortran"), reason="gfortran is not there")
 def test_fortran_gives_what_python_gives(problem, tmp_path, capsysbinary):
     code = module_of(exported(problem, "python", tmp_path, capsysbinary))
@@ -216,6 +221,7 @@ def test_fortran_gives_what_python_gives(problem, tmp_path, capsysbinary):
     assert [float(x) for x in out.split()] == pytest.approx(list(code["rhs"](t, y, p)), rel=1e-11)
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not shutil.which("octave-cli"), reason="octave-cli is not there")
 def test_matlab_gives_what_python_gives(problem, tmp_path, capsysbinary):
     code = module_of(exported(problem, "python", tmp_path, capsysbinary))
@@ -230,6 +236,7 @@ def test_matlab_gives_what_python_gives(problem, tmp_path, capsysbinary):
     )
 
 
+@pytest.mark.long
 def test_sympy_gives_what_python_gives(problem, tmp_path, capsysbinary):
     import sympy
 
@@ -242,6 +249,7 @@ def test_sympy_gives_what_python_gives(problem, tmp_path, capsysbinary):
     assert found == pytest.approx(list(code["rhs"](t, y, p)), rel=1e-11)
 
 
+@pytest.mark.long
 def test_mathematica_is_read_back_by_sympys_parser(problem, tmp_path, capsysbinary):
     """The steps of rhs, evaluated as they stand in the file."""
     import sympy
@@ -271,6 +279,7 @@ def test_mathematica_is_read_back_by_sympys_parser(problem, tmp_path, capsysbina
     assert got == pytest.approx(list(code["rhs"](t, y, p)), rel=1e-10)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("language", ["julia", "modelica"])
 def test_no_name_of_the_file_is_left_that_the_language_does_not_have(
     language, problem, tmp_path, capsysbinary
@@ -312,6 +321,7 @@ def test_identifiers_are_distinct_and_words_of_no_language(seed):
     assert not {"lambda", "end", "if", "y", "p", "t"} & set(found.values())
 
 
+@pytest.mark.long
 def test_the_same_input_gives_the_same_bytes(tmp_path):
     done = [
         subprocess.run([sys.executable, "-m", "lagcli", "export", "double-pendulum", "--to", "c"],

@@ -67,6 +67,7 @@ def test_a_pendulum(extremes):
     assert abs(usual["energy"]["printed"] - max(0, math.log10(relative or 1))) < 0.7
 
 
+@pytest.mark.long
 def test_the_text_fits_a_terminal(extremes):
     found = extremes(PENDULUM, "--cases", "given,angles,zero")
     assert found.status == 0
@@ -89,6 +90,7 @@ def test_csv_has_a_line_for_each_case(extremes):
     assert float(rows[0]["charges"]) > 15 > float(rows[0]["charges_rewritten"])
 
 
+@pytest.mark.long
 def test_the_speed_of_light(extremes):
     """1 - v^2/c^2 loses digits next to c, (c - v)(c + v) none."""
     text = """

@@ -205,6 +205,7 @@ def test_a_free_top_through_gimbal_lock_is_refused(simulate):
         assert row["cos(th)"] == pytest.approx(float(exact), abs=1e-8)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("spin", "stable"), [("4 - 1e-6", False), ("4 + 1e-6", True)])
 def test_the_threshold_of_the_sleeping_top(lagcli, spin, stable):
     """I1 = 1, I3 = 1/2: upright it is stable where I3^2 w^2 > 4 I1 m g l, w > 4."""

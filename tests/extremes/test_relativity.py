@@ -12,6 +12,7 @@ def test_a_constant_force_for_1e5(simulate):
     assert run.last["x"] == pytest.approx(99999.000005, abs=1e-4)
 
 
+@pytest.mark.long
 def test_beginning_at_c_less_1e_minus_12(simulate):
     """x = (sqrt(m^2 + (p + t)^2) - sqrt(m^2 + p^2)), p = v/sqrt(1 - v^2) = 7e5."""
     text = "{coordinates: [x], parameters: {v: 1 - 1e-12}, L: 1e6*x - sqrt(1 - x'^2), initial: {x': v}}"

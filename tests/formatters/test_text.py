@@ -72,6 +72,7 @@ def test_formulas_are_read_without_doubt(node, text):
     assert shown(node) == text
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("width", [30, 40, 60, 80, 200])
 @pytest.mark.parametrize("unicode", [True, False])
 def test_no_line_is_wider_than_asked(width, unicode):

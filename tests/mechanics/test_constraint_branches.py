@@ -17,6 +17,7 @@ FACTORS = ("y", "x", "sin(x)", "(x - y)", "x*y", "y^2*x", "(1 + y)", "cos(y)", "
 SLOPES = ("x", "y", "2", "x*y", "cos(x)", "(1 + x^2)", "exp(y)")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(10))
 def test_a_factor_of_a_velocity_constraint_changes_only_the_multiplier(seed):
     """f (x' + g y') = 0 is x' + g y' = 0 where f is not 0: the same motion, lambda divided by f."""

@@ -169,6 +169,7 @@ def test_equations_without_a_solution_are_told_from_those_with_too_many(text, de
     assert (found is None) if demanded is None else same(d, found, demanded)
 
 
+@pytest.mark.long
 def test_the_square_of_a_constraint_is_told_from_a_contradiction():
     text = "coordinates: [x, y]\nT: (x'^2+y'^2)/2\nconstraints: {a: (x - y)^2/x = 0}"
     with pytest.raises(ProblemError) as caught:

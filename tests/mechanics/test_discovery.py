@@ -142,6 +142,7 @@ def test_what_is_left_out_does_not_depend_on_the_machine(monkeypatch):
     assert any("too much work" in reason for reason in found[0][1])
 
 
+@pytest.mark.long
 def test_charges_say_where_they_are_real():
     """exp(nu t) on a rotating saddle: nu^2 = k/m - w^2 (Kirillov, section 1.2), of either sign."""
     problem = load(LIBRARY / "steady/rotating-saddle.yaml")

@@ -297,6 +297,7 @@ def test_small_oscillations_go_from_the_matrices_to_the_textbooks_frequency():
     assert "Unstable: … has no minimum" in words(explanation, "Equilibria")
 
 
+@pytest.mark.long
 def test_a_steady_motion_goes_from_its_condition_to_its_frequency():
     """Goldstein, chapter 3, and Landau and Lifshitz, section 14: the conical pendulum."""
     explanation = also("steady/conical-pendulum", "steady_motions")
@@ -311,6 +312,7 @@ def test_a_steady_motion_goes_from_its_condition_to_its_frequency():
     }
 
 
+@pytest.mark.long
 def test_the_action_is_told_with_its_cases():
     explanation = also("hamilton-jacobi/kepler-polar", "canonical_equations", "hamilton_jacobi")
     assert "Levi-Civita" in words(explanation, "The Hamilton-Jacobi equation")
@@ -328,6 +330,7 @@ def test_the_reduction_ends_at_the_effective_potential():
     assert normal(shown[Name("phi", 1)]) == formula("p_phi/(m*r^2)")
 
 
+@pytest.mark.long
 def test_a_question_is_told_with_what_is_put_in():
     explanation = also("contact/car-in-loop", "find")
     shown = {row.left: row.right for row in rows(explanation, "Questions")}
@@ -355,6 +358,7 @@ def chain(n):
     )
 
 
+@pytest.mark.long
 def test_a_system_of_more_than_a_page_stays_in_matrix_form():
     explanation = chain(14)
     assert "the system stays in this matrix form" in words(explanation)

@@ -57,6 +57,7 @@ find:
 """
 
 
+@pytest.mark.long
 def test_a_mass_leaves_a_sphere_at_cos_two_thirds():
     """Thornton and Marion, 5th ed., example 7.10."""
     assert roots(SPHERE.replace("RATE", "0")) == formulas("acos(2/3)")
@@ -354,16 +355,19 @@ find:
 """
 
 
+@pytest.mark.long
 def test_the_apsides_of_a_kepler_ellipse():
     """Landau and Lifshitz, section 15: the other apsis of an orbit that starts at one."""
     assert roots(KEPLER) == formulas("m*w^2*a^4/(2*k - m*w^2*a^3)", "a")
 
 
+@pytest.mark.long
 def test_a_bound_orbit_passes_each_distance_outwards_and_inwards():
     root = "sqrt(3*w^2*a^2/4 - k/(m*a))"
     assert roots(KEPLER, "speed") == formulas(f"-{root}", root)
 
 
+@pytest.mark.long
 def test_momenta_may_stay_in_an_answer():
     assert value(KEPLER, "momentum") == formula("p_phi")
 

@@ -155,6 +155,7 @@ def test_what_depends_on_another_parameter_is_refused_and_decided_by_its_value()
     )
 
 
+@pytest.mark.long
 def test_the_values_of_the_file_decide_where_symbols_do_not():
     text = """
 coordinates: {x: {}, y: {}}

@@ -50,6 +50,7 @@ def test_lagrangian(name: str):
     assert same(d, d.system.L, expected)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", [name for name in CASES if name != "relativistic"])
 def test_back_and_forth(name: str):
     """The Hamiltonian of the Lagrangian is the one of the file, and so are its equations."""
@@ -106,6 +107,7 @@ def test_canonical_equations_without_lagrangian():
     assert (u**2 + v**2 - c**2).equals(0)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("text", [SINGULAR, "coordinates: [x]\nH: p_x^2/2 + p_x^7 + sin(p_x)"])
 def test_no_lagrangian_is_told_at_its_place(text: str):
     problem = read_problem("test.yaml", text.encode()).checked()

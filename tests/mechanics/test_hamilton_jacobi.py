@@ -136,6 +136,7 @@ L: (x'^2 + y'^2)/2 - alpha_1*x^2 - E*y^2
     assert found.constants == ("h", "beta_1")
 
 
+@pytest.mark.long
 def test_the_spherical_action_solves_the_equation_at_numbers():
     found, _ = section("""
 coordinates: {r: POSITIVE, theta: {}, phi: {}}
@@ -201,6 +202,7 @@ def grown(part, values, name, ends):
     return growth
 
 
+@pytest.mark.long
 @mpmath.workdps(50)
 def test_the_radial_action_of_kepler_is_that_of_sommerfeld():
     """Goldstein, section 10.8: J_r = 2 pi (k sqrt(m/(-2 E)) - L)."""
@@ -217,6 +219,7 @@ def test_the_radial_action_of_kepler_is_that_of_sommerfeld():
     assert abs(slope - mpmath.sqrt(2 * m * (0.3 + k / 3) - p**2 / 9)) < 1e-7
 
 
+@pytest.mark.long
 @mpmath.workdps(50)
 def test_the_action_of_morse_gives_his_levels():
     """Morse, Phys. Rev. 34 (1929) 57: J = 2 pi sqrt(2 m) (sqrt(D) - sqrt(D - E))/a."""

@@ -66,6 +66,7 @@ def value(tree, **at: float) -> float:
     return float(build(tree).subs({s: put_in[s] for s in build(tree).free_symbols}))
 
 
+@pytest.mark.long
 def test_a_hoop_rolls_in_a_circle_and_its_oscillation(hoop):
     circle = next(m for m in hoop.motions if not m.at)
     assert circle.free == ("theta", "phi'")

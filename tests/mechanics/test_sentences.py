@@ -242,6 +242,7 @@ def test_constants_among_the_brackets_belong_to_the_algebra(text, generators, wi
     assert f"dimension {generators} modulo constants and {with_constants} with them" in sentences
 
 
+@pytest.mark.long
 def test_an_algebra_without_constants_is_not_extended():
     text = PLANE + "T: m*(x'^2 + y'^2)/2\nV: -k/sqrt(x^2 + y^2)"
     assert "constants" not in said(text, ALGEBRA, "algebra").partition("functionally")[0]
@@ -272,6 +273,7 @@ def test_what_separates_is_integrable(one, two, potential):
     )
 
 
+@pytest.mark.long
 def test_a_cubic_charge_of_the_file_counts():
     """Holt 1982: V = 3 x^(4/3)/4 + ... has a cubic one; here Toda's three particles, Hénon 1974."""
     text = (
@@ -291,6 +293,7 @@ def test_a_cubic_charge_of_the_file_counts():
     assert found.integrable is True
 
 
+@pytest.mark.long
 def test_henon_and_heiles_at_a_general_value_is_not_decided():
     text = PLANE + "T: m*(x'^2 + y'^2)/2\nV: k*(x^2 + y^2)/2 + x^2*y - y^3/3"
     assert "which does not decide it." in said(text, ALGEBRA, "algebra")
@@ -373,6 +376,7 @@ def test_a_body_slips_before_it_leaves():
     assert "slipping begins before the contact is lost" in said(text, "Forces", "forces")
 
 
+@pytest.mark.long
 def test_a_string_pulls_and_a_rod_pushes_too():
     text = (
         "coordinates: {{x: {{}}, y: {{}}}}\nparameters: {{m: {{assume: positive}}, g: {{}}, "
@@ -419,6 +423,7 @@ def test_regular_precession_needs_a_large_enough_spin():
     assert shown == ["p_psi", "phi'", "p_psi^2", "4*A*k*cos(theta)"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("c", ["1/2", "2", "5"])
 def test_the_roots_of_a_damped_oscillator(c):
     """s = -c/2m +- i sqrt(k/m - c^2/4m^2) put into m s^2 + c s + k."""
@@ -461,6 +466,7 @@ def test_a_frequency_0_is_a_drift():
     assert "not an oscillation but a uniform drift" in said(text, "Small oscillations", "modes")
 
 
+@pytest.mark.long
 def test_a_period_has_no_correction_that_is_0_on_its_branch():
     """The isotropic oscillator in polar coordinates: T = pi/w for every amplitude."""
     text = (
@@ -512,6 +518,7 @@ def test_the_frequency_has_a_letter_of_its_own():
     assert not re.search(r"ω²\s*=", explained)
 
 
+@pytest.mark.long
 def test_a_search_that_left_something_out_does_not_say_that_there_is_nothing():
     """x + F(t): the translation by cos(w t) has the gauge of an integral over F."""
     text = (

@@ -25,6 +25,7 @@ V: POTENTIAL
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(8))
 def test_the_poles_of_a_sphere(seed):
     """V = a cos + b cos^2: the poles are equilibria, stable where V'' > 0 along the meridians."""

@@ -69,6 +69,7 @@ def test_the_bead_oscillates_about_the_tilted_equilibrium():
     assert frequencies(HOOP)[0] == formula("sqrt(w^2 - g^2/(R^2*w^2))")
 
 
+@pytest.mark.long
 def test_the_double_pendulum():
     """Landau and Lifshitz, section 23, problem 2, with equal masses and lengths."""
     text = """

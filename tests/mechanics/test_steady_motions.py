@@ -246,6 +246,7 @@ V: -9/10/sqrt((x + 1/10)^2 + y^2) - 1/10/sqrt((x - 9/10)^2 + y^2)
     assert [m.verdict.stable for m in found] == [False] * 5  # 27 mu (1 - mu) = 2.43
 
 
+@pytest.mark.long
 def test_three_coupled_coordinates_against_their_numeric_spectrum():
     [motion] = motions("""
 coordinates: [x, y, z]

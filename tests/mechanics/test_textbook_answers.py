@@ -78,6 +78,7 @@ def test_the_period_about_a_radius_is_that_of_quadrature(kinetic, potential):
     assert abs(number(period.period, **values, **{period.amplitude: 0}) / measured - 1) > 1e-5
 
 
+@pytest.mark.long
 def test_the_turning_points_of_an_exponential_well():
     """Landau, Lifshitz, section 11, problem 2(b), and Morse's potential."""
     head = (

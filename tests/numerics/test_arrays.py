@@ -61,6 +61,7 @@ def test_npz_is_the_same_each_time(answer):
     assert answer("npz") == answer("npz")
 
 
+@pytest.mark.long
 def test_parquet_holds_the_same(answer):
     document = json.loads(answer("json"))
     table = parquet.read_table(io.BytesIO(answer("parquet")))

@@ -67,6 +67,7 @@ def test_what_is_listed_is_a_start(seed):
         assert simulated(text, 0.01).rows[0][1:4] == pytest.approx((bar["q1"], q2, q3))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(8))
 def test_an_assumption_leaves_one_assembly(seed):
     bar = _four_bar(seed) | {"q1": 1.0}

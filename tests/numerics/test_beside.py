@@ -94,6 +94,7 @@ initial: {x: 1, y: 0}
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", ["auto", "dop853"])
 def test_what_an_elimination_rounds_alike_in_both_runs_is_in_the_claim(method):
     """x'' = (b - 2 c x)/D, y'' = (2 b x - a)/D with D = a c - b^2: harmonic in x."""
@@ -115,6 +116,7 @@ def test_the_clock_is_fast_but_at_the_end():
     assert fast(times) == [0.0, 0.1 * (1 + 2.0**-52), 7.0]
 
 
+@pytest.mark.long
 def test_a_slope_of_pi_less_a_little_feels_the_rounding_of_pi():
     """x = sin(pi - 1e-9) t^2/2: in doubles sin errs by 1.2e-7 of itself."""
     text = "{coordinates: [x], parameters: {a: pi - 1e-9}, L: x'^2/2 + sin(a)*x, initial: {x: 0}}"

@@ -25,6 +25,7 @@ def lost(request):
     return k, plain, simulated(FALLING % (k, k), 80 / k, **asked, beyond=True)
 
 
+@pytest.mark.long
 def test_the_certified_rows_are_those_without_it(lost):
     k, plain, result = lost
     assert plain.beyond is None

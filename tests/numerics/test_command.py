@@ -105,6 +105,7 @@ def test_mistakes_of_the_file_are_shown_where_they_stand():
     assert ":3:35: error: 'accuracy': it lies between 0 and 1, not 2\n" in done.stderr
 
 
+@pytest.mark.long
 def test_missing_values_are_named_with_their_places():
     done = run(
         "-", "--until", "1", stdin="coordinates: [x]\nparameters: [k, m]\nL: m*x'^2/2 - k*x^2\n"
@@ -114,6 +115,7 @@ def test_missing_values_are_named_with_their_places():
     assert "the parameter 'm' has no value" in done.stderr
 
 
+@pytest.mark.long
 def test_an_accuracy_that_is_not_reached_is_status_1():
     done = run(
         "-",
@@ -132,6 +134,7 @@ def test_an_accuracy_that_is_not_reached_is_status_1():
     assert "stops at t = 1.11072073454" in done.stderr
 
 
+@pytest.mark.long
 def test_a_pendulum_needs_no_algebra():
     code = (
         "import sys; from lagcli.cli.run import run; run(sys.argv[1:]);"

@@ -56,6 +56,7 @@ def motions(text):
     ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("force", [*FORCES, chain(6)])
 def test_the_recurrences_give_the_series_that_flint_gives(force):
     from flint import ctx

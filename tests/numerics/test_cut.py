@@ -72,6 +72,7 @@ def test_what_no_column_depends_on_is_left_out(two):
         assert (x, v, a) == pytest.approx((exact, slope, -(omega**2) * exact / 0.5), rel=1e-8)
 
 
+@pytest.mark.long
 def test_a_multiplier_keeps_its_constraint(two):
     found = simulated(two, "--until", "1", "--samples", "3", "--show", "x,lambda_line")
     assert found["model"] == {} or "x" not in found["model"]["eliminated"]
@@ -80,11 +81,13 @@ def test_a_multiplier_keeps_its_constraint(two):
         assert force == pytest.approx(4 * x / (1 + 0.25), rel=1e-8)
 
 
+@pytest.mark.long
 def test_a_state_off_the_constraint_is_refused_all_the_same(two):
     two.write_text(TWO.replace("y: 0.5,", "y: 0.5, x: 3,"))
     assert "line" in simulated(two, "--until", "1", status=2)
 
 
+@pytest.mark.long
 def test_many_digits_begin_at_the_exact_state(two):
     found = simulated(
         two,

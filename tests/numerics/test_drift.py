@@ -18,6 +18,7 @@ ATOM = {"m": 9.1093837e-31, "k": 2.3070776e-28, "x": 5.29177e-11, "v": 1.5e6}
 EARTH = {"m": 5.972e24, "k": 7.926e44, "x": 1.471e11, "v": 30290}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("given", "until"), [(ATOM, 1.5e-15), (EARTH, 3e8)])
 def test_a_charge_is_measured_against_its_own_terms(given, until):
     result = simulated(ORBIT.format(**given), until, 1e-3, samples=101, method="dop853")

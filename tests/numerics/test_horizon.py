@@ -47,6 +47,7 @@ def test_nothing_that_grew_out_of_rounding_is_the_scale_of_what_is_certified():
     assert all(x == pytest.approx(math.exp(-0.37 * t), abs=1e-9) for t, x in result.rows)
 
 
+@pytest.mark.long
 def test_a_stop_long_after_the_accuracy_is_lost_is_not_one_of_the_motion():
     result = simulated(FALLING % (0.37, 0.37), 8000, 1e-9, samples=11, show="x")
     assert "stops" not in result.refusal

@@ -118,6 +118,7 @@ def damped(t, c=1e6, k=1e6):
     return (fast * math.exp(slow * t) - slow * math.exp(fast * t)) / (fast - slow)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("accuracy", [1e-3, 1e-6, 1e-9])
 def test_what_is_stiff_is_left_to_the_stiff_method(accuracy):
     found = simulated(DAMPED, 10, accuracy)

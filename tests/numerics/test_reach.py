@@ -14,6 +14,7 @@ initial: {{x: 1, y': {speed}}}
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("speed", ["1e-5", "1e-7"])
 @pytest.mark.skipif(not engine().quadruple, reason="no numbers of 128 bits")
 def test_a_perihelion_that_doubles_take_for_a_collision_is_passed(speed):

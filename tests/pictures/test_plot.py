@@ -72,6 +72,7 @@ def test_a_picture_in_characters_fits(kind, letters, plot):
     assert any(0x2800 < ord(c) < 0x2900 for c in shown) == (not letters)
 
 
+@pytest.mark.long
 def test_without_an_end_the_portrait_is_drawn(plot, tmp_path):
     text = "coordinates: [x]\nT: x'^2/2\nV: x^4/4 - x^2/2\n"
     (tmp_path / "well.yaml").write_text(text)
@@ -91,6 +92,7 @@ def test_impacts_are_marked_and_break_the_velocity(plot):
     assert "floor: comes to rest" in shown
 
 
+@pytest.mark.long
 def test_the_end_of_the_certificate_is_drawn_and_nothing_beyond(plot, tmp_path):
     text = "coordinates: [x]\nT: x'^2/2\nL: \nV: x^3\ninitial: {x: -1}\n".replace("L: \n", "")
     (tmp_path / "fall.yaml").write_text(text)

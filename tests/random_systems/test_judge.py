@@ -89,6 +89,7 @@ def test_a_turned_verdict_is_noticed(kept):
     assert [each.verdict for each in Judge(BEAD, sheet).examine()] != []
 
 
+@pytest.mark.long
 def test_a_place_of_rest_that_is_left_out_is_noticed():
     sheet = answer(PAIR)
     sheet["equilibria"] = []

@@ -73,6 +73,7 @@ def test_along_gives_every_row(capsysbinary):
     assert [row["t"] for row in rows] == [0, 0.25, 0.5, 0.75, 1] * 2
 
 
+@pytest.mark.long
 def test_random_draws_are_those_of_the_seed(capsysbinary):
     arguments = ("kepler", "--random", "5", "--vary", "y'=0.9:1.2", "--until", "2",
                  "--show", "x,energy")  # fmt: skip

@@ -80,6 +80,7 @@ def test_a_wrong_formula_is_no_reference():
     assert document["reference"]["kind"].startswith("power series")
 
 
+@pytest.mark.long
 def test_kinks_have_no_power_series():
     text = "coordinates: [x]\nT: x'^2/2\nV: abs(x)\ninitial: {x: 1}\n"
     done = run("-", "--until", "2", "-f", "csv", "--methods", "dop853,taylor", stdin=text)
@@ -88,6 +89,7 @@ def test_kinks_have_no_power_series():
     assert {row["method"] for row in rows if row["kind"] == "single"} == {"dop853"}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
