@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 from lagcli.statements.explanation import Explanation
 
 
@@ -19,9 +22,24 @@ class Account:
         """As `lagcli explain` prints it."""
         return self._rendered("text", width)
 
-    def to_latex(self) -> str:
-        r"""A fragment for \input."""
-        return self._rendered("latex")
+    def to_latex(
+        self, *, labels: str = "", separate: bool = False, variants: Sequence[str] = ()
+    ) -> str:
+        r"""A fragment for \input.
+
+        Parameters
+        ----------
+        labels : str
+            What the labels of the equations begin with; without it they are not numbered.
+        separate : bool
+            Each equation in an `equation`, not several in one `align`.
+        variants : sequence of str
+            Letters in their other shape, such as `varphi`.
+        """
+        from lagcli.formatters.options import LatexOptions
+
+        chosen = LatexOptions(labels=labels, separate=separate, variants=tuple(variants))
+        return self._rendered("latex", latex=chosen)
 
     def to_html(self) -> str:
         """HTML with MathML."""
@@ -40,8 +58,8 @@ class Account:
     def _repr_html_(self) -> str:
         return self.to_html()
 
-    def _rendered(self, format_name: str, width: int = 80) -> str:
+    def _rendered(self, format_name: str, width: int = 80, **options: Any) -> str:
         from lagcli.formatters import Options
         from lagcli.formatters.explaining import render
 
-        return render([self._explanation], format_name, Options(width=width))
+        return render([self._explanation], format_name, Options(width=width, **options))

@@ -78,9 +78,24 @@ class Solution:
         """The answers as `lagcli solve` prints them."""
         return _rendered(self._answers, "text", width)
 
-    def to_latex(self) -> str:
-        r"""A fragment for \input."""
-        return _rendered(self._answers, "latex")
+    def to_latex(
+        self, *, labels: str = "", separate: bool = False, variants: Sequence[str] = ()
+    ) -> str:
+        r"""A fragment for \input.
+
+        Parameters
+        ----------
+        labels : str
+            What the labels of the equations begin with; without it they are not numbered.
+        separate : bool
+            Each equation in an `equation`, not several in one `align`.
+        variants : sequence of str
+            Letters in their other shape, such as `varphi`.
+        """
+        from lagcli.formatters.options import LatexOptions
+
+        chosen = LatexOptions(labels=labels, separate=separate, variants=tuple(variants))
+        return _rendered(self._answers, "latex", latex=chosen)
 
     def to_html(self) -> str:
         """HTML with MathML."""
@@ -182,8 +197,8 @@ def _name_of(value: Any) -> str:
     return str(getattr(value, "name", getattr(value, "coordinate", "")))
 
 
-def _rendered(answers: Answers, format_name: str, width: int = 80) -> str:
+def _rendered(answers: Answers, format_name: str, width: int = 80, **options: Any) -> str:
     from lagcli.formatters import Options
     from lagcli.pipeline import render
 
-    return render([answers], format_name, Options(width=width))
+    return render([answers], format_name, Options(width=width, **options))

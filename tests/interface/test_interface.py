@@ -249,3 +249,12 @@ def test_a_sweep_is_a_table_of_the_motions_one_by_one(pendulum):
     assert json.loads(table.to_json())["varied"] == ["m", "theta(0)"]
     with pytest.raises(lagcli.ProblemError, match="did you mean 'theta'"):
         lagcli.sweep(pendulum, {"tetha": "0:1:2"})
+
+
+def test_latex_has_labels_on_choice(pendulum):
+    solution = lagcli.solve(pendulum, ["accelerations"])
+    assert r"\label" not in solution.to_latex()
+    page = solution.to_latex(labels="swing", separate=True, variants=["vartheta"])
+    assert r"\begin{equation}\label{swing:accelerations:theta}" in page
+    assert r"\ddot{\vartheta}" in page
+    assert r"\label{eq:" in lagcli.explain(pendulum).to_latex(labels="eq")
