@@ -60,6 +60,13 @@ MENDED = {
         L="m*(x' + y')^2/2 - k*(x + y)^2/2",
         constraints={"c1": "x + y = b*t"},
     ),
+    "|x| in V has no linear part at 0, and no frequency": System(
+        coordinates=dict.fromkeys("xy"),
+        parameters=M,
+        L="m*(x'^2 + y'^2)/2 - (k*abs(x) + y^2) + b*(x*y' - y*x')",
+        sections=("equilibria", "modes"),
+        known={"search": True},
+    ),
     "a gauge that is 0 where exp(x - y) = 1": System(
         coordinates=dict.fromkeys("xyz"),
         parameters=M,

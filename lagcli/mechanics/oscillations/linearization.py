@@ -15,11 +15,11 @@ Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., sections 6.1 and 6.2.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 
 import sympy
-from sympy import Expr, S
+from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
@@ -103,6 +103,22 @@ class Linearization:
         """Whether these constraints alone hold it at rest."""
         forces = [at(f, self.point.values) for f in self.rest.forces_at_rest]
         return all(is_zero(_dot(vector, forces)) is True for vector in self.basis)
+
+    @cached_property
+    def has_kink(self) -> bool:
+        """Whether a force has no linear part there: on the two sides of u = 0 another one.
+
+        |x| in V has none at 0, quadratic drag v |v| has one at v = 0.
+        """
+        forcing = self.dynamics.lagrange.forcing
+        corners = {f.args[0] for force in forcing for f in force.atoms(sympy.sign, sympy.Abs)}
+        place = {**self.point.values, **dict.fromkeys(self.system.qdot, S.Zero)}
+        return any(
+            _differs(force, u, place)
+            for u in sorted(corners, key=str)
+            if is_zero(at(u, place)) is True
+            for force in forcing
+        )
 
     def _along(self, matrix: Sequence[Sequence[Expr]]) -> Matrix:
         """B^T matrix B at the equilibrium, with q' = 0."""
@@ -190,3 +206,11 @@ class Linearization:
 
 def _dot(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
     return sympy.Add(*(x * y for x, y in zip(a, b, strict=True)))
+
+
+def _differs(force: Expr, u: Expr, place: Mapping[Symbol, Expr]) -> bool:
+    """Whether the value or the gradient depends on the side of u = 0."""
+    side = sympy.Dummy("side", real=True)
+    open_ = force.xreplace({sympy.sign(u): side, sympy.Abs(u): side * u})
+    parts = [open_, *(open_.diff(x) for x in place)]
+    return any(is_zero(at(part.diff(side), place)) is not True for part in parts)

@@ -44,6 +44,7 @@ from lagcli.statements.answers import EquilibriaSection, Equilibrium, ModesOfFre
 _STICKS = "static friction holds it with force to spare"
 _PRESSED = "it is pressed against what it touches"
 _SINGULAR = "the coordinates are singular at the equilibria"
+_NO_LINEAR_PART = "a force has a kink or a jump at the equilibrium, and no linear part"
 _NO_MODES = "the equilibria are singular, or do not exist for the values of the file"
 
 
@@ -81,7 +82,9 @@ def modes(dynamics: Dynamics) -> ModesSection:
         return ModesSection(modes=(), reason="contacts or static friction hold what is at rest")
     if not found:
         singular = all(place.indeterminate for place in chosen)
-        return ModesSection(modes=None, reason=_SINGULAR if singular else _NO_MODES)
+        bent = any(place.linear.has_kink for place in chosen)
+        reason = _SINGULAR if singular else _NO_LINEAR_PART if bent else _NO_MODES
+        return ModesSection(modes=None, reason=reason)
     return ModesSection(modes=tuple(found))
 
 
@@ -132,7 +135,7 @@ class Place:
     def modes(self) -> list[NormalMode]:
         """The normal modes, each verified; empty where the motion is singular."""
         try:
-            if not self.linear.regular:
+            if not self.linear.regular or self.linear.has_kink:
                 return []
             return normal_modes(self.linear, self.characteristic)
         except ZeroDivisionError:
