@@ -354,6 +354,27 @@ class Noether:
             found.append(self._judged("", "cyclic", transformation, zero, zero))
         return tuple(charge for charge in found if charge.conserved)
 
+    @cached_property
+    def turning_energy(self) -> NoetherCharge | None:
+        """The charge of Dt = 1 with a steady translation: the energy in a turning frame.
+
+        c_t dL/dt + sum_j c_j dL/dq_j = 0 and c_t b_k + sum_j c_j a_kj = 0 with constant c:
+        h - w p_phi where phi = w t, or where a field turns with w (Jacobi's integral).
+        """
+        system, zero = self.system, sympy.S.Zero
+        acted_on = any(is_zero(Q) is not True for Q in (*system.forces, system.D))
+        if self.energy.conserved is not False or acted_on:
+            return None
+        rows = [[without_jumps(system.L.diff(system.t)), *self.dynamics.lagrange.lagrangian_forces]]
+        rows += [[e.drift, *e.row] for e in self.dynamics.constraints.equations]
+        variables = (*system.q, *system.qdot, system.t)
+        steady = (v for v in constant_nullspace(rows, variables) if is_zero(v[0]) is False)
+        for vector in steady:
+            changes = tuple(c / vector[0] for c in vector[1:])
+            charge = self._judged("", "time", Transformation(changes, sympy.S.One), zero, zero)
+            return charge if charge.conserved else None
+        return None
+
     def conserved_quantities(self) -> tuple[Expr, ...]:
         """Functions of q, q', t that are constant along the motion."""
         evident = [charge for charge in self.charges if charge.conserved and charge.complete]
@@ -362,7 +383,8 @@ class Noether:
             for charge in self.joint_translations
             if not any(self._same_charge(charge, other) for other in evident)
         ]
-        return tuple(charge.charge for charge in (*evident, *joint))
+        turning = [self.turning_energy] if self.turning_energy is not None else []
+        return tuple(charge.charge for charge in (*evident, *joint, *turning))
 
 
 def _dot(a: tuple[Expr, ...], b: tuple[Expr, ...]) -> Expr:

@@ -382,3 +382,28 @@ def test_what_is_left_open_does_not_depend_on_the_machine(monkeypatch):
     assert found[0] == found[1]
     assert found[0]["tension"].value is None
     assert "too much work" in found[0]["tension"].note
+
+
+DRIVEN = """
+coordinates: {r: POSITIVE, phi: {}, z: {}}
+parameters: {m: POSITIVE, w: POSITIVE, b: POSITIVE, g: POSITIVE, a: POSITIVE}
+T: m*(r'^2 + r^2*phi'^2 + z'^2)/2
+V: m*g*z
+constraints: {turning: "%s", wire: "%s"}
+initial: {r: b, r': 0}
+find: {asked: {value: r'^2, in_terms_of: [r]}}
+"""
+
+
+@pytest.mark.parametrize("turning", ["phi = w*t", "w*t - phi = 0", "2*phi = 2*w*t + pi"])
+@pytest.mark.parametrize(
+    ("wire", "known"),
+    [
+        ("z = 0", "w^2*(r^2 - b^2)"),
+        ("z = a*r", "(w^2*(r^2 - b^2) - 2*g*a*(r - b))/(1 + a^2)"),
+        ("z = a*r^2", "(w^2 - 2*g*a)*(r^2 - b^2)/(1 + 4*a^2*r^2)"),
+    ],
+)
+def test_a_bead_on_a_turning_wire_keeps_the_energy_in_the_turning_frame(turning, wire, known):
+    """h - w p_phi (Jacobi): neither h nor p_phi is constant (Goldstein, section 2.7)."""
+    assert value(DRIVEN % (turning, wire)) == formula(known)

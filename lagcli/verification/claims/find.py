@@ -102,12 +102,22 @@ class Reached:
         energy = [program.product(v, p) for v, p in zip(reference.v, momenta, strict=True)]
         h = program.sum(*energy, program.negative(L))
         states = self.x.states()
+        driven = (program.negative(energy[j]) for j in self._driven(states))
         return [
             place
-            for place in (h, *momenta)
+            for place in dict.fromkeys((h, *momenta, program.sum(h, *driven)))
             if states
             and all(compare(s.laws.rate(place), arb(0)) is ComparisonVerdict.EQUAL for s in states)
         ]
+
+    def _driven(self, states: Sequence[State]) -> list[int]:
+        """Coordinates whose velocities the constraints give: phi = w t takes h to h - w p_phi."""
+        if not states or not self.velocities:
+            return []
+        rows, size_ = states[0].laws.jacobian, len(self.reference.names)
+        units = [[arb(int(i == j)) for i in range(size_)] for j in range(size_)]
+        known = rank(rows, size_)
+        return [j for j, unit in enumerate(units) if rank([*rows, unit], size_) == known]
 
     def _independent(self, places: Sequence[int]) -> list[int]:
         """Those whose gradients do not depend on the constraints' and on earlier ones."""
