@@ -258,7 +258,7 @@ def _reasons(part: Any) -> Iterator[str]:
 
 
 #: A null here is the word "undecided", or claims nothing.
-UNDECIDED = ("/stable", "/name", "/integrable", "/in_involution", "/separable")
+UNDECIDED = ("/stable", "/name", "/named", "/integrable", "/in_involution", "/separable")
 
 #: The sentence that says that a list may not hold everything.
 _OTHERS = {"equilibria": "no other equilibrium", "steady_motions": "no other steady motion",

@@ -16,6 +16,7 @@ from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues, 
 from lagcli.verification.claims.rest import (
     BITS,
     RestPlace,
+    conditions,
     named,
     not_confirmed,
     with_closed_contacts,
@@ -125,7 +126,25 @@ def _stays(
         return None
     if not tried:
         x.unchecked.append(what)
+    why = "" if place.eliminated else _refuted_beside_bounds(x, what, place, verdict, cyclic)
+    if why:
+        x.refute(f"the stability of {what}", why)
+        return Verdict(stable=None, reason=_WHY)
     return verdict
+
+
+def _refuted_beside_bounds(
+    x: Examination, what: str, place: RestPlace, verdict: Verdict, cyclic: int
+) -> str:
+    """Why the conditions of a verdict cannot be right near where they begin to hold."""
+    given = (verdict.minimum or (), verdict.hurwitz or (), verdict.spectrum or (), verdict.unstable)
+    bounds = conditions(x, what, [each for group in given for each in group])
+    found = (
+        refutes(x, what, near, verdict, cyclic)
+        for near in place.beside(bounds)
+        if near.defined and (cyclic or near.residual < NOTHING)
+    )
+    return next(filter(None, found), "")
 
 
 def _constant(near: LinearMotion, eliminated: Sequence[str]) -> bool:

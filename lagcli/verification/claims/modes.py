@@ -18,6 +18,7 @@ from lagcli.verification.claims.rest import (
 )
 from lagcli.verification.claims.unlisted import Balance, shown, unlisted
 from lagcli.verification.examination import Examination
+from lagcli.verification.linear import Unclear, rank
 
 #: Relative differences of eigenvalues: those of multiplicity 2 are right to 1e-19.
 _AGREE = 1e-9
@@ -100,11 +101,22 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
             x.refute(what, "a frequency is not one of the linear motion near it")
             return False
         values = [near.at(p) for p in flat]
-        for k in range(0, len(values), size):
-            if not _moves_so(near, W[0], values[k : k + size]):
-                x.refute(what, "a shape is not that of its frequency")
-                return False
+        rows = [values[k : k + size] for k in range(0, len(values), size)]
+        if not all(_moves_so(near, W[0], row) for row in rows):
+            x.refute(what, "a shape is not that of its frequency")
+            return False
+        if rows and _independent(rows, size) not in {mode.multiplicity, -1}:
+            x.refute(what, "the shapes of a frequency are not as many as it has")
+            return False
     return True
+
+
+def _independent(rows: Sequence[Sequence[arb]], size: int) -> int:
+    """The number of independent shapes; -1 where it cannot be seen."""
+    try:
+        return rank(rows, size) if all(e.is_finite() for row in rows for e in row) else -1
+    except Unclear:
+        return -1
 
 
 def _moves_so(near: LinearMotion, W: arb, shape: Sequence[arb]) -> bool:

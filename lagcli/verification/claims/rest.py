@@ -22,6 +22,8 @@ LOOKED_AT = 24
 WANTED = 5
 BITS = PRECISIONS[1]
 _NEWTON_STEPS = 30
+#: Of a condition's change with its parameter: how far beside its bound stability is tried.
+_BESIDE = arb(1) / 32
 
 
 class RestPlace:
@@ -71,6 +73,38 @@ class RestPlace:
                 yield near
             if count == WANTED:
                 return
+
+    def beside(self, bounds: Sequence[int]) -> Iterator[LinearMotion]:
+        """States a little to both sides of where a condition on the parameters just holds."""
+        first = next(self.states(), None)
+        for bound in bounds if first is not None else ():
+            for side in (1, -1):
+                known = self._moved(first.environment, bound, side)  # type: ignore[union-attr]
+                near = None if known is None else self.near(known)
+                if near is not None:
+                    yield near
+
+    def _moved(self, known: Environment, bound: int, side: int) -> Environment | None:
+        """One parameter moved until left - right of a condition is near 0, on this side."""
+        reference = self.x.reference
+        signs = {p.name: p.assume for p in self.x.problem.parameters if not p.integer}
+        symbols = {name: reference.program.symbol(name) for name in signs}
+        by = reference.values(known).gradient(bound)
+        weights = {n: size(by.get(s, arb(0)) * known[n, 0]) for n, s in symbols.items()}
+        name = max(weights, key=weights.__getitem__, default="")
+        if not name or not 0 < weights[name] < float("inf"):
+            return None
+        there, goal = dict(known), arb(side * weights[name]) * _BESIDE
+        for _ in range(_NEWTON_STEPS):
+            at = reference.values(there)
+            slope = at.gradient(bound).get(symbols[name], arb(0))
+            step = ((goal - at(bound)) / slope).mid() if not slope.contains(0) else arb("nan")
+            if not step.is_finite() or size(step) > 1e3:
+                return None
+            there[name, 0] = (there[name, 0] + step).mid()
+            if size(step) < NOTHING:
+                return there if _has_sign(signs[name], there[name, 0]) else None
+        return None
 
     def near(self, known: Environment) -> LinearMotion | None:
         """The state here for these parameters; None where there is none."""
