@@ -156,11 +156,10 @@ def state(derivation: Derivation, request: Request) -> Answers:
         from lagcli.abbreviations import abbreviated
 
         answers = abbreviated(answers, _names_of(derivation.given))
-    if VERIFYING and not derivation.no_lagrangian:
+    if VERIFYING:
         unverified = _with_charges(derivation, answers)
-        answers = _without_charges(
-            request, _ended(lambda: verified(derivation.problem, unverified))
-        )
+        problem = derivation.given if derivation.no_lagrangian else derivation.problem
+        answers = _without_charges(request, _ended(lambda: verified(problem, unverified)))
     if not request.numeric:
         return _with_given_decimals(derivation.given, request, answers)
     from lagcli.decimals import with_decimals
@@ -244,11 +243,55 @@ def explain(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
     if large is not None:
         from lagcli.mechanics.explaining.large import explanation_of_large
 
-        return _in_the_manner(derivation, explanation_of_large(large))
+        return _in_the_manner(derivation, _confirmed(derivation, explanation_of_large(large), ()))
     from lagcli.mechanics.explaining.explain import explanation
 
     told = _ended(lambda: explanation(derivation, also))
-    return _in_the_manner(derivation, told)
+    return _in_the_manner(derivation, _confirmed(derivation, told, also))
+
+
+#: The sections whose answers a step of an explanation derives.
+_STEPS: Mapping[str, tuple[str, ...]] = {
+    "The Lagrangian": ("lagrangian",),
+    "Lagrange's equations": ("equations",),
+    "The multipliers are eliminated": ("accelerations", "multipliers"),
+    "The accelerations": ("accelerations",),
+    "The verification": ("accelerations", "multipliers"),
+    "What the multipliers mean": ("multipliers", "constraint_forces"),
+    "The energy": ("energy",),
+    "Conserved quantities": ("charges",),
+}
+_UNCONFIRMED = "This step is left out: its result was not confirmed at random states."
+
+
+def _confirmed(derivation: Derivation, told: Explanation, also: Sequence[str]) -> Explanation:
+    """The explanation without the steps whose answers are not confirmed in numbers."""
+    from lagcli.document import Paragraph
+    from lagcli.statements.explanation import ExplanationStep
+    from lagcli.statements.registry import find_section
+    from lagcli.verification import verified
+
+    further = {one.title: (name,) for name in also if (one := find_section(name).told) is not None}
+    steps = {**_STEPS, **further}
+    titles = [step.title for step in told.steps]
+    names = tuple(dict.fromkeys(name for title in titles for name in steps.get(title, ())))
+    if not VERIFYING or not names or derivation.no_lagrangian:
+        return told
+    derived = _with_charges(derivation, _ended(lambda: _statements(derivation)).answers(names))
+    sound = _ended(lambda: verified(derivation.problem, derived))
+    wrong = {name for name in names if sound.sections.get(name) != derived.sections.get(name)}
+    if not wrong:
+        return told
+    left_out = (Paragraph((_UNCONFIRMED,)),)
+    return replace(
+        told,
+        steps=tuple(
+            ExplanationStep(step.title, left_out) if wrong & {*steps.get(step.title, ())} else step
+            for step in told.steps
+        ),
+        warnings=(*told.warnings, *(w for w in sound.warnings if w not in derived.warnings)),
+        complete=False,
+    )
 
 
 def _ended(work: Callable[[], Made]) -> Made:
