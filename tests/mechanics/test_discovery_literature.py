@@ -93,3 +93,39 @@ def test_a_lagrangian_that_is_never_real_has_no_answer(L):
     assert found.stopped == ["no state was found at which the Lagrangian is real"]
     known = summary(found)
     assert (known.independent, known.in_involution, known.integrable) == (None, None, None)
+
+
+SPACE = "sqrt(x^2 + y^2 + z^2)"
+MONOPOLE = f"m*(x'^2 + y'^2 + z'^2)/2 + g*z*(x*y' - y*x')/({SPACE}*(x^2 + y^2))"
+
+
+def test_keplers_problem_of_a_monopole_has_its_runge_lenz_vector():
+    """McIntosh, Cisneros, J. Math. Phys. 11 (1970) 896; Zwanziger, Phys. Rev. 176 (1968) 1480."""
+    V = f"g^2/(2*m*{SPACE}^2) - k/{SPACE}"
+    derivation = derive(problem(f"{MONOPOLE} - ({V})", "[x, y, z]", "m k | g"))
+    names = {c.name for c in derivation.discovery.charges}
+    assert names == {"energy", *(f"{kind}_{x}" for kind in ("L", "runge_lenz") for x in "xyz")}
+    found = summary(derivation.discovery)
+    assert (found.independent, found.integrable) == (5, True)
+    assert found.name.startswith("the energy and so(4) where the energy is negative")
+
+
+def test_without_the_inverse_square_it_has_none():
+    derivation = derive(problem(f"{MONOPOLE} + k/{SPACE}", "[x, y, z]", "m k | g"))
+    assert {c.name for c in derivation.discovery.charges} == {"energy", "L_x", "L_y", "L_z"}
+
+
+LIOUVILLE = (
+    ("x^2", "y^4", "x^6", "y^2"),
+    ("exp(a*x)", "y^2", "k*x", "b*y^4"),
+    ("a + x^2", "b*sin(y)", "k/x^2", "cos(y)"),
+)
+
+
+@pytest.mark.parametrize(("F", "G", "U", "W"), LIOUVILLE)
+def test_systems_of_liouvilles_form_have_an_integral_of_second_degree(F, G, U, W):
+    """Whittaker, *Analytical Dynamics*, section 43; Perelomov, vol. I, section 2.2."""
+    text = problem(f"({F} + {G})*(x'^2 + y'^2)/2 - ({U} + {W})/({F} + {G})", parameters="a b k")
+    derivation = derive(text)
+    assert {c.name for c in derivation.discovery.charges} == {"energy", "charge_1"}
+    assert summary(derivation.discovery).in_involution == 2

@@ -22,7 +22,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.build import free_of
-from lagcli.mechanics.discovery.ansatz import Kinds, quadratic, quadratic_unknowns
+from lagcli.mechanics.discovery.ansatz import Kinds, ordered, quadratic, quadratic_unknowns
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, pivot_columns
 from lagcli.mechanics.discovery.relation import Relation
@@ -39,6 +39,7 @@ from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 from lagcli.mechanics.total_derivative import boundary_term
 
 MOST_UNKNOWNS = 480
+_MOST_OF_FIELD = 40
 
 Slots = list[tuple[Slot, Expr]]
 
@@ -62,6 +63,9 @@ class QuadraticIntegrals:
         self.functions = quadratic(kinds, MOST_UNKNOWNS // slots)
         if not self.functions and n * (n + 1) // 2 <= MOST_UNKNOWNS:
             self.functions = [sympy.S.One]
+        self.shared = _of_liouville(equations)
+        self.functions += [x / w for w in self.shared for x in _terms(w, equations.q)]
+        self.of_field = _of_field(equations) if self.linear else []
 
     def found(self, known: Sequence[NoetherCharge]) -> list[tuple[Slots, NoetherCharge]]:
         """The integrals that are no combinations of products of the known ones."""
@@ -81,9 +85,12 @@ class QuadraticIntegrals:
     def search(self, products: Sequence[tuple[Expr, ...]]) -> Search:
         """The linear system, in a field where the products are known."""
         first, second = len(self.pairs), len(self.pairs) + len(self.linear)
-        unknowns = quadratic_unknowns(
-            range(first), range(first, second), self.functions, self.times
-        )
+        unknowns = ordered([
+            *quadratic_unknowns(range(first), (), self.functions, self.times),
+            *quadratic_unknowns(
+                (), range(first, second), [*self.functions, *self.of_field], self.times
+            ),
+        ])  # fmt: skip
         slots = [*self.pairs, *self.linear]
         vectors = [slot.vector for slot in slots]
         more = [e for v in (*vectors, *products) for e in v]
@@ -249,6 +256,7 @@ class QuadraticIntegrals:
         terms = self._of_rest()
         monomials = [sympy.S.One, *q]
         monomials += [x * y for i, x in enumerate(q) for y in q[: i + 1]]
+        monomials += [x for w in self.shared for x in _terms(w, q)]
         inside = {
             t.as_independent(*q, as_Add=False)[1]
             for _, f in functions
@@ -281,6 +289,35 @@ def _roots(expression: Expr, q: Sequence[Symbol]) -> set[Expr]:
 def _length(expression: Expr) -> tuple[int, str]:
     """Shorter ones first: they are the ones that are used where several would do."""
     return sympy.count_ops(expression), str(expression)
+
+
+def _of_liouville(equations: SlotEquations) -> list[Expr]:
+    """F(x) + G(y) of T = (F + G)(x'^2 + y'^2)/2, which the tensor has below its terms."""
+    if len(equations.q) != 2 or equations.mass[0][1] != 0:
+        return []
+    found = [sympy.expand(equations.mass[k][k]) for k in (0, 1)]
+    q = equations.q
+    return [w for w in dict.fromkeys(found) if w.is_Add and w.free_symbols >= set(q)][:1]
+
+
+def _of_field(equations: SlotEquations) -> list[Expr]:
+    """Terms of what multiplies the velocities in the forces, times monomials.
+
+    That of a monopole is x_k/r^3, and the linear part of its integrals x_k/r = x_k r^2/r^3.
+    """
+    q, v = equations.q, equations.v
+    still = dict.fromkeys(v, sympy.S.Zero)
+    slopes = [simplify(f.diff(x).xreplace(still)) for f in equations.forcing for x in v]
+    terms = dict.fromkeys(t for s in slopes for t in _terms(sympy.expand(s), q))
+    monomials = [sympy.S.One, *q, *(x * y for x, y in combinations_with_replacement(q, 2))]
+    made = dict.fromkeys(t * m for t in terms for m in monomials)
+    return list(made) if len(made) <= _MOST_OF_FIELD else []
+
+
+def _terms(expression: Expr, q: Sequence[Symbol]) -> list[Expr]:
+    """Terms without their constant factors."""
+    parts = (t.as_independent(*q, as_Add=False)[1] for t in sympy.Add.make_args(expression))
+    return list(dict.fromkeys(t for t in parts if t != 0))
 
 
 def is_gyroscopic(equations: SlotEquations) -> bool:

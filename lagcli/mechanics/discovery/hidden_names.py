@@ -40,8 +40,10 @@ class HiddenNames:
         if not products and all(not (f.free_symbols & set(self.q)) for _, f in functions):
             return self._constant_tensor(functions)
         S = charge.charge.xreplace(self._rest)
+        parts = sympy.Add.make_args(sympy.expand(self.V))  # of MICZ's potential that in 1/r
         for name, x in self.axes:
-            ratio = self._constant_ratio(S, x * self.V)
+            ratios = (self._constant_ratio(S, x * part) for part in parts)
+            ratio = next((r for r in ratios if r is not None), None)
             if ratio is not None:
                 return f"runge_lenz_{name}", sympy.S.NegativeOne if ratio < 0 else sympy.S.One
         return "", sympy.S.One

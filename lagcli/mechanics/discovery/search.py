@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
@@ -83,7 +83,9 @@ class Search:
         self._time_jets = {
             T: (T, T.diff(t), T.diff(t, 2)) for T in dict.fromkeys(u.time for u in self.unknowns)
         }
-        self._factors = {g: self._split(g) for g in dict.fromkeys(u.space for u in self.unknowns)}
+        spaces = dict.fromkeys(u.space for u in self.unknowns)
+        self._factors = {g: self._split(g) for g in spaces if _is_product(g, equations.q)}
+        self._wholes = {g: self._whole(g) for g in spaces if g not in self._factors}
         self._enter(more)
 
     def _split(self, g: Expr) -> list[tuple[Expr, Expr, Expr]]:
@@ -94,11 +96,19 @@ class Search:
             jets.append((h, h.diff(x), h.diff(x, 2)))
         return jets
 
+    def _whole(self, g: Expr) -> tuple[Expr, list[Expr], list[list[Expr]]]:
+        """g with its gradient and its second derivatives, where it is no such product."""
+        q = self.equations.q
+        slopes = [g.diff(x) for x in q]
+        return g, slopes, [[s.diff(x) for x in q] for s in slopes]
+
     def _enter(self, more: Sequence[Expr]) -> None:
         """Everything into one field."""
         expressions = [e for c in self.conditions for condition in c for _, e in condition]
         jets = [e for jet in self._time_jets.values() for e in jet]
         jets += [e for jets in self._factors.values() for jet in jets for e in jet]
+        for g, slopes, second in self._wholes.values():
+            jets += [g, *slopes, *(e for row in second for e in row)]
         jets += self.equations.v
         variables = [self.equations.t, *self.equations.q, *self.equations.v]
         self.tree = Tree([*expressions, *jets, *more], variables, self.allowed)
@@ -109,6 +119,8 @@ class Search:
         """T g at a point."""
         memo: Memo = {}
         value = self.tree.value(unknown.time, point, memo)
+        if unknown.space in self._wholes:
+            return value * self.tree.value(unknown.space, point, memo) % PRIME
         for h, _, _ in self._factors[unknown.space]:
             value = value * self.tree.value(h, point, memo) % PRIME
         return value
@@ -137,6 +149,12 @@ class Search:
             g: _space_jets([tuple(map(at, jet)) for jet in jets], v)
             for g, jets in self._factors.items()
         }
+        for g, (_, slopes, second) in self._wholes.items():
+            partial = list(map(at, slopes))
+            first = sum(x * y for x, y in zip(partial, v, strict=True))
+            rows = [sum(at(e) * y for e, y in zip(row, v, strict=True)) for row in second]
+            twice = sum(x * y for x, y in zip(rows, v, strict=True))
+            spaces[g] = [at(g), *partial, first % PRIME, twice % PRIME]
         columns = []
         entries = [sum(len(condition) for condition in table) for table in tables]
         EFFORT.done += sum(entries[unknown.slot] for unknown in self.unknowns)
@@ -226,6 +244,11 @@ class Search:
         for unknown, value in solution.terms:
             functions.setdefault(unknown.slot, []).append(value * unknown.function)
         return [(self.slots[s], sympy.Add(*parts)) for s, parts in sorted(functions.items())]
+
+
+def _is_product(g: Expr, q: Sequence[Symbol]) -> bool:
+    """Whether each factor depends on one coordinate at most."""
+    return all(len(f.free_symbols & set(q)) < 2 for f in sympy.Mul.make_args(g))
 
 
 def _formulas(equations: SlotEquations) -> list[Expr]:
