@@ -72,6 +72,8 @@ _WHOLE_ROW = (
 )
 #: Above the first line of an equation, and above those that go on with it.
 _NEXT, _GOES_ON = "0.9em", "0.4em"
+#: A key of a file, quoted as in Markdown.
+_CODE = re.compile("`([^`]+)`")
 #: A formula with a sign and another behind it, or with a punctuation mark.
 _FORMULA = "<math>(?:(?!</math>).)*</math>"
 _TORN = re.compile(rf"{_FORMULA}(?: [-+−=·] {_FORMULA})*[.,;:)]|{_FORMULA}(?: [-+−=·] {_FORMULA})+")
@@ -146,7 +148,7 @@ def _part(part: str | Formula, printer: MathmlPrinter) -> str:
     if isinstance(part, str):
         before = " " if part[:1] == " " else ""
         after = " " if part[-1:] == " " else ""
-        return before + escaped(part) + after
+        return before + _CODE.sub(r"<code>\1</code>", escaped(part)) + after
     return f"<math>{_show(part, printer)}</math>"
 
 

@@ -161,3 +161,8 @@ def test_no_line_of_a_page_ends_before_a_full_stop_or_a_sign():
     page = html.pages([Document("Page", (Paragraph((*parts, ".")),))], Options())
     kept = re.findall(r'<span style="white-space: nowrap">(.*?)</span>', page)
     assert [re.sub("<[^>]*>", "", text) for text in kept] == ["T + V,", "L."]
+
+
+def test_keys_are_code():
+    page = html.pages([Document("Page", (Paragraph(("no `points` & <b>",)),))], Options())
+    assert "<p>no <code>points</code> &amp; &lt;b&gt;</p>" in page
