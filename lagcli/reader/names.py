@@ -20,6 +20,7 @@ from lagcli.problem import Assumption
 from lagcli.reader.habits import function_meant, velocity_meant
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import closest, did_you_mean
+from lagcli.reader.undeclared import UNDECLARED
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -211,8 +212,8 @@ def _advice(name: str, scope: Scope, role: Role, primes: int) -> str:
     if not hint and name in get_args(Assumption):
         return f"an assumption is written {{assume: {name}}}"
     if not hint and name in {"I", "i", "j"}:
-        return "every quantity is real; declare it under 'parameters'"
-    return hint or "declare it under 'parameters'"
+        return f"every quantity is real; {UNDECLARED}"
+    return hint or UNDECLARED
 
 
 def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnostic]:

@@ -35,6 +35,7 @@ from lagcli.reader.scenery import read_scenery
 from lagcli.reader.scope import PHASE_SPACE, STATE, Role
 from lagcli.reader.sections import Sections
 from lagcli.reader.text import Mistake, SourceText, decode
+from lagcli.reader.undeclared import one_for_undeclared
 from lagcli.reader.value_checks import check_values, without_inertia
 from lagcli.record import record
 
@@ -96,9 +97,16 @@ def read_problem(source_name: str, data: bytes) -> ProblemReading:
     problem = _read(sections, source, root)
     if problem is not None and not sections.diagnostics:
         sections.diagnostics += [*_dimension_mistakes(problem), *without_inertia(problem)]
-    found = tuple(sorted(sections.diagnostics, key=lambda diagnostic: diagnostic.span))
+    found = one_for_undeclared(
+        sorted(sections.diagnostics, key=lambda each: each.span), together=not _declares(root)
+    )
     has_errors = any(diagnostic.is_error for diagnostic in found)
     return ProblemReading(source, None if has_errors else problem, found)
+
+
+def _declares(root: DocumentNode) -> bool:
+    """Whether the file has parameters."""
+    return isinstance(root, Mapping) and any(key.label == "parameters" for key, _ in root.entries)
 
 
 def _read(sections: Sections, source: Source, root: DocumentNode) -> Problem | None:

@@ -301,3 +301,17 @@ def test_an_assumption_in_the_place_of_a_value_is_told_how_it_is_written():
     (mistake,) = read_problem("f.yaml", text).diagnostics
     assert (mistake.span.line, mistake.span.column) == (2, 17)
     assert mistake.hint == "an assumption is written {assume: positive}"
+
+
+def test_letters_that_nothing_declares_are_one_mistake():
+    text = b"coordinates: [x]\nT: m*x'^2/2\nV: k*x^2/2 + m*g*x + q*cos(y)\n"
+    (mistake,) = read_problem("f.yaml", text).diagnostics
+    assert mistake.message == "unknown names m, k, g, q, y: the first stands in T"
+    assert (mistake.span.line, mistake.span.column) == (2, 4)
+    assert mistake.hint == "declare them: parameters: [m, k, g, q, y]"
+
+
+def test_a_letter_that_is_missing_is_one_mistake_wherever_it_stands():
+    text = b"coordinates: [x]\nparameters: [m]\nT: m*x'^2/2\nV: k*x^2/2 + k*x + g*x\n"
+    found = read_problem("f.yaml", text).diagnostics
+    assert [one.message for one in found] == ["unknown name 'k' in V", "unknown name 'g' in V"]
