@@ -241,6 +241,17 @@ def test_alternatives_of_which_one_always_holds_are_no_condition():
     assert not one_is_negative([pair[0], 5 * m * k - gamma**2])
 
 
+@pytest.mark.parametrize("rate", ["x'*sin(a) - y'*cos(a) = 0", "x' - y*y' = 0"])
+def test_rest_everywhere_is_called_equilibrium(rate):
+    text = (
+        "coordinates: [x, y, a]\nparameters: {m: {assume: positive}}\n"
+        f"T: m*(x'^2 + y'^2 + a'^2 + x'*a'*cos(a)/2)/2\nconstraints: {{blade: {rate}}}\n"
+    )
+    sentences = said(text, "Steady motions", "steady_motions")
+    assert "in steady motion" not in sentences
+    assert ": Steady motion 1" not in sentences
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 def test_what_vanishes_with_a_parameter_in_every_condition_is_not_denied(seed):
     source = random.Random(seed)
@@ -252,6 +263,7 @@ def test_what_vanishes_with_a_parameter_in_every_condition_is_not_denied(seed):
     assert without_unknowns([k * first, k * second], [x, y]) == ()
     assert without_unknowns([a * first, b], [x, y]) == (b,)
     assert without_unknowns([], [x, y]) == ()
+    assert without_unknowns([a, first, 2 * a, k * a], [x, y]) == (a,)
 
 
 def test_a_tangent_vanishes_with_its_sine_only():

@@ -55,8 +55,9 @@ def steady(teller: Teller, section: Section) -> Iterator[Block]:
     if found.motions is None and found.reason == NONE_LEFT:
         yield says("The constraints leave no coordinate: they prescribe the motion.")
         return
-    if found.conditions and not found.momenta:
-        yield says(_NO_MOMENTUM, _steady_without_momenta(teller, found))
+    if not found.momenta and (found.conditions or found.motions):
+        lead = _steady_without_momenta(teller, found)
+        yield says(_NO_MOMENTUM, lead if found.conditions else f"{lead[:-1]}.")
         yield from _steady_states(teller, found)
         return
     yield says(
@@ -113,7 +114,8 @@ def _motion(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
     if motion.free and placed:
         yield says("For any value of ", _free(motion), ",")
     elif motion.free:
-        known = f" the {velocities}" if rates else " it is in steady motion."
+        kind = "steady motion" if motion.rates else "equilibrium"
+        known = f" the {velocities}" if rates else f" it is in {kind}."
         yield says("For any value of ", _free(motion), known)
     if placed:
         yield Equations(place_rows(motion.at, motion.on))

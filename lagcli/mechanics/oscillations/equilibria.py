@@ -339,7 +339,7 @@ def without_unknowns(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
     open_ = [simplify(e) for e in conditions if free_of(e, unknowns)]
     if open_:
         deciding = [_perhaps_zero(e, unknowns) for e in open_]
-        return tuple(sympy.Mul(*each) for each in deciding) if all(deciding) else ()
+        return tuple({sympy.Mul(*each): None for each in deciding}) if all(deciding) else ()
     factors = [_perhaps_zero(e, unknowns) for e in conditions]
     common = [f for f in factors[0] if all(f in other for other in factors)] if factors else []
     return (sympy.Mul(*common),) if common else ()
