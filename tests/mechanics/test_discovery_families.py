@@ -186,3 +186,29 @@ def test_special_values_are_those_of_the_family(parameters, coordinates, L, valu
     text = f"{{parameters: {parameters}, coordinates: {coordinates}, L: {L}}}"
     cases = derive(text.replace("POS", POS)).discovery.special
     assert set(values.split()) <= {f"{c.parameter}={c.value}" for c in cases}
+
+
+CHANGING = {
+    "m*t^2*x'^2/2": "a growing mass",
+    "t^2*(x'^2 - k*x^2)/2": "Lane and Emden, index 1",
+    "t^2*(x'^2/2 - k*x)": "Lane and Emden, index 0",
+    "m*(x'^2/2 - 3*x^2/(32*t^2))": "Euler",
+    "t^4*x'^2/2 - 35*t^2*x^2/32": "Euler, with a growing mass",
+}
+
+
+@pytest.mark.parametrize("L", CHANGING)
+def test_linear_equations_whose_coefficients_change_have_five(L):
+    """Kamke, *Differentialgleichungen*, vol. I, part A, section 25.1."""
+    found = derive(one_coordinate(L)).discovery
+    assert len(found.charges) == 5, CHANGING[L]
+    assert found.stopped == []
+    assert summary(derive(one_coordinate(L)).discovery).name.startswith("Schrödinger sch(1)")
+
+
+def test_lane_and_emden_have_special_indices():
+    """Chandrasekhar, *Stellar Structure*, chapter IV: 0, 1 and 5 in closed form."""
+    text = (f"{{parameters: {{n: {{}}}}, coordinates: {{x: {POS}}}, "
+            "L: t^2*(x'^2/2 - x^(n + 1)/(n + 1))}")  # fmt: skip
+    cases = {str(c.value): c.number for c in derive(text).discovery.special}
+    assert cases == {"0": 5, "1": 5, "5": 1}

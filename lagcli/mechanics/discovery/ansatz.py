@@ -34,6 +34,7 @@ from lagcli.mechanics.discovery.spectrum import (
     forced_motion,
     sums,
 )
+from lagcli.mechanics.discovery.time_dependent import of_changing_coefficients
 
 _CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 _MOST_FUNCTIONS = 60
@@ -172,6 +173,7 @@ class TimeFunctions:
     others: tuple[Expr, ...]
     exponents: tuple[Exponent, ...]
     forced: tuple[Expr, ...] = ()
+    changing: bool = False  # with the solutions of a linear equation whose coefficients change
 
 
 def time_functions(
@@ -194,11 +196,15 @@ def time_functions(
     translations = [*powers, t**3, *_functions(own, t), *_functions(between, t)]
     forced = forced_motion(accelerations, equations.q, equations.v, t)
     translations += [f * T for f in forced for T in (others if f != t else others[3:])]
+    changing, stretched = of_changing_coefficients(accelerations, equations.q, equations.v, t)
+    translations += changing
+    others += stretched
     return TimeFunctions(
         tuple(dict.fromkeys(translations)),
         tuple(dict.fromkeys(others)),
         tuple(found),
         tuple(f for f in forced if f != t),
+        bool(changing),
     )
 
 

@@ -497,4 +497,6 @@ def _timed(times: TimeFunctions) -> str:
     timed = ", polynomial in t to second degree"
     if times.exponents:
         timed += " and with the exponents of the linear part"
+    if times.changing:
+        timed += " and with the solutions of the linear equation"
     return timed + (" and the functions of time of the driving" if times.forced else "")

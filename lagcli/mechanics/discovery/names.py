@@ -48,7 +48,8 @@ class Naming:
                 if len(tau.atoms(sympy.sin, sympy.cos)) == 1 and tau.has(function):
                     return f"conformal_{word}"
             return ""
-        return {1: "dilation", 2: "conformal"}.get(sympy.degree(tau, self.t), "")
+        degree = sympy.degree(tau, self.t) if tau.is_polynomial(self.t) else 0
+        return {1: "dilation", 2: "conformal"}.get(degree, "")
 
     def _translation(self, moved: Mapping[Symbol, Expr]) -> str:
         if len(moved) == 1:
