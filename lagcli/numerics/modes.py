@@ -43,8 +43,16 @@ class Mode:
             if stuck
             else Motion(*arguments, modes.signs)
         )
+        self.motion.looked_at = self._looked_at()
         #: what a method has generated for this mode
         self.generated: Any = None
+
+    def _looked_at(self) -> tuple[Node, ...]:
+        """The margins of the conditions."""
+        simulation = self.modes.simulation
+        margins = [node for k, node in simulation.margins.items() if k in self.held]
+        gaps = [node for k, node in simulation.gaps.items() if k not in self.held]
+        return (*margins, *gaps, *([] if simulation.stop is None else [simulation.stop]))
 
     def surface(self) -> Surface | None:
         """The constraints that act, nothing measured yet."""

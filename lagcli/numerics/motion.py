@@ -57,6 +57,8 @@ class Motion:
     ) -> None:
         #: the kinks at which friction holds the motion
         self.stuck: tuple[int, ...] = ()
+        #: what is looked at along the way, beside the equations: gaps, margins
+        self.looked_at: tuple[Node, ...] = ()
         self.equations = equations
         self.arithmetic = arithmetic
         self.constants = constants

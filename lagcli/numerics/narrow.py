@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
 from lagcli.graph.nodes import Call, Graph, Node, Product, Sum, ancestry
-from lagcli.numerics.compiled.layout import DIVIDES, FLAT, GROWS, HIGH, JUMPS
+from lagcli.numerics.compiled.layout import DIVIDES, FLAT, GROWS, HIGH, JUMPS, TURNS
 from lagcli.record import record, replace
 
 #: Powers up to this are seen: no series is shorter.
@@ -28,7 +28,7 @@ class Narrow:
     ----------
     kind : int
         DIVIDES: singular where the argument is 0; GROWS: its exponential; FLAT: its tanh, or
-        one over its cosh; HIGH: a power of it; JUMPS: its sign or its absolute value.
+        one over its cosh; HIGH: a power of it; TURNS: its sine; JUMPS: its sign or abs.
     argument : Node
         What it depends on.
     whole : Node or None
@@ -55,7 +55,9 @@ class Narrow:
         return [self.kind, argument, whole, power]
 
 
-def narrow_parts(graph: Graph, roots: Sequence[Node], mask: int) -> list[Narrow]:
+def narrow_parts(
+    graph: Graph, roots: Sequence[Node], mask: int, *, turning: bool = False
+) -> list[Narrow]:
     """What may be passed over in some formulas.
 
     Parameters
@@ -66,8 +68,17 @@ def narrow_parts(graph: Graph, roots: Sequence[Node], mask: int) -> list[Narrow]
         The formulas.
     mask
         The symbols that vary along the motion.
+    turning
+        Whether sines count, too, of what is looked at in a few places of a step only.
     """
     found: dict[Narrow, None] = {}
+    if turning:
+        waves = [node for node in ancestry(roots) if isinstance(node, Call)]
+        found = {
+            Narrow(TURNS, node.arguments[0]): None
+            for node in waves
+            if node.function in {"sin", "cos"} and node.arguments[0].mask & mask
+        }
     varying = [node for node in ancestry(roots) if node.mask & mask]
     together = _together(graph, varying)
     for node in varying:

@@ -45,6 +45,7 @@ GROWS = 1
 FLAT = 2
 HIGH = 3
 JUMPS = 4
+TURNS = 5
 
 # what a call comes back with
 MORE = 0

@@ -172,7 +172,15 @@ class Machine:
         else:
             guards = eliminated.guards
             roots, _ = eliminated.motion(equations.forcing, equations.bias)
+        known = mask
+        for symbol in self.motion.constants:
+            known |= symbol.mask
         narrow = narrow_parts(equations.graph, roots, mask)
+        narrow += [
+            each
+            for each in narrow_parts(equations.graph, self.motion.looked_at, mask, turning=True)
+            if each not in narrow and not any(node.mask & ~known for node in each.nodes)
+        ]
         watched = [node for each in narrow for node in each.nodes]
         tape = self._tape(inputs, [*roots, *watched], guards, frozen=True)
         if len(tape.ops) > LARGEST:

@@ -11,6 +11,7 @@ times around it.  So nothing is passed over
 - where exp(u) changes by no more than what its series shows, r <= 8, or stays nothing;
 - where tanh(u) and 1/cosh(u) are shown by their series, r <= 4, or u stays far from 0;
 - where a high power of u changes in the same way by its logarithm, or its own series settles;
+- where the u of a sine that is looked at in a few places turns by r <= 3;
 - where the u of a sign or an absolute value has no zero, or one at the most: u' has none.
 
 References
@@ -32,6 +33,7 @@ from lagcli.numerics.compiled.layout import (
     NEAR,
     SHORTENED,
     STRIDE,
+    TURNS,
     WATCHED,
     WIDTH,
 )
@@ -42,6 +44,7 @@ GROWTH = 8.0
 VANISHED = 300.0
 TURN = 4.0
 FAR = 150.0
+WAVE = 3.0
 #: The last terms of a series that settles are this part of the largest.
 SETTLED = 1e-4
 #: So many times as far as the zero does a step go that passes it.
@@ -116,6 +119,8 @@ def is_seen(kind: int, c: Reals, whole: Reals, power: int, order: int, part: flo
         if whole[0] != 0:
             return settles(whole, order, part)
     if kind == JUMPS and (rest < first or bend(c, order, part) <= abs(c[1]) * part):
+        return 1
+    if kind == TURNS and rest <= WAVE:
         return 1
     if kind == DIVIDES:
         return divides(c, whole, power, order, part)
