@@ -56,6 +56,7 @@ class Dop853:
     """
 
     name = "dop853"
+    sees = even = False
 
     def __init__(
         self, motion: Motion, surface: Surface | None, generated: tuple[Any, Any] | None = None

@@ -55,6 +55,7 @@ class FixedStep(ABC):
     """
 
     name: str
+    sees, even = False, True
     order: int
 
     def __init__(

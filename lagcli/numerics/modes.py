@@ -17,6 +17,7 @@ from lagcli.numerics.columns import Values
 from lagcli.numerics.events import Condition
 from lagcli.numerics.friction import StuckMotion
 from lagcli.numerics.motion import Motion
+from lagcli.numerics.sight import Sight
 from lagcli.numerics.steps import Method
 from lagcli.numerics.surface import Surface
 
@@ -61,6 +62,11 @@ class Mode:
     def method(self, surface: Surface | None) -> Method:
         """What integrates it."""
         return self.modes.make_method(self, surface)
+
+    @cached_property
+    def sight(self) -> Sight:
+        """What steps may pass over."""
+        return Sight(self.motion)
 
     @cached_property
     def conditions(self) -> list[Condition]:

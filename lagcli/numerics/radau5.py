@@ -52,6 +52,7 @@ class Radau5:
     """
 
     name = "radau5"
+    sees = even = False
 
     def __init__(self, motion: Motion, surface: Surface | None, stages: Stages) -> None:
         self.motion, self.surface, self.n = motion, surface, motion.n

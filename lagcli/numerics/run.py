@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from lagcli.numerics.events import Condition, Event, Occurrence, Watch
 from lagcli.numerics.kinks import lateness
 from lagcli.numerics.modes import Mode
+from lagcli.numerics.sight import seen_steps
 from lagcli.numerics.steps import CannotGoOn, Method, Step, Tolerance, component_scales
 from lagcli.numerics.surface import Surface
 from lagcli.numerics.transitions import Transitions, Turn
@@ -263,13 +264,25 @@ class Run:
         """The steps of a phase; none is longer than what a bounce takes to its highest point."""
         q, v = turn.q, turn.v
         if turn.apex < min(until, begin + self.tolerance.longest):
-            for step in method.steps(q, v, turn.apex, self.tolerance, begin):
+            for step in self._seen(method, q, v, turn.apex, begin):
                 q, v, begin = step.q, step.v, step.end
                 yield step
             if method.reached is not None:
                 return
         if begin < until:
-            yield from method.steps(q, v, until, self.tolerance, begin)
+            yield from self._seen(method, q, v, until, begin)
+
+    def _seen(
+        self, method: Method, q: Vector, v: Vector, until: float, begin: float
+    ) -> Iterator[Step]:
+        """Steps that pass over nothing."""
+        if method.sees:
+            return method.steps(q, v, until, self.tolerance, begin)
+        sight = self.phases[-1].mode.sight
+        return seen_steps(method, sight, (q, v), until, self.tolerance, begin, self._shorter)
+
+    def _shorter(self) -> None:
+        self.shortened += 1
 
     def _turned(self, mode: Mode, found: Occurrence, q: Vector, v: Vector) -> Turn:
         self._end(found.t, q, v)

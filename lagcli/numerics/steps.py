@@ -189,6 +189,8 @@ class Method(Protocol):
 
     name: str
     reached: int | None  # the kink at which friction has stopped the steps
+    sees: bool  # whether its steps pass over nothing: see `compiled.unseen`
+    even: bool  # whether its steps are of one length
 
     @property
     def evaluations(self) -> int:

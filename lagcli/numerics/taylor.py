@@ -31,6 +31,7 @@ _LOWEST = 8
 _LOOKED_AT = 4  # coefficients, for the length of the step
 _SAFETY = 0.9
 _FIRST = 1e-3  # of the longest step
+_LONGEST = 1000.0  # the exponent of a step
 #: A step that is a larger part of the time ends at a double.
 _RESOLVED = 1e-12
 _SHORTEST = 2.0**20  # of the numbers' rounding, as a part of the time
@@ -48,6 +49,7 @@ class Taylor:
     """
 
     name = "taylor"
+    sees = even = False
 
     def __init__(self, motion: Motion, surface: Surface | None) -> None:
         from flint import arb, arb_series, ctx
@@ -148,7 +150,7 @@ class Taylor:
             for k in range(len(c) - _LOOKED_AT, len(c)):
                 size = _log2(c[k])
                 exponent = min(exponent, (place - size) / k, (rate - size - math.log2(k)) / (k - 1))
-        return _SAFETY * math.exp2(exponent)
+        return _SAFETY * math.exp2(min(exponent, _LONGEST))
 
     def _inside(self, start: Any, end: Any, series: list[list[Any]]) -> Any:
         """Positions, velocities and accelerations anywhere in the step.

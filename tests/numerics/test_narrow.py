@@ -162,3 +162,47 @@ def test_powers_that_may_be_narrow():
 def test_what_is_divided_by_0_is_passed_where_it_is_regular():
     result = simulated(BY_PLACE.format(potential="-sin(x - 3)/(x - 3)/4"), UNTIL, 1e-9)
     assert result.certificate.reached
+
+
+@pytest.mark.parametrize("method", ["dop853", "radau5", "taylor"])
+def test_methods_whose_steps_come_without_series_pass_over_nothing(method):
+    h, c, w = drawn(method, -4, -2)
+    mpmath.mp.dps = 25
+    width = mpmath.mpf(w)
+
+    def force(t):
+        return mpmath.mpf(h) * mpmath.exp(-(((t - mpmath.mpf(c)) / width) ** 2)) / width
+
+    speed = integral(force, mpmath.mpf(UNTIL), around(c, w))
+    file = BY_TIME.format(force=f"{h}*exp(-((t - {c})/{w})^2)/{w}")
+    result = simulated(file, UNTIL, 1e-6, method=method)
+    assert result.certificate.reached
+    assert held(result, "x'", speed)
+
+
+BUMP = """
+coordinates: [x, y]
+T: (x'^2 + y'^2)/2
+contacts: {{bump: {{gap: "y - {gap} >= 0"}}}}
+initial: {{x: 0, y: 0.9, x': 1}}
+"""
+
+
+@pytest.mark.parametrize("width", ["1e-2", "1e-4", "1e-6"])
+@pytest.mark.parametrize(
+    ("gap", "reach"),
+    [("exp(-((x - 5)/{w})^2)", (-mpmath.log(0.9)) ** 0.5), ("1/(1 + ((x - 5)/{w})^2)", 1 / 3)],
+)
+def test_a_narrow_bump_of_a_contact_is_met(gap, reach, width):
+    result = simulated(BUMP.format(gap=gap.format(w=width)), UNTIL, 1e-9)
+    [event] = result.events
+    assert event.what == "contact closes"
+    assert abs(event.t - (5 - reach * float(width))) <= 1e-13 + event.error
+
+
+def test_a_gap_that_nearly_closes_again_and_again():
+    free = BY_PLACE.format(potential="0")
+    comb = 'contacts: {{comb: {{gap: "{h} + sin(300*x) >= 0"}}}}'
+    assert not simulated(free + comb.format(h=1.0001), UNTIL, 1e-9).events
+    [event] = simulated(free + comb.format(h=0.9999), UNTIL, 1e-9).events
+    assert event.t == pytest.approx((mpmath.pi + mpmath.asin(0.9999)) / 300, rel=1e-9)

@@ -6,6 +6,7 @@ The functions exist in compiled code only; `series`, `in_doubles`, `positions`,
 
 from __future__ import annotations
 
+import math
 from typing import Protocol
 
 
@@ -45,12 +46,12 @@ def sqrt(x: float) -> float:
 
 def log(x: float) -> float:
     """The natural logarithm."""
-    raise NotImplementedError
+    return math.log(x)
 
 
 def exp(x: float) -> float:
     """The exponential function."""
-    raise NotImplementedError
+    return math.exp(x)
 
 
 def fma(x: float, y: float, z: float) -> float:

@@ -57,6 +57,8 @@ class CompiledTaylor:
         one without those that the others imply.
     """
 
+    sees, even = True, False
+
     def __init__(self, machine: Machine, surface: Surface | None) -> None:
         self.machine, self.surface = machine, surface
         self._held_surface = surface

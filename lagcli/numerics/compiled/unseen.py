@@ -22,7 +22,7 @@ Rouche's theorem: Ahlfors, *Complex Analysis*, 3rd ed., section 4.5.2.
 
 from __future__ import annotations
 
-from lagcli.numerics.compiled.intrinsics import Ints, Reals, at, log
+from lagcli.numerics.compiled.intrinsics import Ints, Reals, at, exp
 from lagcli.numerics.compiled.layout import (
     BLOCKED,
     DIVIDES,
@@ -114,7 +114,7 @@ def is_seen(kind: int, c: Reals, whole: Reals, power: int, order: int, part: flo
     if kind == FLAT and (rest <= TURN or first - rest >= FAR):
         return 1
     if kind == HIGH:
-        if power * log(1 + rest / first) <= GROWTH or power * log(first + rest) <= -VANISHED:
+        if rest <= first * (exp(GROWTH / power) - 1) or first + rest <= exp(-VANISHED / power):
             return 1
         if whole[0] != 0:
             return settles(whole, order, part)
