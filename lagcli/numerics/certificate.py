@@ -22,6 +22,10 @@ if TYPE_CHECKING:
 
 #: A motion that is known up to this part of the time at which its run stops, stops there.
 _KNOWN = 0.5
+#: Accelerations that move a coordinate by less than so many times itself do not end the motion.
+_BOUNDED = 1e3
+#: What does.
+IRREGULAR = "a function in the equations has a corner, a jump or a pole there"
 
 
 def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Result:
@@ -200,6 +204,8 @@ def why_stopped(motion: Motion, stop: CannotGoOn) -> str:
     try:
         rates: Any = motion.accelerations(stop.t, *stop.q, *stop.v)
         j = max(range(len(names)), key=lambda k: abs(float(rates[k])))
+        if abs(float(rates[j])) * stop.t**2 <= _BOUNDED * _size(stop.q):
+            return stop.reason or IRREGULAR
         grows = f"{names[j]}'' grows without bound there"
     except (ArithmeticError, ValueError) as error:
         return f"the accelerations are not defined there: {told(error)}"
@@ -221,3 +227,7 @@ def _warnings(simulation: Simulation, rows: list[Any], events: list[Event]) -> l
         elif empty:
             found.append(f"{column.name} is not defined at t = {empty[0]:g}")
     return found
+
+
+def _size(q: Sequence[Any]) -> float:
+    return max(1.0, *(abs(float(x)) for x in q))

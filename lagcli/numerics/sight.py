@@ -11,7 +11,7 @@ from typing import Any
 
 from lagcli.numerics.arithmetic import Balls
 from lagcli.numerics.compiled.layout import DIVIDES, JUMPS
-from lagcli.numerics.compiled.unseen import ATTEMPTS, LEAST, SHORTER, is_seen
+from lagcli.numerics.compiled.unseen import ATTEMPTS, SHORTER, is_seen
 from lagcli.numerics.motion import Motion
 from lagcli.numerics.narrow import Narrow, narrow_parts
 from lagcli.numerics.steps import CannotGoOn, Method, NotPossible, Step, Tolerance
@@ -55,8 +55,6 @@ class Sight:
         return part
 
     def _is_clear(self, each: Narrow, rows: dict[Any, list[float]], part: float) -> bool:
-        if each.kind == JUMPS and part < LEAST:
-            return True
         c = rows[each.argument]
         whole = c if each.whole is None else rows[each.whole]
         power = int(each.whole is not None) if each.kind == DIVIDES else each.power
@@ -104,7 +102,11 @@ def _narrow(motion: Motion) -> list[Narrow]:
     nodes += [*(entry for row in equations.rows for entry in row), *equations.bias]
     found = narrow_parts(equations.graph, [*nodes, *motion.looked_at], mask, turning=True)
     known |= mask
-    return [each for each in found if not any(node.mask & ~known for node in each.nodes)]
+    return [
+        each
+        for each in found  # a sign is looked at as every step is made
+        if each.kind != JUMPS and not any(node.mask & ~known for node in each.nodes)
+    ]
 
 
 def _cubic(h: float, x: float, u: float, end_x: float, end_u: float) -> list[float]:

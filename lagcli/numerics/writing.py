@@ -31,6 +31,7 @@ def document_of(result: Result) -> dict[str, Any]:
     """The result as maps, lists and numbers."""
     held = result.certificate
     beyond = {} if result.beyond is None else {"beyond_rows": [list(row) for row in result.beyond]}
+    refused = {"reason": result.refusal, "at": held.holds_until}
     return {
         "schema": 1,
         "columns": list(result.columns),
@@ -57,6 +58,7 @@ def document_of(result: Result) -> dict[str, Any]:
         "events": [_event(event) for event in result.events],
         "model": {} if result.cut is None else _model(result.cut),
         "warnings": list(result.warnings),
+        **({"refused": refused} if result.refusal else {}),
     }
 
 
