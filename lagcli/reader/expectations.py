@@ -17,7 +17,7 @@ from lagcli.problem import (
 )
 from lagcli.reader.columns import named_columns
 from lagcli.reader.dynamics import read_by_coordinate
-from lagcli.reader.nodes import DocumentNode, Scalar
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.scope import ANSWER, Role
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.trajectory import TrajectoryReader
@@ -63,6 +63,8 @@ class ExpectReader:
 
     def read(self, node: DocumentNode) -> Expect:
         """The whole section."""
+        if isinstance(node, Mapping) and not node.entries:
+            return Expect()  # no section need be known
         keys = ("degrees_of_freedom", *expected_keys(self._unusual(node)), "trajectory")
         found = self.sections.attributes(node, "expect", keys)
         values: dict[str, Any] = {}

@@ -7,10 +7,12 @@ schema, the key of `expect` with its comparison: all of them read the declaratio
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from lagcli.document import Block
 from lagcli.record import record
+
+if TYPE_CHECKING:
+    from lagcli.document import Block
 
 Schema = Mapping[str, Any]
 
