@@ -113,21 +113,27 @@ def listed(cards: list[Card]) -> Iterator[str]:
     yield "</body>\n</html>"
 
 
-def _one(work: tuple[LibraryEntry, Path]) -> Card:
-    return made(*work)
+def _one(work: tuple[LibraryEntry, Path]) -> Card | str:
+    """The card, or what went wrong: not every exception finds its way out of a process."""
+    try:
+        return made(*work)
+    except Exception as error:  # noqa: BLE001 - one page less, and its reason
+        return f"{work[0].name}: {type(error).__name__}: {error}"
 
 
-def main(folder: Path, words: list[str]) -> None:
-    """Make the pages of the problems whose name has one of the words."""
+def main(folder: Path, words: list[str]) -> int:
+    """Make the pages of the problems whose name has one of the words; how many failed."""
     chosen = [e for e in entries() if not words or any(word in e.name for word in words)]
     cards = []
     with Pool(maxtasksperchild=10) as pool:
         for card in pool.imap(_one, [(entry, folder) for entry in chosen]):
-            cards.append(card)
-            print(card.name, flush=True)
+            if isinstance(card, Card):
+                cards.append(card)
+            print(card.name if isinstance(card, Card) else card, flush=True)
     folder.mkdir(exist_ok=True)
     (folder / "index.html").write_text("\n".join(listed(cards)) + "\n", "utf-8")
+    return len(chosen) - len(cards)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), sys.argv[2:])
+    sys.exit(min(main(Path(sys.argv[1]), sys.argv[2:]), 1))

@@ -23,7 +23,7 @@ def browser():
 
 
 def test_the_pages_of_the_library_are_quiet_and_fit_on_a_phone(browser, tmp_path):
-    main(tmp_path, [])
+    assert main(tmp_path, []) == 0
     pages = sorted(tmp_path.rglob("*.html"))
     assert len(pages) > 200
     wrong = {}
