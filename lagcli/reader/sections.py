@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from itertools import islice
 from typing import TYPE_CHECKING, TypeVar
@@ -30,6 +31,7 @@ _T = TypeVar("_T")
 UNREADABLE = ZERO
 #: Places where a number stands, without its unit.
 _NUMERIC = (VALUES, NUMBERS)
+_NAME = re.compile(r"[^\W\d]\w*")
 _NO_EQUATION = Equation(ZERO, ZERO)
 
 
@@ -145,8 +147,9 @@ class Sections:
         return expression
 
     def _is_unit(self, text: str) -> bool:
-        """Whether a text is a unit, and no name of the file."""
-        return text not in self.scope.kinds and unit_behind(f"1 {text}") == text != ""
+        """Whether a text is a unit, and none of its names is one of the file."""
+        known = any(name in self.scope.kinds for name in _NAME.findall(text))
+        return not known and unit_behind(f"1 {text}") == text != ""
 
     def _misplaced_unit(self, node: DocumentNode, what: str, unit: str) -> None:
         assert isinstance(node, Scalar)

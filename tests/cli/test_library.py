@@ -120,7 +120,7 @@ def test_the_ending_of_the_output_chooses_the_format(ending, shown, tmp_path):
 )  # fmt: skip
 def test_an_ending_that_disagrees_with_the_format_is_an_error(command, shown, tmp_path):
     status, _, told = shown(*command, "-o", "out.json")
-    assert (status, "out.json asks for json" in told, list(tmp_path.iterdir())) == (2, True, [])
+    assert (status, "out.json requires json" in told, list(tmp_path.iterdir())) == (2, True, [])
 
 
 def test_a_folder_is_solved_file_by_file(shown, tmp_path):
