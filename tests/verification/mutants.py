@@ -252,13 +252,16 @@ def _reasons(part: Any) -> Iterator[str]:
         for each in part:
             yield from _reasons(each)
     elif isinstance(part, dict):
-        yield from (v for k, v in part.items() if k in {"reason", "note"} and v)
+        yield from (v for k, v in part.items() if k in {"reason", "note", "ansatz"} and v)
         for each in part.values():
             yield from _reasons(each)
 
 
 #: A null here is the word "undecided", or claims nothing.
-UNDECIDED = ("/stable", "/name", "/named", "/integrable", "/in_involution", "/separable")
+UNDECIDED = (
+    "/stable", "/name", "/named", "/integrable", "/in_involution", "/separable", "/turning_points",
+    "/generator",
+)  # fmt: skip
 
 #: The sentence that says that a list may not hold everything.
 _OTHERS = {"equilibria": "no other equilibrium", "steady_motions": "no other steady motion",

@@ -140,6 +140,16 @@ class LinearMotion:
         definite = all(z.real > NOTHING for z in eigenvalues(self.laws.mass_matrix))
         return not pushed and definite and all(k > 1e-8 for k in self.stiffness)
 
+    @cached_property
+    def curvatures(self) -> list[float]:
+        """Eigenvalues of the second derivatives of V - T_0 without constraints, at rest."""
+        here, columns = self.laws.drift, []
+        for name in self.x.reference.names:
+            moved = {**self.environment, (name, 0): self.environment[name, 0] + _STEP}
+            pairs = zip(here, self._laws(moved).drift, strict=True)
+            columns.append([(b - a) / _STEP for a, b in pairs])
+        return [z.real for z in eigenvalues(list(zip(*columns, strict=True)))]
+
     def _tangent(self) -> list[tuple[arb, ...]]:
         jacobian = self.laws.jacobian
         return list(solve(jacobian, [arb(0)] * len(jacobian), self.size).kernel)

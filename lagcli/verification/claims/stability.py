@@ -7,7 +7,9 @@ from collections.abc import Sequence
 from lagcli.statements.motions import Above, Verdict
 from lagcli.verification.claims.near import LinearMotion, eigenvalues
 from lagcli.verification.claims.rest import conditions
+from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.examination import Examination
+from lagcli.verification.states import State
 
 
 class Judged:
@@ -49,7 +51,7 @@ class Judged:
 def refutes(x: Examination, what: str, near: LinearMotion, verdict: Verdict, cyclic: int) -> str:
     """Why a verdict cannot be right at this state; empty where it can."""
     if not near.regular:
-        return ""
+        return _at_a_pole(near, verdict)
     judged = Judged(near, cyclic)
     if verdict.stable and judged.growing:
         return "a disturbance grows"
@@ -81,6 +83,31 @@ def refutes(x: Examination, what: str, near: LinearMotion, verdict: Verdict, cyc
     if any(unstable) and (bowl or judged.oscillating):
         return "no disturbance grows where one is said to"
     return ""
+
+
+def _at_a_pole(near: LinearMotion, verdict: Verdict) -> str:
+    """The same where the inertia of a coordinate is 0, as that of the azimuth: by the potential.
+
+    Only where L is even in the velocities and nothing but L acts.
+    """
+    x, given = near.x, near.x.problem
+    pushed = given.forces or given.dissipation or any(p.force for p in given.points)
+    if pushed or x.reference.rows or not all(map(_is_even, x.states())):
+        return ""
+    values = [k for k in near.curvatures if abs(k) > 1e-8]
+    if verdict.stable and any(k < 0 for k in values):
+        return "the potential has no minimum where it is said to be stable"
+    if verdict.stable is False and values and all(k > 0 for k in values):
+        return "the potential has a minimum where it is said to be unstable"
+    return ""
+
+
+def _is_even(state: State) -> bool:
+    """Whether L is the same for opposite velocities."""
+    names = state.reference.names
+    back = {(n, 1): -state.environment[n, 1] for n in names}
+    other = state.reference.values({**state.environment, **back})(state.reference.lagrangian)
+    return compare(state.laws.lagrangian, other) is ComparisonVerdict.EQUAL
 
 
 def _positive(z: complex) -> bool:
