@@ -34,6 +34,8 @@ def equilibria(judge, printed):
         for q in _places(judge, each):
             places.append((q, each))
             _examine(judge, each, q)
+    if any("other solutions of" in warning for warning in judge.sheet["warnings"]):
+        return  # it says what those that have no closed form solve
     for q in to_be_found(judge):
         if not any(is_there(judge.motion, q, place, each) for place, each in places):
             told = any("not listed" in warning for warning in judge.sheet["warnings"])
