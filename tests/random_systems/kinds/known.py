@@ -14,7 +14,7 @@ def _factor(rng: Random, names) -> str:
     a = whole(rng)
     return rng.choice(
         [
-            x, f"({x} - {y})", f"({x} - {a}*{y})", f"({x} - l)", f"sin({x})",
+            x, f"({x} - {y})", f"({x} - {a}*{y})", f"({x} - l)", f"({x}^2 - l^2)",
             f"({x}^2 + {y}^2 - l^2)", f"({y} - {x}^2)", f"({x} + {a}*{y})", f"(1 + {x}^2)",
             f"({x} - a*{y})", f"exp({y})", f"({x} - 2*l)",
         ]
