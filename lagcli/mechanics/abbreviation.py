@@ -39,7 +39,7 @@ def abbreviated(
     named: Mapping[Symbol, Node],
     values: Sequence[Node],
     order: Sequence[str],
-    labels: Labels,
+    labels: PartLabels,
     varying: int,
 ) -> Written | None:
     """The values and the abbreviations that they use, in order; None for more than a page."""
@@ -77,7 +77,7 @@ def _needed(named: Mapping[Symbol, Node], values: Sequence[Node]) -> dict[Symbol
     return {symbol: named[symbol] for symbol in reversed(kept)}
 
 
-class Labels:
+class PartLabels:
     """Names by what is named: s12 = sin(θ1 − θ2), m23 = m2 + m3, else k1, k2, …
 
     A part that was named keeps its name.

@@ -35,7 +35,7 @@ from lagcli.graph.nodes import Node, Symbol
 from lagcli.graph.sharing import operations
 from lagcli.graph.substitution import Substitution
 from lagcli.graph.values import Digits, Program
-from lagcli.mechanics.abbreviation import Labels, Written, abbreviated
+from lagcli.mechanics.abbreviation import PartLabels, Written, abbreviated
 from lagcli.mechanics.gathering import gathered
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.mechanics.symbolic_elimination import StepNames, SymbolicElimination
@@ -99,7 +99,7 @@ class ClosedForm:
         names = (*form.problem.parameters, *form.problem.coordinates)
         self.order = tuple(quantity.name for quantity in names)
         self._wide = len(form.q) + len(form.constraints) > 9
-        self._labels: Labels | None = None
+        self._labels: PartLabels | None = None
 
     @cached_property
     def motion(self) -> ClosedSolution | None:
@@ -141,7 +141,7 @@ class ClosedForm:
     def _written(self, named: Mapping[Symbol, Node], values: Sequence[Node]) -> Written | None:
         """The trees, parts named as they were named before."""
         if self._labels is None:
-            self._labels = Labels(self.taken)
+            self._labels = PartLabels(self.taken)
         momenta = tuple(f"p_{q.name}" for q in self.form.q)
         varying = self.form.varying
         for symbol in (*named, *map(self.graph.symbol, momenta)):

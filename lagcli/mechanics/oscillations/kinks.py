@@ -21,7 +21,7 @@ from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 
 
-class Place(Protocol):
+class KinkPlace(Protocol):
     """A known equilibrium."""
 
     @property
@@ -34,7 +34,7 @@ def at_kinks(
     forces: Sequence[Expr],
     equations: Sequence[Expr],
     coordinates: Sequence[Symbol],
-    known: Sequence[Place],
+    known: Sequence[KinkPlace],
 ) -> bool:
     """Whether there may be equilibria where a force jumps, beside the known ones.
 
@@ -55,7 +55,7 @@ def at_kinks(
 
 
 def _may_rest(
-    u: Expr, equations: Sequence[Expr], coordinates: Sequence[Symbol], known: Sequence[Place]
+    u: Expr, equations: Sequence[Expr], coordinates: Sequence[Symbol], known: Sequence[KinkPlace]
 ) -> bool:
     if any(is_zero(u.xreplace(dict(place.values))) is True for place in known):
         return False

@@ -19,7 +19,7 @@ from lagcli.verification.reference import DynamicsAtState
 from lagcli.verification.states import State
 
 
-class Eliminated(Examination):
+class EliminatedFormula(Examination):
     """An examination at states with the momenta of the reduced Lagrangian."""
 
     def __init__(self, x: Examination, names: Collection[str]) -> None:

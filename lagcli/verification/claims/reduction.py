@@ -15,7 +15,7 @@ from lagcli.expression import Expression
 from lagcli.record import replace
 from lagcli.statements.answers import ModelSection, ReductionSection
 from lagcli.statements.motions import OneFreedom
-from lagcli.verification.claims.eliminated import Eliminated
+from lagcli.verification.claims.eliminated import EliminatedFormula
 from lagcli.verification.claims.periods import periods
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot
@@ -31,7 +31,7 @@ def reduction(x: Examination, section: ReductionSection) -> ReductionSection:
     if R is None:
         return section
     if section.eliminated and not section.constraints:
-        x = Eliminated(x, section.eliminated)
+        x = EliminatedFormula(x, section.eliminated)
     holds = (
         _cyclic(x, section)
         and x.holds("the Routhian", R, lambda s: _routhian(x, s, section))
