@@ -10,7 +10,7 @@ import sympy
 from lagcli.algebra import is_zero
 from lagcli.algebra.signs import sign
 from lagcli.formatters.grammar import to_grammar
-from lagcli.mechanics.oscillations.equilibria import without_unknowns
+from lagcli.mechanics.oscillations.equilibria import RestPoints, without_unknowns
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.routh import Routh
@@ -250,6 +250,14 @@ def test_rest_everywhere_is_called_equilibrium(rate):
     sentences = said(text, "Steady motions", "steady_motions")
     assert "in steady motion" not in sentences
     assert ": Steady motion 1" not in sentences
+
+
+def test_a_condition_without_coordinates_has_no_other_solutions():
+    text = (
+        "coordinates: [x, y]\nparameters: {m: {assume: positive}, g: {assume: positive}}\n"
+        "T: m*(x'^2 + y'^2)/2\nV: m*g*y + m*x^2\n"
+    )
+    assert RestPoints(derive(text).dynamics).conditions == "2*m*x = 0"
 
 
 @pytest.mark.parametrize("seed", SEEDS)

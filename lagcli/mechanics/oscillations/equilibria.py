@@ -196,7 +196,7 @@ class RestPoints:
     @property
     def conditions(self) -> str:
         """What the coordinates of an equilibrium solve; empty where that is long."""
-        short = [simplify(e) for e in self.equations]
+        short = [simplify(e) for e in self.equations if not free_of(e, self.system.q)]
         short = [-e if e.could_extract_minus_sign() else e for e in short]
         texts = [f"{e} = 0".replace("**", "^") for e in short]
         whole = ", ".join(texts)
