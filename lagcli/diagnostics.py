@@ -7,7 +7,7 @@ them and shows them together.  Nothing here knows what the mistakes are about.
 from __future__ import annotations
 
 import unicodedata
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from lagcli.record import field, record
 
@@ -72,6 +72,19 @@ class ProblemError(Exception):
 
     def __str__(self) -> str:
         return render(self.source, self.diagnostics).rstrip("\n")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Whatever the arguments of a subclass are: it may come from another process."""
+        return _restored, (type(self), self.args, self.__dict__)
+
+
+def _restored(
+    kind: type[ProblemError], arguments: tuple[Any, ...], state: dict[str, Any]
+) -> ProblemError:
+    error = kind.__new__(kind)
+    error.args = arguments
+    error.__dict__.update(state)
+    return error
 
 
 # Showing them.

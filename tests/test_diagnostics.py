@@ -81,3 +81,19 @@ def test_related_places_follow_as_notes():
 def test_many_are_counted():
     many = [Diagnostic("wrong", Span(1, 1, 1, 2))] * 60
     assert render(Source("f.yaml", "x"), many).endswith("and 10 more\n")
+
+
+def test_every_error_of_a_problem_survives_the_way_from_another_process():
+    """Also those whose own arguments are others: an H that gives no Lagrangian."""
+    import pickle
+
+    import lagcli
+    from lagcli.diagnostics import ProblemError
+    from lagcli.mechanics.from_hamiltonian import with_lagrangian
+
+    problem = lagcli.loads("coordinates: [x]\nH: x*p_x\n")
+    with pytest.raises(ProblemError) as caught:
+        with_lagrangian(problem)
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert type(again) is type(caught.value)
+    assert (str(again), again.reason) == (str(caught.value), caught.value.reason)

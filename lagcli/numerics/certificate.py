@@ -223,7 +223,9 @@ def _warnings(simulation: Simulation, rows: list[Any], events: list[Event]) -> l
     for j, column in enumerate(simulation.asked.columns):
         empty = [row[0] for row in rows if row[j] is None]
         if empty and len(empty) == len(rows):
-            found.append(f"{column.name} is not determined: redundant constraints share a force")
+            why = "not determined: redundant constraints share a force"
+            shares = simulation.whole.constraints
+            found.append(f"{column.name} is {why if shares else 'not defined at any row'}")
         elif empty:
             found.append(f"{column.name} is not defined at t = {empty[0]:g}")
     return found

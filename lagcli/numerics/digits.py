@@ -73,10 +73,13 @@ def with_digits(simulation: Simulation, outcome: Outcome) -> Rows:
         looks |= {_peak(rows, j) for j in places}
         found = {place: columns(*pairs[place]) for place in looks}
         lost = max(
-            relative(abs(found[place][j] - float(rows[place][j])), outcome.scales[j])
-            for place in looks
-            for j in places
-            if rows[place][j] is not None
+            (
+                relative(abs(found[place][j] - float(rows[place][j])), outcome.scales[j])
+                for place in looks
+                for j in places
+                if rows[place][j] is not None
+            ),
+            default=0.0,  # of columns that are defined nowhere
         )
         if lost <= _LOST * simulation.asked.accuracy:
             return rows
