@@ -68,6 +68,9 @@ class UnicodePrinter(GrammarPrinter):
             glyph = _FRACTIONS.get((first.value.numerator, first.value.denominator))
             if glyph:
                 shown[0] = text(glyph)
+        last = node.factors[-1]
+        if isinstance(last, Call) and last.function == "integral":
+            shown[-1] = self.show(last)  # it ends at its `ds`
         return shown
 
     def power(self, node: Power) -> Layout:
