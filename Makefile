@@ -31,7 +31,7 @@ solve: $(READY) ## the main job: make solve FILE=problems/hoop.yaml
 	@$(BIN)/lagcli solve $(FILE)
 
 .PHONY: check
-check: lint types layers test ## what one runs before a commit; a few minutes
+check: lint types layers test library ## what one runs before a commit; a few minutes
 
 .PHONY: check-all
 check-all: long certificate ## all the rest: long runs, the whole library, mutants, certificates
