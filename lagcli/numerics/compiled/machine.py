@@ -175,7 +175,7 @@ class Machine:
         known = mask
         for symbol in self.motion.constants:
             known |= symbol.mask
-        narrow = narrow_parts(equations.graph, roots, mask)
+        narrow = narrow_parts(equations.graph, self._given(roots), mask)
         narrow += [
             each
             for each in narrow_parts(equations.graph, self.motion.looked_at, mask, turning=True)
@@ -197,6 +197,15 @@ class Machine:
         self.watched = [each.entry(made.kept) for each in self.narrow]
         self.ops = len(tape.ops)
         return made
+
+    def _given(self, roots: Sequence[Node]) -> Sequence[Node]:
+        """What is looked at for what is narrow.
+
+        Under constraints the elimination divides by its pivots, which vanish where a mechanism
+        is flat: the motion goes on there, and only a step over the place stays on its branch.
+        """
+        e = self.motion.equations
+        return [*_entries(e.mass, e.rows), *e.forcing, *e.bias] if e.rows else roots
 
     @property
     def watch(self) -> list[int]:
