@@ -65,7 +65,8 @@ class Sight:
         from flint import arb_series, ctx
 
         ends = zip(q, v, step.q, step.v, strict=True)
-        cubics = [_cubic(step.h, *map(float, each)) for each in ends]
+        ball = Balls().ball  # 1 - v² of a v next to 1 is nothing in doubles
+        cubics = [_cubic(ball(step.h), *map(ball, each)) for each in ends]
         columns = [arb_series(c) for c in cubics]
         columns += [arb_series([k * c[k] / step.h for k in (1, 2, 3)]) for c in cubics]
         usual, ctx.cap = ctx.cap, _TERMS
@@ -109,7 +110,7 @@ def _narrow(motion: Motion) -> list[Narrow]:
     ]
 
 
-def _cubic(h: float, x: float, u: float, end_x: float, end_u: float) -> list[float]:
+def _cubic(h: Any, x: Any, u: Any, end_x: Any, end_u: Any) -> list[Any]:
     """Hermite's, in powers of the part of the step."""
     d, first, last = end_x - x, h * u, h * end_u
     return [x, first, 3 * d - 2 * first - last, first + last - 2 * d]

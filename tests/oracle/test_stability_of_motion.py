@@ -40,7 +40,7 @@ def test_what_is_called_stable_stays_and_what_is_called_unstable_leaves(seed: in
     assert not examined(claimed(system(seed)))
 
 
-@pytest.mark.long
+@pytest.mark.hours
 @pytest.mark.parametrize("seed", range(SAMPLE, ALL))
 def test_the_same_of_many_systems(seed: int) -> None:
     assert not examined(claimed(system(seed)))
@@ -52,7 +52,7 @@ def test_some_problems_of_the_library(name: str) -> None:
     assert not examined(list(claims(Derivation(with_lagrangian(problem)))))
 
 
-@pytest.mark.long
+@pytest.mark.hours
 @pytest.mark.parametrize("path", LIBRARY, ids=lambda path: path.stem)
 def test_the_library(path: Path) -> None:
     problem = load(path)
