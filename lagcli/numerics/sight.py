@@ -68,7 +68,11 @@ class Sight:
         ball = Balls().ball  # 1 - v² of a v next to 1 is nothing in doubles
         cubics = [_cubic(ball(step.h), *map(ball, each)) for each in ends]
         columns = [arb_series(c) for c in cubics]
-        columns += [arb_series([k * c[k] / step.h for k in (1, 2, 3)]) for c in cubics]
+        if isinstance(v[0], float):
+            columns += [arb_series([k * c[k] / step.h for k in (1, 2, 3)]) for c in cubics]
+        else:  # the error of x over a short step is more than 1 - v² of a v next to 1
+            pairs = (tuple(map(ball, pair)) for pair in zip(v, step.v, strict=True))
+            columns += [arb_series([u, end - u]) for u, end in pairs]
         usual, ctx.cap = ctx.cap, _TERMS
         try:
             found = self._function(arb_series([step.start, step.h]), *columns)
