@@ -66,7 +66,7 @@ def test_answers_are_compared_by_meaning(
     assert differences(before, after) == found
 
 
-@pytest.mark.long
+@pytest.mark.hours
 def test_of_200_changes_that_make_an_answer_wrong_95_in_100_are_noticed() -> None:
     found = list(mutants.run(200, seed=1))
     kinds = Counter(each.kind for each in found)
