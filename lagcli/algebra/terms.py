@@ -34,7 +34,7 @@ from lagcli.record import record
 #: A bracket is worth it from this share of the operations of the terms one by one.
 _WORTH_A_BRACKET = 0.72
 
-#: The potential energy stays as the file has it up to so many times the operations.
+#: The potential energy stays as the file has it up to this multiple of the operations.
 _GIVEN = 1.2
 
 Term = tuple[Monomial, int]

@@ -3,24 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import reduce
-from operator import add, mul
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lagcli.expression import (
-    Call,
-    Expression,
-    Name,
-    Negative,
-    Number,
-    Power,
-    Product,
-    Quotient,
-    Sum,
-    walk,
-)
+from lagcli.evaluation import evaluated
+from lagcli.expression import Call, walk
 from lagcli.values import numbers_of_parameters
 
 if TYPE_CHECKING:
@@ -68,31 +56,7 @@ def numeric_function(
     def function(*given: Any) -> Any:
         if len(given) != len(names_of_arguments):
             raise TypeError(f"the arguments are {', '.join(names_of_arguments)}")
-        return _value(
-            formula.expression, {**known, **dict(zip(names_of_arguments, given, strict=True))}
-        )
+        values = known | dict(zip(names_of_arguments, given, strict=True)) | {"pi": np.pi}
+        return evaluated(formula.expression, values, _FUNCTIONS)
 
     return function
-
-
-def _value(node: Expression, values: Mapping[str, Any]) -> Any:
-    match node:
-        case Number(value=value):
-            return float(value)
-        case Name():
-            return np.pi if node.name == "pi" else values[str(node)]
-        case Negative(operand=operand):
-            return -_value(operand, values)
-        case Sum(terms=terms):
-            return reduce(add, (_value(term, values) for term in terms))
-        case Product(factors=factors):
-            return reduce(mul, (_value(factor, values) for factor in factors))
-        case Quotient(numerator=above, denominator=below):
-            return _value(above, values) / _value(below, values)
-        case Power(base=base, exponent=Number(value=value)) if value.denominator == 1:
-            return _value(base, values) ** int(value)
-        case Power(base=base, exponent=exponent):
-            return _value(base, values) ** _value(exponent, values)
-        case Call(function=function, arguments=arguments):
-            return _FUNCTIONS[function](*(_value(each, values) for each in arguments))
-    raise ValueError(f"no numbers for {type(node).__name__}")

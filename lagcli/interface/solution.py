@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import is_dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from lagcli.expression import Expression
 from lagcli.interface.formula import Formula
+from lagcli.interface.rendered import Rendered
 from lagcli.problem import Problem
 from lagcli.statements.answers import Answers
 from lagcli.statements.registry import find_section, in_order
 
+if TYPE_CHECKING:
+    from lagcli.formatters import Options
 
-class Solution:
+
+class Solution(Rendered):
     """What `solve` answers.
 
     A section is an attribute (`solution.accelerations`) or an item
@@ -68,45 +72,11 @@ class Solution:
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self]
 
-    def __str__(self) -> str:
-        return self.to_text().rstrip("\n")
-
     def __repr__(self) -> str:
         return f"<Solution of {self.title!r}: {', '.join(self)}>"
 
-    def to_text(self, width: int = 80) -> str:
-        """The answers as `lagcli solve` prints them."""
-        return _rendered(self._answers, "text", width)
-
-    def to_latex(
-        self, *, labels: str = "", separate: bool = False, variants: Sequence[str] = ()
-    ) -> str:
-        r"""A fragment for \input.
-
-        Parameters
-        ----------
-        labels : str
-            What the labels of the equations begin with; without it they are not numbered.
-        separate : bool
-            Each equation in an `equation`, not several in one `align`.
-        variants : sequence of str
-            Letters in their other shape, such as `varphi`.
-        """
-        from lagcli.formatters.options import LatexOptions
-
-        chosen = LatexOptions(labels=labels, separate=separate, variants=tuple(variants))
-        return _rendered(self._answers, "latex", latex=chosen)
-
-    def to_html(self) -> str:
-        """HTML with MathML."""
-        return _rendered(self._answers, "html")
-
-    def to_json(self) -> str:
-        """The contract of `lagcli solve --format json`."""
-        return _rendered(self._answers, "json")
-
-    def _repr_html_(self) -> str:
-        return self.to_html()
+    def _render(self, format_name: str, options: Options) -> str:
+        return _printed(self._answers, format_name, options)
 
 
 class SolutionPart:
@@ -166,7 +136,7 @@ class SolutionPart:
 
     def __str__(self) -> str:
         if self._page is not None:
-            return _rendered(self._page, "text").split("\n\n", 1)[-1].rstrip("\n")
+            return _printed(self._page, "text").split("\n\n", 1)[-1].rstrip("\n")
         return repr(self)
 
     def __repr__(self) -> str:
@@ -174,7 +144,7 @@ class SolutionPart:
         return f"{type(self._value).__name__}({shown})"
 
     def _repr_html_(self) -> str | None:
-        return None if self._page is None else _rendered(self._page, "html")
+        return None if self._page is None else _printed(self._page, "html")
 
 
 def wrapped(value: Any, problem: Problem) -> Any:
@@ -197,8 +167,8 @@ def _name_of(value: Any) -> str:
     return str(getattr(value, "name", getattr(value, "coordinate", "")))
 
 
-def _rendered(answers: Answers, format_name: str, width: int = 80, **options: Any) -> str:
+def _printed(answers: Answers, format_name: str, options: Options | None = None) -> str:
     from lagcli.formatters import Options
     from lagcli.pipeline import render
 
-    return render([answers], format_name, Options(width=width, **options))
+    return render([answers], format_name, options or Options(width=80))

@@ -62,16 +62,16 @@ class Sight:
 
     def _series(self, step: Step, q: Sequence[Any], v: Sequence[Any]) -> dict[Any, list[float]]:
         """The coefficients of what is watched, in powers of the part of the step."""
-        from flint import arb_series, ctx
+        from flint import arb, arb_series, ctx
 
         ends = zip(q, v, step.q, step.v, strict=True)
-        ball = Balls().ball  # 1 - v² of a v next to 1 is nothing in doubles
-        cubics = [_cubic(ball(step.h), *map(ball, each)) for each in ends]
+        # 1 - v² of a v next to 1 is nothing in doubles
+        cubics = [_cubic(arb(step.h), *map(arb, each)) for each in ends]
         columns = [arb_series(c) for c in cubics]
         if isinstance(v[0], float):
             columns += [arb_series([k * c[k] / step.h for k in (1, 2, 3)]) for c in cubics]
         else:  # the error of x over a short step is more than 1 - v² of a v next to 1
-            pairs = (tuple(map(ball, pair)) for pair in zip(v, step.v, strict=True))
+            pairs = (tuple(map(arb, pair)) for pair in zip(v, step.v, strict=True))
             columns += [arb_series([u, end - u]) for u, end in pairs]
         usual, ctx.cap = ctx.cap, _TERMS
         try:

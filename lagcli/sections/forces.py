@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
 
-#: A vector whose components have so many operations in all stands within a sentence.
+#: The most operations that the components of a vector within a sentence have in all.
 _SHORT = 9
 
 _ORIGIN = "origin"

@@ -31,7 +31,7 @@ CHANGE_OF_L = "a change of L that is not a total time derivative"
 POTENTIAL = Label("U", ("eff",))
 #: A condition of more operations is not written beside the frequency that it says of.
 _LONG = 24
-#: A value with so many operations stands within a sentence.
+#: The most operations of a value within a sentence.
 _SHORT = 3
 _SHORT_RELATION = 12
 _THEOREM = "(Kelvin, Tait and Chetaev)"

@@ -75,7 +75,7 @@ class Tree:
         return result
 
     def rows(self, columns: Sequence[Sequence[Expr]], count: int) -> list[list[int]]:
-        """At least so many rows of values of vectors of functions, from random points.
+        """Rows of values of vectors of functions at random points, at least a given number.
 
         Raises
         ------

@@ -106,7 +106,7 @@ class Counted:
         )
 
     def _in_involution(self, claimed: int) -> bool:
-        """Whether no more than so many of the charges are in involution, and integrable if n."""
+        """Whether at most `claimed` charges are in involution, n of them where integrable."""
         n = len(self.x.reference.names)
         if claimed > n or (self.section.integrable and not self.section.separates and claimed < n):
             return False
