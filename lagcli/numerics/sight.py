@@ -169,11 +169,10 @@ def seen_steps(
                 break
             q, v, t = step.q, step.v, step.end
             yield step
-            if method.reached is not None:
-                tolerance.longest = longest
-                return
             if tolerance.longest < longest:
                 tolerance.longest = min(longest, 2 * tolerance.longest)
                 if not sight.motion.kinks:  # of which the method knows the last
                     break
+        else:  # at the end, or where friction has stopped the steps
+            break
     tolerance.longest = longest

@@ -1,6 +1,7 @@
 """Contacts that are left and strike again, against textbook results and closed forms."""
 
 import math
+from random import Random
 
 import pytest
 
@@ -294,6 +295,28 @@ initial: {x': -1}
     assert happened(result) == [("x'", "sticks")]
     assert result.events[0].t == pytest.approx(1 / slowing, abs=1e-9)
     assert result.rows[-1][1:] == pytest.approx((-0.5 / slowing, 0, 0), abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_what_sticks_ends_the_steps_of_every_method(seed):
+    """Blocks pushed up an incline; abs and sign have no series, so `taylor` is dop853 as well."""
+    random = Random(seed)
+    a, v = random.uniform(0.01, 1), random.uniform(0.1, 10)
+    mu = math.tan(a) * random.uniform(1.01, 4)
+    text = f"""
+coordinates: [x]
+T: x'^2/2
+forces: {{x: -sin({a}) - {mu}*cos({a})*sign(x')}}
+initial: {{x': {v}}}
+"""
+    slowing = math.sin(a) + mu * math.cos(a)
+    until = 3 * v / slowing
+    for options in ({"method": "dop853"}, {"method": "taylor", "digits": 30}, {}):
+        result = simulated(text, until, 1e-12, **options)
+        assert happened(result) == [("x'", "sticks")]
+        assert result.events[0].t == pytest.approx(v / slowing, abs=1e-11 * until)
+        assert result.rows[-1][1] == pytest.approx(v * v / slowing / 2, rel=1e-11)
+        assert result.steps < 5_000
 
 
 def test_a_block_on_a_belt_sticks_until_the_spring_pulls():
