@@ -21,7 +21,7 @@ from lagcli.formatters import Options
 from lagcli.formatters.explaining import render
 from lagcli.formatters.mathml import MathmlPrinter
 from lagcli.library import LibraryEntry, entries
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.equations.refusal import Refusal
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.pipeline import Request, derive, explain, state
 from lagcli.pipeline import render as render_answers

@@ -17,13 +17,13 @@ def initial_mistakes(problem: Problem) -> tuple[Diagnostic, ...]:
     """What a run would refuse of `initial`; nothing where values of parameters are missing."""
     if not (problem.initial and problem.constraints):
         return ()
-    from lagcli.numerics.arithmetic import Doubles
-    from lagcli.numerics.constants import constants_of
-    from lagcli.numerics.contact import with_contacts
-    from lagcli.numerics.equations import Equations
-    from lagcli.numerics.motion import Motion
-    from lagcli.numerics.refusal import Refusal
-    from lagcli.numerics.start import OffConstraints, initial_state
+    from lagcli.numerics.equations.arithmetic import Doubles
+    from lagcli.numerics.equations.constants import constants_of
+    from lagcli.numerics.equations.contact import with_contacts
+    from lagcli.numerics.equations.equations import Equations
+    from lagcli.numerics.equations.motion import Motion
+    from lagcli.numerics.equations.refusal import Refusal
+    from lagcli.numerics.equations.start import OffConstraints, initial_state
 
     try:
         e = Equations(with_contacts(problem))

@@ -7,11 +7,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from lagcli.check.findings import CheckOutcome, Finding
 from lagcli.diagnostics import NOWHERE, Span
 from lagcli.expression import Expression, Name
-from lagcli.numerics.asked import Asked, Result
-from lagcli.numerics.columns import Column
-from lagcli.numerics.known import numbers_of
-from lagcli.numerics.refusal import Refusal
-from lagcli.numerics.simulate import simulate
+from lagcli.numerics.certified.simulate import simulate
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.equations.parameter_formulas import numbers_of
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.hybrid.request import Asked, Result
 from lagcli.problem import Known, KnownRow, Problem, Trajectory
 
 _TOLERANCE = 1e-9

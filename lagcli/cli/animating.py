@@ -15,7 +15,7 @@ from lagcli.cli.telling import tell_line
 from lagcli.record import record
 
 if TYPE_CHECKING:
-    from lagcli.numerics.asked import Asked
+    from lagcli.numerics.hybrid.request import Asked
     from lagcli.pictures.scene import Scene
     from lagcli.problem import Problem
 

@@ -36,7 +36,7 @@ def motion_below(problem: Problem) -> tuple[str, str]:
     """HTML of the motion, and why there is none or why it ends early; empty where it does not."""
     from lagcli.diagnostics import ProblemError
     from lagcli.interface.motion import integrate
-    from lagcli.numerics.refusal import Refusal
+    from lagcli.numerics.equations.refusal import Refusal
     from lagcli.pictures.drawing import CannotDraw
     from lagcli.pipeline import with_lagrangian
 

@@ -19,7 +19,7 @@ from lagcli.cli.telling import tell, tell_line
 from lagcli.record import record, replace
 
 if TYPE_CHECKING:
-    from lagcli.numerics.asked import Asked
+    from lagcli.numerics.hybrid.request import Asked
     from lagcli.pictures.drawing import Picture
     from lagcli.problem import Problem
 
@@ -84,7 +84,7 @@ def _draw(problem: Problem, asked: Asked, wish: PlotWish) -> Status:
 def attempted(problem: Problem, work: Callable[[], Made]) -> Made | Status:
     """What the work gives; the exit status where it cannot be done, once that is told."""
     from lagcli.diagnostics import ProblemError
-    from lagcli.numerics.refusal import Refusal
+    from lagcli.numerics.equations.refusal import Refusal
     from lagcli.pictures.drawing import CannotDraw
 
     try:

@@ -21,7 +21,7 @@ from lagcli.problem import METHODS
 from lagcli.record import record
 
 if TYPE_CHECKING:
-    from lagcli.numerics.asked import Asked
+    from lagcli.numerics.hybrid.request import Asked
     from lagcli.problem import Problem
 
 Value = TypeVar("Value")
@@ -109,9 +109,9 @@ def _table(wish: SimulateOptions) -> tuple[bytes | None, Status]:
 
 
 def _run(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes | None, Status]:
-    from lagcli.numerics.refusal import Refusal
-    from lagcli.numerics.simulate import simulate
-    from lagcli.numerics.writing import WRITERS
+    from lagcli.numerics.certified.simulate import simulate
+    from lagcli.numerics.equations.refusal import Refusal
+    from lagcli.numerics.tables.writing import WRITERS
 
     if wish.rigorous:
         return _proved(problem, asked, wish)
@@ -128,7 +128,7 @@ def _run(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes |
 
 def _proved(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes | None, Status]:
     """The table of a proof, or None, and how it ended."""
-    from lagcli.numerics.refusal import Refusal
+    from lagcli.numerics.equations.refusal import Refusal
     from lagcli.numerics.rigorous import prove
     from lagcli.numerics.rigorous.writing import WRITERS
 
@@ -182,8 +182,8 @@ def asked_of(
 
     Where neither the options nor the file give an end, it is `without_end`, if that is given.
     """
-    from lagcli.numerics.asked import Asked
-    from lagcli.numerics.columns import Column
+    from lagcli.numerics.equations.columns import Column
+    from lagcli.numerics.hybrid.request import Asked
     from lagcli.reader.columns import (
         pieces_of,
         read_along,

@@ -42,7 +42,7 @@ def stretch_file(wish: ExtremesOptions) -> Status:
 def _study(problem: Problem, wanted: Wanted, wish: ExtremesOptions) -> Status:
     from lagcli.extremes.study import NoSuchCase, study
     from lagcli.extremes.writing import WRITERS
-    from lagcli.numerics.refusal import Refusal
+    from lagcli.numerics.equations.refusal import Refusal
     from lagcli.reader.suggest import did_you_mean
 
     words = [] if wish.cases is None else [word.strip() for word in wish.cases.split(",")]

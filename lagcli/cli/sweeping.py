@@ -13,7 +13,7 @@ from lagcli.cli.running import counted, is_known, understood
 from lagcli.cli.simulating import SimulateOptions, asked_of, can_be_written
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line
-from lagcli.numerics.asked import Asked
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.problem import Problem
 from lagcli.sweep import WRITERS, Plan, Table, WrongPlan, plan_of, sweep
 from lagcli.sweep.journal import Journal

@@ -78,7 +78,7 @@ def _end(problem: Problem, wish: TradeoffOptions) -> float | None:
 def _study(
     problem: Problem, given: Given, methods: tuple[str, ...], wish: TradeoffOptions
 ) -> Status:
-    from lagcli.numerics.refusal import Refusal
+    from lagcli.numerics.equations.refusal import Refusal
     from lagcli.tradeoff.study import study
 
     try:

@@ -18,7 +18,7 @@ from lagcli.extremes.roles import (
     used,
 )
 from lagcli.extremes.scene import ExtremeScene, Vector, number
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.equations.refusal import Refusal
 from lagcli.problem import Problem
 from lagcli.record import replace
 

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from lagcli.extremes.scene import ExtremeScene
-from lagcli.numerics.arithmetic import Balls
-from lagcli.numerics.motion import Motion
-from lagcli.numerics.precise import precision
+from lagcli.numerics.certified.precise import precision
+from lagcli.numerics.equations.arithmetic import Balls
+from lagcli.numerics.equations.motion import Motion
 
 _DIGITS = 60
 #: A smallest eigenvalue below this part of the largest is none.

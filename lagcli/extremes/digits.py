@@ -26,8 +26,8 @@ from lagcli.expression import (
     Sum,
 )
 from lagcli.extremes.case import CaseFormula, Loss
-from lagcli.numerics.arithmetic import Arithmetic, Balls, Doubles, UndefinedFunction
-from lagcli.numerics.precise import precision
+from lagcli.numerics.certified.precise import precision
+from lagcli.numerics.equations.arithmetic import Arithmetic, Balls, Doubles, UndefinedFunction
 
 #: What a double holds.
 DIGITS = 53 * math.log10(2)

@@ -12,8 +12,8 @@ from lagcli.dimensions.inference import Inference
 from lagcli.extremes.scene import ExtremeScene, Vector
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Call, Constant, Node, Product, Sum, Symbol, ancestry
-from lagcli.numerics.jacobian import jacobian
-from lagcli.numerics.motion import Function
+from lagcli.numerics.equations.jacobian import jacobian
+from lagcli.numerics.equations.motion import Function
 from lagcli.record import record
 
 _TRIGONOMETRIC = frozenset("sin cos tan cot sec csc".split())
@@ -227,7 +227,7 @@ def _rest(scene: ExtremeScene, blocks: object, q: Vector) -> Vector | None:
 
 def _solution(matrix: Sequence[Sequence[float]], right: Vector) -> Vector | None:
     """x of matrix x = right without the rows and columns that are 0."""
-    from lagcli.numerics.dependent import solved
+    from lagcli.numerics.equations.null_space import solved
 
     n = len(right)
     kept = [j for j in range(n) if any(matrix[i][j] for i in range(n))]

@@ -8,15 +8,15 @@ from functools import cached_property
 
 from lagcli.expression import Expression, Name, Negative, Number
 from lagcli.graph.nodes import Node, Symbol
-from lagcli.numerics.arithmetic import Doubles
-from lagcli.numerics.constants import constants_of
-from lagcli.numerics.contact import with_contacts
-from lagcli.numerics.dependent import held_motion
-from lagcli.numerics.equations import Equations
-from lagcli.numerics.motion import Motion
-from lagcli.numerics.refusal import Refusal
-from lagcli.numerics.start import initial_state
-from lagcli.numerics.surface import Surface
+from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.contact import with_contacts
+from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.null_space import held_motion
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.equations.start import initial_state
+from lagcli.numerics.equations.surface import Surface
 from lagcli.problem import Parameter, Problem
 from lagcli.record import replace
 

@@ -13,14 +13,14 @@ from lagcli.extremes.condition import mass_condition
 from lagcli.extremes.digits import digits_between, losses
 from lagcli.extremes.roles import angles_of
 from lagcli.extremes.scene import ExtremeScene
-from lagcli.numerics.arithmetic import Balls
-from lagcli.numerics.asked import Asked, Result
-from lagcli.numerics.columns import Column
-from lagcli.numerics.jacobian import jacobian
-from lagcli.numerics.motion import Motion
-from lagcli.numerics.precise import precision
-from lagcli.numerics.refusal import Refusal
-from lagcli.numerics.simulate import simulate
+from lagcli.numerics.certified.precise import precision
+from lagcli.numerics.certified.simulate import simulate
+from lagcli.numerics.equations.arithmetic import Balls
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.equations.jacobian import jacobian
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.hybrid.request import Asked, Result
 from lagcli.reader.columns import usual_columns
 from lagcli.record import record, replace
 from lagcli.tradeoff.reference import Rows, difference, precise_rows, reference

@@ -176,7 +176,7 @@ def simulate(
     ------
     ProblemError
         When a column, a value or the state does not fit the problem.
-    lagcli.numerics.refusal.Refusal
+    lagcli.numerics.equations.refusal.Refusal
         When no run can be made.
     """
     from lagcli.pipeline import with_lagrangian

@@ -11,8 +11,8 @@ from lagcli.interface.columns import Columns
 if TYPE_CHECKING:
     from lagcli.expression import Expression
     from lagcli.interface.picture import Animation, Plot
-    from lagcli.numerics.asked import Asked, Certificate, Result
-    from lagcli.numerics.events import Event
+    from lagcli.numerics.hybrid.events import Event
+    from lagcli.numerics.hybrid.request import Asked, Certificate, Result
     from lagcli.problem import Problem
 
 _USUAL_ACCURACY = 1e-9
@@ -76,13 +76,13 @@ class Motion(Columns):
 
     def to_csv(self) -> str:
         """CSV with every digit of a double."""
-        from lagcli.numerics.writing import to_csv
+        from lagcli.numerics.tables.writing import to_csv
 
         return to_csv(self._result)
 
     def to_json(self) -> str:
         """The contract of `lagcli simulate --format json`."""
-        from lagcli.numerics.writing import to_json
+        from lagcli.numerics.tables.writing import to_json
 
         return to_json(self._result)
 
@@ -120,7 +120,7 @@ class Motion(Columns):
         return animation(self._problem, self._asked, forces=forces)
 
     def __str__(self) -> str:
-        from lagcli.numerics.writing import to_table
+        from lagcli.numerics.tables.writing import to_table
 
         return to_table(self._result).rstrip("\n")
 
@@ -155,7 +155,7 @@ def integrate(problem: Problem, **options: Any) -> Motion:
     ProblemError
         When an option does not fit the problem.
     """
-    from lagcli.numerics.simulate import simulate
+    from lagcli.numerics.certified.simulate import simulate
 
     asked = asked_of(problem, **options)
     return Motion(simulate(problem, asked), problem, asked)
@@ -183,8 +183,8 @@ def asked_of(
         When one does not fit the problem.
     """
     from lagcli.formatters.grammar import to_grammar
-    from lagcli.numerics.asked import Asked
-    from lagcli.numerics.columns import Column
+    from lagcli.numerics.equations.columns import Column
+    from lagcli.numerics.hybrid.request import Asked
     from lagcli.problem import METHODS
     from lagcli.reader.columns import read_along, read_columns, usual_columns
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lagcli.pictures.drawing import Picture
 
 if TYPE_CHECKING:
-    from lagcli.numerics.asked import Asked, Result
+    from lagcli.numerics.hybrid.request import Asked, Result
     from lagcli.pictures.scene import Scene
     from lagcli.problem import Problem
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from lagcli.numerics.extrema import crossing
+from lagcli.numerics.hybrid.extrema import crossing
 from lagcli.pictures.drawing import Piece, Point
 
 Field = Callable[[float, float], float]

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from lagcli.expression import Name
-from lagcli.numerics.asked import Asked
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,

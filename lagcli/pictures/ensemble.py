@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagcli.expression import Name
-from lagcli.numerics.columns import Column
+from lagcli.numerics.equations.columns import Column
 from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,

@@ -16,14 +16,14 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 
 from lagcli.expression import Expression, Name, Negative, Number
-from lagcli.numerics.arithmetic import Doubles
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.constants import constants_of
-from lagcli.numerics.contact import with_contacts
-from lagcli.numerics.equations import Equations
-from lagcli.numerics.motion import Motion
-from lagcli.numerics.refusal import Refusal
-from lagcli.numerics.start import initial_state
+from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.contact import with_contacts
+from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.equations.start import initial_state
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.contours import grid, quiet, roots
 from lagcli.pictures.drawing import (
     Axis,

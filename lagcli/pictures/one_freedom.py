@@ -17,12 +17,12 @@ from lagcli.graph.nodes import Node
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom as Reduced
 from lagcli.mechanics.reduction.routh import Routh
-from lagcli.numerics.arithmetic import Doubles, UndefinedFunction
-from lagcli.numerics.constants import constants_of
-from lagcli.numerics.equations import Equations
-from lagcli.numerics.motion import Motion
-from lagcli.numerics.start import initial_state
-from lagcli.numerics.straight_line import straight_line
+from lagcli.numerics.equations.arithmetic import Doubles, UndefinedFunction
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.start import initial_state
+from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.pictures.contours import quiet
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.problem import Coordinate, Problem

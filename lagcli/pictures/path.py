@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from lagcli.numerics.asked import Asked
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,

@@ -12,8 +12,8 @@ from collections.abc import Callable
 
 from lagcli.expression import Name
 from lagcli.formatters.unicode import unicode_name
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.columns import Column
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.contours import Contours, grid
 from lagcli.pictures.drawing import (
     Axis,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from lagcli.numerics.asked import Asked
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.contours import grid
 from lagcli.pictures.drawing import (
     Axis,

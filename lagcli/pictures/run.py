@@ -11,10 +11,10 @@ from collections.abc import Callable, Sequence
 from functools import cached_property
 
 from lagcli.expression import Expression
-from lagcli.numerics.asked import Asked, Result
-from lagcli.numerics.columns import Column
-from lagcli.numerics.events import Event
-from lagcli.numerics.simulate import simulate
+from lagcli.numerics.certified.simulate import simulate
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.hybrid.events import Event
+from lagcli.numerics.hybrid.request import Asked, Result
 from lagcli.pictures.drawing import Axis, Band, Item, Piece, Rule, extent, words
 from lagcli.pictures.labels import Labels
 from lagcli.problem import Problem

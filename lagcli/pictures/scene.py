@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import combinations
 
 from lagcli.expression import Expression, Name
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.columns import Column
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import Piece
 from lagcli.pictures.forces import Arrow, arrows
 from lagcli.pictures.points import AXES, mass_of, tracks

@@ -16,10 +16,10 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from lagcli.expression import Expression, Name, Negative, Sum
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.extrema import crossing
-from lagcli.numerics.known import numbers_of
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.equations.parameter_formulas import numbers_of
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.hybrid.extrema import crossing
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,

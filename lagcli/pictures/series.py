@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lagcli.expression import Name
-from lagcli.numerics.columns import Column
+from lagcli.numerics.equations.columns import Column
 from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,

@@ -15,13 +15,13 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 
 from lagcli.expression import Name
-from lagcli.numerics.arithmetic import Doubles
-from lagcli.numerics.constants import constants_of
-from lagcli.numerics.contact import with_contacts
-from lagcli.numerics.equations import Equations
-from lagcli.numerics.motion import Motion
-from lagcli.numerics.start import initial_state
-from lagcli.numerics.straight_line import straight_line
+from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.contact import with_contacts
+from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.start import initial_state
+from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.pictures.contours import quiet
 from lagcli.pictures.drawing import CannotDraw, Point
 from lagcli.pictures.flow import exact

@@ -10,11 +10,11 @@ from collections.abc import Mapping
 
 from lagcli.expression import Expression, Name, Negative, Sum, walk
 from lagcli.graph.nodes import Node
-from lagcli.numerics.arithmetic import Doubles
-from lagcli.numerics.constants import constants_of
-from lagcli.numerics.contact import with_contacts
-from lagcli.numerics.equations import Equations
-from lagcli.numerics.straight_line import straight_line
+from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.contact import with_contacts
+from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.pictures.contours import Contours, grid, quiet
 from lagcli.pictures.drawing import Piece, Point
 from lagcli.pictures.points import Track

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 def derive(statements: Stating) -> ModelSection:
     """What a run keeps and drops, as `simulate` would."""
-    from lagcli.numerics.model import model_section
-    from lagcli.numerics.refusal import Refusal
+    from lagcli.numerics.certified.model import model_section
+    from lagcli.numerics.equations.refusal import Refusal
 
     try:
         return model_section(statements.problem)

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import Expression, Name, Negative, Number
-from lagcli.numerics.asked import Asked, Result
-from lagcli.numerics.ensemble import Ensemble
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.certified.ensemble import Ensemble
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.hybrid.request import Asked, Result
 
 if TYPE_CHECKING:
     from lagcli.problem import Problem

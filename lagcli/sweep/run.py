@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import islice
 
-from lagcli.numerics.asked import Asked
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.problem import Problem
 from lagcli.sweep.journal import Journal
 from lagcli.sweep.members import Member, Row, rows_of

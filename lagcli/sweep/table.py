@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 
-from lagcli.numerics.columnar import table_as_npz, table_as_parquet
+from lagcli.numerics.tables.columnar import table_as_npz, table_as_parquet
 from lagcli.record import record
 
 #: What stands behind the columns of each row: whether the accuracy holds to the end, until
@@ -37,7 +37,7 @@ class Table:
 
 
 def _csv(table: Table) -> bytes:
-    from lagcli.numerics.writing import csv_lines
+    from lagcli.numerics.tables.writing import csv_lines
 
     return "".join(csv_lines(table.columns, table.rows)).encode()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
-from lagcli.numerics.methods import METHODS
+from lagcli.numerics.certified.methods import METHODS
 from lagcli.record import field, record
 from lagcli.tradeoff.front import ACCURACIES, COSTS, RunPoint, cheapest
 

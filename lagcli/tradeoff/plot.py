@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from xml.sax.saxutils import escape
 
-from lagcli.numerics.methods import METHODS
+from lagcli.numerics.certified.methods import METHODS
 from lagcli.tradeoff.front import COSTS, RunPoint
 from lagcli.tradeoff.study import Study
 

@@ -13,14 +13,14 @@ from decimal import Context, Decimal, localcontext
 from time import process_time
 from typing import TYPE_CHECKING, Any
 
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.coupling import coupling, groups
-from lagcli.numerics.methods import Prepared
-from lagcli.numerics.modes import Modes
-from lagcli.numerics.refusal import Refusal
-from lagcli.numerics.scales import relative
-from lagcli.numerics.simulate import Simulation, simulate
-from lagcli.numerics.steps import Tolerance, component_scales
+from lagcli.numerics.certified.methods import Prepared
+from lagcli.numerics.certified.scales import relative
+from lagcli.numerics.certified.simulate import Simulation, simulate
+from lagcli.numerics.equations.coupling import coupling, groups
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.hybrid.modes import Modes
+from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.integrators.steps import Tolerance, component_scales
 from lagcli.record import record, replace
 from lagcli.tradeoff.trial import LimitReached
 
@@ -144,7 +144,7 @@ def reference(problem: Problem, asked: Asked, limit: float) -> ReferenceMotion:
 def _precise(
     simulation: Simulation, modes: Modes, limit: float, warnings: list[str]
 ) -> ReferenceMotion | None:
-    from lagcli.numerics.precise import prepared
+    from lagcli.numerics.certified.precise import prepared
 
     best: ReferenceMotion | None = None
     for digits, coarse, fine in _LADDER:
@@ -180,7 +180,7 @@ def precise_rows(problem: Problem, asked: Asked, digits: int, limit: float) -> R
     Refusal
         When there is nothing to run.
     """
-    from lagcli.numerics.precise import prepared
+    from lagcli.numerics.certified.precise import prepared
 
     simulation, modes = Simulation(problem, replace(asked, whole=True)).ready()
     made = prepared(simulation, modes, digits)
@@ -232,10 +232,10 @@ def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> Referen
     """`expect: trajectory`, where it gives every coordinate."""
     from lagcli.expression import Name
     from lagcli.graph.derivative import partial
-    from lagcli.numerics.arithmetic import Balls
-    from lagcli.numerics.constants import constants_of
-    from lagcli.numerics.precise import precision
-    from lagcli.numerics.straight_line import straight_line
+    from lagcli.numerics.certified.precise import precision
+    from lagcli.numerics.equations.arithmetic import Balls
+    from lagcli.numerics.equations.constants import constants_of
+    from lagcli.numerics.equations.straight_line import straight_line
 
     known = simulation.problem.expect.trajectory
     if known is None:
@@ -260,7 +260,7 @@ def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> Referen
     except (ArithmeticError, ValueError, Refusal) as error:
         warnings.append(f"the formulas of `expect: trajectory` have no numbers: {error}")
         return None
-    from lagcli.numerics.methods import METHODS
+    from lagcli.numerics.certified.methods import METHODS
 
     made = METHODS["dop853"].prepare(simulation, modes)
     assert not isinstance(made, str)

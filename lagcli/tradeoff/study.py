@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from lagcli.numerics.methods import METHODS, Entry
+from lagcli.numerics.certified.methods import METHODS, Entry
 from lagcli.record import record, replace
 from lagcli.tradeoff.front import ACCURACIES, COSTS, AccuracyVerdict, RunPoint, front, verdict
 from lagcli.tradeoff.reference import ReferenceMotion, numbers, reference

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 from lagcli.record import record
 
 if TYPE_CHECKING:
-    from lagcli.numerics.asked import Asked
-    from lagcli.numerics.run import Run
+    from lagcli.numerics.hybrid.request import Asked
+    from lagcli.numerics.hybrid.run import Run
     from lagcli.problem import Problem
 
 #: A short integration is timed again and again, until so many seconds or runs.
@@ -78,7 +78,7 @@ def trial(given: Given) -> dict[str, Any]:
         `rows` (numbers as text), `method`; with an accuracy `reached` too; or `why` alone,
         a sentence on why there is no result.
     """
-    from lagcli.numerics.refusal import Refusal
+    from lagcli.numerics.equations.refusal import Refusal
 
     def ticked(_: float) -> None:
         if process_time() > given.limit:
@@ -97,8 +97,8 @@ def trial(given: Given) -> dict[str, Any]:
 
 def asked_of(given: Given) -> tuple[Problem, Asked]:
     """The problem, and its coordinates and velocities asked for."""
-    from lagcli.numerics.asked import Asked
-    from lagcli.numerics.columns import Column
+    from lagcli.numerics.equations.columns import Column
+    from lagcli.numerics.hybrid.request import Asked
     from lagcli.pipeline import Request, read, with_lagrangian
     from lagcli.reader.columns import usual_columns
 
@@ -122,9 +122,9 @@ def asked_of(given: Given) -> tuple[Problem, Asked]:
 def _single(
     problem: Problem, asked: Asked, given: Given, ticked: Callable[[float], None]
 ) -> dict[str, Any]:
-    from lagcli.numerics.methods import METHODS
-    from lagcli.numerics.simulate import Simulation
-    from lagcli.numerics.steps import Tolerance
+    from lagcli.numerics.certified.methods import METHODS
+    from lagcli.numerics.certified.simulate import Simulation
+    from lagcli.numerics.integrators.steps import Tolerance
 
     simulation, modes = Simulation(problem, asked).ready()
     made = METHODS[given.method].prepare(simulation, modes)
@@ -148,7 +148,7 @@ def _single(
                 break
             integration = min(integration, once()[1])
         if run.stop is not None:
-            from lagcli.numerics.certificate import why_stopped
+            from lagcli.numerics.certified.certificate import why_stopped
 
             why = why_stopped(modes.first.motion, run.stop)
             return {"why": f"stops at t = {run.stop.t:.6g}: {why}"}
@@ -170,7 +170,7 @@ def _single(
 
 def _drift(run: Run, rows: list[list[Any]], first: int) -> float | None:
     """The largest change of a charge, relative to the sum of its terms."""
-    from lagcli.numerics.charges import changes, relative
+    from lagcli.numerics.hybrid.charges import changes, relative
 
     return max(
         (
@@ -189,7 +189,7 @@ def _residual(run: Run) -> float | None:
 
 
 def _certified(problem: Problem, asked: Asked, ticked: Callable[[float], None]) -> dict[str, Any]:
-    from lagcli.numerics.simulate import simulate
+    from lagcli.numerics.certified.simulate import simulate
 
     result = simulate(problem, asked, ticked)
     total = process_time()

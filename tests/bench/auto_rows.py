@@ -18,7 +18,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from lagcli.numerics.methods import METHODS
+from lagcli.numerics.certified.methods import METHODS
 from lagcli.record import replace
 from lagcli.tradeoff.front import ACCURACIES
 from lagcli.tradeoff.study import answer

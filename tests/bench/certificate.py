@@ -25,8 +25,8 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from lagcli.decimals import value_of
 from lagcli.diagnostics import ProblemError
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pipeline import Request, read
 from lagcli.problem import Problem
 from lagcli.record import replace

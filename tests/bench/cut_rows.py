@@ -28,10 +28,10 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from lagcli.decimals import value_of
 from lagcli.diagnostics import ProblemError
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.columns import Column
-from lagcli.numerics.refusal import Refusal
-from lagcli.numerics.simulate import Simulation
+from lagcli.numerics.certified.simulate import Simulation
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.problem import Problem
 from lagcli.reader.columns import read_columns, usual_columns

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.columns import Column
-from lagcli.numerics.simulate import simulate
+from lagcli.numerics.certified.simulate import simulate
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.reader.columns import read_along, read_columns, usual_columns
 

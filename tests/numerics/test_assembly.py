@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.equations.refusal import Refusal
 
 from .running import simulated
 

@@ -8,8 +8,8 @@ import random
 
 import pytest
 
-from lagcli.numerics.columnar import to_npz
-from lagcli.numerics.writing import to_csv, to_json, to_table
+from lagcli.numerics.tables.columnar import to_npz
+from lagcli.numerics.tables.writing import to_csv, to_json, to_table
 
 from .running import simulated
 

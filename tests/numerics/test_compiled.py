@@ -6,18 +6,19 @@ from itertools import pairwise
 
 import pytest
 
-from lagcli.numerics.arithmetic import Balls, Doubles
-from lagcli.numerics.compiled import layout, route
+from lagcli.numerics.certified import machine_code
+from lagcli.numerics.compiled import layout
 from lagcli.numerics.compiled.engine import NoCompiler, engine
 from lagcli.numerics.compiled.language import translated
 from lagcli.numerics.compiled.machine import Machine
-from lagcli.numerics.compiled.method import CompiledTaylor
 from lagcli.numerics.compiled.numbers import DOUBLE, EXTENDED, QUADRUPLE
-from lagcli.numerics.constants import constants_of
-from lagcli.numerics.equations import Equations
-from lagcli.numerics.motion import Motion
-from lagcli.numerics.steps import Tolerance
-from lagcli.numerics.taylor import Taylor
+from lagcli.numerics.equations.arithmetic import Balls, Doubles
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.hybrid.compiled_taylor import CompiledTaylor
+from lagcli.numerics.integrators.steps import Tolerance
+from lagcli.numerics.integrators.taylor import Taylor
 
 from .running import column, last, problem_of, simulated
 
@@ -274,7 +275,7 @@ def test_charges_over_many_periods():
 def test_over_many_steps_auto_takes_more_bits_than_doubles(monkeypatch):
     if not engine().extended:
         pytest.skip("no numbers of 80 bits")
-    monkeypatch.setattr(route, "LONG", 400)
+    monkeypatch.setattr(machine_code, "LONG", 400)
     result = simulated(KEPLER, 20 * math.pi, 1e-3)
     assert result.certificate.reached
     assert result.method == "taylor80"
@@ -363,10 +364,11 @@ def test_without_llvmlite_it_runs_in_python(monkeypatch):
 )
 def test_better_code_gives_the_same_numbers(monkeypatch, text):
     """From the beginning, after some steps, and never."""
-    from lagcli.numerics.compiled import machine, method
+    from lagcli.numerics.compiled import machine
+    from lagcli.numerics.hybrid import compiled_taylor
 
     found = []
-    monkeypatch.setattr(method, "_FIRST", 3)
+    monkeypatch.setattr(compiled_taylor, "_FIRST", 3)
     for limit in (0.0, 3e4, math.inf):
         monkeypatch.setattr(machine, "LONG_RUN", limit)
         found.append(simulated(text, 5, 1e-9).rows)
@@ -384,10 +386,10 @@ def test_better_code_is_made_for_a_long_run():
 
 
 def test_a_run_takes_up_where_a_call_of_the_loop_ends(monkeypatch):
-    from lagcli.numerics.compiled import method
+    from lagcli.numerics.hybrid import compiled_taylor
 
     whole = simulated(KEPLER, 10, 1e-9, samples=11)
-    monkeypatch.setattr(method, "_CALL", 7)
+    monkeypatch.setattr(compiled_taylor, "_CALL", 7)
     assert simulated(KEPLER, 10, 1e-9, samples=11).rows == whole.rows
 
 

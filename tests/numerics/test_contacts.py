@@ -5,7 +5,7 @@ from random import Random
 
 import pytest
 
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.equations.refusal import Refusal
 
 from .running import column, last, simulated
 

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from lagcli.numerics.accuracy import Controller
-from lagcli.numerics.run import Mark
+from lagcli.numerics.certified.accuracy import Controller
+from lagcli.numerics.hybrid.run import Mark
 
 from .running import last, simulated
 

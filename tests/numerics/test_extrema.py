@@ -5,7 +5,7 @@ import random
 
 import pytest
 
-from lagcli.numerics.extrema import crossing
+from lagcli.numerics.hybrid.extrema import crossing
 
 
 @pytest.mark.parametrize("seed", range(40))

@@ -5,7 +5,7 @@ import math
 import mpmath
 import pytest
 
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.equations.refusal import Refusal
 
 from .running import column, last, simulated
 

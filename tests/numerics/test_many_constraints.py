@@ -6,17 +6,17 @@ from fractions import Fraction
 import mpmath
 import pytest
 
-from lagcli.numerics.arithmetic import Doubles
 from lagcli.numerics.compiled import layout
 from lagcli.numerics.compiled.machine import Machine
-from lagcli.numerics.compiled.method import CompiledTaylor
 from lagcli.numerics.compiled.numbers import DOUBLE
-from lagcli.numerics.constants import constants_of
-from lagcli.numerics.dependent import held_motion
-from lagcli.numerics.equations import Equations
-from lagcli.numerics.motion import Motion
-from lagcli.numerics.regular import regular_motion
-from lagcli.numerics.steps import Tolerance
+from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.null_space import held_motion
+from lagcli.numerics.equations.regular import regular_motion
+from lagcli.numerics.hybrid.compiled_taylor import CompiledTaylor
+from lagcli.numerics.integrators.steps import Tolerance
 
 from .running import column, last, problem_of, simulated
 

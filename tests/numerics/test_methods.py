@@ -5,14 +5,14 @@ from fractions import Fraction
 
 import pytest
 
-from lagcli.numerics.arithmetic import Doubles
-from lagcli.numerics.constants import constants_of
-from lagcli.numerics.dop853 import Dop853
-from lagcli.numerics.equations import Equations
-from lagcli.numerics.motion import Motion
-from lagcli.numerics.run import Run
-from lagcli.numerics.steps import Step, Tolerance
-from lagcli.numerics.tableau_853 import DENSE, ERROR_3, ERROR_5, NODES, STAGES
+from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.hybrid.run import Run
+from lagcli.numerics.integrators.dop853 import Dop853
+from lagcli.numerics.integrators.steps import Step, Tolerance
+from lagcli.numerics.integrators.tableau_853 import DENSE, ERROR_3, ERROR_5, NODES, STAGES
 from lagcli.pipeline import with_lagrangian
 from tests.oracle.reference import Reference
 from tests.oracle.states import random_states
@@ -65,7 +65,7 @@ def test_dop853_has_order_8_and_its_dense_output_7():
 
 
 def test_taylor_takes_the_order_of_its_tolerance():
-    from lagcli.numerics.taylor import order_for
+    from lagcli.numerics.integrators.taylor import order_for
 
     assert order_for(1e-16) == 20
     assert order_for(1e-30) == 36

@@ -8,7 +8,7 @@ import pytest
 
 from lagcli import load
 from lagcli.mechanics.derivation import Derivation
-from lagcli.numerics.model import model_section
+from lagcli.numerics.certified.model import model_section
 from lagcli.pipeline import Request, solve, state
 
 

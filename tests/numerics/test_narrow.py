@@ -10,7 +10,7 @@ import pytest
 
 from lagcli.graph.nodes import Graph
 from lagcli.numerics.compiled.layout import DIVIDES, FLAT, GROWS, HIGH, JUMPS
-from lagcli.numerics.narrow import narrow_parts
+from lagcli.numerics.compiled.narrow import narrow_parts
 from tests.numerics.running import column, last, simulated
 
 BY_TIME = """

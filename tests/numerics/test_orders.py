@@ -4,15 +4,15 @@ import math
 
 import pytest
 
-from lagcli.numerics.arithmetic import Doubles
-from lagcli.numerics.collocation import gauss, radau
-from lagcli.numerics.equations import Equations
-from lagcli.numerics.gauss8 import Gauss8
-from lagcli.numerics.implicit import Stages
-from lagcli.numerics.jacobian import jacobian
-from lagcli.numerics.methods import METHODS
-from lagcli.numerics.motion import Motion
-from lagcli.numerics.yoshida8 import Yoshida8, separates
+from lagcli.numerics.certified.methods import METHODS
+from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.jacobian import jacobian
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.integrators.collocation import gauss, radau
+from lagcli.numerics.integrators.gauss8 import Gauss8
+from lagcli.numerics.integrators.implicit import Stages
+from lagcli.numerics.integrators.yoshida8 import Yoshida8, separates
 
 from .running import ROOT, last, problem_of, simulated
 
@@ -138,7 +138,7 @@ def test_what_oscillates_is_not_stiff():
 @pytest.mark.long
 def test_no_exact_derivatives_where_nothing_dies_away_quickly(monkeypatch):
     """Those of ten coordinates cost more than the motion; friction of 2 is far from 1e5."""
-    from lagcli.numerics import stiffness
+    from lagcli.numerics.certified import stiffness
 
     asked = []
     monkeypatch.setattr(

@@ -10,7 +10,7 @@ import pytest
 import lagcli
 from lagcli.cli.run import run
 from lagcli.interface.motion import asked_of
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.rigorous import prove
 
 

@@ -8,11 +8,11 @@ import pytest
 from lagcli.graph.nodes import Graph
 from lagcli.graph.reading import GraphReader
 from lagcli.graph.stable import Stable, stable_dynamics
-from lagcli.numerics.arithmetic import Doubles
-from lagcli.numerics.constants import constants_of
-from lagcli.numerics.equations import Equations
-from lagcli.numerics.motion import Motion
-from lagcli.numerics.straight_line import straight_line
+from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.straight_line import straight_line
 
 from .running import problem_of
 
@@ -90,7 +90,9 @@ def test_accelerations_near_a_cancellation_keep_their_digits(monkeypatch):
     state = p, _, p_rate, f_rate = 1e-6, 0.25, 0.5, 0.75
     true = -2 * EXACT.mpf(p_rate) * EXACT.mpf(f_rate) / EXACT.tan(EXACT.mpf(p))
     assert abs(accelerations(POLE, *state)[1] / true - 1) < 1e-15
-    monkeypatch.setattr("lagcli.numerics.equations.stable_dynamics", lambda *given: given[1])
+    monkeypatch.setattr(
+        "lagcli.numerics.equations.equations.stable_dynamics", lambda *given: given[1]
+    )
     assert abs(accelerations(POLE, *state)[1] / true - 1) > 1e-6
 
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.equations.refusal import Refusal
 
 from .running import simulated
 

@@ -21,10 +21,10 @@ from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
 from lagcli.mechanics.parameter_values import parameter_values, random_value
 from lagcli.mechanics.reduction.steady_statement import steady_motions
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.columns import Column
-from lagcli.numerics.refusal import Refusal
-from lagcli.numerics.simulate import simulate
+from lagcli.numerics.certified.simulate import simulate
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.problem import Problem
 from lagcli.reader.columns import usual_columns
 from lagcli.record import replace

@@ -9,8 +9,8 @@ import shutil
 import pytest
 
 from lagcli.cli.run import run
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.columns import Column
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.pictures.page import to_html
 from lagcli.pictures.scene import scene

@@ -4,8 +4,8 @@ from math import asin, pi, sqrt
 
 import pytest
 
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.columns import Column
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import Curve, Marks
 from lagcli.pictures.flow import Flow, exact, reversed_in_time
 from lagcli.pictures.labels import Labels

@@ -4,10 +4,10 @@ import pytest
 
 from lagcli.formatters.display_width import display_width
 from lagcli.library import entries
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.columns import Column
-from lagcli.numerics.known import numbers_of
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.equations.parameter_formulas import numbers_of
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.pictures.figure import to_bytes
 from lagcli.pictures.kinds import PictureRequest, picture_of

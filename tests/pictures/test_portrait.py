@@ -4,8 +4,8 @@ from math import acos, cos, pi, sqrt
 
 import pytest
 
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.columns import Column
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import CannotDraw, Curve, Marks
 from lagcli.pictures.one_freedom import RemainingFreedom
 from lagcli.pictures.portrait import plane, portrait

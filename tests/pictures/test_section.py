@@ -4,8 +4,8 @@ from math import cos, pi, remainder, sin, sqrt
 
 import pytest
 
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.columns import Column
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import CannotDraw, Marks
 from lagcli.pictures.section import section
 from lagcli.pictures.starts import other_starts

@@ -8,7 +8,7 @@ import pytest
 
 import lagcli
 from lagcli.cli.run import run
-from lagcli.numerics.columns import Column
+from lagcli.numerics.equations.columns import Column
 from lagcli.pictures.drawing import CannotDraw, Cells, Curve, Marks
 from lagcli.pictures.ensemble import Motions, ensemble
 from lagcli.reader.expressions import parse_text

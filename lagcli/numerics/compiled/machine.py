@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 from lagcli.graph.nodes import Node, Symbol
-from lagcli.numerics.arithmetic import UndefinedFunction
 from lagcli.numerics.compiled.coupled import (
     FEWEST,
     CoupledSeries,
@@ -30,11 +29,12 @@ from lagcli.numerics.compiled.emission import (
     declarations,
 )
 from lagcli.numerics.compiled.engine import Compiled, engine
+from lagcli.numerics.compiled.narrow import narrow_parts
 from lagcli.numerics.compiled.numbers import Numbers
 from lagcli.numerics.compiled.tape import NoSeries, Tape
 from lagcli.numerics.compiled.text import values_function
-from lagcli.numerics.motion import Motion
-from lagcli.numerics.narrow import narrow_parts
+from lagcli.numerics.equations.arithmetic import UndefinedFunction
+from lagcli.numerics.equations.motion import Motion
 
 #: What the loop calls, made for each problem.
 _OWN = ("series", "positions", "velocities", "sizes")

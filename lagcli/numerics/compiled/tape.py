@@ -14,8 +14,8 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from lagcli.graph.nodes import Call, Node, Product, Sum, Symbol, ancestry
-from lagcli.numerics.arithmetic import Arithmetic, UndefinedFunction
-from lagcli.numerics.straight_line import straight_line
+from lagcli.numerics.equations.arithmetic import Arithmetic, UndefinedFunction
+from lagcli.numerics.equations.straight_line import straight_line
 
 #: Powers higher than this are not written as products.
 _HIGHEST = 4096

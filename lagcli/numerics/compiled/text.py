@@ -8,7 +8,7 @@ from typing import Any
 from lagcli.graph.nodes import Node
 from lagcli.numerics.compiled.numbers import Numbers
 from lagcli.numerics.compiled.tape import Op, Scaled, Tape
-from lagcli.numerics.straight_line import PIVOT_TOLERANCE
+from lagcli.numerics.equations.straight_line import PIVOT_TOLERANCE
 
 
 class Text:

@@ -33,7 +33,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from lagcli.graph.derivative import partial
-from lagcli.numerics.motion import Motion
+from lagcli.numerics.equations.motion import Motion
 from lagcli.record import record
 
 #: Of the length at which the last coefficients say that the remainder is small enough.

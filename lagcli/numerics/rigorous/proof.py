@@ -8,15 +8,15 @@ from contextlib import contextmanager
 from fractions import Fraction
 from typing import Any
 
-from lagcli.numerics.arithmetic import Balls
-from lagcli.numerics.asked import Asked
-from lagcli.numerics.columns import Values
-from lagcli.numerics.constants import constants_of
-from lagcli.numerics.motion import Motion
-from lagcli.numerics.refusal import Refusal
+from lagcli.numerics.certified.simulate import Simulation
+from lagcli.numerics.equations.arithmetic import Balls
+from lagcli.numerics.equations.columns import Values
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.equations.start import refined_state
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.numerics.rigorous.enclosure import Enclosures, NotEnclosed
-from lagcli.numerics.simulate import Simulation
-from lagcli.numerics.start import refined_state
 from lagcli.problem import Problem
 from lagcli.record import record
 

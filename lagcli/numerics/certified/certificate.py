@@ -1,0 +1,235 @@
+"""What the runs say of the numbers, put down with them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from lagcli.numerics.certified.accuracy import Outcome
+from lagcli.numerics.certified.exact_columns import with_digits
+from lagcli.numerics.certified.methods import METHODS
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.refusal import told
+from lagcli.numerics.hybrid.charges import changes, relative
+from lagcli.numerics.hybrid.events import Event
+from lagcli.numerics.hybrid.request import Certificate, Result
+from lagcli.numerics.hybrid.run import Run
+from lagcli.numerics.integrators.steps import CannotGoOn
+from lagcli.record import replace
+
+if TYPE_CHECKING:
+    from lagcli.numerics.certified.simulate import Simulation
+
+#: A motion that is known up to this part of the time at which its run stops, stops there.
+_KNOWN = 0.5
+#: Accelerations that move a coordinate by less than so many times itself do not end the motion.
+_BOUNDED = 1e3
+#: What does.
+IRREGULAR = "a function in the equations has a corner, a jump or a pole there"
+
+
+def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Result:
+    """The table with its certificate."""
+    asked, run = simulation.asked, outcome.run
+    outcome = replace(outcome, rows=with_digits(simulation, outcome))
+    names = tuple(column.name for column in asked.columns)
+    kept = len(outcome.rows) if outcome.reached else outcome.good_rows
+    rows: list[tuple[float | None, ...]] = []
+    for place, mark in enumerate(run.marks[:kept]):
+        ends = run.event is not None and place == len(run.marks) - 1
+        if mark.sample >= 0:
+            regular = mark.sample < simulation.regular and mark.sample % simulation.every == 0
+            shown = regular or (place == kept - 1 and not outcome.reached)
+        else:
+            shown = ends and (not rows or rows[-1][0] != mark.t)
+        if shown:
+            rows.append(_floats(outcome.rows[place][: len(names)]))
+    last = max(0, kept - 1)
+    holds_until = run.marks[last].t
+    events = _events(outcome, names, kept)
+    refusal = ""
+    if not outcome.reached:
+        refusal = refusal_of(simulation, motion, outcome, holds_until)
+        if run.stop is not None and _is_known(outcome, holds_until):
+            what = "grazes" if run.stop.reason.startswith("it grazes") else "singularity"
+            events.append(Event(run.stop.t, what, why_stopped(motion, run.stop)))
+    return Result(
+        columns=names,
+        rows=tuple(rows),
+        certificate=Certificate(
+            accuracy=asked.accuracy,
+            reached=outcome.reached,
+            holds_until=holds_until,
+            global_error={
+                name: outcome.held[j]
+                for j, name in enumerate(names)
+                if asked.columns[j].expression is not None
+            },
+            scales=tuple(outcome.held_scales),
+            estimated_by=_estimated_by(outcome),
+            charges=_drifts(simulation, outcome, kept),
+            constraints=_residuals(outcome, simulation),
+        ),
+        method=run.method_name or "dop853",
+        reason=METHODS[run.method_name or "dop853"].reason + _apart(run) + simulation.remark,
+        steps=run.steps,
+        evaluations=outcome.evaluations,
+        events=tuple(events),
+        warnings=tuple(_warnings(simulation, rows, events)),
+        cut=simulation.cut,
+        refusal=refusal,
+    )
+
+
+def rows_asked_for(simulation: Simulation, outcome: Outcome) -> list[tuple[float | None, ...]]:
+    """The rows of a run at the times of the output, certified or not, if they are requested."""
+    if not simulation.asked.beyond:
+        return []
+    count = len(simulation.asked.columns)
+    return [
+        _floats(row[:count])
+        for mark, row in zip(outcome.run.marks, outcome.rows, strict=True)
+        if mark.sample >= 0 and mark.sample % simulation.every == 0
+    ]
+
+
+def _apart(run: Run) -> str:
+    """Which coordinates had steps of their own."""
+    if not run.apart:
+        return ""
+    parts = "; ".join(map(", ".join, run.apart))
+    return f"; subsystems that move without each other took steps of their own ({parts})"
+
+
+def _floats(row: Sequence[Any]) -> tuple[float | None, ...]:
+    return tuple(None if x is None else float(x) for x in row)
+
+
+def _events(outcome: Outcome, names: Sequence[str], kept: int) -> list[Event]:
+    """What happened while the accuracy held, with the columns on both sides."""
+    run = outcome.run
+    sides = {
+        (mark.phase, mark.begins): dict(zip(names, _floats(row[: len(names)]), strict=True))
+        for mark, row in zip(run.marks[:kept], outcome.rows, strict=False)
+        if mark.sample < 0
+    }
+    found = []
+    for (phase, event), late in zip(run.events, outcome.times, strict=True):
+        if phase >= 0 and (phase, False) not in sides:
+            break
+        found.append(
+            replace(
+                event,
+                error=event.error + late,
+                before=_without_time(sides.get((phase, False), {})),
+                after=_without_time(sides.get((phase + 1, True), {})),
+            )
+        )
+    return found
+
+
+def _without_time(row: dict[str, float | None]) -> dict[str, float | None]:
+    return {name: value for name, value in row.items() if name != "t"}
+
+
+def _estimated_by(outcome: Outcome) -> str:
+    coarse, fine = outcome.tolerances
+    factor = outcome.controller.factor(fine, outcome.run)
+    times = "twice" if factor == 2 else f"{factor:g} times"
+    return (
+        f"{times} the difference of two runs with local tolerances {coarse:.0e} and {fine:.0e}; "
+        "the finer one is shown (a cross-check, no proof)"
+    )
+
+
+def _drifts(simulation: Simulation, outcome: Outcome, kept: int) -> dict[str, float]:
+    """The largest change of each charge between events, relative to the sum of its terms."""
+    first = len(simulation.nodes)
+    drifts: dict[str, float] = {}
+    for j, name in enumerate(simulation.charges):
+        values = [row[first + j] for row in outcome.rows[:kept]]
+        for _, found, scale in changes(outcome.run, j, values):
+            drifts[name] = max(drifts.get(name, 0.0), relative(found, scale))
+    return drifts
+
+
+def _residuals(outcome: Outcome, simulation: Simulation) -> dict[str, tuple[float | None, float]]:
+    """The largest residual of each constraint while it acts, and of its rate.
+
+    One that was solved for a coordinate holds by itself.
+    """
+    solved = simulation.cut.eliminated if simulation.cut else ()
+    found: dict[str, tuple[float | None, float]] = {s.constraint: (0.0, 0.0) for s in solved}
+    for phase in outcome.run.phases:
+        if phase.surface is None:
+            continue
+        e, residuals = phase.mode.equations, phase.surface.residuals
+        place = {k: i for i, k in enumerate(e.holonomic)}
+        for k, constraint in enumerate(e.declared):
+            position, rate = found.get(constraint.name, (None, 0.0))
+            if k in place:
+                position = max(position or 0.0, residuals[place[k]])
+            found[constraint.name] = (position, max(rate, residuals[len(place) + k]))
+    return found
+
+
+def refusal_of(simulation: Simulation, motion: Motion, outcome: Outcome, holds_until: float) -> str:
+    """Why the accuracy is not reached to the end, and until when it holds."""
+    asked, stop = simulation.asked, outcome.run.stop
+    if stop is not None and _is_known(outcome, holds_until):
+        why = why_stopped(motion, stop)
+        return f"the motion stops at t = {stop.t:.13g}: {why}; shown until t = {holds_until:.6g}"
+    bound = max(outcome.errors)
+    why = outcome.reason or f"the bound at the end is {bound:.1e}"
+    told = f"the accuracy {asked.accuracy:g} is not reached until t = {asked.until:g}: {why}"
+    held = f"it holds until t = {holds_until:.6g}"
+    more = "; --precision carries more digits"
+    if asked.digits is not None or simulation.goes_on:
+        more = ""
+    return f"{told}; {held}{more}"
+
+
+def _is_known(outcome: Outcome, holds_until: float) -> bool:
+    """Whether a run that stops does so where the motion does, not long after nothing is known."""
+    run = outcome.run
+    assert run.stop is not None
+    return run.steps >= run.step_limit or holds_until >= _KNOWN * run.stop.t
+
+
+def why_stopped(motion: Motion, stop: CannotGoOn) -> str:
+    """What ends the motion."""
+    if stop.reason.startswith(("it ", "a force", "an impact", "event")):
+        return stop.reason
+    names = [q.name for q in motion.equations.q]
+    try:
+        rates: Any = motion.accelerations(stop.t, *stop.q, *stop.v)
+        j = max(range(len(names)), key=lambda k: abs(float(rates[k])))
+        if abs(float(rates[j])) * stop.t**2 <= _BOUNDED * _size(stop.q):
+            return stop.reason or IRREGULAR
+        grows = f"{names[j]}'' grows without bound there"
+    except (ArithmeticError, ValueError) as error:
+        return f"the accelerations are not defined there: {told(error)}"
+    return f"{grows} ({stop.reason})" if stop.reason else grows
+
+
+def _warnings(simulation: Simulation, rows: list[Any], events: list[Event]) -> list[str]:
+    found = list(simulation.notes)
+    found += [
+        f"{event.name} comes to its limit at t = {event.t:.10g}: whether it is lost there is "
+        "within the error; it is kept"
+        for event in events
+        if event.what == "touches"
+    ]
+    for j, column in enumerate(simulation.asked.columns):
+        empty = [row[0] for row in rows if row[j] is None]
+        if empty and len(empty) == len(rows):
+            why = "not determined: redundant constraints share a force"
+            shares = simulation.whole.constraints
+            found.append(f"{column.name} is {why if shares else 'not defined at any row'}")
+        elif empty:
+            found.append(f"{column.name} is not defined at t = {empty[0]:g}")
+    return found
+
+
+def _size(q: Sequence[Any]) -> float:
+    return max(1.0, *(abs(float(x)) for x in q))

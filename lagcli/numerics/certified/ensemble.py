@@ -1,0 +1,49 @@
+"""Motions of one problem from many initial states: equations and machine code are made once."""
+
+from __future__ import annotations
+
+from lagcli.numerics.certified.simulate import Simulation, simulate
+from lagcli.numerics.hybrid.request import Asked, Result
+from lagcli.problem import Problem
+
+
+class Ensemble:
+    """The members of an ensemble that differ in their initial state.
+
+    Each is run with its own certificate, as `simulate` would.  With constraints, contacts or
+    switching functions what is integrated depends on the state, so nothing is shared.
+
+    Parameters
+    ----------
+    problem
+        One of the members.
+    asked
+        The same for all.
+
+    Raises
+    ------
+    Refusal
+        When this member cannot be run.
+    """
+
+    def __init__(self, problem: Problem, asked: Asked) -> None:
+        self._asked = asked
+        self._simulation = simulation = Simulation(problem, asked)
+        plain = not (problem.constraints or problem.contacts or simulation.equations.kinks)
+        self._shares = plain and asked.stop_when is None
+        if self._shares:
+            self._integrated, self._modes = simulation.ready()
+            self._shares = self._integrated is simulation
+
+    def result(self, problem: Problem) -> Result:
+        """The motion of a member.
+
+        Raises
+        ------
+        Refusal
+            When it cannot be run.
+        """
+        if not self._shares:
+            return simulate(problem, self._asked)
+        self._simulation.restart(problem, self._modes)
+        return self._simulation.run(self._modes)

@@ -1,0 +1,302 @@
+"""When the motion is run in machine code, and in which numbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
+
+from lagcli.numerics.certified.methods import ROUNDED, Prepared, Progress
+from lagcli.numerics.certified.perturbed_twin import elsewhere, fast, moved_state
+from lagcli.numerics.compiled.engine import NoCompiler, engine
+from lagcli.numerics.compiled.machine import Machine, NotCompiled
+from lagcli.numerics.compiled.numbers import DOUBLE, EXTENDED, QUADRUPLE, Extended
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.equations.start import refined_state, rounded_components
+from lagcli.numerics.equations.surface import Surface
+from lagcli.numerics.hybrid.compiled_taylor import CompiledTaylor
+from lagcli.numerics.hybrid.modes import MakeMethod, Mode, Modes
+from lagcli.numerics.hybrid.run import Phase, Run
+from lagcli.numerics.hybrid.subsystems import Apart, MakeMachine, apart
+from lagcli.numerics.hybrid.transitions import Transitions
+from lagcli.numerics.integrators.steps import Method, NotPossible, Tolerance
+
+if TYPE_CHECKING:
+    from lagcli.numerics.certified.simulate import Simulation
+
+#: Parts of the span that the longest step is: a series knows what lies within its step,
+#: but for what is flat and then is not.
+LONGEST = (10.0, 200.0, 2000.0, 20000.0)
+_PROBES = 2000
+#: No tolerance below these changes anything.
+_FINEST_EXTENDED, _FINEST_QUADRUPLE = 1e-22, 1e-36
+#: Bits of the parameters and initial values behind numbers of 80 and 128.
+_BITS = 160
+#: Numbers of 80 and of 128 bits claim nothing better.
+_LEAST_EXTENDED, _LEAST_QUADRUPLE = 1e-14, 1e-26
+_DIGITS_QUADRUPLE = 33
+
+
+#: Steps beyond which the rounding of doubles may cost charges 1e-12; and where so many are
+#: made anyhow, a tolerance that is not felt in charges costs little more.
+LONG = 2_000_000
+#: So many times as many, foreseen on the way, are certainly too many.
+_CERTAINLY = 1.5
+_FIRST_OF_LONG = 1e-17
+
+
+class RoundingAddsUp(NotPossible):
+    """So many steps are to be made in numbers of more bits."""
+
+    def __init__(self) -> None:
+        super().__init__(f"over more than {LONG:,} steps the rounding of doubles adds up")
+
+
+#: The machines of motions that are still there: an ensemble runs one motion many times.
+_MACHINES: WeakKeyDictionary[Motion, Machine | str] = WeakKeyDictionary()
+
+
+def double_machine(motion: Motion) -> Machine | str:
+    """The machine for a motion, or why there is none."""
+    if motion not in _MACHINES:
+        try:
+            _MACHINES[motion] = Machine(motion, DOUBLE)
+        except (NoCompiler, NotCompiled) as reason:
+            _MACHINES[motion] = str(reason)
+    return _MACHINES[motion]
+
+
+def _machine(motion: Motion, independent: Sequence[int] | None) -> Machine | str:
+    """The machine for a motion without constraints that these imply."""
+    if independent is None:
+        return double_machine(motion)
+    equations = motion.equations.without_implied(independent)
+    return double_machine(Motion(equations, motion.constants, motion.arithmetic))
+
+
+class Runs:
+    """Runs in machine code, that go through the controller.
+
+    Parameters
+    ----------
+    simulation, modes
+        What is asked, and the modes with the numbers of the machine code or better.
+    machine
+        The equations of the first mode.
+    make
+        Makes the machine code of a part of that mode's motion; None keeps it in one.
+    otherwise
+        Makes the method of a mode for which there is no machine code.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        modes: Modes,
+        machine: Machine,
+        make: MakeMachine | None,
+        otherwise: MakeMethod | None = None,
+    ) -> None:
+        self.simulation, self._otherwise = simulation, otherwise
+        self._machine, self._make = machine, make
+        #: told how many steps a long run will take
+        self.foreseen: Callable[[float], None] | None = None
+        #: the subsystems, once it is known whether steps of their own pay
+        self._apart: Apart | None = None
+        self._is_weighed = make is None or simulation.asked.whole
+        self._machines: dict[Motion, Machine | str] = {modes.first.motion: machine}
+        self.modes = modes.by(self._method)
+
+    def _method(self, mode: Mode, surface: Surface | None) -> Method:
+        motion = mode.motion
+        if motion not in self._machines:
+            self._machines[motion] = "friction holds" if mode.stuck else double_machine(motion)
+        machine = self._machines[motion]
+        if isinstance(machine, str):
+            assert self._otherwise is not None
+            return self._otherwise(mode, surface)
+        return CompiledTaylor(machine, surface)
+
+    def _parts(self, state: tuple[list[Any], list[Any]], bound: Tolerance) -> Apart | None:
+        """The subsystems, where they are run apart."""
+        if not self._is_weighed:
+            assert self._make is not None
+            self._is_weighed = True
+            mode, until = self.modes.first, self.simulation.asked.until
+            self._apart = apart(mode, self._machine, self._make, state, bound, until)
+        return self._apart
+
+    def run(
+        self,
+        state: tuple[Sequence[Any], Sequence[Any]],
+        times: Sequence[Any],
+        bound: Tolerance,
+        every: int,
+        progress: Callable[[float], None] | None,
+    ) -> Run:
+        """One run from a state."""
+        asked, mode = self.simulation.asked, self.modes.first
+        transitions = Transitions(self.modes, asked.accuracy, asked.until)
+        run = Run(transitions, bound, asked.accuracy)
+        q, v = list(state[0]), list(state[1])
+        if mode.conditions or mode.motion.kinks:
+            return run.go(q, v, times, probe_every=every, progress=progress)
+        surface = mode.surface()
+        probes = _PROBES if every else 0
+        run.phases.append(Phase(mode, surface, 0.0))
+        parts = self._parts((q, v), bound)
+        if parts is not None:
+            if parts.go(run, (q, v), times, probes=probes, progress=progress):
+                return run
+            self._apart = None
+        method = mode.method(surface)
+        assert isinstance(method, CompiledTaylor)
+        most = self.simulation.most_steps
+        return method.go(
+            run, q, v, times, probes=probes, progress=progress, most=most, foreseen=self.foreseen
+        )
+
+
+def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
+    """Machine code in doubles made ready, or why there is none."""
+    first = doubles.first
+    independent = None
+    if first.equations.rows and not first.conditions and not first.motion.kinks:
+        q, v = simulation.start
+        independent = first.motion.independent(0.0, *q, *v)
+    machine = _machine(first.motion, independent)
+    if isinstance(machine, str):
+        return machine
+    make = double_machine if independent is None else None
+    usual = Runs(simulation, doubles, machine, make, doubles.make_method)
+
+    def prepared(other: Runs, beside: tuple[Sequence[Any], Sequence[Any]]) -> Prepared:
+        both, states = (usual, other), (simulation.start, beside)
+
+        def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
+            times = fast(simulation.times) if moved else simulation.times
+            both[moved].foreseen = lambda steps: too_many(steps / _CERTAINLY)
+            done = both[moved].run(states[moved], times, bound, every, progress)
+            too_many(done.steps)
+            return done
+
+        def too_many(steps: float) -> None:
+            if steps > LONG and simulation.asked.method == "auto" and not simulation.is_long:
+                simulation.is_long = not isinstance(prepared_extended(simulation, doubles), str)
+                if simulation.is_long:
+                    raise RoundingAddsUp
+
+        def with_others(others: Modes) -> Prepared:
+            found = _machine(others.first.motion, independent)
+            if isinstance(found, str):
+                raise NotPossible(found)
+            runs = Runs(simulation, others, found, make, others.make_method)
+            return prepared(runs, elsewhere(simulation))
+
+        return Prepared(
+            run=run,
+            rounded=ROUNDED * DOUBLE.rounding,
+            longest=LONGEST,
+            with_others=with_others,
+        )
+
+    return prepared(usual, moved_state(simulation, doubles))
+
+
+def prepared_extended(simulation: Simulation, doubles: Modes) -> Prepared | str:
+    """Machine code in numbers of 80 bits made ready, or why there is none."""
+    if simulation.asked.accuracy < _LEAST_EXTENDED:
+        return "80 bits claim nothing better than 1e-14"
+    return _beyond_doubles(simulation, doubles, EXTENDED, _FINEST_EXTENDED)
+
+
+def prepared_quadruple(simulation: Simulation, doubles: Modes) -> Prepared | str:
+    """Machine code in numbers of 128 bits made ready, or why there is none."""
+    asked = simulation.asked
+    if asked.digits is not None and asked.digits > _DIGITS_QUADRUPLE:
+        return f"128 bits are {_DIGITS_QUADRUPLE} digits"
+    if asked.accuracy < _LEAST_QUADRUPLE:
+        return f"128 bits claim nothing better than {_LEAST_QUADRUPLE:.0e}"
+    return _beyond_doubles(simulation, doubles, QUADRUPLE, _FINEST_QUADRUPLE)
+
+
+def _beyond_doubles(
+    simulation: Simulation, doubles: Modes, numbers: Extended, finest: float
+) -> Prepared | str:
+    if simulation.equations.kinks or doubles.first.conditions or simulation.goes_on:
+        return "events and switching functions are followed in doubles only"
+    try:
+        with precision():
+            return _prepared(simulation, doubles, numbers, finest)
+    except (Refusal, NoCompiler, NotCompiled, OverflowError) as reason:
+        return str(reason)
+
+
+def _prepared(
+    simulation: Simulation, doubles: Modes, numbers: Extended, finest: float
+) -> Prepared | str:
+    from lagcli.numerics.equations.arithmetic import Balls
+
+    if not (engine().extended if numbers is EXTENDED else engine().quadruple):
+        return f"there are no numbers of {numbers.name.removeprefix('taylor')} bits here"
+    equations, asked = simulation.equations, simulation.asked
+    arithmetic = Balls()
+    constants = constants_of(equations, simulation.all_nodes, arithmetic)
+    modes = Modes(simulation, constants, arithmetic, doubles.make_method, 2.0**-_BITS)
+    modes.first.conserved = doubles.first.conserved
+    motion = modes.first.motion
+
+    def with_doubles(motion: Motion) -> Machine:
+        own = Motion(motion.equations, doubles.constants, doubles.arithmetic)
+        beside = double_machine(own)
+        return Machine(motion, numbers, None if isinstance(beside, str) else beside)
+
+    if numbers is EXTENDED:
+        runs = Runs(simulation, modes, with_doubles(motion), with_doubles)
+    else:
+        runs = Runs(simulation, modes, Machine(motion, numbers), None)
+    q, v = simulation.start
+    exact_q, exact_v = refined_state(motion, modes.first.surface(), q, v, anew=not asked.project)
+    inexact = rounded_components(motion, q, v)
+    moved_state = [
+        x * (1 + arithmetic.ball(numbers.rounding) * 2) if each else x
+        for x, each in zip((*exact_q, *exact_v), inexact, strict=True)
+    ]
+    states = (exact_q, exact_v), (moved_state[: motion.n], moved_state[motion.n :])
+
+    def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
+        times: list[Any] = simulation.times
+        if moved:  # by a clock that is a rounding fast
+            clock = 1 + 2 * Fraction(numbers.rounding)
+            times = [*(Fraction(t) * clock for t in times[:-1]), times[-1]]
+        try:
+            return runs.run(states[moved], times, bound, every, progress)
+        except OverflowError as reason:
+            raise NotPossible(str(reason)) from None
+
+    first = _FIRST_OF_LONG if simulation.is_long else math.inf
+    return Prepared(
+        run=run,
+        first=first,
+        finest=finest,
+        rounded=ROUNDED * numbers.rounding,
+        longest=LONGEST,
+        precision=precision,
+    )
+
+
+@contextmanager
+def precision() -> Iterator[None]:
+    """The bits of what stands behind numbers of 80 and 128."""
+    from flint import ctx
+
+    usual, ctx.prec = ctx.prec, _BITS
+    try:
+        yield
+    finally:
+        ctx.prec = usual

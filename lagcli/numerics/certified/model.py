@@ -1,0 +1,252 @@
+"""The model of a run that shows every coordinate: what is integrated, what is done without.
+
+Where the file can be run it is the run that is asked; where values are missing, the
+structure, with every parameter some number that is not 0.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from itertools import compress
+from typing import Any
+
+from lagcli.expression import Name
+from lagcli.graph.derivative import partial
+from lagcli.graph.nodes import Node, Sum, Symbol
+from lagcli.graph.sharing import written_out
+from lagcli.numerics.certified.simulate import Simulation
+from lagcli.numerics.equations.arithmetic import Doubles, UndefinedFunction
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.contact import with_contacts
+from lagcli.numerics.equations.coupling import coupling, groups
+from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.reduced_model import MOST, Reduction, cut
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.equations.straight_line import straight_line
+from lagcli.numerics.hybrid.request import Asked
+from lagcli.problem import Problem
+from lagcli.statements.answers import ModelSection
+
+#: States at which it is seen whether L depends on a coordinate, and what counts as 0 there.
+_STATES, _ZERO = 6, 1e-9
+
+_GIVEN = "the constraint {} determines it; a run that outputs its multiplier keeps both"
+_INITIAL = "only the initial state depends on it"
+_OWN_STEPS = "a long run gives each independent subsystem its own steps"
+_IGNORABLE = "its momentum is conserved, but its velocity is needed, so it is integrated"
+
+
+def model_section(problem: Problem) -> ModelSection:
+    """What of the model is kept, eliminated, ignorable and dropped, and why.
+
+    Raises
+    ------
+    Refusal
+        Where the equations cannot be made without the algebra.
+    """
+    return _Model(problem).section()
+
+
+class _Model:
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.equations = e = Equations(with_contacts(problem))
+        self.constants = self._numbers()
+        names = {name.name for name in problem.initial}
+        given = frozenset(j for j, symbol in enumerate(e.q) if symbol.name in names)
+        self.barrier = self._barrier()
+        #: what could be solved, and what is
+        self.possible = Reduction(e, self.constants, given)
+        self.reduction = self.possible if self._is_cut(given) else Reduction(e, {}, given, 0)
+
+    def _numbers(self) -> Mapping[Symbol, Any]:
+        e = self.equations
+        with suppress(Refusal):
+            return constants_of(e, self._dynamics, Doubles())
+        names = [p.name for p in e.problem.parameters]
+        return dict(zip(map(e.graph.symbol, names), _numbers(len(names), 0), strict=True))
+
+    @property
+    def _dynamics(self) -> list[Node]:
+        e = self.equations
+        return [
+            *(entry for row in e.mass for entry in row),
+            *e.forcing,
+            *(entry for row in e.rows for entry in row),
+            *e.bias,
+            *e.positions,
+            *e.rates,
+        ]
+
+    def _barrier(self) -> str:
+        """Why nothing at all is eliminated."""
+        if any(c.holds_while is not None for c in self.equations.problem.constraints):
+            return "nothing is eliminated from a model with a contact that may open"
+        if self.equations.kinks:
+            return "nothing is eliminated from equations with abs or sign"
+        if len(self.equations.q) > MOST:
+            return f"nothing is eliminated from more than {MOST} coordinates"
+        return ""
+
+    def _is_cut(self, given: frozenset[int]) -> bool:
+        if self.barrier or not self.possible.solved:
+            return False
+        e = self.equations
+        columns = [Column("t", None)]
+        columns += [Column(q.name, Name(q.name, k)) for k in (0, 1) for q in e.q]
+        asked = Asked(until=1.0, accuracy=1e-9, samples=2, columns=tuple(columns))
+        with suppress(Refusal):
+            return Simulation(self.problem, asked).ready()[0].cut is not None
+        try:
+            return cut(e, self.constants, [*e.q, *e.qdot], given) is not None
+        except (ArithmeticError, UndefinedFunction):
+            return False
+
+    # -- what is said ----------------------------------------------------------------------------
+
+    def section(self) -> ModelSection:
+        e, solved = self.equations, self.reduction.solved
+        formulas = written_out(
+            [each.formula for each in solved],
+            [*(p.name for p in self.problem.parameters), *(q.name for q in e.q)],
+        )
+        order = sorted(range(len(solved)), key=lambda i: solved[i].coordinate)
+        kept = tuple(e.q[j].name for j in self.reduction.kept)
+        ignorable = tuple(e.q[j].name for j in self.reduction.kept if self._is_ignorable(j))
+        idle = dict(self._without_influence())
+        reason = {
+            **{
+                e.q[solved[i].coordinate].name: _GIVEN.format(e.declared[solved[i].constraint].name)
+                for i in order
+            },
+            **dict(self._held()),
+            **dict(self._subsystems()),
+            **idle,
+        }
+        for name in ignorable:
+            reason[name] = f"{reason[name]}; {_IGNORABLE}" if name in reason else _IGNORABLE
+        return ModelSection(
+            kept=kept,
+            eliminated={e.q[solved[i].coordinate].name: formulas[i] for i in order},
+            ignorable=ignorable,
+            dropped=tuple(name for name, why in idle.items() if why != _INITIAL),
+            reason=reason,
+        )
+
+    def _held(self) -> Iterator[tuple[str, str]]:
+        """The constraints that stay, by their names."""
+        e = self.equations
+        done = {each.constraint for each in self.reduction.solved}
+        possible = {each.constraint for each in self.possible.solved}
+        for k, declared in enumerate(e.declared):
+            if k in done:
+                continue
+            if self.barrier:
+                why = self.barrier
+            elif e.constraints[k].position is None:
+                why = "it contains velocities"
+            elif k in possible:
+                why = "eliminating a coordinate with it would save no work"
+            else:
+                why = "it is not linear with a constant coefficient in any coordinate"
+            yield declared.name, f"kept with its multiplier: {why}"
+
+    def _subsystems(self) -> Iterator[tuple[str, str]]:
+        """The coordinates that move without some of the others."""
+        e, reduction = self.equations, self.reduction
+        if self.barrier or len(reduction.kept) < 2:
+            return
+        mass, forcing = reduction.matrices()
+        rows = reduction.rows()
+        left = [e.q[j] for j in reduction.kept]
+        names = [q.name for q in left]
+        parts = groups(*coupling(e.graph, left, mass, forcing, rows.values()))
+        own = f", and {_OWN_STEPS}" if len(parts) > 1 else ""
+        for j, name in zip(reduction.kept, names, strict=True):
+            wanted = reduction.needed(mass, forcing, rows, [e.q[j], e.qdot[j]])
+            others = [other for other in compress(names, wanted) if other != name]
+            if len(others) + 1 < len(names):
+                depends = f"on {', '.join(others)} only" if others else "on no other coordinate"
+                yield (
+                    name,
+                    f"its motion depends {depends}; a run that outputs less omits the others{own}",
+                )
+
+    def _is_ignorable(self, j: int) -> bool:
+        """Whether neither L, nor a force, nor a constraint depends on it, with what is solved."""
+        e, reduction = self.equations, self.reduction
+        q, zero = e.q[j], e.graph.zero
+        moved = [j, *(s.coordinate for s in reduction.solved if s.formula.mask & q.mask)]
+        if any(e.form.applied_forces[i] is not zero for i in moved):
+            return False
+        place = reduction.kept.index(j)
+        if any(row.row[place] is not zero for row in reduction.rows().values()):
+            return False
+        return self._vanishes(partial(e.graph, q)(reduction.put(e.lagrangian)))
+
+    def _vanishes(self, node: Node) -> bool:
+        """Whether a sum is 0 beside its terms at some states, wherever it is defined."""
+        e = self.equations
+        if not isinstance(node, Sum):
+            return node is e.graph.zero
+        terms = [e.graph.scaled(term, number) for term, number in node.terms]
+        terms.append(e.graph.constant(node.constant))
+        parameters = [e.graph.symbol(p.name) for p in e.problem.parameters]
+        try:
+            function = straight_line((*parameters, *e.state), terms, {}, Doubles())
+        except (ArithmeticError, LookupError, UndefinedFunction, ValueError):
+            return False
+        tried = 0
+        for k in range(_STATES):
+            numbers = _numbers(len(parameters), k) + [x / 4 for x in _numbers(len(e.state), k)]
+            try:
+                values = function(*numbers)
+            except (ArithmeticError, ValueError):
+                continue
+            if not abs(sum(values)) <= _ZERO * sum(map(abs, values)):
+                return False
+            tried += 1
+        return tried > 1
+
+    def _without_influence(self) -> Iterator[tuple[str, str]]:
+        """The parameters that no equation of motion names, not even through others' values."""
+        e, problem = self.equations, self.problem
+        read = e.form.read
+        values = {p.name: read(p.value) for p in problem.parameters if p.value is not None}
+        impacts = [read(c.restitution) for c in e.problem.constraints if c.restitution]
+        limits = [c.holds_while for c in e.problem.constraints if c.holds_while]
+        conditions = [read(side) for limit in limits for side in (limit.left, limit.right)]
+        mask = self._closed(_mask([*self._dynamics, *impacts, *conditions]), values)
+        starts = self._closed(_mask([read(x) for x in problem.initial.values()]), values)
+        for parameter in problem.parameters:
+            symbol = e.graph.symbol(parameter.name)
+            if not symbol.mask & mask:
+                started = symbol.mask & starts
+                yield parameter.name, _INITIAL if started else "no equation of motion depends on it"
+
+    def _closed(self, mask: int, values: Mapping[str, Node]) -> int:
+        """With the parameters whose values give those of the mask."""
+        symbols = {self.equations.graph.symbol(name): formula for name, formula in values.items()}
+        while True:
+            more = mask
+            for symbol, formula in symbols.items():
+                if symbol.mask & mask:
+                    more |= formula.mask
+            if more == mask:
+                return mask
+            mask = more
+
+
+def _numbers(count: int, k: int) -> list[float]:
+    """Numbers between 1 and 2 in no relation to each other, others for each k."""
+    return [1 + math.sqrt(2) * (1 + i + 31 * k) ** 1.5 % 1 for i in range(count)]
+
+
+def _mask(nodes: Sequence[Node]) -> int:
+    found = 0
+    for node in nodes:
+        found |= node.mask
+    return found

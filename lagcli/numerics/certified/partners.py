@@ -1,0 +1,51 @@
+"""Which row of one run stands for which of another, where things happen on the way."""
+
+from __future__ import annotations
+
+from lagcli.numerics.hybrid.run import Mark, Run
+
+
+class Partners:
+    """The rows of one run that those of another are compared with.
+
+    Attributes
+    ----------
+    agree
+        Whether both go through the same events.
+    late
+        Twice the difference of the times of each event.
+    """
+
+    def __init__(self, coarse: Run, fine: Run) -> None:
+        self._marks = coarse.marks
+        self._samples = {m.sample: place for place, m in enumerate(coarse.marks) if m.sample >= 0}
+        self._sides = {
+            (m.phase, m.begins): place for place, m in enumerate(coarse.marks) if m.sample < 0
+        }
+        same = 0
+        for (_, one), (_, other) in zip(coarse.events, fine.events, strict=False):
+            if (one.name, one.what) != (other.name, other.what):
+                break
+            same += 1
+        self.agree = same == len(coarse.events) == len(fine.events)
+        self.late = [
+            2 * abs(one.t - other.t)
+            for (_, one), (_, other) in zip(coarse.events[:same], fine.events, strict=False)
+        ] + [float("inf")] * (len(fine.events) - same)
+        # phases up to the first event that differs
+        self._phases = fine.events[same][0] if same < len(fine.events) else len(fine.phases)
+        if same < len(coarse.events):
+            self._phases = min(self._phases, coarse.events[same][0])
+
+    def __call__(self, mark: Mark) -> int | None:
+        """The place of the same row in the coarser run; None where there is none."""
+        if mark.phase > self._phases:
+            return None
+        if mark.sample < 0:
+            return self._sides.get((mark.phase, mark.begins))
+        place = self._samples.get(mark.sample)
+        if place is not None and self._marks[place].phase == mark.phase:
+            return place
+        # one run is already beyond the event: the nearest state on the same side
+        ahead = place is None or self._marks[place].phase > mark.phase
+        return self._sides.get((mark.phase, not ahead))

@@ -1,0 +1,177 @@
+"""What lies a rounding beside a problem: its initial values, its clock, its parameters.
+
+Every other run begins a rounding of the initial values away and reads a clock that is a
+rounding fast, so that neither what doubles make of the file nor a frequency that they get
+wrong by a rounding is the same in both runs.  A parameter, too, is seldom a double.  Where
+the accelerations, or a column, feel that more than they feel the clock, as k - c does for
+two numbers that are almost the same, the runs are made again, every other one with
+parameters that lie so many times as far from the file's as the doubles do.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
+
+from lagcli.graph.nodes import Symbol
+from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.equations.start import rounded_components
+from lagcli.numerics.hybrid.modes import Modes
+
+if TYPE_CHECKING:
+    from lagcli.numerics.certified.accuracy import Outcome
+    from lagcli.numerics.certified.simulate import Simulation
+
+Vector = list[Any]
+
+_EPSILON = 2.0**-52
+#: The other parameters lie so many times the rounding beyond the file's.
+_TIMES = 16
+_PI_ULP = math.ulp(math.pi)
+#: What the clock's rounding, and the factor of the bound, make up for.
+_CLOCK = 4 * _EPSILON
+_LOOKS = 12
+#: Integers below this are counts.
+_COUNTED = 100
+#: For the rate at which a force changes with the time alone.
+_LATER = 1e-7
+_COLUMN = 0.25
+
+
+class BesideDoubles(Doubles):
+    """Doubles that miss a rational by more than its nearest double, to the same side of it.
+
+    Parameters
+    ----------
+    exact
+        Whether those miss it, too, that a double can be: an elimination rounds what it makes
+        of them, as if they were some others.
+    """
+
+    #: pi, too, is no double: it lies 0.28 of a rounding above its own
+    functions: Mapping[str, Any] = {**Doubles.functions, "pi": lambda: math.pi + 4 * _PI_ULP}
+
+    def __init__(self, *, exact: bool) -> None:
+        self._exact = exact
+
+    def number(self, value: Fraction) -> float:
+        """Of a rational that is no double, the double some 16 roundings beyond it."""
+        nearest = float(value)
+        if not value or not math.isfinite(nearest):
+            return nearest
+        missed, unit = value - Fraction(nearest), math.ulp(nearest)
+        if missed:
+            steps = max(1, round(_TIMES * abs(missed) / Fraction(unit)))
+            return nearest + math.copysign(steps * unit, missed)
+        if not self._exact or (value.denominator == 1 and abs(value) < _COUNTED):
+            return nearest
+        chance = value.numerator * 48271 % 2147483647
+        return nearest + (2 + chance % 7) * math.copysign(unit, chance % 2 - 0.5)
+
+
+def moved_state(simulation: Simulation, modes: Modes) -> tuple[Vector, Vector]:
+    """The next doubles to the initial state: what it is rounded by must not matter."""
+    motion, (q, v) = modes.first.motion, simulation.start
+    rounded = rounded_components(motion, q, v)
+    moved = [
+        math.nextafter(x, math.inf) if inexact else x
+        for x, inexact in zip((*q, *v), rounded, strict=True)
+    ]
+    return moved[: motion.n], moved[motion.n :]
+
+
+def elsewhere(simulation: Simulation) -> tuple[Vector, Vector]:
+    """The initial state with all its components a few roundings away."""
+    q, v = simulation.start
+    return _turned(q, 1), _turned(v, -1)
+
+
+def _turned(values: Sequence[float], sign: int) -> list[float]:
+    """Numbers a few roundings away, none of them as far as the one beside it."""
+    return [
+        x + sign * (-1) ** place * (1 + place % 3) * math.ulp(x) if x else x
+        for place, x in enumerate(values)
+    ]
+
+
+def fast(times: Sequence[float]) -> list[float]:
+    """The times, but for the last, by a clock that is a rounding of doubles fast."""
+    return [*(t * (1 + _EPSILON) for t in times[:-1]), times[-1]]
+
+
+#: Those of modes that are still there: an ensemble runs the same ones many times.
+_OTHERS: WeakKeyDictionary[Modes, tuple[Simulation, Modes | None]] = WeakKeyDictionary()
+
+
+def other_parameters(simulation: Simulation, modes: Modes) -> Modes | None:
+    """The same modes with parameters beside those of the file; None where all are exact."""
+    known = _OTHERS.get(modes)
+    if known is None or known[0] is not simulation:
+        known = _OTHERS[modes] = simulation, _other_parameters(simulation, modes)
+    return known[1]
+
+
+def _other_parameters(simulation: Simulation, modes: Modes) -> Modes | None:
+    arithmetic = BesideDoubles(exact=not simulation.equations.rows)
+    try:
+        constants: Mapping[Symbol, Any] = constants_of(
+            simulation.equations, simulation.all_nodes, arithmetic
+        )
+    except Refusal:  # at the end of what is allowed
+        return None
+    others = Modes(simulation, constants, arithmetic, modes.make_method, modes.rounding)
+    others.first.conserved = modes.first.conserved
+    return others
+
+
+def are_felt(outcome: Outcome, others: Modes, accuracy: float) -> bool:
+    """Whether other parameters change what acts in a run by more than a clock does.
+
+    Parameters
+    ----------
+    outcome
+        Of runs in doubles.
+    others
+        Their modes with the parameters beside.
+    accuracy
+        That of the columns.
+    """
+    run = outcome.run
+    if run.shortened:  # what is narrow is seldom met by a row
+        return True
+    marks = run.marks[:: max(1, len(run.marks) // _LOOKS)]
+    n, columns = len(run.peaks) // 2, len(others.simulation.nodes)
+    least = [peak / others.simulation.asked.until for peak in run.peaks[n:]]
+    sizes, changes = least, [0.0] * n
+    moves = [0.0] * columns
+    for mark in marks:
+        mode = run.phases[mark.phase].mode
+        beside = others.mode(*mode.key)
+        state, later = (mark.t, *mark.q, *mark.v), mark.t * _LATER
+        try:
+            if mode.motion.kinks:
+                mode.motion.set_signs(*(mark.t, mark.q, mark.v))
+                beside.motion.signs[:] = mode.motion.signs
+            here, there = mode.motion.accelerations(*state), beside.motion.accelerations(*state)
+            then = mode.motion.accelerations(mark.t + later, *mark.q, *mark.v)
+        except (ArithmeticError, ValueError):
+            continue
+        for j, (a, b, c) in enumerate(zip(here, there, then, strict=True)):
+            sizes[j] = max(sizes[j], abs(a) + abs(c - a) / _LATER)
+            changes[j] = max(changes[j], abs(b - a))
+        rows = [
+            mode.tabulate(mark.t, mark.q, mark.v)[:columns],
+            beside.tabulate(mark.t, _turned(mark.q, 1), _turned(mark.v, -1))[:columns],
+        ]
+        for j, (x, y) in enumerate(zip(*rows, strict=True)):
+            if x is not None and y is not None:
+                moves[j] = max(moves[j], abs(y - x))
+    limit = _TIMES * _CLOCK
+    return any(d > limit * size for d, size in zip(changes, sizes, strict=True)) or any(
+        d > _COLUMN * accuracy * scale for d, scale in zip(moves, outcome.scales, strict=True)
+    )

@@ -1,0 +1,94 @@
+"""The same motion with more digits than doubles have."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from lagcli.numerics.certified.methods import Prepared
+from lagcli.numerics.equations.arithmetic import Balls
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.equations.start import refined_state
+from lagcli.numerics.equations.surface import Surface
+from lagcli.numerics.hybrid.modes import Mode, Modes
+from lagcli.numerics.hybrid.run import Run
+from lagcli.numerics.hybrid.transitions import Transitions
+from lagcli.numerics.integrators.steps import Method, Tolerance
+from lagcli.numerics.integrators.taylor import Taylor
+
+if TYPE_CHECKING:
+    from lagcli.numerics.certified.simulate import Simulation
+
+_DIGITS = 30
+_GUARD_BITS = 40
+_LONGEST = (10.0,)  # a part of the span: a series knows what lies within its step
+#: Steps of one run, when nobody has asked for more digits and when somebody has.
+_UNASKED, _ASKED = 20_000, 500_000
+
+
+@contextmanager
+def precision(digits: int) -> Iterator[None]:
+    """So many digits, and some more for rounding."""
+    from flint import ctx
+
+    usual = ctx.prec
+    ctx.prec = math.ceil(digits * math.log2(10)) + _GUARD_BITS
+    try:
+        yield
+    finally:
+        ctx.prec = usual
+
+
+def prepared(simulation: Simulation, doubles: Modes, digits: int | None = None) -> Prepared | str:
+    """Power series with so many digits made ready, or why only doubles can do it.
+
+    Parameters
+    ----------
+    simulation, doubles
+        What is asked, and the modes in doubles.
+    digits
+        Those asked for, or 30, without it.
+    """
+    equations, asked = simulation.equations, simulation.asked
+    if equations.kinks:
+        return "abs and sign have no power series"
+    if simulation.goes_on:
+        return "contacts that close or are released are followed in doubles only"
+    limit = _UNASKED if asked.digits is None and digits is None else _ASKED
+    carried = digits or asked.digits or _DIGITS
+    rounding = 10.0**-carried
+    try:
+        with precision(carried):
+            arithmetic = Balls()
+            constants = constants_of(equations, simulation.all_nodes, arithmetic)
+            modes = Modes(simulation, constants, arithmetic, _taylor, rounding)
+            modes.first.conserved = doubles.first.conserved
+            surface = modes.first.surface()
+            state = refined_state(
+                modes.first.motion, surface, *simulation.start, anew=not asked.project
+            )
+    except Refusal as refusal:
+        return str(refusal)
+
+    def run(
+        bound: Tolerance, every: int, progress: Callable[[float], None] | None, *, moved: bool
+    ) -> Run:
+        del every, moved  # nothing lies between its stages, and its rounding is its own
+        made = Run(Transitions(modes, asked.accuracy, asked.until), bound, asked.accuracy)
+        made.step_limit = min(limit, simulation.most_steps or limit)
+        return made.go(*state, simulation.times, progress=progress)
+
+    return Prepared(
+        run=run,
+        finest=rounding,
+        longest=_LONGEST,
+        floor=math.sqrt(rounding),
+        precision=lambda: precision(carried),
+    )
+
+
+def _taylor(mode: Mode, surface: Surface | None) -> Method:
+    return Taylor(mode.motion, surface)

@@ -1,0 +1,130 @@
+"""What the error of a column is measured against, in whatever units the file is written.
+
+That of a coordinate or a velocity against its largest magnitude along the run; a velocity's is
+at least that of its coordinate over the span.  One that would be 0 but for rounding, of which
+two runs know no digit, is measured against the largest of its kind.  That of a formula against
+its largest magnitude, or the sum of the absolute values of its terms as far as that is below 1:
+where they cancel, doubles know no more.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from lagcli.numerics.hybrid.charges import Sizes
+from lagcli.numerics.hybrid.run import Mark, Run
+from lagcli.numerics.integrators.steps import SMALL, component_tops, with_own_time
+
+if TYPE_CHECKING:
+    from lagcli.graph.nodes import Node
+    from lagcli.numerics.certified.simulate import Simulation
+
+#: Rounding differs by less than this part of the largest of its kind.
+_ROUNDING = 1e-12
+#: A bound on a column that is this part of it leaves no digit.
+_UNKNOWN = 0.01
+#: A step of this tolerance would have known some.
+_RESOLVES = 1e-10
+#: What is no component of the state.
+_TIME, _FORMULA = -1, -2
+
+
+class Scales:
+    """The scales of the columns of a simulation.
+
+    Parameters
+    ----------
+    simulation
+        What is asked.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        e = simulation.equations
+        state: dict[Node, int] = {symbol: j for j, symbol in enumerate((*e.q, *e.qdot))}
+        # the place of each column in the state
+        self._places = [state.get(node, _FORMULA) for node in simulation.nodes]
+        for j, column in enumerate(simulation.asked.columns):
+            if column.expression is None:
+                self._places[j] = _TIME
+        self._sizes: tuple[Run, dict[int, float]] | None = None
+
+    def __call__(
+        self, run: Run, rows: Sequence[Sequence[Any]], bounds: Sequence[float], tolerance: float
+    ) -> list[float]:
+        """The scale of each column over rows that count.
+
+        Parameters
+        ----------
+        run, rows
+            The finer of two runs, and what counts of its rows.
+        bounds
+            On the error of each column.
+        tolerance
+            That of the run.
+        """
+        peaks = [
+            max((abs(float(row[j])) for row in rows if row[j] is not None), default=0.0)
+            for j in range(len(self._places))
+        ]
+        if self._sizes is None or self._sizes[0] is not run:
+            self._sizes = run, self._of_formulas(run)
+        accuracy, until = self._simulation.asked.accuracy, self._simulation.asked.until
+        # near a singularity at which a run stops they are without bound; where rows are left out,
+        # nothing is known of what lies behind them
+        is_whole = run.stop is None and len(rows) == len(run.marks)
+        marks = run.marks[: len(rows)] or run.marks[:1]
+        sizes = with_own_time(run.peaks if is_whole else _peaks(marks), until)
+        tops = component_tops(sizes)
+        found = []
+        for j, (place, peak, bound) in enumerate(zip(self._places, peaks, bounds, strict=True)):
+            if place == _TIME:
+                scale = until
+            elif place == _FORMULA:
+                scale = max(peak, self._sizes[1].get(j, 0.0))
+            else:
+                peak = max(peak, sizes[place])
+                top = tops[place]
+                is_zero = (
+                    bound > accuracy * peak
+                    and tolerance <= _RESOLVES
+                    and peak <= SMALL * top
+                    and _UNKNOWN * peak <= bound <= _ROUNDING * top
+                )
+                scale = top if is_zero else peak
+            found.append(scale)
+        return found
+
+    def _of_formulas(self, run: Run) -> dict[int, float]:
+        """Of each formula the sum of the absolute values of its terms along a run, at most 1.
+
+        What is solved for stands beside the forces that it follows from.
+        """
+        simulation = self._simulation
+        places = [j for j, place in enumerate(self._places) if place == _FORMULA]
+        if not places or not run.marks:
+            return {}
+        e, reading = simulation.equations, simulation.reading
+        solved = 0
+        for symbol in (*reading.accelerations, *reading.multipliers):
+            solved |= symbol.mask
+        plain = [j for j in places if not simulation.nodes[j].mask & solved]
+        nodes = [*(simulation.nodes[j] for j in plain), *e.forcing]
+        sizes = Sizes(e.graph, e.state, nodes, run.phases[0].mode.modes.constants)
+        largest = sizes.largest(run, range(len(run.marks)))
+        forces = max(largest[len(plain) :], default=0.0)
+        found = dict.fromkeys(places, forces) | dict(zip(plain, largest, strict=False))
+        return {j: min(1.0, size) for j, size in found.items()}
+
+
+def _peaks(marks: Sequence[Mark]) -> list[float]:
+    """The largest magnitude of each component at some rows."""
+    columns = zip(*((*mark.q, *mark.v) for mark in marks), strict=True)
+    return [max(abs(float(x)) for x in column) for column in columns]
+
+
+def relative(error: float, scale: float) -> float:
+    """An error beside a scale; 0 where there is none."""
+    return (error / scale if scale else math.inf) if error else 0.0

@@ -1,0 +1,91 @@
+"""The numbers of the parameters: a value may be a formula of other parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from lagcli.diagnostics import Diagnostic
+from lagcli.graph.nodes import Node, Symbol
+from lagcli.numerics.equations.arithmetic import Arithmetic
+from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.equations.straight_line import straight_line
+from lagcli.problem import Parameter
+
+_ALLOWS: dict[str, Callable[[Any], bool]] = {
+    "positive": lambda x: x > 0,
+    "nonnegative": lambda x: x >= 0,
+    "nonzero": lambda x: x != 0,
+    "negative": lambda x: x < 0,
+    "real": lambda _: True,
+}
+
+
+def constants_of(
+    equations: Equations, wanted: list[Node], arithmetic: Arithmetic
+) -> dict[Symbol, Any]:
+    """The values of the parameters that occur in nodes, and of those that these need.
+
+    Raises
+    ------
+    Refusal
+        With every parameter that has no value, or one that cannot be.
+    """
+    graph, read = equations.graph, equations.form.read
+    parameters = {graph.symbol(p.name): p for p in equations.problem.parameters}
+    formulas = {s: read(p.value) for s, p in parameters.items() if p.value is not None}
+    mask = 0
+    for node in wanted:
+        mask |= node.mask
+    while True:
+        more = mask
+        for symbol, formula in formulas.items():
+            if symbol.mask & mask:
+                more |= formula.mask
+        if more == mask:
+            break
+        mask = more
+    needed = {s: p for s, p in parameters.items() if s.mask & mask}
+    missing = [p for s, p in needed.items() if s not in formulas]
+    if missing:
+        raise Refusal(tuple(_missing(parameter) for parameter in missing))
+    values: dict[Symbol, Any] = {}
+    while len(values) < len(needed):
+        known = 0
+        for symbol in values:
+            known |= symbol.mask
+        for symbol, parameter in needed.items():
+            if symbol not in values and not formulas[symbol].mask & ~known:
+                values[symbol] = _value(formulas[symbol], parameter, values, arithmetic)
+    return values
+
+
+def _missing(parameter: Parameter) -> Diagnostic:
+    return Diagnostic(
+        f"the parameter '{parameter.name}' has no value",
+        parameter.span,
+        f"give it one here, or with --set {parameter.name}=…",
+    )
+
+
+def _value(
+    formula: Node, parameter: Parameter, values: dict[Symbol, Any], arithmetic: Arithmetic
+) -> Any:
+    span = parameter.value.span if parameter.value is not None else parameter.span
+    try:
+        [value] = straight_line((), [formula], values, arithmetic)()
+        good = abs(value) < float("inf")
+    except (ArithmeticError, ValueError):
+        good = False
+    if not good:
+        message = f"the value of '{parameter.name}' is not a real number"
+        raise Refusal((Diagnostic(message, span),))
+    if not _ALLOWS[parameter.assume](value):
+        message = f"'{parameter.name}' is {parameter.assume}, and its value is not"
+        raise Refusal((Diagnostic(message, span),))
+    if parameter.integer and value != int(float(value)):
+        raise Refusal(
+            (Diagnostic(f"'{parameter.name}' is an integer, and its value is not", span),)
+        )
+    return value

@@ -1,0 +1,270 @@
+"""The equations of motion as nodes: what is integrated, held and shown.
+
+Made of the matrix form, which needs no algebra; what it cannot say without the algebra is
+a refusal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from copy import copy
+from fractions import Fraction
+from functools import cached_property
+
+from lagcli.expression import Expression
+from lagcli.graph.corners import with_corners
+from lagcli.graph.derivative import partial
+from lagcli.graph.nodes import Call, Node, Symbol, ancestry
+from lagcli.graph.stable import Stable, stable_dynamics
+from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
+from lagcli.numerics.equations.elimination import Eliminated, Factored, TooLong
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.equations.straight_line import Generated
+from lagcli.problem import Problem
+
+_HALF = Fraction(1, 2)
+#: What is worked out of the constraints.
+_OF_ROWS = (
+    "generated", "positions", "rates", "sizes", "eliminated", "eliminated_positions",
+    "evident_charges",
+)  # fmt: skip
+
+
+class Equations:
+    """M, forcing, A and what is eliminated from them.
+
+    Parameters
+    ----------
+    problem
+        With its one-sided contacts among the constraints: see `contact`.
+    whole, held
+        Other equations of the same problem, and which constraints act; all, without them.
+
+    Attributes
+    ----------
+    constraints : tuple of ConstraintRow
+        Those that act.
+    declared : tuple of Constraint
+        The same as the file has them.
+    t, q, qdot : Symbol and tuples of Symbol
+        In the order of the file; also the arguments of every function made of them.
+    holonomic : tuple of int
+        The constraints that have a position f(q, t).
+
+    Raises
+    ------
+    Refusal
+        Where the problem needs the algebra, or is not defined anywhere.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        whole: Equations | None = None,
+        held: frozenset[int] | None = None,
+    ) -> None:
+        self.problem = problem
+        self.whole = whole or self
+        try:
+            form = MatrixForm(problem, combine_angles=False) if whole is None else whole.form
+            self.form: MatrixForm = form
+            self.mass: tuple[tuple[Node, ...], ...]
+            self.forcing: tuple[Node, ...]
+            self.mass, self.forcing = (
+                _stable(form) if whole is None else (whole.mass, whole.forcing)
+            )
+            every = form.constraints
+        except NotStructural as reason:
+            raise Refusal(f"no numbers for this problem: {reason}") from None
+        except ArithmeticError as error:
+            raise Refusal(f"the equations are not defined: {error}") from None
+        acting = [k for k in range(len(every)) if held is None or k in held]
+        #: for each constraint of the file, its place among those that act
+        self.place = {k: i for i, k in enumerate(acting)}
+        self.constraints = tuple(every[k] for k in acting)
+        self.declared = tuple(problem.constraints[k] for k in acting)
+        self.graph = form.graph
+        self.t, self.q, self.qdot = form.t, form.q, form.qdot
+        self.state: tuple[Symbol, ...] = (self.t, *self.q, *self.qdot)
+        self.rows = tuple(row.row for row in self.constraints)
+        self.bias = tuple(row.bias for row in self.constraints)
+        self.holonomic = tuple(
+            k for k, row in enumerate(self.constraints) if row.position is not None
+        )
+
+    def holding(self, held: frozenset[int]) -> Equations:
+        """The equations while only these constraints act."""
+        return Equations(self.problem, self.whole, held)
+
+    def without_implied(self, independent: Sequence[int]) -> Equations:
+        """The equations with these rows, which imply all others."""
+        fewer = copy(self)
+        for name in _OF_ROWS:
+            fewer.__dict__.pop(name, None)
+        fewer.place = {k: i for i, k in enumerate(independent)}
+        fewer.constraints = tuple(self.constraints[k] for k in independent)
+        fewer.declared = tuple(self.declared[k] for k in independent)
+        fewer.rows = tuple(self.rows[k] for k in independent)
+        fewer.bias = tuple(self.bias[k] for k in independent)
+        fewer.holonomic = tuple(
+            k for k, row in enumerate(fewer.constraints) if row.position is not None
+        )
+        return fewer
+
+    @cached_property
+    def generated(self) -> Generated:
+        """The functions made of them, which numbers of all kinds share."""
+        return {}
+
+    @cached_property
+    def stable(self) -> Stable:
+        """Writes columns so that they keep their digits."""
+        return Stable(self.graph)
+
+    @cached_property
+    def positions(self) -> list[Node]:
+        """f(q, t) of the holonomic constraints."""
+        return [row.position for row in self.constraints if row.position is not None]
+
+    @cached_property
+    def rates(self) -> list[Node]:
+        """A q' + b of all constraints."""
+        graph = self.graph
+        return [
+            graph.sum(
+                [row.drift, *(graph.product(a, v) for a, v in zip(row.row, self.qdot, strict=True))]
+            )
+            for row in self.constraints
+        ]
+
+    @cached_property
+    def sizes(self) -> list[Node]:
+        """Sum over j of |a_kj q_j| and of |a_kj q_j'|, what residuals are compared with."""
+        graph = self.graph
+        return [
+            graph.sum(
+                graph.call("abs", (graph.product(a, x),))
+                for a, x in zip(row, variables, strict=True)
+            )
+            for variables, rows in (
+                (self.q, [self.rows[k] for k in self.holonomic]),
+                (self.qdot, self.rows),
+            )
+            for row in rows
+        ]
+
+    @cached_property
+    def kinks(self) -> list[Node]:
+        """What stands in abs and sign: where it passes 0 the equations are not smooth.
+
+        The same list, whichever constraints act.
+        """
+        if self.whole is not self:
+            return self.whole.kinks
+        mask = 0
+        for symbol in self.state:
+            mask |= symbol.mask
+        dynamics = [*(entry for row in self.mass for entry in row), *self.forcing]
+        dynamics += [*(entry for row in self.rows for entry in row), *self.bias]
+        found: dict[Node, None] = {}
+        for node in ancestry(dynamics):
+            if isinstance(node, Call) and node.function in {"abs", "sign"} and node.mask & mask:
+                found[node.arguments[0]] = None
+        return list(found)
+
+    # -- elimination -------------------------------------------------------------------------
+
+    @cached_property
+    def eliminated(self) -> Eliminated | None:
+        """With all constraints; None where it is left to numbers."""
+        return self._eliminated(self.rows)
+
+    @cached_property
+    def eliminated_positions(self) -> Eliminated | None:
+        """With the holonomic constraints."""
+        if len(self.holonomic) == len(self.rows):
+            return self.eliminated
+        return self._eliminated([self.rows[k] for k in self.holonomic])
+
+    def _eliminated(self, rows: object) -> Eliminated | None:
+        if self.factored is None:
+            return None
+        try:
+            return Eliminated(self.graph, self.factored, rows)  # type: ignore[arg-type]
+        except (ZeroDivisionError, TooLong):
+            return None
+
+    @cached_property
+    def factored(self) -> Factored | None:
+        """The mass matrix as L D L^T; None where a pivot is 0 whatever the state.
+
+        None, too, where a loop does it: a full one writes some n^3/6 products out.
+        """
+        try:
+            return Factored(self.graph, self.mass)
+        except (ZeroDivisionError, TooLong):
+            return None
+
+    # -- what is conserved -----------------------------------------------------------------------
+
+    @cached_property
+    def lagrangian(self) -> Node:
+        """L in q, q' and t."""
+        problem, graph, read = self.problem, self.graph, self.form.read
+        if problem.lagrangian is not None:
+            return read(problem.lagrangian)
+        if problem.kinetic is not None:
+            kinetic = read(problem.kinetic)
+        else:
+            kinetic = graph.combination(
+                (graph.product(read(point.mass), speed, speed), _HALF)
+                for point in problem.points
+                if point.mass is not None
+                for speed in map(read.total_derivative, map(read, point.position))
+            )
+        return graph.difference(kinetic, self._optional(problem.potential))
+
+    def _optional(self, formula: Expression | None) -> Node:
+        return self.graph.zero if formula is None else self.form.read(formula)
+
+    @cached_property
+    def momenta(self) -> list[Node]:
+        """p = dL/dq'."""
+        return [partial(self.graph, v)(self.lagrangian) for v in self.qdot]
+
+    @cached_property
+    def energy(self) -> Node:
+        """h = q' p - L, the Jacobi function."""
+        graph = self.graph
+        work = [graph.product(v, p) for v, p in zip(self.qdot, self.momenta, strict=True)]
+        return graph.sum([*work, graph.scaled(self.lagrangian, -1)])
+
+    @cached_property
+    def evident_charges(self) -> dict[str, Node]:
+        """The energy and the momenta of ignorable coordinates, where they are conserved.
+
+        Only what is seen in the structure: L, the forces and the constraints do not name t,
+        or q_j.
+        """
+        graph = self.graph
+        zero = graph.zero
+        found: dict[str, Node] = {}
+        forces = self.form.applied_forces
+        steady = not self.lagrangian.mask & self.t.mask and all(f is zero for f in forces)
+        if steady and all(row.drift is zero for row in self.constraints):
+            found["energy"] = self.energy
+        for j, q in enumerate(self.q):
+            ignorable = not self.lagrangian.mask & q.mask and forces[j] is zero
+            if ignorable and all(row[j] is zero for row in self.rows):
+                found[f"p_{q.name}"] = self.momenta[j]
+        return found
+
+
+def _stable(form: MatrixForm) -> tuple[tuple[tuple[Node, ...], ...], tuple[Node, ...]]:
+    """M and the forcing, so written that they keep their digits."""
+    mass, forcing = form.mass_matrix, form.forcing
+    n = len(forcing)
+    entries = [*(entry for row in mass for entry in row), *forcing]
+    nodes = stable_dynamics(form.graph, with_corners(form.graph, entries))
+    rows = tuple(tuple(nodes[i * n : (i + 1) * n]) for i in range(n))
+    return rows, tuple(nodes[n * n :])

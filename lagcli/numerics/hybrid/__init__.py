@@ -1,0 +1,1 @@
+"""The motion piece by piece: events, contacts, impacts, friction, and the run through the modes."""

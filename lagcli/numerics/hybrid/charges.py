@@ -1,0 +1,229 @@
+"""The conserved charges of a mode: those that are evident, and the candidates of the file.
+
+A candidate's charge is p Delta q - h Delta t - gauge.  Whether it is conserved is asked of
+numbers: its rate along the motion, at random states on the constraints, beside the terms
+that the rate is the sum of.  A gauge that the file leaves out is not searched for.
+
+The change of a charge is measured against what it is the sum of: m x y' - m y x' against
+|m x y'| + |m y x'|, in whatever units, whether it is 0 or not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from lagcli.graph.derivative import partial
+from lagcli.graph.nodes import Constant, Graph, Node, Product, Sum, Symbol
+from lagcli.graph.values import Floats, Program
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.surface import Surface
+from lagcli.problem import Coordinate
+
+if TYPE_CHECKING:
+    from lagcli.numerics.hybrid.modes import Mode
+    from lagcli.numerics.hybrid.run import Run
+
+_ATTEMPTS, _ENOUGH = 40, 6
+_ZERO = 1e-9
+_SPREAD = 0.4
+_PROJECTIONS = 8
+_LOOKS = 8
+
+
+def conserved_charges(mode: Mode) -> set[str]:
+    """The names of those charges of the simulation that are conserved in a mode."""
+    simulation = mode.modes.simulation
+    found = set(mode.equations.evident_charges) & set(simulation.charges)
+    asked = [name for name in simulation.candidates if name in simulation.charges]
+    if not asked:
+        return found
+    equations, motion = mode.equations, mode.motion
+    graph = equations.graph
+    solved = simulation.reading.accelerations
+    rates = [
+        *((equations.t, graph.one),),
+        *zip(equations.q, equations.qdot, strict=True),
+        *zip(equations.qdot, solved, strict=True),
+    ]
+    terms = [
+        graph.product(partial(graph, x)(simulation.charges[name]), rate)
+        for name in asked
+        for x, rate in rates
+    ]
+    function = motion.function(terms, solved)
+    signs = list(motion.signs)
+    good, left = 0, set(asked)
+    for t, q, v in _states(mode):
+        try:
+            if motion.kinks:
+                motion.set_signs(t, q, v)
+            values = [float(x) for x in function(t, *q, *v, *motion.accelerations(t, *q, *v))]
+        except (ArithmeticError, ValueError):
+            continue
+        for place, name in enumerate(asked):
+            part = values[place * len(rates) : (place + 1) * len(rates)]
+            if not abs(sum(part)) <= _ZERO * sum(map(abs, part)):
+                left.discard(name)
+        good += 1
+        if good == _ENOUGH or not left:
+            break
+    motion.signs[:] = signs
+    return found | left if good == _ENOUGH else found
+
+
+def _states(mode: Mode) -> Iterator[tuple[float, list[float], list[float]]]:
+    """Random states near the initial one, on the constraints; the same ones in every run."""
+    simulation = mode.modes.simulation
+    q0, v0 = simulation.start
+    number = _Numbers()
+    for _ in range(_ATTEMPTS):
+        t = simulation.asked.until * number()
+        q = [x + _SPREAD * (2 * number() - 1) * (abs(x) or 1.0) for x in q0]
+        v = [x + _SPREAD * (2 * number() - 1) * max(abs(x), 1.0) for x in v0]
+        if mode.equations.rows:
+            state = _on_constraints(mode.motion, t, q, v)
+            if state is None:
+                continue
+            q, v = state
+        if all(map(_allowed, simulation.problem.coordinates, q)):
+            yield t, q, v
+
+
+def _on_constraints(
+    motion: Motion, t: float, q: list[float], v: list[float]
+) -> tuple[list[float], list[float]] | None:
+    surface = Surface(motion)
+    try:
+        surface.measure(t, q, v)
+        for _ in range(_PROJECTIONS):
+            q, v = surface.project(t, q, v)
+        surface.note(t, q, v)
+    except (ArithmeticError, ValueError):
+        return None
+    return (q, v) if max(surface.residuals) <= _ZERO * _ZERO**0.25 else None
+
+
+def _allowed(coordinate: Coordinate, value: float) -> bool:
+    match coordinate.assume:
+        case "positive" | "nonnegative":
+            return value > 0
+        case "negative":
+            return value < 0
+        case _:
+            return True
+
+
+def size(graph: Graph, node: Node, known: dict[Node, Node] | None = None) -> Node:
+    """The sum of the absolute values of a formula's terms, those of its factors among them.
+
+    `known` has those of the nodes met before.
+    """
+    known = {} if known is None else known
+    if node not in known:
+        known[node] = _size(graph, node, known)
+    return known[node]
+
+
+def _size(graph: Graph, node: Node, known: dict[Node, Node]) -> Node:
+    match node:
+        case Constant(value=value):
+            return graph.constant(abs(value))
+        case Sum(constant=constant, terms=terms):
+            sizes = [(size(graph, term, known), abs(c)) for term, c in terms]
+            return graph.combination([*sizes, (graph.one, abs(constant))])
+        case Product(factors=factors):
+            return graph.monomial(
+                (size(graph, base, known) if e > 0 else graph.call("abs", (base,)), e)
+                for base, e in factors
+            )
+        case _:
+            return graph.call("abs", (node,))
+
+
+class Sizes:
+    """What the charges of a mode are measured against.
+
+    Parameters
+    ----------
+    state
+        t, the coordinates and the velocities.
+    charges
+        The formulas.
+    constants
+        The values of the parameters.
+    """
+
+    def __init__(
+        self,
+        graph: Graph,
+        state: Sequence[Symbol],
+        charges: Sequence[Node],
+        constants: Mapping[Symbol, Any],
+    ) -> None:
+        self._charges = len(charges)
+        known: dict[Node, Node] = {}
+        self._program = Program([size(graph, each, known) for each in charges], Floats())
+        self._names = [str(symbol) for symbol in state]
+        self._known = {str(symbol): float(value) for symbol, value in constants.items()}
+
+    def largest(self, run: Run, places: Sequence[int]) -> list[float]:
+        """Of each charge the largest at some of the rows of a phase."""
+        found = [0.0] * self._charges
+        for place in {*places[:: max(1, len(places) // _LOOKS)], places[-1]}:
+            mark = run.marks[place]
+            state = map(float, (mark.t, *mark.q, *mark.v))
+            try:
+                now = self._program(self._known | dict(zip(self._names, state, strict=True)))
+            except (ArithmeticError, ValueError):
+                continue
+            found = [max(pair) for pair in zip(found, now, strict=True)]
+        return found
+
+
+def changes(
+    run: Run, charge: int, values: Sequence[Any]
+) -> Iterator[tuple[list[int], list[float], float]]:
+    """Of each phase in which a charge is conserved: its rows, its changes, and its scale.
+
+    Parameters
+    ----------
+    run, charge
+        The rows, and which of the charges.
+    values
+        Of the charge in each row, as far as they count; None where it is not defined.
+    """
+    for number, phase in enumerate(run.phases):
+        if not phase.mode.conserved[charge]:
+            continue
+        places = [
+            place
+            for place, mark in enumerate(run.marks[: len(values)])
+            if mark.phase == number and values[place] is not None
+        ]
+        if len(places) > 1:
+            found = [float(values[place] - values[places[0]]) for place in places]
+            peak = max(abs(float(values[place])) for place in places)
+            yield places, found, max(peak, phase.mode.sizes.largest(run, places)[charge])
+
+
+def relative(changes: Sequence[float], scale: float) -> float:
+    """The largest of the changes beside a scale; 0 where nothing changes."""
+    largest = max(map(abs, changes))
+    return largest / scale if largest else 0.0
+
+
+class _Numbers:
+    """Evenly spread numbers between 0 and 1.
+
+    References
+    ----------
+    Park, Miller, "Random number generators: good ones are hard to find", CACM 31 (1988).
+    """
+
+    def __init__(self) -> None:
+        self._state = 20011
+
+    def __call__(self) -> float:
+        self._state = self._state * 48271 % 2147483647
+        return self._state / 2147483647

@@ -1,0 +1,218 @@
+"""The modes of a motion: which contacts are closed, and what friction holds.
+
+Each mode has its own equations of the same kind; a problem without contacts has one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from lagcli.graph.nodes import Node, Symbol
+from lagcli.numerics.equations.arithmetic import Arithmetic
+from lagcli.numerics.equations.columns import Values
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.surface import Surface
+from lagcli.numerics.hybrid.charges import Sizes, conserved_charges
+from lagcli.numerics.hybrid.events import Condition
+from lagcli.numerics.hybrid.friction import StuckMotion
+from lagcli.numerics.integrators.sight import Sight
+from lagcli.numerics.integrators.steps import Method
+
+if TYPE_CHECKING:
+    from lagcli.numerics.certified.simulate import Simulation
+
+#: Makes the method of a mode.
+MakeMethod = Callable[["Mode", "Surface | None"], Method]
+
+
+class Mode:
+    """The motion while some constraints act and some kinks stick."""
+
+    def __init__(self, modes: Modes, held: frozenset[int], stuck: frozenset[int]) -> None:
+        self.modes, self.held, self.stuck = modes, held, stuck
+        self.key = held, stuck
+        simulation = modes.simulation
+        every = len(simulation.equations.rows)
+        whole = simulation.equations
+        self.equations = whole if len(held) == every else whole.holding(held)
+        arguments = (self.equations, modes.constants, modes.arithmetic)
+        self.motion = (
+            StuckMotion(*arguments, modes.signs, stuck)
+            if stuck
+            else Motion(*arguments, modes.signs)
+        )
+        self.motion.looked_at = self._looked_at()
+        #: what a method has generated for this mode
+        self.generated: Any = None
+
+    def _looked_at(self) -> tuple[Node, ...]:
+        """The margins of the conditions."""
+        simulation = self.modes.simulation
+        margins = [node for k, node in simulation.margins.items() if k in self.held]
+        gaps = [node for k, node in simulation.gaps.items() if k not in self.held]
+        return (*margins, *gaps, *([] if simulation.stop is None else [simulation.stop]))
+
+    def surface(self) -> Surface | None:
+        """The constraints that act, nothing measured yet."""
+        return Surface(self.motion, self.modes.rounding) if self.equations.rows else None
+
+    def method(self, surface: Surface | None) -> Method:
+        """What integrates it."""
+        return self.modes.make_method(self, surface)
+
+    @cached_property
+    def sight(self) -> Sight:
+        """What steps may pass over."""
+        return Sight(self.motion)
+
+    @cached_property
+    def conditions(self) -> list[Condition]:
+        """What ends the mode, or the run."""
+        modes = self.modes
+        simulation = modes.simulation
+        names = [c.name for c in simulation.whole.constraints]
+        found = [
+            Condition(names[k], "contact lost", self._watched(node), "loss", k)
+            for k, node in simulation.margins.items()
+            if k in self.held
+        ]
+        found += [
+            Condition(names[k], "contact closes", self._watched(node), "gap", k)
+            for k, node in simulation.gaps.items()
+            if k not in self.held
+        ]
+        found += [
+            Condition(modes.kink_name(k), "slips", self._friction(place), "slip", k)
+            for place, k in enumerate(sorted(self.stuck))
+        ]
+        if simulation.stop is not None:
+            name = simulation.asked.stop_name
+            margin = self._watched(simulation.stop)
+            found.append(Condition(name, "stopped", margin, two_sided=True))
+        return found
+
+    def _watched(self, node: Node) -> Callable[..., float]:
+        values = Values(self.motion, self.modes.simulation.reading, [node])
+
+        def margin(t: float, q: Sequence[Any], v: Sequence[Any]) -> float:
+            [value] = values(t, q, v)
+            return math.inf if value is None else float(value)
+
+        return margin
+
+    def _friction(self, place: int) -> Callable[..., float]:
+        """1 - |sigma|."""
+        motion = self.motion
+        assert isinstance(motion, StuckMotion)
+        return lambda t, q, v: 1.0 - abs(motion.friction(t, *q, *v)[place])
+
+    @cached_property
+    def conserved(self) -> list[bool]:
+        """Which of the charges stay as they are in this mode."""
+        kept = conserved_charges(self)
+        return [name in kept for name in self.modes.simulation.charges]
+
+    @cached_property
+    def sizes(self) -> Sizes:
+        """What the charges are measured against."""
+        e, charges = self.equations, [*self.modes.simulation.charges.values()]
+        return Sizes(e.graph, e.state, charges, self.modes.constants)
+
+    @cached_property
+    def tabulate(self) -> Callable[..., list[Any]]:
+        """The columns and then the charges at a state."""
+        simulation, motion = self.modes.simulation, self.motion
+        nodes = [*simulation.nodes, *simulation.charges.values()]
+        values = Values(motion, simulation.reading, nodes)
+        single: list[Values] = []
+
+        def row(t: float, q: Sequence[Any], v: Sequence[Any]) -> list[Any]:
+            try:
+                found = values(t, q, v)
+                if all(x is None or math.isfinite(float(x)) for x in found):
+                    return found
+            except (ArithmeticError, ValueError):
+                pass
+            if not single:
+                single.extend(Values(motion, simulation.reading, [node]) for node in nodes)
+            return [_one(each, t, q, v) for each in single]
+
+        return row
+
+
+class Modes:
+    """The modes met so far.
+
+    Parameters
+    ----------
+    simulation
+        The problem and what is asked.
+    constants, arithmetic
+        As for `Motion`.
+    make_method
+        Makes the method of a mode.
+    rounding
+        At which a projection onto the constraints is done.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        constants: Mapping[Symbol, Any],
+        arithmetic: Arithmetic,
+        make_method: MakeMethod,
+        rounding: float,
+    ) -> None:
+        self.simulation, self.constants, self.arithmetic = simulation, constants, arithmetic
+        self.make_method, self.rounding = make_method, rounding
+        kinks = simulation.equations.kinks if arithmetic.ordered else []
+        self.signs = [1.0] * len(kinks)
+        self._known: dict[tuple[frozenset[int], frozenset[int]], Mode] = {}
+
+    def by(self, make_method: MakeMethod) -> Modes:
+        """The same problem in the same numbers, by another method."""
+        arguments = (self.simulation, self.constants, self.arithmetic, make_method, self.rounding)
+        other = Modes(*arguments)
+        other.signs = self.signs
+        first = Mode(other, *self.first.key)
+        first.motion = self.first.motion
+        first.conserved = self.first.conserved
+        first.tabulate, first.sizes = self.first.tabulate, self.first.sizes
+        other._known[first.key] = first
+        return other
+
+    def mode(self, held: frozenset[int], stuck: frozenset[int] = frozenset()) -> Mode:
+        """The mode in which these act."""
+        key = (held, stuck)
+        if key not in self._known:
+            self._known[key] = Mode(self, held, stuck)
+        return self._known[key]
+
+    @cached_property
+    def first(self) -> Mode:
+        """The one of the file: its constraints, and no contact."""
+        return self.mode(self.simulation.given)
+
+    @cached_property
+    def whole(self) -> Motion:
+        """The motion with every constraint, for its matrices only."""
+        every = frozenset(range(len(self.simulation.equations.rows)))
+        return self.mode(every).motion
+
+    def kink_name(self, kink: int) -> str:
+        """The velocities on which a force that jumps depends."""
+        e = self.simulation.equations
+        mask = e.kinks[kink].mask
+        return ", ".join(f"{v.name}'" for v in e.qdot if v.mask & mask)
+
+
+def _one(values: Values, t: float, q: Sequence[Any], v: Sequence[Any]) -> Any:
+    """A column where it is defined, else None."""
+    try:
+        [value] = values(t, q, v)
+    except (ArithmeticError, ValueError):
+        return None
+    return value if value is None or math.isfinite(float(value)) else None

@@ -1,0 +1,1 @@
+"""The methods: steps in doubles or with more digits, whose inside can be looked into."""

@@ -1,0 +1,221 @@
+"""Radau IIA of order 5: implicit, for stiff problems.
+
+Three stages, L-stable, so that what dies away quickly bounds no step; the error is estimated
+by an embedded formula of order 3, filtered so that it does not see what is stiff.  The local
+tolerance of a method whose estimate is of a lower order than itself is 0.1 tol^(2/3).
+Jacobians are exact.  The motion inside a step is that of a shorter step from its beginning:
+of order 5 as the steps are, where the collocation polynomial has order 3.
+
+References
+----------
+Hairer, Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., section IV.8 (RADAU5).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.refusal import told
+from lagcli.numerics.equations.surface import Surface
+from lagcli.numerics.integrators.collocation import radau
+from lagcli.numerics.integrators.implicit import Stages
+from lagcli.numerics.integrators.steps import CannotGoOn, Inside, Method, Step, Tolerance
+
+if TYPE_CHECKING:
+    from lagcli.numerics.hybrid.modes import Mode
+
+ORDER = 5
+_STAGES = 3
+_ESTIMATE = 4  # the power of h in the error that is estimated
+_SAFETY, _SHRINK, _GROW = 0.9, 0.2, 6.0
+_FIRST = 1e-6  # of the longest step, for the first
+_NEWTON = 1e-3  # of the tolerance
+_SHORTEST = 4e-16
+
+Vector = list[float]
+
+
+class Radau5:
+    """The steps of one run.
+
+    Parameters
+    ----------
+    motion
+        In doubles, without abs and sign.
+    surface
+        The constraints, or None.
+    stages
+        Those made for the same motion before.
+    """
+
+    name = "radau5"
+    sees = even = False
+
+    def __init__(self, motion: Motion, surface: Surface | None, stages: Stages) -> None:
+        self.motion, self.surface, self.n = motion, surface, motion.n
+        self.reached: int | None = None
+        self._stages = stages
+        self._before = stages.evaluations
+        self._more = 0
+        method = stages.method
+        self._gamma = method.eigenvalues[0].real
+        self._embedded = [
+            a - b for a, b in zip(_embedded(self._gamma), method.weights, strict=True)
+        ]
+
+    @property
+    def evaluations(self) -> int:
+        """Of the accelerations; a Jacobian counts as one."""
+        return self._stages.evaluations - self._before + self._more
+
+    def steps(
+        self,
+        q: Vector,
+        v: Vector,
+        until: float,
+        tolerance: Tolerance,
+        begin: float = 0.0,
+    ) -> Iterator[Step]:
+        """Accepted steps from `begin` to `until`.
+
+        Raises
+        ------
+        CannotGoOn
+            Where the step becomes shorter than rounding, with the reason.
+        """
+        t, stages = begin, self._stages
+        allowed = max(0.1 * tolerance.value ** (2 / 3), 1e-14)
+        rate = self._rate(t, q, v)
+        h = tolerance.first_step(q, v, rate, _FIRST, until - begin)
+        guess = [list(rate) for _ in range(_STAGES)]
+        grow, fresh = _GROW, True
+        while t < until:
+            last = t + 1.01 * h >= until
+            h = until - t if last else h
+            reason = ""
+            try:
+                if fresh:
+                    stages.linearize(t, q, v)
+                    fresh = False
+                k = stages.solve(t, h, q, v, guess, tolerance.scales, _NEWTON * allowed)
+                by_q, by_v = stages.changes(h, v, k)
+                tolerance.see(q, v, [*by_q, *by_v])
+                error = self._error(t, h, (q, v, rate), k, tolerance, again=grow == 1.0) / allowed
+                if error <= 1:
+                    end_q = [x + d for x, d in zip(q, by_q, strict=True)]
+                    end_v = [x + d for x, d in zip(v, by_v, strict=True)]
+                    if self.surface is not None:
+                        end_q, end_v = self.surface.project(t + h, end_q, end_v)
+                    end = self._rate(t + h, end_q, end_v)
+            except (ArithmeticError, ValueError) as failure:
+                error, reason = math.inf, told(failure)
+            if not error <= 1:
+                tolerance.forget()
+                factor = _SAFETY * error ** (-1 / _ESTIMATE) if error < math.inf else 0
+                h *= max(_SHRINK, factor)
+                grow = 1.0
+                guess = [list(rate) for _ in range(_STAGES)]
+                if h <= _SHORTEST * max(t, 1e-3 * until):
+                    raise CannotGoOn(t, q, v, reason)
+                continue
+            tolerance.accepted()
+            inside = self._inside(t, h, q, v, k, tolerance)
+            start, taken = t, h
+            t = until if last else t + h
+            q, v, rate, fresh = end_q, end_v, end, True
+            yield Step(start, taken, t, q, v, inside)
+            factor = _SAFETY * error ** (-1 / _ESTIMATE) if error else _GROW
+            h = min(h * min(grow, max(_SHRINK, factor)), tolerance.longest)
+            guess = self._continued(k, h / taken)
+            grow = _GROW
+
+    def _rate(self, t: float, q: Sequence[float], v: Sequence[float]) -> tuple[float, ...]:
+        self._more += 1
+        return self.motion.accelerations(t, *q, *v)
+
+    def _error(
+        self,
+        t: float,
+        h: float,
+        state: tuple[Vector, Vector, Sequence[float]],
+        k: list[Vector],
+        tolerance: Tolerance,
+        *,
+        again: bool,
+    ) -> float:
+        """(I - h g J)^-1 (g h f0 + h sum e_i f_i) in units of the scales."""
+        q, v, rate = state
+        stages, n, g = self._stages, self.n, self._gamma
+        velocities = stages.velocities(h, q, v, k)
+
+        def combined(first: Sequence[float], others: list[Vector]) -> Vector:
+            return [
+                h * (g * x + sum(e * row[j] for e, row in zip(self._embedded, others, strict=True)))
+                for j, x in enumerate(first)
+            ]
+
+        def size(parts: tuple[Vector, Vector]) -> float:
+            squares = sum(
+                (x / scale) ** 2
+                for x, scale in zip((*parts[0], *parts[1]), tolerance.scales, strict=True)
+            )
+            return math.sqrt(squares / (2 * n))
+
+        found = stages.filtered(h, combined(v, velocities), combined(rate, k))
+        error = size(found)
+        if again and error > 0.0:  # what is stiff and still there is filtered once more
+            moved_q = [x + d for x, d in zip(q, found[0], strict=True)]
+            moved_v = [x + d for x, d in zip(v, found[1], strict=True)]
+            other = self._rate(t, moved_q, moved_v)
+            found = stages.filtered(h, combined(moved_v, velocities), combined(other, k))
+            error = min(error, size(found))
+        return error
+
+    def _continued(self, k: list[Vector], ratio: float) -> list[Vector]:
+        """The stages that the polynomial of the last step foretells."""
+        method = self._stages.method
+        return [method.interpolated(1 + c * ratio, k) for c in method.nodes]
+
+    def _inside(
+        self, t: float, h: float, q: Vector, v: Vector, k: list[Vector], tolerance: Tolerance
+    ) -> Inside:
+        """A shorter step from the same beginning; the slope is that of the polynomial."""
+        scales = list(tolerance.scales)
+        precision = 1e-3 * _NEWTON * tolerance.value
+
+        def at(time: float) -> tuple[Vector, Vector, Vector]:
+            stages, short = self._stages, time - t
+            method = stages.method
+            x = short / h
+            slope = method.interpolated(x, k)
+            guess = [method.interpolated(c * x, k) for c in method.nodes]
+            stages.linearize(t, q, v)
+            found = stages.solve(t, short, q, v, guess, scales, precision) if short else guess
+            by_q, by_v = stages.changes(short, v, found)
+            return (
+                [a + b for a, b in zip(q, by_q, strict=True)],
+                [a + b for a, b in zip(v, by_v, strict=True)],
+                slope,
+            )
+
+        return at
+
+
+def _embedded(gamma: float) -> list[float]:
+    """b^ with gamma f(0) + sum b^_i f(c_i) exact for polynomials of degree 2."""
+    from lagcli.numerics.integrators.linear import Factors
+
+    nodes = radau(_STAGES).nodes
+    matrix = [[c**k for c in nodes] for k in range(_STAGES)]
+    found: Vector = Factors(matrix).solve([1 - gamma, 1 / 2, 1 / 3])
+    return found
+
+
+def radau5(mode: Mode, surface: Surface | None) -> Method:
+    """The method of a mode."""
+    if mode.generated is None:
+        mode.generated = Stages(mode.motion, radau(_STAGES))
+    return Radau5(mode.motion, surface, mode.generated)

@@ -1,0 +1,131 @@
+"""Where abs and sign change their branch: the step ends there and the next one begins anew.
+
+Within a step the sign is kept as it was at the beginning, so what is integrated is smooth
+and keeps its order; the place where the argument passes 0 is found on the dense output.
+
+References
+----------
+Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., section II.6
+(event location and discontinuous equations).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from lagcli.numerics.equations.motion import ROUNDINGS, Motion
+from lagcli.numerics.integrators.steps import Inside
+
+_PLACES = (0.25, 0.5, 0.75)
+_HALVINGS = 60
+#: Branches that change again and again within this part of the span: something sticks.
+_AT_ONCE = 1e-9
+_AGAIN = 8
+#: Roundings of the time within which a crossing is found; near a touch it is farther away.
+_ULPS = 1e5
+
+
+def lateness(t: float, u: float, rate: float, noise: float) -> tuple[float, float]:
+    """How long ago u was 0, and how much its noise makes of that; 0 near a touch."""
+    if not rate or not abs(u) + noise <= _ULPS * math.ulp(t) * abs(rate):
+        return 0.0, 0.0
+    return u / rate, abs(noise / rate)
+
+
+class Kinks:
+    """The arguments of abs and sign along one run."""
+
+    def __init__(self, motion: Motion) -> None:
+        self.motion = motion
+        self.reached: int | None = None  # the one at which the next step ends
+        self._slack = [0.0] * len(motion.kinks)
+        self._times: list[float] = []
+
+    def first(
+        self, t: float, h: float, q: Sequence[float], v: Sequence[float], inside: Inside
+    ) -> float | None:
+        """How far to the first change of branch within a step; None without one."""
+        if self.reached is not None:  # this step was made to end at it
+            return None
+
+        def wrong(x: float) -> list[int]:
+            state = (q, v) if x == 1 else inside(t + x * h)[:2]
+            found = self.motion.kink_arguments(t + x * h, *state[0], *state[1])
+            return [
+                k
+                for k, s in enumerate(self.motion.signs)
+                if found[k] * s < -self._slack[k] and k not in self.motion.stuck
+            ]
+
+        before = 0.0
+        for x in (*_PLACES, 1.0):
+            if wrong(x):
+                break
+            before = x
+        else:
+            return None
+        good, bad = before, x
+        for _ in range(_HALVINGS):
+            middle = (good + bad) / 2
+            if not good < middle < bad:
+                break
+            if wrong(middle):
+                bad = middle
+            else:
+                good = middle
+        self.reached = wrong(bad)[0]
+        return bad * h
+
+    def begin(self, t: float, q: Sequence[float], v: Sequence[float]) -> None:
+        """Begin at a state; what is at a kink there may be on either side by rounding."""
+        found = self.motion.kink_arguments(t, *q, *v)
+        noise = self.motion.kink_noise(t, q, v)
+        self._slack = [
+            limit if abs(x) <= limit else 0.0 for x, limit in zip(found, noise, strict=True)
+        ]
+
+    def sticks(self, t: float, q: Sequence[float], v: Sequence[float]) -> bool:
+        """Whether both branches lead back to the kink that has been reached."""
+        motion, k = self.motion, self.reached
+        if k is None or k not in motion.moving_kinks:
+            return False
+        usual = motion.signs[k]
+        away: list[float] = []
+        for sign in (1.0, -1.0):
+            motion.signs[k] = sign
+            rates = motion.kink_rates(t, *q, *v, *motion.accelerations(t, *q, *v))
+            away.append(sign * float(rates[k]))
+        motion.signs[k] = usual
+        return max(away) <= 0
+
+    def stuck(self, t: float, span: float) -> bool:
+        """Whether branches have changed again and again at one time."""
+        self._times.append(t)
+        recent = self._times[-_AGAIN:]
+        return len(recent) == _AGAIN and recent[-1] - recent[0] < _AT_ONCE * span
+
+    def pass_through(
+        self, t: float, q: Sequence[float], v: Sequence[float], *, moved: bool = False
+    ) -> list[float]:
+        """Change the branch that has been reached; v as if it had been changed in time.
+
+        The step ends where doubles see the argument u on the other side, u/u' late: there
+        v errs by that time the jump of q''.  In a run that is moved v errs by what the rounding
+        of u makes of that time, always the same way.
+        """
+        assert self.reached is not None
+        motion, k, self.reached = self.motion, self.reached, None
+        before = motion.accelerations(t, *q, *v)
+        u = float(motion.kink_arguments(t, *q, *v)[k])
+        rate = float(motion.kink_rates(t, *q, *v, *before)[k])
+        noise = motion.kink_noise(t, q, v)[k] / ROUNDINGS if moved else 0.0
+        motion.signs[k] *= -1
+        late, unsure = lateness(t, u, rate, noise)
+        after = motion.accelerations(t, *q, *v)
+        jump = [b - a for a, b in zip(before, after, strict=True)]
+        return [x + late * d + math.copysign(unsure * d, x) for x, d in zip(v, jump, strict=True)]
+
+    def why(self) -> str:
+        """What holds the motion at a kink."""
+        return "a force that jumps holds it there, which is not modelled"

@@ -1,0 +1,1 @@
+"""The result as text, JSON, CSV, NPZ and Parquet."""

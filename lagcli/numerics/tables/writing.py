@@ -1,0 +1,207 @@
+"""The result as JSON, CSV or a table to read; `columnar` has the forms made of arrays."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+from lagcli.numerics.certified.reduced_run import Cut
+from lagcli.numerics.hybrid.events import Event
+from lagcli.numerics.hybrid.request import Result
+
+#: Of many events so many are told at the beginning and at the end of the list.
+_LISTED = 5
+#: Marks a row of a table, and names the column that marks it elsewhere.
+_BEYOND, _CERTIFIED = "  ~", "certified"
+
+
+def to_json(result: Result) -> str:
+    """The machine's view; a stable contract."""
+    return to_text(document_of(result)) + "\n"
+
+
+def to_text(document: dict[str, Any]) -> str:
+    """JSON; what is not a number is null and never nan."""
+    return json.dumps(document, ensure_ascii=False, allow_nan=False)
+
+
+def document_of(result: Result) -> dict[str, Any]:
+    """The result as maps, lists and numbers."""
+    held = result.certificate
+    beyond = {} if result.beyond is None else {"beyond_rows": [list(row) for row in result.beyond]}
+    refused = {"reason": result.refusal, "at": held.holds_until}
+    return {
+        "schema": 1,
+        "columns": list(result.columns),
+        "rows": [list(row) for row in result.rows],
+        **beyond,
+        "certificate": {
+            "accuracy": held.accuracy,
+            "reached": held.reached,
+            "holds_until": held.holds_until,
+            "global_error": dict(held.global_error),
+            "estimated_by": held.estimated_by,
+            "charges": {name: {"drift": drift} for name, drift in held.charges.items()},
+            "constraints": {
+                name: {"residual": position, "rate_residual": rate}
+                for name, (position, rate) in held.constraints.items()
+            },
+        },
+        "method": {
+            "name": result.method,
+            "reason": result.reason,
+            "steps": result.steps,
+            "evaluations": result.evaluations,
+        },
+        "events": [_event(event) for event in result.events],
+        "model": {} if result.cut is None else _model(result.cut),
+        "warnings": list(result.warnings),
+        **({"refused": refused} if result.refusal else {}),
+    }
+
+
+def _model(cut: Cut) -> dict[str, Any]:
+    return {
+        "kept": list(cut.kept),
+        "eliminated": {each.coordinate: each.formula for each in cut.eliminated},
+        "dropped": list(cut.dropped),
+        "ignorable": list(cut.ignorable),
+        "reason": {
+            **{each.coordinate: f"constraint {each.constraint}" for each in cut.eliminated},
+            **dict.fromkeys(cut.dropped, "no column depends on it"),
+            **dict.fromkeys(cut.ignorable, "kept: its velocity is needed, Routh spares nothing"),
+        },
+    }
+
+
+def _event(event: Event) -> dict[str, Any]:
+    found: dict[str, Any] = {"t": event.t, "name": event.name, "what": event.what}
+    found["error"] = event.error if event.error < math.inf else None
+    if event.energy_lost is not None:
+        found["energy_lost"] = event.energy_lost
+    if event.before:
+        found["before"] = dict(event.before)
+    if event.after:
+        found["after"] = dict(event.after)
+    return found
+
+
+def to_csv(result: Result) -> str:
+    """A header and the rows, every digit of a double; what is not defined is empty."""
+    return "".join(csv_lines(*with_column_certified(result)))
+
+
+def with_column_certified(
+    result: Result,
+) -> tuple[Sequence[str], Sequence[Sequence[float | None]]]:
+    """Columns and rows; those beyond the certified ones are told by a last column, 1 or 0."""
+    if result.beyond is None:
+        return result.columns, result.rows
+    marked = [(*row, 1.0) for row in result.rows] + [(*row, 0.0) for row in result.beyond]
+    return (*result.columns, _CERTIFIED), marked
+
+
+def csv_lines(columns: Sequence[str], rows: Sequence[Sequence[float | None]]) -> Iterator[str]:
+    """A header and rows, each with its line break."""
+    yield ",".join(map(_quoted, columns)) + "\n"
+    for row in rows:
+        yield ",".join("" if x is None else repr(x) for x in row) + "\n"
+
+
+def _quoted(name: str) -> str:
+    return f'"{name.replace(chr(34), chr(34) * 2)}"' if {",", '"'} & set(name) else name
+
+
+def to_table(result: Result) -> str:
+    """Aligned columns with as many digits as are known, and the certificate under them."""
+    held = result.certificate
+    digits = _digits(result)
+    cells = [list(result.columns)]
+    cells += [
+        ["–" if x is None else f"{x + 0.0:.{d}g}" for x, d in zip(row, digits, strict=True)]
+        for row in (*result.rows, *(result.beyond or ()))
+    ]
+    widths = [max(len(row[j]) for row in cells) for j in range(len(result.columns))]
+    lines = [
+        "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        + (_BEYOND if place > len(result.rows) else "")
+        for place, row in enumerate(cells)
+    ]
+    if result.beyond:
+        lines.append(f"{_BEYOND.strip()} after t = {held.holds_until:.6g}: not certified")
+    lines.append("")
+    lines += _told(result.events)
+    bound = max(held.global_error.values(), default=0.0)
+    word = "reached" if held.reached else f"held until t = {held.holds_until:g} only"
+    lines.append(f"accuracy {held.accuracy:g} {word}; global error at most {bound:.1e},")
+    lines.append(f"  estimated by {held.estimated_by}")
+    lines += [f"charge {name}: drift {drift:.1e}" for name, drift in held.charges.items()]
+    for name, (position, rate) in held.constraints.items():
+        told = "" if position is None else f"residual {position:.1e}, "
+        lines.append(f"constraint {name}: {told}residual of its rate {rate:.1e}")
+    if result.cut is not None:
+        lines += _model_lines(result.cut)
+    work = f"{result.steps} steps, {result.evaluations} evaluations"
+    lines.append(f"method {result.method}: {work}")
+    lines.append(f"  {result.reason}")
+    lines += [f"warning: {warning}" for warning in result.warnings]
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _model_lines(cut: Cut) -> list[str]:
+    lines = [
+        f"model: {each.coordinate} = {each.formula} by constraint {each.constraint}"
+        for each in cut.eliminated
+    ]
+    if cut.dropped:
+        lines.append(f"model: without {', '.join(cut.dropped)}, which no column depends on")
+    return lines
+
+
+def _told(events: Sequence[Event]) -> list[str]:
+    """A line for each event; of many impacts the first and the last."""
+    lines = [_line(event) for event in events]
+    if len(lines) > 2 * _LISTED + 1:
+        left_out = len(lines) - 2 * _LISTED
+        lost = sum(event.energy_lost or 0.0 for event in events[_LISTED:-_LISTED])
+        told = f"… {left_out} more events" + (f", energy lost {lost:.6g}" if lost else "")
+        lines = [*lines[:_LISTED], told, *lines[-_LISTED:]]
+    return lines
+
+
+def _line(event: Event) -> str:
+    lost = "" if event.energy_lost is None else f", energy lost {event.energy_lost:.6g}"
+    return f"{event.what} at t = {event.t!r} ({event.name}){lost}"
+
+
+def _digits(result: Result) -> list[int]:
+    """As many significant digits as the accuracy tells of, for each column."""
+    errors = result.certificate.global_error
+    known = result.certificate.accuracy
+    count = 1
+    while count < 15 and 10.0**-count > known / 2:
+        count += 1
+    return [count if name in errors else 12 for name in result.columns]
+
+
+def _npz(result: Result) -> bytes:
+    from lagcli.numerics.tables.columnar import to_npz
+
+    return to_npz(result)
+
+
+def _parquet(result: Result) -> bytes:
+    from lagcli.numerics.tables.columnar import to_parquet
+
+    return to_parquet(result)
+
+
+WRITERS: dict[str, Callable[[Result], bytes]] = {
+    "table": lambda result: to_table(result).encode(),
+    "json": lambda result: to_json(result).encode(),
+    "csv": lambda result: to_csv(result).encode(),
+    "npz": _npz,
+    "parquet": _parquet,
+}
