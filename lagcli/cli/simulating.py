@@ -111,7 +111,7 @@ def _table(wish: SimulateOptions) -> tuple[bytes | None, Status]:
 def _run(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes | None, Status]:
     from lagcli.numerics.certified.simulate import simulate
     from lagcli.numerics.equations.refusal import Refusal
-    from lagcli.numerics.tables.writing import WRITERS
+    from lagcli.numerics.tables.formats import WRITERS
 
     if wish.rigorous:
         return _proved(problem, asked, wish)

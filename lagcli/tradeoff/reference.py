@@ -13,7 +13,7 @@ from decimal import Context, Decimal, localcontext
 from time import process_time
 from typing import TYPE_CHECKING, Any
 
-from lagcli.numerics.certified.methods import Prepared
+from lagcli.numerics.certified.prepared import Prepared
 from lagcli.numerics.certified.scales import relative
 from lagcli.numerics.certified.simulate import Simulation, simulate
 from lagcli.numerics.equations.coupling import coupling, groups

@@ -170,7 +170,7 @@ def _single(
 
 def _drift(run: Run, rows: list[list[Any]], first: int) -> float | None:
     """The largest change of a charge, relative to the sum of its terms."""
-    from lagcli.numerics.hybrid.charges import changes, relative
+    from lagcli.numerics.certified.drift import changes, relative
 
     return max(
         (

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from lagcli.numerics.certified.accuracy import Controller
-from lagcli.numerics.hybrid.run import Mark
+from lagcli.numerics.hybrid.mark import Mark
 
 from .running import last, simulated
 

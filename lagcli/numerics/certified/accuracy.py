@@ -30,9 +30,9 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from lagcli.numerics.certified.drift import changes
 from lagcli.numerics.certified.partners import Partners
 from lagcli.numerics.certified.scales import Scales, relative
-from lagcli.numerics.hybrid.charges import changes
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.integrators.steps import SINGULAR_MASS, component_scales
 from lagcli.record import record, replace

@@ -20,27 +20,25 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 from lagcli.numerics.certified.accuracy import Outcome
-from lagcli.numerics.certified.methods import METHODS, MORE_DIGITS, SHARP, SHARPER, one_run
+from lagcli.numerics.certified.attempts import attempt
+from lagcli.numerics.certified.methods import METHODS, MORE_DIGITS, SHARP, SHARPER
+from lagcli.numerics.certified.prepared import Precision, one_run
 from lagcli.numerics.equations.straight_line import PIVOT_TOLERANCE
-from lagcli.numerics.hybrid.modes import Mode
-from lagcli.numerics.hybrid.run import Mark, Run
+from lagcli.numerics.hybrid.mark import Mark
+from lagcli.numerics.hybrid.modes import Mode, Modes
+from lagcli.numerics.hybrid.run import Run
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.steps import NotPossible, component_scales
 from lagcli.record import replace
-
-if TYPE_CHECKING:
-    from lagcli.numerics.certified.methods import Precision
-    from lagcli.numerics.certified.simulate import Simulation
-    from lagcli.numerics.hybrid.modes import Modes
 
 #: Rows after those that are good which are looked at: there the accuracy may have been lost.
 _BEYOND = 2
 
 
 def on_one_branch(
-    simulation: Simulation, modes: Modes, outcome: Outcome, digits: Precision
+    simulation: Setup, modes: Modes, outcome: Outcome, digits: Precision
 ) -> tuple[Outcome, Precision]:
     """The outcome where it is certain to be on one branch, or what is left of it.
 
@@ -59,7 +57,7 @@ def on_one_branch(
         return outcome, digits
     if _is_confirmed(simulation, modes, outcome):
         return outcome, digits
-    found, with_digits = simulation.attempt(SHARPER, modes, SHARP)
+    found, with_digits = attempt(simulation, SHARPER, modes, SHARP)
     if found is not None and found.good_rows > min(place + 1, outcome.good_rows):
         return found, with_digits
     if place + 1 >= outcome.good_rows:
@@ -72,7 +70,7 @@ def on_one_branch(
 
 
 def through_meeting(
-    simulation: Simulation, modes: Modes, outcome: Outcome, digits: Precision
+    simulation: Setup, modes: Modes, outcome: Outcome, digits: Precision
 ) -> tuple[Outcome, Precision]:
     """More digits where what is lost is lost at such a place, if they hold for longer.
 
@@ -86,7 +84,7 @@ def through_meeting(
     with digits():
         place = meeting(outcome)
     if place is not None:
-        found, with_digits = simulation.attempt(SHARPER, modes, SHARP)
+        found, with_digits = attempt(simulation, SHARPER, modes, SHARP)
         if found is not None and found.good_rows > outcome.good_rows:
             return found, with_digits
     return outcome, digits
@@ -131,7 +129,7 @@ def _roots(mode: Mode, marks: Sequence[Mark]) -> list[float]:
     return [math.sqrt(min(row[k] / whole[k] for k in kept)) for row in values]
 
 
-def _is_confirmed(simulation: Simulation, modes: Modes, outcome: Outcome) -> bool:
+def _is_confirmed(simulation: Setup, modes: Modes, outcome: Outcome) -> bool:
     """Whether a run of more digits and finer steps agrees: the first that is possible tells."""
     for name in SHARPER:
         made = METHODS[name].prepare(simulation, modes)

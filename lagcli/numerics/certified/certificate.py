@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from lagcli.numerics.certified.accuracy import Outcome
+from lagcli.numerics.certified.drift import changes, relative
 from lagcli.numerics.certified.exact_columns import with_digits
 from lagcli.numerics.certified.methods import METHODS
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import told
-from lagcli.numerics.hybrid.charges import changes, relative
 from lagcli.numerics.hybrid.events import Event
 from lagcli.numerics.hybrid.request import Certificate, Result
 from lagcli.numerics.hybrid.run import Run
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.steps import CannotGoOn
 from lagcli.record import replace
-
-if TYPE_CHECKING:
-    from lagcli.numerics.certified.simulate import Simulation
 
 #: A motion that is known up to this part of the time at which its run stops, stops there.
 _KNOWN = 0.5
@@ -28,7 +26,7 @@ _BOUNDED = 1e3
 IRREGULAR = "a function in the equations has a corner, a jump or a pole there"
 
 
-def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Result:
+def result_of(simulation: Setup, motion: Motion, outcome: Outcome) -> Result:
     """The table with its certificate."""
     asked, run = simulation.asked, outcome.run
     outcome = replace(outcome, rows=with_digits(simulation, outcome))
@@ -81,7 +79,7 @@ def result_of(simulation: Simulation, motion: Motion, outcome: Outcome) -> Resul
     )
 
 
-def rows_asked_for(simulation: Simulation, outcome: Outcome) -> list[tuple[float | None, ...]]:
+def rows_asked_for(simulation: Setup, outcome: Outcome) -> list[tuple[float | None, ...]]:
     """The rows of a run at the times of the output, certified or not, if they are requested."""
     if not simulation.asked.beyond:
         return []
@@ -142,7 +140,7 @@ def _estimated_by(outcome: Outcome) -> str:
     )
 
 
-def _drifts(simulation: Simulation, outcome: Outcome, kept: int) -> dict[str, float]:
+def _drifts(simulation: Setup, outcome: Outcome, kept: int) -> dict[str, float]:
     """The largest change of each charge between events, relative to the sum of its terms."""
     first = len(simulation.nodes)
     drifts: dict[str, float] = {}
@@ -153,7 +151,7 @@ def _drifts(simulation: Simulation, outcome: Outcome, kept: int) -> dict[str, fl
     return drifts
 
 
-def _residuals(outcome: Outcome, simulation: Simulation) -> dict[str, tuple[float | None, float]]:
+def _residuals(outcome: Outcome, simulation: Setup) -> dict[str, tuple[float | None, float]]:
     """The largest residual of each constraint while it acts, and of its rate.
 
     One that was solved for a coordinate holds by itself.
@@ -173,7 +171,7 @@ def _residuals(outcome: Outcome, simulation: Simulation) -> dict[str, tuple[floa
     return found
 
 
-def refusal_of(simulation: Simulation, motion: Motion, outcome: Outcome, holds_until: float) -> str:
+def refusal_of(simulation: Setup, motion: Motion, outcome: Outcome, holds_until: float) -> str:
     """Why the accuracy is not reached to the end, and until when it holds."""
     asked, stop = simulation.asked, outcome.run.stop
     if stop is not None and _is_known(outcome, holds_until):
@@ -212,7 +210,7 @@ def why_stopped(motion: Motion, stop: CannotGoOn) -> str:
     return f"{grows} ({stop.reason})" if stop.reason else grows
 
 
-def _warnings(simulation: Simulation, rows: list[Any], events: list[Event]) -> list[str]:
+def _warnings(simulation: Setup, rows: list[Any], events: list[Event]) -> list[str]:
     found = list(simulation.notes)
     found += [
         f"{event.name} comes to its limit at t = {event.t:.10g}: whether it is lost there is "

@@ -11,19 +11,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from lagcli.numerics.certified.accuracy import Outcome
 from lagcli.numerics.certified.precise import precision
 from lagcli.numerics.certified.scales import relative
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.straight_line import PIVOT_TOLERANCE
+from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.modes import Mode, Modes
-from lagcli.numerics.hybrid.run import Mark
-
-if TYPE_CHECKING:
-    from lagcli.numerics.certified.accuracy import Outcome
-    from lagcli.numerics.certified.simulate import Simulation
+from lagcli.numerics.hybrid.setup import Setup
 
 Rows = list[list[Any]]
 
@@ -33,7 +31,7 @@ _LOOKS = 10
 _LOST = 0.05
 
 
-def with_digits(simulation: Simulation, outcome: Outcome) -> Rows:
+def with_digits(simulation: Setup, outcome: Outcome) -> Rows:
     """The rows of a run, their columns as exact as their states.
 
     Parameters
@@ -110,7 +108,7 @@ def _dependent(mode: Mode) -> Callable[[Mark], bool]:
     return vanishes
 
 
-def _exact(simulation: Simulation) -> tuple[Modes, Callable[[float], Any]]:
+def _exact(simulation: Setup) -> tuple[Modes, Callable[[float], Any]]:
     """The modes in balls, and what makes a ball of a double."""
     from lagcli.numerics.equations.arithmetic import Balls
     from lagcli.numerics.integrators.dop853 import dop853

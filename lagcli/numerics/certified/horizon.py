@@ -18,19 +18,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from lagcli.numerics.certified.accuracy import Outcome
 from lagcli.numerics.certified.certificate import refusal_of
 from lagcli.numerics.certified.escalation import horizon_of
 from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.hybrid.modes import Modes
 from lagcli.numerics.hybrid.request import Asked, Result
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.steps import NotPossible
 from lagcli.record import replace
 
-if TYPE_CHECKING:
-    from lagcli.numerics.certified.simulate import Simulation
-    from lagcli.numerics.hybrid.modes import Modes
+MakeResult = Callable[[Asked], Result]
 
 #: Grid points in an octave: what is not known of the horizon is at most the ratio of two.
 _IN_OCTAVE = 4
@@ -42,7 +41,9 @@ _CLOSE = 0.99
 _MOST = 12
 
 
-def longest(simulation: Simulation, modes: Modes, outcome: Outcome, result: Result) -> Result:
+def longest(
+    simulation: Setup, modes: Modes, outcome: Outcome, result: Result, run: MakeResult
+) -> Result:
     """The result that holds longest, of the run over the whole span and of shorter ones.
 
     Parameters
@@ -51,6 +52,8 @@ def longest(simulation: Simulation, modes: Modes, outcome: Outcome, result: Resu
         The problem with its options, and the modes in doubles.
     outcome, result
         The run over the whole span, which does not reach the accuracy to the end.
+    run
+        Makes the result of another request.
     """
     stop, until = outcome.run.stop, simulation.asked.until
     best = result
@@ -62,7 +65,7 @@ def longest(simulation: Simulation, modes: Modes, outcome: Outcome, result: Resu
         if high - low <= 1:
             break
         k = min(max(following, low + 1), high - 1)
-        found = _shorter(simulation, modes, _span(k))
+        found = _shorter(simulation, run, _span(k))
         if found is not None and _holds(found) > _holds(best):
             best = found
         reached = found is not None and found.certificate.reached
@@ -77,10 +80,10 @@ def longest(simulation: Simulation, modes: Modes, outcome: Outcome, result: Resu
     return replace(best, certificate=held, refusal=refusal)
 
 
-def _shorter(simulation: Simulation, modes: Modes, span: float) -> Result | None:
+def _shorter(simulation: Setup, run: MakeResult, span: float) -> Result | None:
     """The result over a shorter span; None where there is none."""
     try:
-        return simulation.over(_within(simulation.asked, simulation.rows_at, span)).first(modes)[1]
+        return run(_within(simulation.asked, simulation.rows_at, span))
     except (Refusal, NotPossible):
         return None
 

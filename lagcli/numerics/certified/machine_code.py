@@ -6,11 +6,11 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from weakref import WeakKeyDictionary
 
-from lagcli.numerics.certified.methods import ROUNDED, Prepared, Progress
 from lagcli.numerics.certified.perturbed_twin import elsewhere, fast, moved_state
+from lagcli.numerics.certified.prepared import ROUNDED, Prepared
 from lagcli.numerics.compiled.engine import NoCompiler, engine
 from lagcli.numerics.compiled.machine import Machine, NotCompiled
 from lagcli.numerics.compiled.numbers import DOUBLE, EXTENDED, QUADRUPLE, Extended
@@ -22,12 +22,10 @@ from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.compiled_taylor import CompiledTaylor
 from lagcli.numerics.hybrid.modes import MakeMethod, Mode, Modes
 from lagcli.numerics.hybrid.run import Phase, Run
+from lagcli.numerics.hybrid.setup import Progress, Setup
 from lagcli.numerics.hybrid.subsystems import Apart, MakeMachine, apart
 from lagcli.numerics.hybrid.transitions import Transitions
 from lagcli.numerics.integrators.steps import Method, NotPossible, Tolerance
-
-if TYPE_CHECKING:
-    from lagcli.numerics.certified.simulate import Simulation
 
 #: Parts of the span that the longest step is: a series knows what lies within its step,
 #: but for what is flat and then is not.
@@ -96,7 +94,7 @@ class Runs:
 
     def __init__(
         self,
-        simulation: Simulation,
+        simulation: Setup,
         modes: Modes,
         machine: Machine,
         make: MakeMachine | None,
@@ -162,7 +160,7 @@ class Runs:
         )
 
 
-def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
+def prepared_doubles(simulation: Setup, doubles: Modes) -> Prepared | str:
     """Machine code in doubles made ready, or why there is none."""
     first = doubles.first
     independent = None
@@ -208,14 +206,14 @@ def prepared_doubles(simulation: Simulation, doubles: Modes) -> Prepared | str:
     return prepared(usual, moved_state(simulation, doubles))
 
 
-def prepared_extended(simulation: Simulation, doubles: Modes) -> Prepared | str:
+def prepared_extended(simulation: Setup, doubles: Modes) -> Prepared | str:
     """Machine code in numbers of 80 bits made ready, or why there is none."""
     if simulation.asked.accuracy < _LEAST_EXTENDED:
         return "80 bits claim nothing better than 1e-14"
     return _beyond_doubles(simulation, doubles, EXTENDED, _FINEST_EXTENDED)
 
 
-def prepared_quadruple(simulation: Simulation, doubles: Modes) -> Prepared | str:
+def prepared_quadruple(simulation: Setup, doubles: Modes) -> Prepared | str:
     """Machine code in numbers of 128 bits made ready, or why there is none."""
     asked = simulation.asked
     if asked.digits is not None and asked.digits > _DIGITS_QUADRUPLE:
@@ -226,7 +224,7 @@ def prepared_quadruple(simulation: Simulation, doubles: Modes) -> Prepared | str
 
 
 def _beyond_doubles(
-    simulation: Simulation, doubles: Modes, numbers: Extended, finest: float
+    simulation: Setup, doubles: Modes, numbers: Extended, finest: float
 ) -> Prepared | str:
     if simulation.equations.kinks or doubles.first.conditions or simulation.goes_on:
         return "events and switching functions are followed in doubles only"
@@ -238,7 +236,7 @@ def _beyond_doubles(
 
 
 def _prepared(
-    simulation: Simulation, doubles: Modes, numbers: Extended, finest: float
+    simulation: Setup, doubles: Modes, numbers: Extended, finest: float
 ) -> Prepared | str:
     from lagcli.numerics.equations.arithmetic import Balls
 

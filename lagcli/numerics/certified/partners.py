@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from lagcli.numerics.hybrid.run import Mark, Run
+from lagcli.numerics.hybrid.mark import Mark
+from lagcli.numerics.hybrid.run import Run
 
 
 class Partners:

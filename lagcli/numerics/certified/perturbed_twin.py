@@ -13,19 +13,17 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from weakref import WeakKeyDictionary
 
 from lagcli.graph.nodes import Symbol
+from lagcli.numerics.certified.accuracy import Outcome
 from lagcli.numerics.equations.arithmetic import Doubles
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import rounded_components
 from lagcli.numerics.hybrid.modes import Modes
-
-if TYPE_CHECKING:
-    from lagcli.numerics.certified.accuracy import Outcome
-    from lagcli.numerics.certified.simulate import Simulation
+from lagcli.numerics.hybrid.setup import Setup
 
 Vector = list[Any]
 
@@ -74,7 +72,7 @@ class BesideDoubles(Doubles):
         return nearest + (2 + chance % 7) * math.copysign(unit, chance % 2 - 0.5)
 
 
-def moved_state(simulation: Simulation, modes: Modes) -> tuple[Vector, Vector]:
+def moved_state(simulation: Setup, modes: Modes) -> tuple[Vector, Vector]:
     """The next doubles to the initial state: what it is rounded by must not matter."""
     motion, (q, v) = modes.first.motion, simulation.start
     rounded = rounded_components(motion, q, v)
@@ -85,7 +83,7 @@ def moved_state(simulation: Simulation, modes: Modes) -> tuple[Vector, Vector]:
     return moved[: motion.n], moved[motion.n :]
 
 
-def elsewhere(simulation: Simulation) -> tuple[Vector, Vector]:
+def elsewhere(simulation: Setup) -> tuple[Vector, Vector]:
     """The initial state with all its components a few roundings away."""
     q, v = simulation.start
     return _turned(q, 1), _turned(v, -1)
@@ -105,10 +103,10 @@ def fast(times: Sequence[float]) -> list[float]:
 
 
 #: Those of modes that are still there: an ensemble runs the same ones many times.
-_OTHERS: WeakKeyDictionary[Modes, tuple[Simulation, Modes | None]] = WeakKeyDictionary()
+_OTHERS: WeakKeyDictionary[Modes, tuple[Setup, Modes | None]] = WeakKeyDictionary()
 
 
-def other_parameters(simulation: Simulation, modes: Modes) -> Modes | None:
+def other_parameters(simulation: Setup, modes: Modes) -> Modes | None:
     """The same modes with parameters beside those of the file; None where all are exact."""
     known = _OTHERS.get(modes)
     if known is None or known[0] is not simulation:
@@ -116,7 +114,7 @@ def other_parameters(simulation: Simulation, modes: Modes) -> Modes | None:
     return known[1]
 
 
-def _other_parameters(simulation: Simulation, modes: Modes) -> Modes | None:
+def _other_parameters(simulation: Setup, modes: Modes) -> Modes | None:
     arithmetic = BesideDoubles(exact=not simulation.equations.rows)
     try:
         constants: Mapping[Symbol, Any] = constants_of(

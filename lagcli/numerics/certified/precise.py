@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
-from lagcli.numerics.certified.methods import Prepared
+from lagcli.numerics.certified.prepared import Prepared
 from lagcli.numerics.equations.arithmetic import Balls
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.refusal import Refusal
@@ -15,12 +14,10 @@ from lagcli.numerics.equations.start import refined_state
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.modes import Mode, Modes
 from lagcli.numerics.hybrid.run import Run
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.hybrid.transitions import Transitions
 from lagcli.numerics.integrators.steps import Method, Tolerance
 from lagcli.numerics.integrators.taylor import Taylor
-
-if TYPE_CHECKING:
-    from lagcli.numerics.certified.simulate import Simulation
 
 _DIGITS = 30
 _GUARD_BITS = 40
@@ -42,7 +39,7 @@ def precision(digits: int) -> Iterator[None]:
         ctx.prec = usual
 
 
-def prepared(simulation: Simulation, doubles: Modes, digits: int | None = None) -> Prepared | str:
+def prepared(simulation: Setup, doubles: Modes, digits: int | None = None) -> Prepared | str:
     """Power series with so many digits made ready, or why only doubles can do it.
 
     Parameters

@@ -5,43 +5,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 from copy import copy
 from itertools import compress
-from typing import TYPE_CHECKING
+from typing import TypeVar
 
 from lagcli.graph.nodes import Node
 from lagcli.graph.sharing import written_out
 from lagcli.numerics.equations.columns import Reading
 from lagcli.numerics.equations.reduced_model import CutEquations, Reduction, cut
-from lagcli.record import record
+from lagcli.numerics.hybrid.modes import Modes
+from lagcli.numerics.hybrid.request import Cut, Eliminated
+from lagcli.numerics.hybrid.setup import Setup
 
-if TYPE_CHECKING:
-    from lagcli.numerics.certified.simulate import Simulation
-    from lagcli.numerics.hybrid.modes import Modes
-
-
-@record
-class Eliminated:
-    """A coordinate that a constraint gives: coordinate = formula."""
-
-    coordinate: str
-    constraint: str
-    formula: str
-
-
-@record
-class Cut:
-    """What the model was cut by."""
-
-    kept: tuple[str, ...]
-    eliminated: tuple[Eliminated, ...]
-    #: coordinates whose motion nothing asked for depends on
-    dropped: tuple[str, ...]
-    #: kept coordinates whose momentum is conserved
-    ignorable: tuple[str, ...]
+AnySetup = TypeVar("AnySetup", bound=Setup)
 
 
 def cut_simulation(
-    simulation: Simulation, modes: Modes, q: Sequence[float], v: Sequence[float]
-) -> Simulation | None:
+    simulation: AnySetup, modes: Modes, q: Sequence[float], v: Sequence[float]
+) -> AnySetup | None:
     """The simulation of what is asked, with its initial state; None where nothing is spared.
 
     Contacts, and multipliers of constraints that would go, keep the model whole.
@@ -65,7 +44,7 @@ def cut_simulation(
 
 
 def _starts_exactly(
-    simulation: Simulation, equations: CutEquations, q: Sequence[float], v: Sequence[float]
+    simulation: Setup, equations: CutEquations, q: Sequence[float], v: Sequence[float]
 ) -> bool:
     """Whether the file gives what is left of the initial state, as far as it is not 0.
 
@@ -80,13 +59,13 @@ def _starts_exactly(
 
 
 def _reduced(
-    simulation: Simulation,
+    simulation: AnySetup,
     equations: CutEquations,
     reduction: Reduction,
     conserved: Sequence[bool],
     q: Sequence[float],
     v: Sequence[float],
-) -> Simulation:
+) -> AnySetup:
     whole, put = simulation.equations, reduction.put
     left = 0
     for symbol in (*equations.state, *(equations.graph.symbol(x.name, 2) for x in equations.q)):

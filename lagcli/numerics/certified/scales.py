@@ -11,15 +11,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from lagcli.graph.nodes import Node
 from lagcli.numerics.hybrid.charges import Sizes
-from lagcli.numerics.hybrid.run import Mark, Run
+from lagcli.numerics.hybrid.mark import Mark
+from lagcli.numerics.hybrid.run import Run
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.steps import SMALL, component_tops, with_own_time
-
-if TYPE_CHECKING:
-    from lagcli.graph.nodes import Node
-    from lagcli.numerics.certified.simulate import Simulation
 
 #: Rounding differs by less than this part of the largest of its kind.
 _ROUNDING = 1e-12
@@ -40,7 +39,7 @@ class Scales:
         What is asked.
     """
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, simulation: Setup) -> None:
         self._simulation = simulation
         e = simulation.equations
         state: dict[Node, int] = {symbol: j for j, symbol in enumerate((*e.q, *e.qdot))}
@@ -113,7 +112,7 @@ class Scales:
         plain = [j for j in places if not simulation.nodes[j].mask & solved]
         nodes = [*(simulation.nodes[j] for j in plain), *e.forcing]
         sizes = Sizes(e.graph, e.state, nodes, run.phases[0].mode.modes.constants)
-        largest = sizes.largest(run, range(len(run.marks)))
+        largest = sizes.largest(run.marks, range(len(run.marks)))
         forces = max(largest[len(plain) :], default=0.0)
         found = dict.fromkeys(places, forces) | dict(zip(plain, largest, strict=False))
         return {j: min(1.0, size) for j, size in found.items()}

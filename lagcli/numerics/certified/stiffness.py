@@ -14,14 +14,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from lagcli.numerics.equations.jacobian import jacobian
-
-if TYPE_CHECKING:
-    from lagcli.numerics.certified.simulate import Simulation
-    from lagcli.numerics.equations.motion import Motion
-    from lagcli.numerics.hybrid.modes import Modes
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.hybrid.modes import Modes
+from lagcli.numerics.hybrid.setup import Setup
 
 #: From here on an implicit method costs less than the fastest explicit one.
 STIFF = 1e5
@@ -32,7 +29,7 @@ _CLEARLY = 0.1
 _STEP = 1e-7
 
 
-def decay(simulation: Simulation, modes: Modes) -> float:
+def decay(simulation: Setup, modes: Modes) -> float:
     """Times of the fastest decay within the span; 0 where an oscillation is faster."""
     motion, (q, v) = modes.first.motion, simulation.start
     if _fastest(motion, q, v) * simulation.asked.until < _CLEARLY * STIFF:

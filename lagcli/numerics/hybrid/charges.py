@@ -11,18 +11,16 @@ The change of a charge is measured against what it is the sum of: m x y' - m y x
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Constant, Graph, Node, Product, Sum, Symbol
 from lagcli.graph.values import Floats, Program
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.surface import Surface
+from lagcli.numerics.hybrid.mark import Mark
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.problem import Coordinate
-
-if TYPE_CHECKING:
-    from lagcli.numerics.hybrid.modes import Mode
-    from lagcli.numerics.hybrid.run import Run
 
 _ATTEMPTS, _ENOUGH = 40, 6
 _ZERO = 1e-9
@@ -31,14 +29,13 @@ _PROJECTIONS = 8
 _LOOKS = 8
 
 
-def conserved_charges(mode: Mode) -> set[str]:
-    """The names of those charges of the simulation that are conserved in a mode."""
-    simulation = mode.modes.simulation
-    found = set(mode.equations.evident_charges) & set(simulation.charges)
+def conserved_charges(simulation: Setup, motion: Motion) -> set[str]:
+    """The names of those charges of the simulation that are conserved in one mode's motion."""
+    equations = motion.equations
+    found = set(equations.evident_charges) & set(simulation.charges)
     asked = [name for name in simulation.candidates if name in simulation.charges]
     if not asked:
         return found
-    equations, motion = mode.equations, mode.motion
     graph = equations.graph
     solved = simulation.reading.accelerations
     rates = [
@@ -54,7 +51,7 @@ def conserved_charges(mode: Mode) -> set[str]:
     function = motion.function(terms, solved)
     signs = list(motion.signs)
     good, left = 0, set(asked)
-    for t, q, v in _states(mode):
+    for t, q, v in _states(simulation, motion):
         try:
             if motion.kinks:
                 motion.set_signs(t, q, v)
@@ -72,17 +69,16 @@ def conserved_charges(mode: Mode) -> set[str]:
     return found | left if good == _ENOUGH else found
 
 
-def _states(mode: Mode) -> Iterator[tuple[float, list[float], list[float]]]:
+def _states(simulation: Setup, motion: Motion) -> Iterator[tuple[float, list[float], list[float]]]:
     """Random states near the initial one, on the constraints; the same ones in every run."""
-    simulation = mode.modes.simulation
     q0, v0 = simulation.start
     number = _Numbers()
     for _ in range(_ATTEMPTS):
         t = simulation.asked.until * number()
         q = [x + _SPREAD * (2 * number() - 1) * (abs(x) or 1.0) for x in q0]
         v = [x + _SPREAD * (2 * number() - 1) * max(abs(x), 1.0) for x in v0]
-        if mode.equations.rows:
-            state = _on_constraints(mode.motion, t, q, v)
+        if motion.equations.rows:
+            state = _on_constraints(motion, t, q, v)
             if state is None:
                 continue
             q, v = state
@@ -167,11 +163,11 @@ class Sizes:
         self._names = [str(symbol) for symbol in state]
         self._known = {str(symbol): float(value) for symbol, value in constants.items()}
 
-    def largest(self, run: Run, places: Sequence[int]) -> list[float]:
+    def largest(self, marks: Sequence[Mark], places: Sequence[int]) -> list[float]:
         """Of each charge the largest at some of the rows of a phase."""
         found = [0.0] * self._charges
         for place in {*places[:: max(1, len(places) // _LOOKS)], places[-1]}:
-            mark = run.marks[place]
+            mark = marks[place]
             state = map(float, (mark.t, *mark.q, *mark.v))
             try:
                 now = self._program(self._known | dict(zip(self._names, state, strict=True)))
@@ -179,38 +175,6 @@ class Sizes:
                 continue
             found = [max(pair) for pair in zip(found, now, strict=True)]
         return found
-
-
-def changes(
-    run: Run, charge: int, values: Sequence[Any]
-) -> Iterator[tuple[list[int], list[float], float]]:
-    """Of each phase in which a charge is conserved: its rows, its changes, and its scale.
-
-    Parameters
-    ----------
-    run, charge
-        The rows, and which of the charges.
-    values
-        Of the charge in each row, as far as they count; None where it is not defined.
-    """
-    for number, phase in enumerate(run.phases):
-        if not phase.mode.conserved[charge]:
-            continue
-        places = [
-            place
-            for place, mark in enumerate(run.marks[: len(values)])
-            if mark.phase == number and values[place] is not None
-        ]
-        if len(places) > 1:
-            found = [float(values[place] - values[places[0]]) for place in places]
-            peak = max(abs(float(values[place])) for place in places)
-            yield places, found, max(peak, phase.mode.sizes.largest(run, places)[charge])
-
-
-def relative(changes: Sequence[float], scale: float) -> float:
-    """The largest of the changes beside a scale; 0 where nothing changes."""
-    largest = max(map(abs, changes))
-    return largest / scale if largest else 0.0
 
 
 class _Numbers:

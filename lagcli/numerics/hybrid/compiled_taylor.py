@@ -20,7 +20,8 @@ from lagcli.numerics.compiled.machine import Machine, pointer
 from lagcli.numerics.compiled.numbers import Extended
 from lagcli.numerics.compiled.text import exact
 from lagcli.numerics.equations.surface import Surface
-from lagcli.numerics.hybrid.run import Mark, Run
+from lagcli.numerics.hybrid.mark import Mark
+from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.integrators.steps import CannotGoOn, NotPossible, Step, Tolerance
 from lagcli.numerics.integrators.switching import Kinks
 

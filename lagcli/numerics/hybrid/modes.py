@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from lagcli.graph.nodes import Node, Symbol
 from lagcli.numerics.equations.arithmetic import Arithmetic
@@ -18,11 +18,9 @@ from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.charges import Sizes, conserved_charges
 from lagcli.numerics.hybrid.events import Condition
 from lagcli.numerics.hybrid.friction import StuckMotion
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.sight import Sight
 from lagcli.numerics.integrators.steps import Method
-
-if TYPE_CHECKING:
-    from lagcli.numerics.certified.simulate import Simulation
 
 #: Makes the method of a mode.
 MakeMethod = Callable[["Mode", "Surface | None"], Method]
@@ -112,7 +110,7 @@ class Mode:
     @cached_property
     def conserved(self) -> list[bool]:
         """Which of the charges stay as they are in this mode."""
-        kept = conserved_charges(self)
+        kept = conserved_charges(self.modes.simulation, self.motion)
         return [name in kept for name in self.modes.simulation.charges]
 
     @cached_property
@@ -160,7 +158,7 @@ class Modes:
 
     def __init__(
         self,
-        simulation: Simulation,
+        simulation: Setup,
         constants: Mapping[Symbol, Any],
         arithmetic: Arithmetic,
         make_method: MakeMethod,

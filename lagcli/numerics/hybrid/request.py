@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from lagcli.expression import Expression
-from lagcli.numerics.certified.reduced_run import Cut
 from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.hybrid.events import Event
 from lagcli.record import field, record
@@ -86,6 +85,27 @@ class Certificate:
     estimated_by: str
     charges: Mapping[str, float]
     constraints: Mapping[str, tuple[float | None, float]]
+
+
+@record
+class Eliminated:
+    """A coordinate that a constraint gives: coordinate = formula."""
+
+    coordinate: str
+    constraint: str
+    formula: str
+
+
+@record
+class Cut:
+    """What the model was cut by."""
+
+    kept: tuple[str, ...]
+    eliminated: tuple[Eliminated, ...]
+    #: coordinates whose motion nothing asked for depends on
+    dropped: tuple[str, ...]
+    #: kept coordinates whose momentum is conserved
+    ignorable: tuple[str, ...]
 
 
 @record(kw_only=True)

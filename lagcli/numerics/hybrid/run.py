@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.events import Condition, Event, Occurrence, Watch
+from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.modes import Mode
 from lagcli.numerics.hybrid.transitions import Transitions, Turn
 from lagcli.numerics.integrators.sight import seen_steps
@@ -41,27 +42,6 @@ class Phase:
     mode: Mode
     surface: Surface | None
     begin: float
-
-
-class Mark(NamedTuple):
-    """A row: at a time that was asked for, or on one side of an event.
-
-    Attributes
-    ----------
-    phase
-        Its number.
-    sample
-        Which of the times asked for; -1 at an event.
-    begins
-        At an event: whether it is the beginning of the phase, or its end.
-    """
-
-    t: float
-    q: Vector
-    v: Vector
-    phase: int
-    sample: int = -1
-    begins: bool = False
 
 
 class Run:

@@ -18,8 +18,9 @@ from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.reduced_model import CutEquations, Reduction, operations
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.compiled_taylor import CompiledTaylor
+from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.modes import Mode
-from lagcli.numerics.hybrid.run import Mark, Phase, Run
+from lagcli.numerics.hybrid.run import Phase, Run
 from lagcli.numerics.integrators.steps import CannotGoOn, NotPossible, Tolerance
 from lagcli.record import record
 

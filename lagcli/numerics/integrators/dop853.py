@@ -17,18 +17,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import told
 from lagcli.numerics.equations.straight_line import run_generated
 from lagcli.numerics.equations.surface import Surface
-from lagcli.numerics.integrators.steps import SINGULAR_MASS, CannotGoOn, Method, Step, Tolerance
+from lagcli.numerics.integrators.steps import (
+    SINGULAR_MASS,
+    CannotGoOn,
+    Method,
+    MotionOfMode,
+    Step,
+    Tolerance,
+)
 from lagcli.numerics.integrators.switching import Kinks
 from lagcli.numerics.integrators.tableau_853 import DENSE, ERROR_3, ERROR_5, NODES, STAGES, Row
-
-if TYPE_CHECKING:
-    from lagcli.numerics.hybrid.modes import Mode
 
 ORDER = 8
 _END = 13  # the stage at the end of the step
@@ -227,7 +231,7 @@ def added(
     return total[:n], total[n:], left
 
 
-def dop853(mode: Mode, surface: Surface | None) -> Method:
+def dop853(mode: MotionOfMode, surface: Surface | None) -> Method:
     """The method of a mode."""
     if mode.generated is None:
         mode.generated = generated_step(mode.motion.n, mode.motion.accelerations)

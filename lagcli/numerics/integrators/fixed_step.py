@@ -15,15 +15,12 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
+from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import told
+from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.dop853 import added
 from lagcli.numerics.integrators.steps import CannotGoOn, Inside, Step, Tolerance
-
-if TYPE_CHECKING:
-    from lagcli.numerics.equations.motion import Motion
-    from lagcli.numerics.equations.surface import Surface
 
 Vector = list[float]
 

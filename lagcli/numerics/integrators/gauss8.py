@@ -11,16 +11,11 @@ and VIII.6 (implementation).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.collocation import gauss
 from lagcli.numerics.integrators.fixed_step import FixedStep, Vector
 from lagcli.numerics.integrators.implicit import Stages
-from lagcli.numerics.integrators.steps import Method
-
-if TYPE_CHECKING:
-    from lagcli.numerics.hybrid.modes import Mode
+from lagcli.numerics.integrators.steps import Method, MotionOfMode
 
 _STAGES = 4
 #: The stages are solved until nothing changes.
@@ -61,7 +56,7 @@ class Gauss8(FixedStep):
         return [*by_q, *by_v]
 
 
-def gauss8(mode: Mode, surface: Surface | None) -> Method:
+def gauss8(mode: MotionOfMode, surface: Surface | None) -> Method:
     """The method of a mode."""
     if mode.generated is None:
         mode.generated = Stages(mode.motion, gauss(_STAGES)), []

@@ -15,17 +15,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import told
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.collocation import radau
 from lagcli.numerics.integrators.implicit import Stages
-from lagcli.numerics.integrators.steps import CannotGoOn, Inside, Method, Step, Tolerance
-
-if TYPE_CHECKING:
-    from lagcli.numerics.hybrid.modes import Mode
+from lagcli.numerics.integrators.steps import (
+    CannotGoOn,
+    Inside,
+    Method,
+    MotionOfMode,
+    Step,
+    Tolerance,
+)
 
 ORDER = 5
 _STAGES = 3
@@ -214,7 +217,7 @@ def _embedded(gamma: float) -> list[float]:
     return found
 
 
-def radau5(mode: Mode, surface: Surface | None) -> Method:
+def radau5(mode: MotionOfMode, surface: Surface | None) -> Method:
     """The method of a mode."""
     if mode.generated is None:
         mode.generated = Stages(mode.motion, radau(_STAGES))

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple, Protocol
 
+from lagcli.numerics.equations.motion import Motion
+
 #: q, q' and the slope of q' at a time within the step
 Inside = Callable[[float], tuple[list[Any], list[Any], list[Any]]]
 
@@ -182,6 +184,16 @@ def component_scales(peaks: Sequence[Any], span: float) -> list[float]:
     return [
         x if x > SMALL * top else top for x, top in zip(sizes, component_tops(sizes), strict=True)
     ]
+
+
+class MotionOfMode(Protocol):
+    """What a method needs of the mode that it integrates."""
+
+    @property
+    def motion(self) -> Motion:
+        """The equations that act."""
+
+    generated: Any  # what the method has made for them, once
 
 
 class Method(Protocol):

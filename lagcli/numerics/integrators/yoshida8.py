@@ -12,15 +12,10 @@ Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd ed., section V.3.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.fixed_step import FixedStep, Vector
-from lagcli.numerics.integrators.steps import Method
-
-if TYPE_CHECKING:
-    from lagcli.numerics.equations.equations import Equations
-    from lagcli.numerics.hybrid.modes import Mode
+from lagcli.numerics.integrators.steps import Method, MotionOfMode
 
 _HALF = (
     0.74167036435061295344822780,
@@ -72,7 +67,7 @@ def separates(equations: Equations) -> bool:
     )
 
 
-def yoshida8(mode: Mode, surface: Surface | None) -> Method:
+def yoshida8(mode: MotionOfMode, surface: Surface | None) -> Method:
     """The method of a mode."""
     if mode.generated is None:
         mode.generated = []

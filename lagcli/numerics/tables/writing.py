@@ -1,15 +1,14 @@
-"""The result as JSON, CSV or a table to read; `columnar` has the forms made of arrays."""
+"""The result as JSON, CSV or a table to read."""
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
-from lagcli.numerics.certified.reduced_run import Cut
 from lagcli.numerics.hybrid.events import Event
-from lagcli.numerics.hybrid.request import Result
+from lagcli.numerics.hybrid.request import Cut, Result
 
 #: Of many events so many are told at the beginning and at the end of the list.
 _LISTED = 5
@@ -184,24 +183,3 @@ def _digits(result: Result) -> list[int]:
     while count < 15 and 10.0**-count > known / 2:
         count += 1
     return [count if name in errors else 12 for name in result.columns]
-
-
-def _npz(result: Result) -> bytes:
-    from lagcli.numerics.tables.columnar import to_npz
-
-    return to_npz(result)
-
-
-def _parquet(result: Result) -> bytes:
-    from lagcli.numerics.tables.columnar import to_parquet
-
-    return to_parquet(result)
-
-
-WRITERS: dict[str, Callable[[Result], bytes]] = {
-    "table": lambda result: to_table(result).encode(),
-    "json": lambda result: to_json(result).encode(),
-    "csv": lambda result: to_csv(result).encode(),
-    "npz": _npz,
-    "parquet": _parquet,
-}

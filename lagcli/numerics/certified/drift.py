@@ -1,0 +1,40 @@
+"""How much the conserved charges change along a run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from lagcli.numerics.hybrid.run import Run
+
+
+def changes(
+    run: Run, charge: int, values: Sequence[Any]
+) -> Iterator[tuple[list[int], list[float], float]]:
+    """Of each phase in which a charge is conserved: its rows, its changes, and its scale.
+
+    Parameters
+    ----------
+    run, charge
+        The rows, and which of the charges.
+    values
+        Of the charge in each row, as far as they count; None where it is not defined.
+    """
+    for number, phase in enumerate(run.phases):
+        if not phase.mode.conserved[charge]:
+            continue
+        places = [
+            place
+            for place, mark in enumerate(run.marks[: len(values)])
+            if mark.phase == number and values[place] is not None
+        ]
+        if len(places) > 1:
+            found = [float(values[place] - values[places[0]]) for place in places]
+            peak = max(abs(float(values[place])) for place in places)
+            yield places, found, max(peak, phase.mode.sizes.largest(run.marks, places)[charge])
+
+
+def relative(changes: Sequence[float], scale: float) -> float:
+    """The largest of the changes beside a scale; 0 where nothing changes."""
+    largest = max(map(abs, changes))
+    return largest / scale if largest else 0.0
