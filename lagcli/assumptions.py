@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from fractions import Fraction
 
-    from lagcli.problem import Parameter
+    from lagcli.problem_data import Parameter
 
 _BREAKS: dict[str, Callable[[Fraction | float], bool]] = {
     "positive": lambda value: value <= 0,

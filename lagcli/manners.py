@@ -28,7 +28,7 @@ from lagcli.expression import (
     Sum,
     walk,
 )
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.rewriting import rebuilt
 from lagcli.signs_of_sums import sign_at_random
 

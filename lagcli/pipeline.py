@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lagcli.formatters import Options
     from lagcli.mechanics.derivation import Derivation
     from lagcli.mechanics.stating import Stating
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
     from lagcli.statements.answers import Answers, Section
     from lagcli.statements.explanation import Explanation
 

@@ -21,7 +21,7 @@ from lagcli.expression import (
     Sum,
     walk,
 )
-from lagcli.problem import Lasting, Parameter, Problem, Question, Reaching, Rewrite
+from lagcli.problem_data import Lasting, Parameter, Problem, Question, Reaching, Rewrite
 from lagcli.rewriting import rebuilt, rewritten
 
 #: Beside the terms of a constraint, a residual that is rounding.

@@ -8,7 +8,7 @@ import pytest
 
 from lagcli.diagnostics import NOWHERE, Span
 from lagcli.expression import Name, Number, Product, Sum
-from lagcli.problem import Expect, Parameter
+from lagcli.problem_data import Expect, Parameter
 from lagcli.record import replace
 
 HERE = Span(1, 2, 1, 5)

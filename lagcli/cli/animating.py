@@ -17,7 +17,7 @@ from lagcli.record import record
 if TYPE_CHECKING:
     from lagcli.numerics.hybrid.request import Asked
     from lagcli.pictures.scene import Scene
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
 
 
 @record(kw_only=True)

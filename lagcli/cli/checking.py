@@ -7,12 +7,12 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
 
-from lagcli.check import CheckOutcome, NothingToCheck, Report, check_all, problem_files
-from lagcli.check.reports import FORMS
 from lagcli.cli.files import print_result
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line
 from lagcli.reader.suggest import did_you_mean
+from lagcli.studies.check import CheckOutcome, NothingToCheck, Report, check_all, problem_files
+from lagcli.studies.check.reports import FORMS
 
 
 def check_paths(

@@ -56,7 +56,7 @@ def complete_table(incomplete: str) -> list[str]:
 
 def complete_method(incomplete: str) -> list[str]:
     """The methods that begin so."""
-    from lagcli.problem import METHODS
+    from lagcli.problem_data import METHODS
 
     return [name for name in METHODS if name.startswith(incomplete)]
 
@@ -91,7 +91,7 @@ def complete_cost(incomplete: str) -> list[str]:
 
 def complete_methods(incomplete: str) -> list[str]:
     """The methods that the last word of `a,b,c` may become."""
-    from lagcli.problem import METHODS
+    from lagcli.problem_data import METHODS
 
     before, comma, word = incomplete.rpartition(",")
     return [before + comma + name for name in METHODS[1:] if name.startswith(word)]

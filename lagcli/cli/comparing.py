@@ -10,7 +10,7 @@ from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
 from lagcli.pipeline import read, with_lagrangian
 from lagcli.platform.stack import with_deep_stack
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 
 
 def compare_files(old: str, new: str) -> Status:
@@ -39,7 +39,7 @@ def _problem(name: str) -> Problem | None:
 
 
 def _compared(first: Problem, second: Problem) -> Status:
-    from lagcli.check.difference import differences
+    from lagcli.studies.check.difference import differences
 
     try:
         found = differences(first, second)

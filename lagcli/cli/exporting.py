@@ -13,7 +13,7 @@ from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
 from lagcli.pipeline import Request, derive, read, state
 from lagcli.platform.stack import with_deep_stack
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 
 
 def export_file(name: str, language: str, output: Path | None, settings: tuple[str, ...]) -> Status:

@@ -9,7 +9,7 @@ import click
 
 if TYPE_CHECKING:
     from lagcli.interface.motion import Motion
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
 
 
 #: Rows of a motion that is drawn: as `lagcli animate` has them.

@@ -21,7 +21,7 @@ from lagcli.record import record, replace
 if TYPE_CHECKING:
     from lagcli.numerics.hybrid.request import Asked
     from lagcli.pictures.drawing import Picture
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
 
 Made = TypeVar("Made")
 

@@ -14,7 +14,7 @@ from lagcli.decimals import value_of
 from lagcli.diagnostics import Diagnostic, ProblemError, Source
 from lagcli.expression import Expression
 from lagcli.pipeline import Request, read, with_lagrangian
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.reader.suggest import did_you_mean
 
 _USUAL_ACCURACY = 1e-9

@@ -17,12 +17,12 @@ from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
 from lagcli.formatters.grammar import to_grammar
-from lagcli.problem import METHODS
+from lagcli.problem_data import METHODS
 from lagcli.record import record
 
 if TYPE_CHECKING:
     from lagcli.numerics.hybrid.request import Asked
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
 
 Value = TypeVar("Value")
 

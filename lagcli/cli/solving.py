@@ -16,7 +16,7 @@ from lagcli.diagnostics import ProblemError
 from lagcli.formatters.registry import BUILT_IN
 from lagcli.pipeline import Request, derive, read
 from lagcli.platform.failures import describe
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.sparing import keep_what_is_there, spare_sympy
 from lagcli.statements.registry import is_built_in
 

@@ -13,8 +13,8 @@ from lagcli.cli.telling import tell, tell_line
 from lagcli.record import record
 
 if TYPE_CHECKING:
-    from lagcli.extremes.trial import Wanted
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
+    from lagcli.studies.extremes.trial import Wanted
 
 
 @record(kw_only=True)
@@ -40,10 +40,10 @@ def stretch_file(wish: ExtremesOptions) -> Status:
 
 
 def _study(problem: Problem, wanted: Wanted, wish: ExtremesOptions) -> Status:
-    from lagcli.extremes.study import NoSuchCase, study
-    from lagcli.extremes.writing import WRITERS
     from lagcli.numerics.equations.refusal import Refusal
     from lagcli.reader.suggest import did_you_mean
+    from lagcli.studies.extremes.study import NoSuchCase, study
+    from lagcli.studies.extremes.writing import WRITERS
 
     words = [] if wish.cases is None else [word.strip() for word in wish.cases.split(",")]
     try:
@@ -63,7 +63,7 @@ def _study(problem: Problem, wanted: Wanted, wish: ExtremesOptions) -> Status:
 
 def _wanted(problem: Problem, wish: ExtremesOptions) -> Wanted | None:
     """What each case is asked; None where an option is no number, which is told."""
-    from lagcli.extremes.trial import Wanted
+    from lagcli.studies.extremes.trial import Wanted
 
     numbers = NumericOptions(problem.source)
     until = numbers.until(wish.until, problem.simulation.until)

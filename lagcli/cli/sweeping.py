@@ -14,10 +14,10 @@ from lagcli.cli.simulating import SimulateOptions, asked_of, can_be_written
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line
 from lagcli.numerics.hybrid.request import Asked
-from lagcli.problem import Problem
-from lagcli.sweep import WRITERS, Plan, Table, WrongPlan, plan_of, sweep
-from lagcli.sweep.journal import Journal
-from lagcli.sweep.workers import NoCluster
+from lagcli.problem_data import Problem
+from lagcli.studies.sweep import WRITERS, Plan, Table, WrongPlan, plan_of, sweep
+from lagcli.studies.sweep.journal import Journal
+from lagcli.studies.sweep.workers import NoCluster
 
 
 def sweep_file(

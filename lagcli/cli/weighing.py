@@ -12,14 +12,14 @@ from lagcli.cli.delivering import has_place, place
 from lagcli.cli.running import NumericOptions, counted, is_known, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
-from lagcli.problem import METHODS
+from lagcli.problem_data import METHODS
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
 
 if TYPE_CHECKING:
-    from lagcli.problem import Problem
-    from lagcli.tradeoff.study import Study
-    from lagcli.tradeoff.trial import Given
+    from lagcli.problem_data import Problem
+    from lagcli.studies.tradeoff.study import Study
+    from lagcli.studies.tradeoff.trial import Given
 
 
 @record(kw_only=True)
@@ -51,7 +51,7 @@ def weigh_file(wish: TradeoffOptions) -> Status:
     if found is None or not good or methods is None:
         return Status.USAGE
     problem, until = found
-    from lagcli.tradeoff.trial import Given
+    from lagcli.studies.tradeoff.trial import Given
 
     given = Given(
         name=problem.source.name,
@@ -79,7 +79,7 @@ def _study(
     problem: Problem, given: Given, methods: tuple[str, ...], wish: TradeoffOptions
 ) -> Status:
     from lagcli.numerics.equations.refusal import Refusal
-    from lagcli.tradeoff.study import study
+    from lagcli.studies.tradeoff.study import study
 
     try:
         with counted("measuring") as progress:
@@ -93,13 +93,13 @@ def _study(
 
 
 def _written(made: Study, wish: TradeoffOptions) -> bool:
-    from lagcli.tradeoff.writing import WRITERS
+    from lagcli.studies.tradeoff.writing import WRITERS
 
     parts: list[tuple[Path | None, bytes]] = [
         (wish.output, WRITERS[wish.format_name](made).encode())
     ]
     if wish.plot is not None:
-        from lagcli.tradeoff.plot import to_svg
+        from lagcli.studies.tradeoff.plot import to_svg
 
         try:
             parts.insert(0, (wish.plot, _drawn(to_svg(made), wish.plot)))

@@ -14,7 +14,7 @@ from lagcli.dimensions.kinds import kind
 from lagcli.dimensions.system import Incoherent, dimension_of
 from lagcli.dimensions.terms import Group, Reader, Term, representative
 from lagcli.expression import Expression, Name, Negative, walk
-from lagcli.problem import JACOBI_FUNCTION, Problem, Quantity
+from lagcli.problem_data import JACOBI_FUNCTION, Problem, Quantity
 from lagcli.units import read_unit
 
 #: What T may be: an energy, or one by mass or by moment of inertia, which then are 1.

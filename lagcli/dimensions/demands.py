@@ -24,7 +24,7 @@ from lagcli.dimensions.forms import (
 from lagcli.dimensions.system import dimension_of
 from lagcli.dimensions.terms import Group, Reader, Term, representative
 from lagcli.expression import Equation, Expression, Name, Power, walk
-from lagcli.problem import (
+from lagcli.problem_data import (
     Constraint,
     Contact,
     Lasting,

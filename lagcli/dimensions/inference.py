@@ -10,7 +10,7 @@ from lagcli.dimensions.demands import LAGRANGIAN, Demands
 from lagcli.dimensions.forms import ENERGY, NUMBER, Form, minus, unknown, unknowns
 from lagcli.dimensions.relations import FormRelations
 from lagcli.dimensions.system import Named, UnitSystem
-from lagcli.problem import Problem, Quantity
+from lagcli.problem_data import Problem, Quantity
 from lagcli.units import Unit, read_unit
 
 

@@ -10,7 +10,7 @@ import sympy
 from lagcli.algebra.build import Builder
 from lagcli.export.identifiers import identifiers
 from lagcli.expression import Call, Expression, Name, PartialCall, walk
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import record
 from lagcli.rewriting import rebuilt
 from lagcli.statements.answers import Answers

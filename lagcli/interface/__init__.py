@@ -17,15 +17,14 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-import lagcli
-from lagcli.check import Report
 from lagcli.diagnostics import ProblemError
 from lagcli.interface.account import Account
 from lagcli.interface.ensemble import Sweep, Vary, ensemble
 from lagcli.interface.formula import Formula
 from lagcli.interface.motion import Motion, integrate
 from lagcli.interface.solution import Solution
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
+from lagcli.studies.check import Report
 
 __all__ = [
     "Account", "Formula", "Motion", "Problem", "ProblemError", "Report", "Solution", "Sweep",
@@ -270,8 +269,8 @@ def explain(problem: Problem, also: Sequence[str] = ()) -> Account:
 
 def check(path: str | PathLike[str]) -> Report:
     """Compare the answers to a file with its `expect` block, and with the mathematics."""
-    from lagcli.check.one import check_problem
     from lagcli.library import find_problem
+    from lagcli.studies.check.one import check_problem
 
     file = Path(path)
     found = file if file.exists() else find_problem(fspath(path))
@@ -323,10 +322,3 @@ def _at(problem: Problem, state: Values | None) -> Problem:
     from lagcli.reader.settings import set_state
 
     return set_state(problem, [f"{name}={_text(value)}" for name, value in (state or {}).items()])
-
-
-# The modules lagcli.check, lagcli.problem and lagcli.sweep have the names of functions: once they
-# are imported, the functions take their places among the attributes of the package.
-lagcli.check = check
-lagcli.problem = problem
-lagcli.sweep = sweep

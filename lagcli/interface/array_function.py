@@ -13,7 +13,7 @@ from lagcli.values import numbers_of_parameters
 
 if TYPE_CHECKING:
     from lagcli.interface.formula import Formula
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
 
 _FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{

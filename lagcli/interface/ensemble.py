@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.interface.columns import Columns
-from lagcli.sweep import WRITERS, Table, WrongPlan, plan_of, sweep
-from lagcli.sweep.journal import Journal
+from lagcli.studies.sweep import WRITERS, Table, WrongPlan, plan_of, sweep
+from lagcli.studies.sweep.journal import Journal
 
 if TYPE_CHECKING:
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
 
 Vary = Mapping[str, str | Sequence[float]]
 
@@ -75,7 +75,7 @@ def ensemble(
     samples: int,
     **options: object,
 ) -> Sweep:
-    """Run every member; see `lagcli.sweep`.
+    """Run every member; see `lagcli.studies.sweep`.
 
     Raises
     ------

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from lagcli.expression import Expression, Name, walk
 
 if TYPE_CHECKING:
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
 
 
 class Formula:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from lagcli.interface.picture import Animation, Plot
     from lagcli.numerics.hybrid.events import Event
     from lagcli.numerics.hybrid.request import Asked, Certificate, Result
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
 
 _USUAL_ACCURACY = 1e-9
 
@@ -185,7 +185,7 @@ def asked_of(
     from lagcli.formatters.grammar import to_grammar
     from lagcli.numerics.equations.columns import Column
     from lagcli.numerics.hybrid.request import Asked
-    from lagcli.problem import METHODS
+    from lagcli.problem_data import METHODS
     from lagcli.reader.columns import read_along, read_columns, usual_columns
 
     run = problem.simulation

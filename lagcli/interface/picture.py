@@ -11,7 +11,7 @@ from lagcli.pictures.drawing import Picture
 if TYPE_CHECKING:
     from lagcli.numerics.hybrid.request import Asked, Result
     from lagcli.pictures.scene import Scene
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
 
 
 class Plot:

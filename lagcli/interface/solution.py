@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from lagcli.expression import Expression
 from lagcli.interface.formula import Formula
 from lagcli.interface.rendered import Rendered
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.statements.answers import Answers
 from lagcli.statements.registry import find_section, in_order
 

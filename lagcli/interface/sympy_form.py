@@ -10,7 +10,7 @@ from lagcli.algebra.build import TIME, Builder, symbol
 from lagcli.expression import Expression, Name, walk
 
 if TYPE_CHECKING:
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
 
 
 class Dynamic:

@@ -39,7 +39,7 @@ from lagcli.mechanics.abbreviation import PartLabels, Written, abbreviated
 from lagcli.mechanics.gathering import gathered
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.mechanics.symbolic_elimination import StepNames, SymbolicElimination
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import record
 
 _DIGITS = 50

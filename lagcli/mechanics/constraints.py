@@ -27,7 +27,7 @@ from lagcli.algebra.build import free_of, without_jumps
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.branches import restricting, vanishing_factors
 from lagcli.mechanics.system import System
-from lagcli.problem import Constraint
+from lagcli.problem_data import Constraint
 from lagcli.record import record
 from lagcli.statements.answers import ConstraintKind
 

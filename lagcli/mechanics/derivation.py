@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 
 if TYPE_CHECKING:  # a large system is stated without SymPy, which these import
     from lagcli.mechanics.discovery.discovery import Discovery

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lagcli.graph.sharing import operations
 from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 
 #: Up to so many unknowns q'' and lambda a system is small, whatever its entries.
 SMALL_UNKNOWNS = 3

@@ -15,7 +15,7 @@ from operator import mul
 from lagcli.graph.nodes import Node
 from lagcli.graph.values import Concrete, Floats, Program
 from lagcli.mechanics.rates import ConstraintRow
-from lagcli.problem import Problem, Quantity
+from lagcli.problem_data import Problem, Quantity
 from lagcli.record import record
 
 _ATTEMPTS = 12

@@ -18,7 +18,7 @@ from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.legendre import Inversion
 from lagcli.mechanics.phase_states import PhaseStates
 from lagcli.mechanics.system import System
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import replace
 
 

@@ -27,7 +27,7 @@ from sympy import Expr
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.system import System
-from lagcli.problem import Contact
+from lagcli.problem_data import Contact
 
 
 def between_impacts(

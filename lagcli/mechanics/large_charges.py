@@ -13,7 +13,7 @@ from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node
 from lagcli.mechanics.identities import vanish
 from lagcli.mechanics.matrix_form import MatrixForm
-from lagcli.problem import Symmetry
+from lagcli.problem_data import Symmetry
 from lagcli.record import record
 from lagcli.statements.answers import ChargeSource, Verification
 from lagcli.statements.wording import CHANGE_OF_L, CONSERVED, enumerated

@@ -35,7 +35,7 @@ from lagcli.graph.values import Concrete
 from lagcli.mechanics.float_states import FloatStates
 from lagcli.mechanics.gathering import gathered
 from lagcli.mechanics.rates import ConstraintRow, VelocityRate
-from lagcli.problem import Constraint, Problem
+from lagcli.problem_data import Constraint, Problem
 
 #: (u, v) -> the terms of the sum that stands before u * v
 Weights = dict[tuple[Node, Node], list[tuple[Node, Fraction]]]

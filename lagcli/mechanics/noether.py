@@ -36,7 +36,7 @@ from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.energy import EnergyFunction
 from lagcli.mechanics.gauge import Gauge, GaugeSearch
 from lagcli.mechanics.translations import constant_nullspace
-from lagcli.problem import Symmetry
+from lagcli.problem_data import Symmetry
 from lagcli.record import record, replace
 from lagcli.statements.answers import ChargeSource, Verification
 from lagcli.statements.wording import CHANGE_OF_L, enumerated

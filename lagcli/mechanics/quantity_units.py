@@ -5,7 +5,7 @@ from __future__ import annotations
 from lagcli.dimensions.demands import ACTION, LAGRANGIAN, small_parameter
 from lagcli.dimensions.forms import Form, minus, unknown
 from lagcli.dimensions.inference import Inference, gives_units, quantities
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.statements.answers import DimensionsSection, QuantityUnit
 from lagcli.units import Unit, read_unit
 

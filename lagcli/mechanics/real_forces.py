@@ -26,7 +26,7 @@ from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.parameter_values import exact_values
 from lagcli.mechanics.readable import Readable
-from lagcli.problem import Constraint, pushing_sign
+from lagcli.problem_data import Constraint, pushing_sign
 from lagcli.record import record
 from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
 

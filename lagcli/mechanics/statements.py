@@ -16,7 +16,7 @@ from lagcli.mechanics.hamiltonian import GivenHamiltonian
 from lagcli.mechanics.hamiltonian_form import hamiltonian_form
 from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.statements.answers import (
     Answers,

@@ -11,7 +11,7 @@ from lagcli.expression import Expression
 from lagcli.platform.effort import OutOfWork
 from lagcli.platform.failures import describe
 from lagcli.platform.limited import limited
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.statements.answers import Answers, Section
 from lagcli.statements.declaration import Declaration
 from lagcli.statements.registry import built_in, in_order

@@ -22,7 +22,7 @@ from lagcli.pictures.drawing import (
     words,
 )
 from lagcli.pictures.run import PicturedRun, largest_so_far, run_with, short
-from lagcli.problem import JACOBI_FUNCTION, Problem, charge_of
+from lagcli.problem_data import JACOBI_FUNCTION, Problem, charge_of
 from lagcli.reader.columns import Shown
 
 #: What is smaller cannot be told from 0 in doubles, and stands at the bottom.

@@ -28,7 +28,7 @@ from lagcli.pictures.drawing import (
     extent,
 )
 from lagcli.pictures.labels import Labels, with_unit
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import record
 
 #: More panels do not fit on a page.

@@ -22,7 +22,7 @@ from lagcli.pictures.drawing import (
 )
 from lagcli.pictures.drift import FLOOR
 from lagcli.pictures.run import PicturedRun, largest_so_far, short
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import replace
 
 #: So much more exact is the reference, and so many digits it may carry.

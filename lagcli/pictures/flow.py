@@ -39,7 +39,7 @@ from lagcli.pictures.drawing import (
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.run import PicturedRun, run_with
 from lagcli.pictures.turning import wrapped
-from lagcli.problem import Expect, Problem
+from lagcli.problem_data import Expect, Problem
 from lagcli.reader.columns import Shown
 from lagcli.record import record, replace
 from lagcli.rewriting import rebuilt, rewritten

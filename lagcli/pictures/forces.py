@@ -6,7 +6,7 @@ from lagcli.expression import Expression, Product
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.statements import Statements
 from lagcli.pictures.points import Track
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import record
 from lagcli.statements.forces import ForcesSection
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import Picture
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import record
 
 Progress = Callable[[float], None]

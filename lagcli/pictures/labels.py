@@ -17,7 +17,7 @@ from lagcli.formatters.layout import joined
 from lagcli.formatters.unicode import AsciiPrinter, UnicodePrinter
 from lagcli.formatters.units import latex_unit, unicode_unit
 from lagcli.pictures.drawing import DrawnName, words
-from lagcli.problem import JACOBI_FUNCTION, Problem
+from lagcli.problem_data import JACOBI_FUNCTION, Problem
 from lagcli.units import Unit, read_unit
 
 #: A formula that is longer is called by what the user wrote.

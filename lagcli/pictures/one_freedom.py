@@ -25,7 +25,7 @@ from lagcli.numerics.equations.start import initial_state
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.pictures.contours import quiet
 from lagcli.pictures.drawing import CannotDraw
-from lagcli.problem import Coordinate, Problem
+from lagcli.problem_data import Coordinate, Problem
 
 
 class EnergyNotConserved(CannotDraw):

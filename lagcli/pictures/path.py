@@ -22,7 +22,7 @@ from lagcli.pictures.drawing import (
 from lagcli.pictures.labels import with_unit
 from lagcli.pictures.points import AXES, Track, column_name, components, tracks
 from lagcli.pictures.run import PicturedRun, run_with
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 
 #: A view is at least so wide beside its length.
 _LEAST = 0.25

@@ -7,7 +7,7 @@ import re
 from lagcli.expression import ONE, Expression, Name
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.pictures.labels import Labels
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import record
 
 AXES = "xyz"

@@ -33,7 +33,7 @@ from lagcli.pictures.one_freedom import EnergyNotConserved, RemainingFreedom
 from lagcli.pictures.run import PicturedRun, run_with
 from lagcli.pictures.turning import wrapped
 from lagcli.pictures.window import Window
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 
 Progress = Callable[[float], None]
 

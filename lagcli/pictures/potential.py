@@ -22,7 +22,7 @@ from lagcli.pictures.labels import Labels, with_unit
 from lagcli.pictures.one_freedom import RemainingFreedom
 from lagcli.pictures.portrait import constants
 from lagcli.pictures.window import Window
-from lagcli.problem import JACOBI_FUNCTION, Problem
+from lagcli.problem_data import JACOBI_FUNCTION, Problem
 
 _PLACES = 1201
 #: Room below the lowest energy, in heights of what is shown.

@@ -17,7 +17,7 @@ from lagcli.numerics.hybrid.events import Event
 from lagcli.numerics.hybrid.request import Asked, Result
 from lagcli.pictures.drawing import Axis, Band, Item, Piece, Rule, extent, words
 from lagcli.pictures.labels import Labels
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import replace
 
 Values = tuple[float | None, ...]

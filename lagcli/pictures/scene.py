@@ -19,7 +19,7 @@ from lagcli.pictures.forces import Arrow, arrows
 from lagcli.pictures.points import AXES, mass_of, tracks
 from lagcli.pictures.run import WITHOUT_BOUND, PicturedRun
 from lagcli.pictures.surfaces import one_sided, surfaces
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import record, replace
 
 Place = tuple[float, ...]

@@ -33,7 +33,7 @@ from lagcli.pictures.drawing import (
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.run import PicturedRun, run_with, short
 from lagcli.pictures.starts import other_starts
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.reader.columns import Shown, read_along
 from lagcli.record import record
 

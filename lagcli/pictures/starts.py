@@ -25,7 +25,7 @@ from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.pictures.contours import quiet
 from lagcli.pictures.drawing import CannotDraw, Point
 from lagcli.pictures.flow import exact
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.reader.columns import Shown
 from lagcli.record import replace
 

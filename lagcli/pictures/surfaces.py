@@ -18,7 +18,7 @@ from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.pictures.contours import Contours, grid, quiet
 from lagcli.pictures.drawing import Piece, Point
 from lagcli.pictures.points import Track
-from lagcli.problem import Constraint, Contact, Problem
+from lagcli.problem_data import Constraint, Contact, Problem
 
 _CELLS = 120
 _FULL_TURN = 3.15

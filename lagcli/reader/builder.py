@@ -28,7 +28,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
 )
-from lagcli.problem import Comparison, Inequality
+from lagcli.problem_data import Comparison, Inequality
 from lagcli.reader.habits import fraction
 from lagcli.reader.limits import NUMBER_DIGITS, thousands
 from lagcli.reader.text import Mistake

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, ProblemError, Source
 from lagcli.expression import Diff, Expression, Name, Negative, Product, Sum, walk
-from lagcli.problem import JACOBI_FUNCTION, charge_of
+from lagcli.problem_data import JACOBI_FUNCTION, charge_of
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.names import depends_on_time, derivative_order, name_mistakes
 from lagcli.reader.positions import Excerpt
@@ -17,7 +17,7 @@ from lagcli.reader.text import Mistake
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from lagcli.problem import Constraint, Contact, Problem, Symmetry
+    from lagcli.problem_data import Constraint, Contact, Problem, Symmetry
 
 #: A column's name and its expression; None is the time.
 Shown = tuple[str, Expression | None]

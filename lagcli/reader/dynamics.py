@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lagcli.problem import Point, Problem
+from lagcli.problem_data import Point, Problem
 from lagcli.reader.growth import Growth, growth
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.names import depends_on_time, derivative_order

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from lagcli.problem import (
+from lagcli.problem_data import (
     BracketQuestion,
     CanonicalTransformation,
     Constraint,

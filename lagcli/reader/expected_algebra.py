@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from lagcli.problem import ExpectAlgebra, ExpectSpecial
+from lagcli.problem_data import ExpectAlgebra, ExpectSpecial
 from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.scope import CONSTANTS, Role
 

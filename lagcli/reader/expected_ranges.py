@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from lagcli.expression import Name
-    from lagcli.problem import Inequality
+    from lagcli.problem_data import Inequality
     from lagcli.reader.sections import Sections
 
 

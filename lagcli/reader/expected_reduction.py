@@ -6,14 +6,19 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from lagcli.problem import ExpectEquilibrium, ExpectHamiltonJacobi, ExpectReduction, ExpectSteady
+from lagcli.problem_data import (
+    ExpectEquilibrium,
+    ExpectHamiltonJacobi,
+    ExpectReduction,
+    ExpectSteady,
+)
 from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.nodes import DocumentNode, Scalar, Sequence
 from lagcli.reader.scope import Role
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
-    from lagcli.problem import Inequality
+    from lagcli.problem_data import Inequality
     from lagcli.reader.expectations import ExpectReader
     from lagcli.reader.sections import Sections
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lark.lexer import Token
 
     from lagcli.expression import Equation, Expression
-    from lagcli.problem import Inequality
+    from lagcli.problem_data import Inequality
 
 
 def read_expression(excerpt: Excerpt) -> Expression:

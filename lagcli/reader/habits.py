@@ -10,7 +10,7 @@ import re
 import unicodedata
 from typing import get_args
 
-from lagcli.problem import Assumption
+from lagcli.problem_data import Assumption
 
 #: Words for the keys of a problem -> the key.
 KEYS = {

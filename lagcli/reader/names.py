@@ -16,7 +16,7 @@ from lagcli.expression import (
     Quotient,
     walk,
 )
-from lagcli.problem import Assumption
+from lagcli.problem_data import Assumption
 from lagcli.reader.habits import function_meant, velocity_meant
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import closest, did_you_mean

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from lagcli.expression import Name, walk
-from lagcli.problem import BracketQuestion, CanonicalTransformation, ExpectCanonical
+from lagcli.problem_data import BracketQuestion, CanonicalTransformation, ExpectCanonical
 from lagcli.reader.nodes import DocumentNode, Scalar, Sequence
 from lagcli.reader.scope import PHASE_SPACE, Kind, name_mistake
 from lagcli.reader.suggest import did_you_mean
@@ -15,7 +15,7 @@ from lagcli.reader.suggest import did_you_mean
 if TYPE_CHECKING:
     from lagcli.diagnostics import Span
     from lagcli.expression import Expression
-    from lagcli.problem import Symmetry
+    from lagcli.problem_data import Symmetry
     from lagcli.reader.sections import Sections
 
 _FUNCTION = PHASE_SPACE._replace(why="a function on phase space has momenta p_x, no velocities")

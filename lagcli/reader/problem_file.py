@@ -6,7 +6,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, ProblemError, Source, Span
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.reader.compose import compose
 from lagcli.reader.contacts import declare_contacts, read_contacts
 from lagcli.reader.dynamics import (

@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING, TypedDict, cast, get_args
 
 from lagcli.expression import Expression, Name, walk
-from lagcli.problem import Assumption, Coordinate, Parameter
+from lagcli.problem_data import Assumption, Coordinate, Parameter
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
 from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.suggest import did_you_mean

@@ -6,7 +6,15 @@ import re
 from typing import TYPE_CHECKING
 
 from lagcli.expression import Expression, Name
-from lagcli.problem import METHODS, Lasting, Question, Reaching, Rewrite, SimulationDefaults, Where
+from lagcli.problem_data import (
+    METHODS,
+    Lasting,
+    Question,
+    Reaching,
+    Rewrite,
+    SimulationDefaults,
+    Where,
+)
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping
 from lagcli.reader.scope import NUMBERS, POSITION, QUESTION, VALUES, Role

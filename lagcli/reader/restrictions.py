@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from lagcli.problem import Constraint, Symmetry, pushing_sign
+from lagcli.problem_data import Constraint, Symmetry, pushing_sign
 from lagcli.reader.contacts import RESTITUTION, read_restitution
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
@@ -13,7 +13,7 @@ from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
-    from lagcli.problem import ForceKind, Inequality, OnLoss
+    from lagcli.problem_data import ForceKind, Inequality, OnLoss
     from lagcli.reader.sections import Sections
 
 _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RESTITUTION,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lagcli.expression import Expression
-from lagcli.problem import Point, Scenery
+from lagcli.problem_data import Point, Scenery
 from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.scope import POSITION
 from lagcli.reader.sections import Sections

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import get_args
 
-from lagcli.problem import METHODS, Assumption
+from lagcli.problem_data import METHODS, Assumption
 from lagcli.reader.schema_parts import (
     COUNT,
     FORMULA,

@@ -22,7 +22,7 @@ from lagcli.reader.text import Mistake
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-    from lagcli.problem import Inequality
+    from lagcli.problem_data import Inequality
     from lagcli.reader.positions import Excerpt
 
 _T = TypeVar("_T")

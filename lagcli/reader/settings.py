@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from lagcli.expression import Expression
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
 
 #: The primes of a velocity, as they may be typed.
 _PRIMES = str.maketrans("’′", "''")

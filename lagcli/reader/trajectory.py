@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lagcli.problem import Known, KnownRow, Trajectory
+from lagcli.problem_data import Known, KnownRow, Trajectory
 from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.nodes import Mapping as Map
 from lagcli.reader.scope import ALONG, CONSTANTS, MOTION, Role

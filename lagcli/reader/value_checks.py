@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from lagcli.expression import Expression
-    from lagcli.problem import Problem
+    from lagcli.problem_data import Problem
     from lagcli.reader.sections import Sections
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Heading, Paragraph
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, by_name, string
-from lagcli.problem import ExpectAlgebra
+from lagcli.problem_data import ExpectAlgebra
 from lagcli.reader.expected_algebra import read_algebra
 from lagcli.reader.schema_parts import COUNT, FORMULAS, TEXT, YES_OR_NO, list_of, record_of, ref
 from lagcli.record import replace
@@ -18,9 +18,9 @@ from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.statements.wording import rows_by_name
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
+    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> AlgebraSection:
@@ -112,7 +112,7 @@ def tell(teller: Teller, section: AlgebraSection) -> Iterator[Block]:
 
 def compare(check: Expectations, section: AlgebraSection, expected: ExpectAlgebra) -> Found:
     """The counts, the name, the verdict, and the special values."""
-    from lagcli.check.algebra import expected_algebra
+    from lagcli.studies.check.algebra import expected_algebra
 
     judged = expected_algebra(expected, section, check.comparison)
     yield from itertools.starmap(check.judge, judged)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Bracket, Equations, Paragraph, Row
 from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import Object, by_name, string, unless_none
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.reader.phase_space import read_expected_brackets
 from lagcli.reader.schema_parts import FORMULAS
 from lagcli.statements.answers import Answers
@@ -17,12 +17,12 @@ from lagcli.statements.phase_space import BracketsSection, PoissonBracket
 from lagcli.values import substituted
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
     from lagcli.reader.nodes import DocumentNode
+    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements | PhaseSpaceStatements) -> BracketsSection:

@@ -10,7 +10,7 @@ from lagcli.document import Block, Bracket, Equations, Formula, Heading, Label, 
 from lagcli.expression import Name, Number
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, by_name, string, unless_none
-from lagcli.problem import ExpectCanonical, Problem
+from lagcli.problem_data import ExpectCanonical, Problem
 from lagcli.reader.phase_space import VERDICTS, read_expected_canonical
 from lagcli.reader.schema_parts import FORMULA as EXPRESSION
 from lagcli.reader.schema_parts import YES_OR_NO
@@ -25,12 +25,12 @@ from lagcli.statements.phase_space import (
 )
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
     from lagcli.reader.nodes import DocumentNode
+    from lagcli.studies.check.expectations import Expectations, Found
 
 _CHECKED = {"exact": "checked exactly", "50 digits": "checked at random states to 50 digits"}
 _ONE = Number(Fraction(1))

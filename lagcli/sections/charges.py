@@ -18,7 +18,7 @@ from lagcli.formatters.json_values import (
     string,
 )
 from lagcli.letters import own
-from lagcli.problem import NOT_CONSERVED
+from lagcli.problem_data import NOT_CONSERVED
 from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.schema_parts import FORMULAS
 from lagcli.reader.scope import ANSWER
@@ -27,12 +27,12 @@ from lagcli.statements.declaration import Declaration, Expected, always
 from lagcli.statements.wording import conditions
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.large_charges import LargeCharge
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.noether import NoetherCharge
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
+    from lagcli.studies.check.expectations import Expectations, Found
 
 _SOURCES = {
     "candidate": "candidate",
@@ -213,7 +213,7 @@ def compare(
     key: str = "charges",
 ) -> Found:
     """Each is conserved, and the same up to a factor and a constant; or it is not conserved."""
-    from lagcli.check.charges import conserved, not_conserved
+    from lagcli.studies.check.charges import conserved, not_conserved
 
     charges = {charge.name: charge for charge in section.charges}
     for name, formula in expected.items():

@@ -16,11 +16,11 @@ from lagcli.statements.answers import ChargesSection
 from lagcli.statements.declaration import Declaration, Expected, Told
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
     from lagcli.reader.nodes import DocumentNode
+    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> ChargesSection:

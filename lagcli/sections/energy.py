@@ -15,11 +15,11 @@ from lagcli.statements.declaration import Declaration, Expected, always
 from lagcli.statements.wording import not_found, one_row
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
     from lagcli.reader.nodes import DocumentNode
+    from lagcli.studies.check.expectations import Expectations, Found
 
 _CONSERVED = {True: "Conserved.", False: "Not conserved.", None: "Conservation undecided."}
 _TOTAL = {True: " It equals T + V.", False: " It does not equal T + V.", None: ""}

@@ -16,12 +16,12 @@ from lagcli.statements.declaration import Declaration, Expected, always
 from lagcli.statements.wording import not_found
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.constraints import ConstraintEquation
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
     from lagcli.reader.nodes import DocumentNode
+    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> EquationsSection:
@@ -148,7 +148,7 @@ def read(reader: ExpectReader, node: DocumentNode) -> tuple[Equation, ...]:
 
 def compare(check: Expectations, _: object, expected: Sequence[Equation]) -> Found:
     """Each follows from the derived equations."""
-    from lagcli.check.following import follows
+    from lagcli.studies.check.following import follows
 
     for place, equation in enumerate(expected):
         path, text = ["equations", str(place)], equation_to_grammar(equation)

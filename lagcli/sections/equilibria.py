@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Formula, Paragraph
 from lagcli.expression import Name
 from lagcli.formatters.json_values import Object, above, inequalities, place, unless_none
-from lagcli.problem import ExpectEquilibrium
+from lagcli.problem_data import ExpectEquilibrium
 from lagcli.reader.expected_reduction import read_equilibria
 from lagcli.reader.schema_parts import FORMULAS, STABLE, list_of, record_of, ref
 from lagcli.statements.answers import Answers, EquilibriaSection, Equilibrium
@@ -17,10 +17,10 @@ from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.statements.wording import conditions, holding, none_found, stability, state_blocks
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
+    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> EquilibriaSection:
@@ -109,7 +109,7 @@ def compare(
     check: Expectations, section: EquilibriaSection, expected: Sequence[ExpectEquilibrium]
 ) -> Found:
     """Each is one of those found."""
-    from lagcli.check.reductions import equilibria
+    from lagcli.studies.check.reductions import equilibria
 
     yield from itertools.starmap(check.judge, equilibria(check, section, expected))
 

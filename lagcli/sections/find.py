@@ -9,7 +9,16 @@ from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph
 from lagcli.expression import Expression, Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, string, strings, unless_none
-from lagcli.problem import Expect, Inequality, Lasting, Problem, Question, Reaching, Rewrite, Where
+from lagcli.problem_data import (
+    Expect,
+    Inequality,
+    Lasting,
+    Problem,
+    Question,
+    Reaching,
+    Rewrite,
+    Where,
+)
 from lagcli.reader.expected_ranges import read_ranges
 from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.nodes import Sequence as ListNode
@@ -22,12 +31,12 @@ from lagcli.statements.questions import Answer, FindSection, Range, Ranges, Rewr
 from lagcli.statements.wording import remark
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
-    from lagcli.check.findings import Finding
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
+    from lagcli.studies.check.expectations import Expectations, Found
+    from lagcli.studies.check.findings import Finding
 
 _SIGNS = {">=": " ≥ ", ">": " > ", "<=": " ≤ ", "<": " < "}
 _TURNED = {">=": " ≤ ", ">": " < "}
@@ -183,7 +192,7 @@ def _compared_ranges(
     answer: Ranges,
     expected: Sequence[Sequence[Inequality]],
 ) -> Finding | None:
-    from lagcli.check.ranges import in_words, same_ranges
+    from lagcli.studies.check.ranges import in_words, same_ranges
 
     if answer.ranges is None:
         return check.undecided(path, answer.note)

@@ -18,10 +18,10 @@ from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
+    from lagcli.studies.check.expectations import Expectations, Found
 
 #: The most operations that the components of a vector within a sentence have in all.
 _SHORT = 9

@@ -17,7 +17,7 @@ from lagcli.document import (
 )
 from lagcli.expression import ZERO, Expression, Name, Negative, Product
 from lagcli.formatters.json_values import Object, by_name, inequalities, string, unless_none
-from lagcli.problem import ExpectHamiltonJacobi
+from lagcli.problem_data import ExpectHamiltonJacobi
 from lagcli.reader.expected_reduction import read_hamilton_jacobi
 from lagcli.reader.schema_parts import FORMULAS, YES_OR_NO, record_of
 from lagcli.statements.answers import Answers
@@ -26,9 +26,9 @@ from lagcli.statements.motions import ActionPart, HamiltonJacobiSection
 from lagcli.statements.wording import conditions, listed, not_found
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
+    from lagcli.studies.check.expectations import Expectations, Found
 
 _NAMED = {
     True: "It separates in these coordinates",
@@ -169,7 +169,7 @@ def compare(
     check: Expectations, section: HamiltonJacobiSection, expected: ExpectHamiltonJacobi
 ) -> Found:
     """Whether it separates, and the parts of S up to sign and constant."""
-    from lagcli.check.reductions import hamilton_jacobi
+    from lagcli.studies.check.reductions import hamilton_jacobi
 
     yield from itertools.starmap(check.judge, hamilton_jacobi(check, section, expected))
 

@@ -16,13 +16,13 @@ from lagcli.statements.declaration import Declaration, Expected
 from lagcli.statements.wording import fold, not_found, one_row
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.mechanics.stating import Stating
     from lagcli.reader.expectations import ExpectReader
     from lagcli.reader.nodes import DocumentNode
+    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> HamiltonianSection:

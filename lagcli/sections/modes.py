@@ -10,7 +10,7 @@ from lagcli.document import Block, Equations, Label, Paragraph, Row
 from lagcli.expression import Expression, Number, Power
 from lagcli.formatters.json_values import Object, by_name, place, string, unless_none
 from lagcli.letters import own
-from lagcli.problem import Expect
+from lagcli.problem_data import Expect
 from lagcli.reader.schema_parts import FORMULA, list_of
 from lagcli.reader.scope import CONSTANTS
 from lagcli.statements.answers import Answers, ModesOfFrequency, ModesSection
@@ -18,12 +18,12 @@ from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.statements.wording import state_blocks
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
     from lagcli.reader.nodes import DocumentNode
+    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> ModesSection:

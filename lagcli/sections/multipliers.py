@@ -15,12 +15,12 @@ from lagcli.statements.declaration import Declaration, Expected
 from lagcli.statements.wording import substituted
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.mechanics.stating import Stating
     from lagcli.reader.expectations import ExpectReader
     from lagcli.reader.nodes import DocumentNode
+    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> MultipliersSection:

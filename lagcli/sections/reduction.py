@@ -25,7 +25,7 @@ from lagcli.formatters.json_values import (
     unless_none,
 )
 from lagcli.letters import own
-from lagcli.problem import ExpectReduction
+from lagcli.problem_data import ExpectReduction
 from lagcli.reader.expected_reduction import read_reduction
 from lagcli.reader.schema_parts import FORMULA, FORMULAS, list_of, record_of
 from lagcli.sections.equations import equation_json
@@ -35,9 +35,9 @@ from lagcli.statements.motions import OneFreedom, PeriodSeries
 from lagcli.statements.wording import POTENTIAL, conditions, irreducible, state_blocks
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
+    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> ReductionSection:
@@ -205,7 +205,7 @@ def tell(teller: Teller, section: ReductionSection) -> Iterator[Block]:
 
 def compare(check: Expectations, section: ReductionSection, expected: ExpectReduction) -> Found:
     """The Routhian, the effective potential and the quadrature."""
-    from lagcli.check.reductions import reduction
+    from lagcli.studies.check.reductions import reduction
 
     yield from itertools.starmap(check.judge, reduction(check, section, expected))
 

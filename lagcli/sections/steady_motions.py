@@ -20,7 +20,7 @@ from lagcli.document import (
 from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.formatters.json_values import Object, by_name, inequalities, place, strings, unless_none
 from lagcli.letters import own
-from lagcli.problem import ExpectSteady
+from lagcli.problem_data import ExpectSteady
 from lagcli.reader.expected_reduction import read_steady_motions
 from lagcli.reader.schema_parts import FORMULA, FORMULAS, STABLE, list_of, record_of
 from lagcli.statements.answers import Answers
@@ -29,9 +29,9 @@ from lagcli.statements.motions import SteadyMotion, SteadySection
 from lagcli.statements.wording import conditions, none_found, place_rows, steady_stability
 
 if TYPE_CHECKING:
-    from lagcli.check.expectations import Expectations, Found
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
+    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> SteadySection:
@@ -163,7 +163,7 @@ def tell(teller: Teller, section: SteadySection) -> Iterator[Block]:
 
 def compare(check: Expectations, section: SteadySection, expected: Sequence[ExpectSteady]) -> Found:
     """Each is one of those found."""
-    from lagcli.check.reductions import steady_motions
+    from lagcli.studies.check.reductions import steady_motions
 
     yield from itertools.starmap(check.judge, steady_motions(check, section, expected))
 

@@ -59,8 +59,8 @@ class Expected:
     read : function (reader, node) -> value
         Reads the value; `reader` is a `lagcli.reader.expectations.ExpectReader`.
     compare : function (check, statement, value) -> findings
-        Compares; `check` is a `lagcli.check.expectations.Expectations`.  Yields a finding for
-        each expectation that does not hold, None for each that does.
+        Compares; `check` is a `lagcli.studies.check.expectations.Expectations`.  Yields a finding
+        for each expectation that does not hold, None for each that does.
     wanted : function (expect) -> bool, or None
         Whether a file expects something; None: where the value is neither None nor empty.
     """

@@ -14,7 +14,7 @@ from flint import arb, ctx
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.reader import parse_text
 from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.linear import Unclear, rank

@@ -14,7 +14,7 @@ from functools import cached_property
 from flint import arb
 
 from lagcli.expression import Expression
-from lagcli.problem import Constraint, Problem
+from lagcli.problem_data import Constraint, Problem
 from lagcli.record import record
 from lagcli.verification.functions import Instance
 from lagcli.verification.linear import SolutionSpace, dot, solve

@@ -15,7 +15,7 @@ from random import Random
 from flint import arb, ctx
 
 from lagcli.expression import Expression
-from lagcli.problem import Coordinate, Parameter, Problem
+from lagcli.problem_data import Coordinate, Parameter, Problem
 from lagcli.verification.functions import ball
 from lagcli.verification.linear import Unclear, least_step, size
 from lagcli.verification.phase_points import PhasePoint, PhaseState, with_momenta

@@ -7,7 +7,7 @@ from typing import Any
 
 from flint import ctx
 
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.statements.answers import (
     AccelerationsSection,

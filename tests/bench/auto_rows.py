@@ -20,9 +20,9 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from lagcli.numerics.certified.methods import METHODS
 from lagcli.record import replace
-from lagcli.tradeoff.front import ACCURACIES
-from lagcli.tradeoff.study import answer
-from lagcli.tradeoff.trial import Given
+from lagcli.studies.tradeoff.front import ACCURACIES
+from lagcli.studies.tradeoff.study import answer
+from lagcli.studies.tradeoff.trial import Given
 from tests.bench.measure import ROOT, Row, show
 from tests.bench.motions import SYSTEMS
 

@@ -28,12 +28,12 @@ from lagcli.diagnostics import ProblemError
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pipeline import Request, read
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import replace
-from lagcli.tradeoff.front import ACCURACIES
-from lagcli.tradeoff.reference import ReferenceMotion, numbers, reference
-from lagcli.tradeoff.study import answer
-from lagcli.tradeoff.trial import Given, asked_of
+from lagcli.studies.tradeoff.front import ACCURACIES
+from lagcli.studies.tradeoff.reference import ReferenceMotion, numbers, reference
+from lagcli.studies.tradeoff.study import answer
+from lagcli.studies.tradeoff.trial import Given, asked_of
 from tests.bench.measure import ROOT, Row, show
 from tests.bench.motions import SYSTEMS
 

@@ -33,7 +33,7 @@ from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pipeline import Request, read, with_lagrangian
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.reader.columns import read_columns, usual_columns
 from lagcli.record import replace
 from tests.bench.measure import ROOT, Row, show

@@ -36,7 +36,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.pipeline import load
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.reader.expressions import parse_text
 from tests.bench.measure import ROOT, Row
 from tests.bench.printed import COUNTED, formulas, library, solved

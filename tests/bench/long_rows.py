@@ -18,8 +18,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from lagcli.tradeoff.study import answer
-from lagcli.tradeoff.trial import Given
+from lagcli.studies.tradeoff.study import answer
+from lagcli.studies.tradeoff.trial import Given
 from tests.bench.measure import HERE, LAGCLI, ROOT, Row, cost, show
 from tests.bench.motion_rows import error_of, peers
 from tests.bench.motions import SYSTEMS, System

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from lagcli.check import CheckOutcome
-from lagcli.check.one import check_problem
+from lagcli.studies.check import CheckOutcome
+from lagcli.studies.check.one import check_problem
 
 #: A free particle has five Noether symmetries; a force 3 F w x^2 leaves the energy alone.
 PUSHED = """\

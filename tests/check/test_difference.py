@@ -7,8 +7,8 @@ import random
 import pytest
 
 import lagcli
-from lagcli.check.difference import differences
 from lagcli.cli.run import run
+from lagcli.studies.check.difference import differences
 
 PARTS = {
     "coordinates": "[x, y]",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from lagcli.check.initial import initial_mistakes
 from lagcli.pipeline import read
+from lagcli.studies.check.initial import initial_mistakes
 
 PENDULUM = """
 coordinates: [x, y]

@@ -7,13 +7,13 @@ from fractions import Fraction
 
 import pytest
 
-from lagcli.check.findings import CheckOutcome
-from lagcli.check.laws import SECTIONS, Laws
-from lagcli.check.one import check_problem
 from lagcli.expression import Negative, Number, Product
 from lagcli.pipeline import Request, derive, read, state
 from lagcli.platform.effort import OutOfWork
 from lagcli.sections import charges as room
+from lagcli.studies.check.findings import CheckOutcome
+from lagcli.studies.check.laws import SECTIONS, Laws
+from lagcli.studies.check.one import check_problem
 
 PENDULUM = b"""\
 coordinates: [x, y]

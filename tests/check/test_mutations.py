@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from lagcli.check import CheckOutcome
-from lagcli.check.one import check_problem
+from lagcli.studies.check import CheckOutcome
+from lagcli.studies.check.one import check_problem
 
 HOOP = """\
 coordinates: [x, theta]

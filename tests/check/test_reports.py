@@ -7,9 +7,9 @@ from xml.etree import ElementTree  # noqa: ICN001
 
 import pytest
 
-from lagcli.check import CheckOutcome, Finding, Report
-from lagcli.check.reports import FORMS
 from lagcli.diagnostics import Diagnostic, Source, Span
+from lagcli.studies.check import CheckOutcome, Finding, Report
+from lagcli.studies.check.reports import FORMS
 
 PLACE = Span(12, 3, 12, 8)
 REPORTS = [

@@ -2,8 +2,8 @@
 
 import pytest
 
-from lagcli.check.findings import CheckOutcome
-from lagcli.check.one import check_problem
+from lagcli.studies.check.findings import CheckOutcome
+from lagcli.studies.check.one import check_problem
 
 BALL = """
 coordinates: [x, y]

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from lagcli.check import CheckOutcome, check_all, workers
-from lagcli.check.findings import Report
 from lagcli.diagnostics import Source
+from lagcli.studies.check import CheckOutcome, check_all, workers
+from lagcli.studies.check.findings import Report
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="workers are not forked there")
 

@@ -14,7 +14,7 @@ from lagcli.dimensions.demands import ACTION, LAGRANGIAN, small_parameter
 from lagcli.dimensions.forms import TIME, minus, plus, unknown, unknowns
 from lagcli.dimensions.inference import Inference, gives_units, quantities
 from lagcli.dimensions.terms import Reader
-from lagcli.problem import Where
+from lagcli.problem_data import Where
 from lagcli.reader import read_problem
 from lagcli.record import replace
 

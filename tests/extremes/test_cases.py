@@ -7,10 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from lagcli.extremes.cases import cases_of
-from lagcli.extremes.roles import alike, angles_of, light_speeds, singular_positions, unstable_rest
-from lagcli.extremes.scene import ExtremeScene, with_all_values
 from lagcli.pipeline import load, read
+from lagcli.studies.extremes.cases import cases_of
+from lagcli.studies.extremes.roles import (
+    alike,
+    angles_of,
+    light_speeds,
+    singular_positions,
+    unstable_rest,
+)
+from lagcli.studies.extremes.scene import ExtremeScene, with_all_values
 
 
 def scene_of(text):

@@ -11,11 +11,11 @@ import mpmath
 import pytest
 
 from lagcli.cli.run import run
-from lagcli.extremes import trial as trials
-from lagcli.extremes.study import study
-from lagcli.extremes.trial import Wanted
 from lagcli.pipeline import read
 from lagcli.record import replace
+from lagcli.studies.extremes import trial as trials
+from lagcli.studies.extremes.study import study
+from lagcli.studies.extremes.trial import Wanted
 
 PENDULUM = """
 coordinates: [th]

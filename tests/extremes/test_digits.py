@@ -6,14 +6,14 @@ import mpmath
 import pytest
 
 from lagcli.diagnostics import Source
-from lagcli.extremes.case import CaseFormula
-from lagcli.extremes.condition import mass_condition
-from lagcli.extremes.digits import DIGITS, losses
-from lagcli.extremes.formulas import printed_formulas
-from lagcli.extremes.scene import ExtremeScene, with_all_values
 from lagcli.pipeline import read
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.positions import Excerpt
+from lagcli.studies.extremes.case import CaseFormula
+from lagcli.studies.extremes.condition import mass_condition
+from lagcli.studies.extremes.digits import DIGITS, losses
+from lagcli.studies.extremes.formulas import printed_formulas
+from lagcli.studies.extremes.scene import ExtremeScene, with_all_values
 
 
 def problem(text):

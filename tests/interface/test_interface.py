@@ -170,7 +170,7 @@ def test_an_explanation_and_a_check():
 
 
 def test_functions_are_not_hidden_by_modules_of_their_names():
-    code = "import lagcli.check, lagcli.problem, lagcli; lagcli.load; assert callable(lagcli.check) and callable(lagcli.problem)"
+    code = "import lagcli.studies.check, lagcli.studies.sweep, lagcli; lagcli.load; assert callable(lagcli.check) and callable(lagcli.problem)"
     subprocess.run([sys.executable, "-c", code], check=True)
 
 

@@ -15,10 +15,6 @@ from typing import NamedTuple
 
 import pytest
 
-from lagcli.check.expectations import sections_expected
-from lagcli.check.initial import initial_mistakes
-from lagcli.check.laws import SECTIONS as LAWS
-from lagcli.check.one import compared
 from lagcli.formatters import explaining
 from lagcli.formatters.display_width import display_width
 from lagcli.formatters.json import to_object
@@ -26,10 +22,14 @@ from lagcli.formatters.latex import render
 from lagcli.formatters.options import Options
 from lagcli.mechanics.derivation import Derivation
 from lagcli.pipeline import Request, derive, explain, load, state
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.statements.answers import Answers
 from lagcli.statements.registry import built_in
+from lagcli.studies.check.expectations import sections_expected
+from lagcli.studies.check.initial import initial_mistakes
+from lagcli.studies.check.laws import SECTIONS as LAWS
+from lagcli.studies.check.one import compared
 from tests.formatters.test_latex import compiled, needs_latex
 from tests.oracle.examine import examine
 

@@ -5,11 +5,11 @@ from pathlib import Path
 import pytest
 
 from lagcli import load
-from lagcli.check.trajectory import TrajectoryCheck
 from lagcli.decimals import value_of
 from lagcli.expression import operation_count
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.pipeline import solve
+from lagcli.studies.check.trajectory import TrajectoryCheck
 
 from .running import last, simulated
 

@@ -20,7 +20,7 @@ from mpmath import mp, mpf
 
 from lagcli.formatters.json import to_object
 from lagcli.pipeline import load, solve
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.reader import parse_text
 from lagcli.record import replace
 

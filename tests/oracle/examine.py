@@ -13,7 +13,7 @@ from mpmath import mp, mpf
 
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import Expression
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.reader import parse_text
 
 from .evaluate import Moment, OutsideDomain, evaluate

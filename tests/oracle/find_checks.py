@@ -9,7 +9,7 @@ from random import Random
 from mpmath import mp, mpf
 
 from lagcli.expression import Expression, Name, walk
-from lagcli.problem import Lasting, Reaching, Rewrite, Where
+from lagcli.problem_data import Lasting, Reaching, Rewrite, Where
 
 from .evaluate import Moment, OutsideDomain, evaluate
 from .examine import AGREEMENT, Examination, agree, with_momenta

@@ -25,7 +25,7 @@ from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.reader.columns import usual_columns
 from lagcli.record import replace
 from lagcli.statements.answers import Equilibrium

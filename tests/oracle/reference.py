@@ -14,7 +14,7 @@ from dataclasses import replace
 from mpmath import mpf
 
 from lagcli.expression import Expression, Name, walk
-from lagcli.problem import Constraint, Problem
+from lagcli.problem_data import Constraint, Problem
 
 from .evaluate import Moment, Setting, evaluate
 from .functions import StandIn

@@ -8,7 +8,7 @@ from random import Random
 
 from mpmath import mpf
 
-from lagcli.problem import Coordinate, Parameter, Problem
+from lagcli.problem_data import Coordinate, Parameter, Problem
 
 from .evaluate import Moment
 from .jets import Number, OutsideDomain, real_part

@@ -12,7 +12,7 @@ import pytest
 from mpmath import mp
 
 from lagcli.pipeline import load
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.reader import parse_text
 
 from .constancy import digits_kept, discovered, kept_at

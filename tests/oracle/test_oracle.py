@@ -14,7 +14,7 @@ from mpmath import mp, mpf
 
 from lagcli.formatters.json import to_object
 from lagcli.pipeline import load, solve
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from tests.library.test_library import EXAMINED as SECTIONS
 from tests.library.test_library import LIBRARY
 

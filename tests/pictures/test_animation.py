@@ -15,7 +15,7 @@ from lagcli.pictures.drawing import CannotDraw
 from lagcli.pictures.page import to_html
 from lagcli.pictures.scene import scene
 from lagcli.pipeline import load
-from lagcli.problem import Scenery
+from lagcli.problem_data import Scenery
 from lagcli.record import replace
 from tests.pictures.problems import problem_of
 

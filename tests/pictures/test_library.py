@@ -15,7 +15,7 @@ from lagcli.pictures.page import to_html
 from lagcli.pictures.scene import scene
 from lagcli.pictures.terminal import Terminal, to_text
 from lagcli.pipeline import load, with_lagrangian
-from lagcli.problem import METHODS
+from lagcli.problem_data import METHODS
 from lagcli.reader.columns import usual_columns
 
 KINDS = ("series", "phase", "path", "potential", "poincare", "drift", "error")

@@ -112,7 +112,7 @@ def test_a_member_that_cannot_be_run_is_a_row_without_numbers(address, tmp_path,
     ],
 )
 def test_without_a_scheduler_one_sentence_and_no_file(there, said, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(import_module("lagcli.sweep.workers"), "_ANSWERS", 1)
+    monkeypatch.setattr(import_module("lagcli.studies.sweep.workers"), "_ANSWERS", 1)
     path = tmp_path / "out.csv"
     address = there.format(port=free_port())
     assert run([*SWEEP, "-o", str(path), "--scheduler", address]) == 2

@@ -17,8 +17,8 @@ import pytest
 
 import lagcli
 from lagcli.cli.run import run
-from lagcli.sweep import WrongPlan, plan_of
-from lagcli.sweep.journal import Journal
+from lagcli.studies.sweep import WrongPlan, plan_of
+from lagcli.studies.sweep.journal import Journal
 
 
 def table(*arguments, capture):

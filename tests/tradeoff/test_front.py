@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lagcli.tradeoff.front import COSTS, RunPoint, cheapest, front, verdict
+from lagcli.studies.tradeoff.front import COSTS, RunPoint, cheapest, front, verdict
 
 TOTAL = COSTS["total"]
 

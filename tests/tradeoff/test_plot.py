@@ -7,11 +7,11 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from lagcli.record import replace
-from lagcli.tradeoff.front import RunPoint
-from lagcli.tradeoff.plot import to_svg
-from lagcli.tradeoff.reference import ReferenceMotion, difference
-from lagcli.tradeoff.study import Study
-from lagcli.tradeoff.writing import to_csv, to_json, to_text
+from lagcli.studies.tradeoff.front import RunPoint
+from lagcli.studies.tradeoff.plot import to_svg
+from lagcli.studies.tradeoff.reference import ReferenceMotion, difference
+from lagcli.studies.tradeoff.study import Study
+from lagcli.studies.tradeoff.writing import to_csv, to_json, to_text
 
 SVG = "{http://www.w3.org/2000/svg}"
 POINTS = tuple(

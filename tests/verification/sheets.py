@@ -8,7 +8,7 @@ from pathlib import Path
 from lagcli.expression import Expression, Number, Product, Sum
 from lagcli.pipeline import _statements as statements
 from lagcli.pipeline import derive, load
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.rewriting import rewritten
 from lagcli.statements.answers import Answers

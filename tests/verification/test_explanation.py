@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from lagcli.pipeline import derive, explain, load
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.statements.answers import Answers
 from lagcli.statements.explanation import Explanation

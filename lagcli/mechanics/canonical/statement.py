@@ -15,7 +15,7 @@ from lagcli.expression import Expression, Name, walk
 from lagcli.mechanics.canonical.poisson import poisson, rate
 from lagcli.mechanics.canonical.transformation import CanonicalTest
 from lagcli.mechanics.derivation import Derivation
-from lagcli.problem import BracketQuestion, CanonicalKind, Problem
+from lagcli.problem_data import BracketQuestion, CanonicalKind, Problem
 from lagcli.statements.answers import Verification
 from lagcli.statements.phase_space import (
     BracketsSection,

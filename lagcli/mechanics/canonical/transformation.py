@@ -28,7 +28,7 @@ from lagcli.mechanics.canonical.inverse import candidates
 from lagcli.mechanics.canonical.poisson import poisson
 from lagcli.mechanics.phase_states import PhaseStates
 from lagcli.mechanics.system import System
-from lagcli.problem import CanonicalTransformation
+from lagcli.problem_data import CanonicalTransformation
 from lagcli.record import record
 from lagcli.statements.answers import Verification
 

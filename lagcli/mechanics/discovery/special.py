@@ -33,7 +33,7 @@ from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.spectrum import Exponent
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
-from lagcli.problem import Expect, Problem
+from lagcli.problem_data import Expect, Problem
 from lagcli.record import replace
 from lagcli.values import with_values_of
 

@@ -10,7 +10,7 @@ from lagcli.expression import ZERO, Expression, Name
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, listed, says, shows
 from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
-from lagcli.problem import Lasting, Question, Reaching, Rewrite, Where
+from lagcli.problem_data import Lasting, Question, Reaching, Rewrite, Where
 from lagcli.statements.answers import Section
 from lagcli.statements.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
 from lagcli.statements.wording import remark

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from lagcli.document import Equations, Formula, Label, Paragraph, Row
 from lagcli.expression import Expression, Name, Negative, Sum
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 
 Part = str | Formula
 

@@ -14,7 +14,7 @@ from lagcli.mechanics.finding.passing import Passing
 from lagcli.mechanics.finding.where import WhereSearch
 from lagcli.mechanics.noether import Noether
 from lagcli.platform.effort import Work
-from lagcli.problem import Lasting, Reaching, Rewrite
+from lagcli.problem_data import Lasting, Reaching, Rewrite
 from lagcli.statements.questions import Answer, FindSection, Rewritten
 
 

@@ -23,7 +23,7 @@ from lagcli.mechanics.finding.ranges import Bounds, Undecided, Values, ranges
 from lagcli.mechanics.finding.special_values import DIGITS, NoClosedForm, SpecialValues
 from lagcli.mechanics.finding.walk import Start, Walk
 from lagcli.mechanics.parameter_values import exact_values
-from lagcli.problem import Inequality, Lasting, Reaching
+from lagcli.problem_data import Inequality, Lasting, Reaching
 from lagcli.statements.questions import Range, Ranges
 
 _SMALL = mpf(10) ** -60

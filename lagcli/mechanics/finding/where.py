@@ -18,7 +18,7 @@ from lagcli.mechanics.finding.passing import Passage, Passing, admissible
 from lagcli.mechanics.finding.reach import real_value
 from lagcli.mechanics.finding.remarks import Remark, as_parts, in_words
 from lagcli.mechanics.parameter_values import admissible_values, exact_values
-from lagcli.problem import Where as WhereQuestion
+from lagcli.problem_data import Where as WhereQuestion
 from lagcli.statements.questions import Solutions
 
 _CHOICES = 24  # of parameter values, where the file gives none

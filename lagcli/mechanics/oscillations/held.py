@@ -31,7 +31,7 @@ from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.reduction.minimal import with_lagrangian
 from lagcli.mechanics.stability.signs import sign_of, weak_sign
-from lagcli.problem import Constraint, pushing_sign
+from lagcli.problem_data import Constraint, pushing_sign
 from lagcli.record import record, replace
 
 _MOST_CONTACTS = 4

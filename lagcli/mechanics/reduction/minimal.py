@@ -20,7 +20,7 @@ from lagcli.algebra import shape, simplify
 from lagcli.algebra.build import free_of
 from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.derivation import Derivation
-from lagcli.problem import Constraint, Parameter, Problem
+from lagcli.problem_data import Constraint, Parameter, Problem
 
 
 def minimal(derivation: Derivation, *, rolling: bool = False) -> Derivation:

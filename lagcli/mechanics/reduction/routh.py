@@ -30,7 +30,7 @@ from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.legendre import Inverse, LegendreTransform
 from lagcli.mechanics.reduction.minimal import minimal, with_lagrangian
 from lagcli.mechanics.system import System
-from lagcli.problem import Constraint, Parameter
+from lagcli.problem_data import Constraint, Parameter
 
 #: Why there is no reduced system where the momenta are all that there is.
 ALL_CYCLIC = "every coordinate is cyclic"

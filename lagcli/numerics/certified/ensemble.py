@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lagcli.numerics.certified.simulate import Simulation, simulate
 from lagcli.numerics.hybrid.request import Asked, Result
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 
 
 class Ensemble:

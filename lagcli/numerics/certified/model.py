@@ -27,7 +27,7 @@ from lagcli.numerics.equations.reduced_model import MOST, Reduction, cut
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.numerics.hybrid.request import Asked
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.statements.answers import ModelSection
 
 #: States at which it is seen whether L depends on a coordinate, and what counts as 0 there.

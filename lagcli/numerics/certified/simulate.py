@@ -27,7 +27,7 @@ from lagcli.numerics.hybrid.request import Asked, Result
 from lagcli.numerics.hybrid.setup import Progress, Setup
 from lagcli.numerics.integrators.dop853 import dop853
 from lagcli.numerics.integrators.steps import NotPossible
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import replace
 
 #: The clocks of two runs differ by less than this part of the span.

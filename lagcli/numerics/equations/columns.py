@@ -15,7 +15,7 @@ from lagcli.graph.nodes import Node, Symbol
 from lagcli.graph.substitution import Substitution
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.motion import Function, Motion
-from lagcli.problem import JACOBI_FUNCTION
+from lagcli.problem_data import JACOBI_FUNCTION
 from lagcli.record import record
 
 

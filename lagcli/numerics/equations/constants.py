@@ -11,7 +11,7 @@ from lagcli.numerics.equations.arithmetic import Arithmetic
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.straight_line import straight_line
-from lagcli.problem import Parameter
+from lagcli.problem_data import Parameter
 
 _ALLOWS: dict[str, Callable[[Any], bool]] = {
     "positive": lambda x: x > 0,

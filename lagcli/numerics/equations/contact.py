@@ -8,7 +8,7 @@ sides apart: (gap, force) >= 0 with gap * force = 0, Signorini's conditions.
 from __future__ import annotations
 
 from lagcli.expression import ZERO, Expression, Name
-from lagcli.problem import Constraint, Inequality, Problem, pushing_sign
+from lagcli.problem_data import Constraint, Inequality, Problem, pushing_sign
 from lagcli.record import record, replace
 
 

@@ -20,7 +20,7 @@ from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
 from lagcli.numerics.equations.elimination import Eliminated, Factored, TooLong
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.straight_line import Generated
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 
 _HALF = Fraction(1, 2)
 #: What is worked out of the constraints.

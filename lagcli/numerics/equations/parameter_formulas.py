@@ -10,7 +10,7 @@ from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.refusal import Refusal, told
 from lagcli.numerics.equations.straight_line import straight_line
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 
 
 def numbers_of(

@@ -27,7 +27,7 @@ from lagcli.numerics.equations.polynomial import real_roots
 from lagcli.numerics.equations.refusal import Refusal, told
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.numerics.equations.surface import Surface
-from lagcli.problem import Coordinate
+from lagcli.problem_data import Coordinate
 
 #: A given state may miss the constraints by so much, relative to their terms.
 _ON_SURFACE = 1e-12

@@ -20,7 +20,7 @@ from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.setup import Setup
-from lagcli.problem import Coordinate
+from lagcli.problem_data import Coordinate
 
 _ATTEMPTS, _ENOUGH = 40, 6
 _ZERO = 1e-9

@@ -13,7 +13,7 @@ from lagcli.numerics.equations.contact import one_sided, with_contacts
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked, Cut
-from lagcli.problem import Problem, charge_of
+from lagcli.problem_data import Problem, charge_of
 
 #: The intervals at which two runs are compared are at least so many.
 _COMPARED = 100

@@ -17,7 +17,7 @@ from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import refined_state
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.numerics.rigorous.enclosure import Enclosures, NotEnclosed
-from lagcli.problem import Problem
+from lagcli.problem_data import Problem
 from lagcli.record import record
 
 #: Bits of the first attempt and of the last.

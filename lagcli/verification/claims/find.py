@@ -12,7 +12,7 @@ from random import Random
 from flint import arb
 
 from lagcli.expression import Expression
-from lagcli.problem import Rewrite, Where
+from lagcli.problem_data import Rewrite, Where
 from lagcli.record import replace
 from lagcli.statements.answers import Charge, ChargesSection
 from lagcli.statements.questions import Answer, FindSection, Rewritten, Solutions

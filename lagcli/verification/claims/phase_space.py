@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 from flint import arb
 
 from lagcli.expression import Expression, Name, walk
-from lagcli.problem import JACOBI_FUNCTION, CanonicalTransformation, Problem, charge_of
+from lagcli.problem_data import JACOBI_FUNCTION, CanonicalTransformation, Problem, charge_of
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt
 from lagcli.statements.phase_space import (

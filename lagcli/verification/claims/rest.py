@@ -8,7 +8,7 @@ from flint import arb
 
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
-from lagcli.problem import Constraint
+from lagcli.problem_data import Constraint
 from lagcli.record import replace
 from lagcli.statements.motions import Above
 from lagcli.verification.claims.near import NOTHING, LinearMotion

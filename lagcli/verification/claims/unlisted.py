@@ -16,7 +16,7 @@ from random import Random
 
 from flint import arb, ctx
 
-from lagcli.problem import Inequality
+from lagcli.problem_data import Inequality
 from lagcli.verification.claims.near import LinearMotion, eigenvalues
 from lagcli.verification.claims.rest import RestPlace
 from lagcli.verification.examination import PRECISIONS, Examination

@@ -1,0 +1,1 @@
+"""Studies of many problems or many runs."""

@@ -1,0 +1,293 @@
+"""The extremes of one problem, each a problem of its own."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+
+from lagcli.expression import Expression, Name, Negative, Number, Product, Quotient, Sum
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.problem_data import Problem
+from lagcli.record import replace
+from lagcli.studies.extremes.case import Case
+from lagcli.studies.extremes.roles import (
+    Angle,
+    alike,
+    angles_of,
+    light_speeds,
+    singular_positions,
+    unstable_rest,
+    used,
+)
+from lagcli.studies.extremes.scene import ExtremeScene, Vector, number
+
+_RATIO = Fraction(10) ** 12
+_BESIDE = Fraction(1, 10**9)
+_CLOSE = Fraction(1, 10**12)
+_LONG = 100.0
+_PI = Name("pi")
+
+#: Targets of an angle: as halves of pi, and from which side.
+_TARGETS = ((0, 1), (1, -1), (2, -1))
+
+
+def cases_of(scene: ExtremeScene) -> list[Case]:
+    """All of them, in the order of `KINDS`, no state twice."""
+    found = [
+        Case(kind="given", name="as given", problem=_with_state(scene)),
+        *_ratios(scene),
+        *_singular(scene),
+        *_angles(scene),
+        *_separatrix(scene),
+        *_light(scene),
+        *_zero(scene),
+        Case(kind="spans", name=f"{_LONG:g} times as long", problem=_with_state(scene),
+             stretch=_LONG),
+    ]  # fmt: skip
+    known: dict[object, Case] = {}
+    for case in found:
+        state = tuple(sorted((str(name), str(x)) for name, x in case.problem.initial.items()))
+        values = tuple(sorted((name, str(x)) for name, x in case.parameters.items()))
+        known.setdefault((state, values, case.stretch), case)
+    return list(known.values())
+
+
+def _with_state(scene: ExtremeScene) -> Problem:
+    """The problem with its whole state given, as the file has it where it does."""
+    if scene.problem.initial:
+        return scene.problem
+    return replace(scene.problem, initial=scene.at(scene.q, scene.v))
+
+
+# -- parameters ----------------------------------------------------------------------------------
+
+
+def _ratios(scene: ExtremeScene) -> Iterator[Case]:
+    for group in alike(scene):
+        first, *others = group
+        for name in others:
+            for power in (12, -12):
+                value = Fraction(scene.value(name)) * Fraction(10) ** power
+                yield from _valued(
+                    scene, "ratios", f"{first}/{name} = 1e{power}", {first: number(value)}
+                )
+        if not others:
+            for power in (12, -12):
+                value = Fraction(scene.value(first)) * Fraction(10) ** power
+                yield from _valued(
+                    scene, "ratios", f"{first} times 1e{power}", {first: number(value)}
+                )
+
+
+def _zero(scene: ExtremeScene) -> Iterator[Case]:
+    for name in used(scene):
+        yield from _valued(scene, "zero", f"{name} = 0", {name: number(0)})
+
+
+def _valued(
+    scene: ExtremeScene, kind: str, name: str, values: Mapping[str, Expression]
+) -> Iterator[Case]:
+    """The problem with other values, its state on its constraints."""
+    parameters = tuple(
+        replace(p, value=values[p.name], assume=_allowing(p.assume, values[p.name]))
+        if p.name in values
+        else p
+        for p in scene.problem.parameters
+    )
+    problem = replace(scene.problem, parameters=parameters)
+    if not problem.initial:
+        try:
+            moved = ExtremeScene(problem, (scene.q, scene.v))
+            problem = replace(problem, initial=moved.at(moved.q, moved.v))
+        except Refusal:  # the trial finds the same, and says why
+            problem = replace(problem, initial=scene.at(scene.q, scene.v))
+    yield Case(kind=kind, name=name, problem=problem, parameters=values)
+
+
+def _allowing(assume: str, value: Expression) -> str:
+    """An assumption that leaves room for 0."""
+    if isinstance(value, Number) and not value.value:
+        return "real"
+    return assume
+
+
+# -- states --------------------------------------------------------------------------------------
+
+
+def _stated(
+    scene: ExtremeScene,
+    kind: str,
+    name: str,
+    q: Sequence[float],
+    v: Sequence[float],
+    exact: Mapping[Name, Expression],
+) -> Iterator[Case]:
+    """The state with some coordinates as they are given, the others on the constraints."""
+    names = [c.name for c in scene.problem.coordinates]
+    fixed = {names.index(one.name) for one in exact}
+    found = scene.settled(q, v, fixed)
+    if found is not None:
+        initial = scene.at(*found, exact)
+        problem = replace(scene.problem, initial=initial)
+        shown = {one: initial[one] for one in exact}
+        yield Case(kind=kind, name=name, problem=problem, initial=shown)
+
+
+def _angles(scene: ExtremeScene) -> Iterator[Case]:
+    names = [c.name for c in scene.problem.coordinates]
+    for angle in angles_of(scene):
+        for halves, side in _TARGETS:
+            yield from _at_angle(scene, names, angle, halves, side)
+
+
+def _at_angle(
+    scene: ExtremeScene, names: Sequence[str], angle: Angle, halves: int, side: int
+) -> Iterator[Case]:
+    """One term of the argument moved so that its sum is beside a multiple of pi/2."""
+    moved = next(((n, k) for n, k in angle.factors if n in names), angle.factors[0])
+    name, factor = moved
+    rest = [(n, k) for n, k in angle.factors if n != name]
+    target = _beside(halves, side)
+    told = f"{_combined(angle)} = {_told(halves, side)}"
+    if not rest and factor == 1 and not angle.constant:
+        exact, value = target, math.pi / 2 * halves + side * float(_BESIDE)
+    else:
+        others = sum(float(k) * _value(scene, names, n) for n, k in rest) + float(angle.constant)
+        value = (math.pi / 2 * halves + side * float(_BESIDE) - others) / float(factor)
+        exact = number(value)
+    if name in names:
+        q = list(scene.q)
+        q[names.index(name)] = value
+        yield from _stated(scene, "angles", told, q, scene.v, {Name(name): exact})
+    else:
+        yield from _valued(scene, "angles", told, {name: exact})
+
+
+def _value(scene: ExtremeScene, names: Sequence[str], name: str) -> float:
+    return scene.q[names.index(name)] if name in names else scene.value(name)
+
+
+def _beside(halves: int, side: int) -> Expression:
+    """k pi/2 + 1e-9."""
+    small: Expression = Number(_BESIDE, decimal=True)
+    if not halves:
+        return small if side > 0 else Negative(small)
+    whole: Expression = _PI if halves == 2 else Quotient(_PI, Number(Fraction(2)))
+    return Sum((whole, small if side > 0 else Negative(small)))
+
+
+def _told(halves: int, side: int) -> str:
+    sign = "+" if side > 0 else "-"
+    return f"{('', 'pi/2', 'pi')[halves]} {sign} 1e-9" if halves else f"{'-' * (side < 0)}1e-9"
+
+
+def _combined(angle: Angle) -> str:
+    text = ""
+    for name, k in angle.factors:
+        sign = " - " if k < 0 else " + "
+        size = "" if abs(k) == 1 else f"{abs(k)}*"
+        text += f"{sign if text else '-' * (k < 0)}{size}{name}"
+    if angle.constant:
+        text += f" {'-' if angle.constant < 0 else '+'} {abs(angle.constant)}"
+    return text
+
+
+def _singular(scene: ExtremeScene) -> Iterator[Case]:
+    names = [c.name for c in scene.problem.coordinates]
+    for root in singular_positions(scene):
+        name = names[root.coordinate]
+        place = number(root.value) if root.twelfths is None else _twelfths(root.twelfths)
+        for beside in (Fraction(0), _BESIDE):
+            q = list(scene.q)
+            q[root.coordinate] = root.value + float(beside)
+            exact = place
+            if beside:
+                small = Number(beside, decimal=True)
+                exact = small if root.twelfths == 0 else Sum((place, small))
+            shown = f"{root.value:.10g}" if root.twelfths is None else _angle_text(root.twelfths)
+            told = "1e-9" if beside and shown == "0" else shown + " + 1e-9" * bool(beside)
+            yield from _stated(
+                scene, "singular", f"{name} = {told}", q, scene.v, {Name(name): exact}
+            )
+
+
+def _twelfths(k: int) -> Expression:
+    share = Fraction(abs(k), 12)
+    if not share:
+        return number(0)
+    above: Expression = _PI
+    if share.numerator != 1:
+        above = Product((Number(Fraction(share.numerator)), _PI))
+    whole = above
+    if share.denominator != 1:
+        whole = Quotient(above, Number(Fraction(share.denominator)))
+    return Negative(whole) if k < 0 else whole
+
+
+def _angle_text(k: int) -> str:
+    share = Fraction(abs(k), 12)
+    if not share:
+        return "0"
+    above = "pi" if share.numerator == 1 else f"{share.numerator}*pi"
+    below = "" if share.denominator == 1 else f"/{share.denominator}"
+    return f"{'-' * (k < 0)}{above}{below}"
+
+
+def _separatrix(scene: ExtremeScene) -> Iterator[Case]:
+    """At rest 1e-9 near an unstable equilibrium, and with its energy but for 1e-12."""
+    names = [c.name for c in scene.problem.coordinates]
+    e = scene.equations
+    energy = scene.motion.function([e.energy])
+    zero = [0.0] * scene.n
+    for rest, direction, _ in unstable_rest(scene):
+        where = ", ".join(f"{n} = {_place(x)}" for n, x in zip(names, rest, strict=True))
+        most = max(range(scene.n), key=lambda j: abs(direction[j]))
+        q = [x + float(_BESIDE) * d / abs(direction[most])
+             for x, d in zip(rest, direction, strict=True)]  # fmt: skip
+        yield from _stated(scene, "separatrix", f"at rest 1e-9 away from {where}", q, zero, {})
+        top = float(energy(0.0, *rest, *zero)[0])
+        for side in (-1, 1):
+            v = _velocity(scene, top, side)
+            if v is not None:
+                told = f"E = E({where}) {'-+'[side > 0]} 1e-12"
+                yield from _stated(scene, "separatrix", told, scene.q, v, {})
+
+
+def _velocity(scene: ExtremeScene, top: float, side: int) -> Vector | None:
+    """The velocity at the usual place with the energy wanted, in the direction of the file's."""
+    energy = scene.motion.function([scene.equations.energy])
+    zero = [0.0] * scene.n
+    below = float(energy(0.0, *scene.q, *zero)[0])
+    barrier = top - below
+    direction = scene.v if any(scene.v) else [1.0] + [0.0] * (scene.n - 1)
+    if not barrier > 0:
+        return None
+    kinetic = float(energy(0.0, *scene.q, *direction)[0]) - below
+    if not kinetic > 0:
+        return None
+    factor = math.sqrt(barrier * (1 + side * float(_CLOSE)) / kinetic)
+    v = [factor * x for x in direction]
+    found = float(energy(0.0, *scene.q, *v)[0]) - below
+    return v if abs(found - barrier) < 1e-6 * barrier else None
+
+
+def _place(x: float) -> str:
+    twelfths = round(x * 12 / math.pi)
+    return _angle_text(twelfths) if abs(x - twelfths * math.pi / 12) < 1e-9 else f"{x:.6g}"
+
+
+def _light(scene: ExtremeScene) -> Iterator[Case]:
+    """v = c, v = c (1 - 1e-12) and v = 1e-9 c."""
+    names = [c.name for c in scene.problem.coordinates]
+    for direction, factor in light_speeds(scene):
+        moving = [j for j, x in enumerate(direction) if x]
+        told = " and ".join(f"{names[j]}'" for j in moving)
+        for share, text in (
+            (1 - _CLOSE, "(1 - 1e-12) times"),
+            (_BESIDE, "1e-9 times"),
+            (Fraction(1), "at"),
+        ):
+            v = [float(Fraction(factor * x) * share) for x in direction]
+            exact = {Name(names[j], 1): number(v[j]) for j in moving}
+            yield from _stated(scene, "light", f"{told} {text} the limit", scene.q, v, exact)

@@ -1,0 +1,133 @@
+"""All cases of a problem, one after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fnmatch import fnmatchcase
+
+from lagcli.problem_data import Problem
+from lagcli.record import record
+from lagcli.studies.extremes.case import BAD, KINDS, Case, CaseFormula, Trial
+from lagcli.studies.extremes.cases import cases_of
+from lagcli.studies.extremes.scene import ExtremeScene, with_all_values
+from lagcli.studies.extremes.trial import Wanted
+from lagcli.studies.extremes.workers import Bench
+
+#: Seconds for the formulas that `solve` prints.
+_SOLVING = 60.0
+
+#: Told before each case: how many are done, of how many.
+Progress = Callable[[int, int], None]
+
+
+@record(kw_only=True)
+class ExtremesStudy:
+    """What came of it.
+
+    Attributes
+    ----------
+    name
+        Of the problem.
+    formulas
+        Those that `solve` prints.
+    trials : tuple of (Case, Trial)
+        In the order of the cases.
+    wanted
+        What was asked of each.
+    notes
+        What is to be known of all of them.
+    """
+
+    name: str
+    formulas: tuple[CaseFormula, ...]
+    trials: tuple[tuple[Case, Trial], ...]
+    wanted: Wanted
+    notes: tuple[str, ...] = ()
+
+    @property
+    def bad(self) -> int:
+        """How many are neither right nor refused."""
+        return sum(trial.verdict in BAD for _, trial in self.trials)
+
+
+class NoSuchCase(Exception):
+    """A word of `--cases` that fits none."""
+
+    def __init__(self, word: str, known: Sequence[str]) -> None:
+        super().__init__(word)
+        self.word, self.known = word, known
+
+
+def study(
+    problem: Problem,
+    wanted: Wanted,
+    words: Sequence[str] = (),
+    progress: Progress | None = None,
+) -> ExtremesStudy:
+    """Make the cases and put each to the test.
+
+    Parameters
+    ----------
+    problem
+        As it is read; parameters without a value get one that is not special.
+    wanted
+        What is asked of each case.
+    words
+        Kinds, or patterns of names; all cases without it.
+    progress
+        Told of each case.
+
+    Raises
+    ------
+    Refusal
+        When there are no numbers for the problem.
+    NoSuchCase
+        When a word fits no case.
+    """
+    problem, missing = with_all_values(problem)
+    values = ", ".join(f"{name} = {float(value):g}" for name, value in missing.items())
+    notes = [f"without a value, taken as {values}"] if missing else []
+    scene = ExtremeScene(problem)
+    if not problem.initial:
+        notes.append("without an initial state: one in which nothing is special is taken")
+    cases = chosen(cases_of(scene), words)
+    bench = Bench()
+    trials: list[tuple[Case, Trial]] = []
+    try:
+        formulas, why = bench.formulas(problem, _SOLVING)
+        if why:
+            notes.append(f"no printed formulas: {why}")
+        found = bench.trials(cases, formulas, wanted)
+        for done, case in enumerate(cases):
+            if progress is not None:
+                progress(done, len(cases))
+            trials.append((case, next(found)))
+    finally:
+        bench.stop()
+    return ExtremesStudy(
+        name=problem.source.name,
+        formulas=formulas,
+        trials=tuple(trials),
+        wanted=wanted,
+        notes=tuple(notes),
+    )
+
+
+def chosen(cases: Sequence[Case], words: Sequence[str]) -> list[Case]:
+    """Those of a kind, or whose name fits a pattern.
+
+    Raises
+    ------
+    NoSuchCase
+        When a word fits none.
+    """
+    if not words:
+        return list(cases)
+    for word in words:
+        if word not in KINDS and not any(fnmatchcase(case.name, word) for case in cases):
+            raise NoSuchCase(word, [*KINDS, *(case.name for case in cases)])
+    return [
+        case
+        for case in cases
+        if case.kind in words or any(fnmatchcase(case.name, word) for word in words)
+    ]

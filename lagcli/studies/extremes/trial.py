@@ -1,0 +1,232 @@
+"""One case put to the test: what its formulas lose, and whether a run is right or refuses."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from decimal import Decimal
+from time import process_time
+
+from lagcli.numerics.certified.precise import precision
+from lagcli.numerics.certified.simulate import simulate
+from lagcli.numerics.equations.arithmetic import Balls
+from lagcli.numerics.equations.columns import Column
+from lagcli.numerics.equations.jacobian import jacobian
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.hybrid.request import Asked, Result
+from lagcli.reader.columns import usual_columns
+from lagcli.record import record, replace
+from lagcli.studies.extremes.case import Case, CaseFormula, Loss, Trial, Verdict
+from lagcli.studies.extremes.condition import mass_condition
+from lagcli.studies.extremes.digits import digits_between, losses
+from lagcli.studies.extremes.roles import angles_of
+from lagcli.studies.extremes.scene import ExtremeScene
+from lagcli.studies.tradeoff.reference import Rows, difference, precise_rows, reference
+from lagcli.studies.tradeoff.trial import LimitReached
+
+#: Times of the fastest change at the start that a short run takes.
+_TIMES = 10.0
+_SAMPLES = 11
+_PRECISE = 60
+#: Of the run that confirms a claim: it must be right to the accuracy only.
+_DIGITS = 24
+#: A reference may take this part of the time that a case has.
+_SHARE = 0.25
+#: A run that takes too long is made so many times shorter, so often.
+_SHORTER, _ATTEMPTS = 100.0, 3
+
+
+@record(kw_only=True)
+class Wanted:
+    """What is asked of every case.
+
+    Attributes
+    ----------
+    until
+        The longest span; None where the file has none: then the motion's own times.
+    accuracy
+        That of the runs.
+    limit
+        Seconds of processor time for each case.
+    """
+
+    until: float | None
+    accuracy: float
+    limit: float
+
+
+def trial(case: Case, formulas: Sequence[CaseFormula], wanted: Wanted) -> Trial:
+    """Everything that is to be known of a case.
+
+    Parameters
+    ----------
+    case
+        The problem with its values.
+    formulas
+        Those that `solve` prints of it.
+    wanted
+        Span, accuracy, time.
+    """
+    begun = process_time()
+    try:
+        scene = ExtremeScene(case.problem)
+    except Refusal as refusal:
+        return Trial(verdict="refused", reason=str(refusal))
+    measured = Trial(
+        verdict="undecided",
+        losses=_losses(scene, formulas),
+        run_loss=_run_loss(scene),
+        condition=mass_condition(scene),
+        accuracy=wanted.accuracy,
+    )
+    until = _span(scene, wanted.until) * case.stretch
+    found = _moved(case, replace(measured, until=until), begun + wanted.limit, wanted)
+    return replace(found, seconds=process_time() - begun)
+
+
+def _values(scene: ExtremeScene) -> dict[str, float]:
+    names = [c.name for c in scene.problem.coordinates]
+    values = {symbol.name: x for symbol, x in scene.constants.items()}
+    values |= dict(zip(names, scene.q, strict=True))
+    return values | {f"{n}'": x for n, x in zip(names, scene.v, strict=True)} | {"t": 0.0}
+
+
+def _losses(scene: ExtremeScene, formulas: Sequence[CaseFormula]) -> tuple[Loss, ...]:
+    return losses(formulas, _values(scene))
+
+
+def _run_loss(scene: ExtremeScene) -> float | None:
+    """Digits lost by the accelerations as a run works them out; None where there are none."""
+    state = (0.0, *scene.q, *scene.v)
+    try:
+        found = scene.motion.accelerations(*state)
+        with precision(_PRECISE):
+            arithmetic = Balls()
+            constants = {symbol: arithmetic.ball(x) for symbol, x in scene.constants.items()}
+            motion = Motion(scene.equations, constants, arithmetic)
+            exact = [
+                arithmetic.ball(x)
+                for x in motion.accelerations(*(arithmetic.ball(x) for x in state))
+            ]
+    except (ArithmeticError, ValueError, Refusal):
+        return None
+    if not all(x.is_finite() for x in exact):
+        return None
+    return max(digits_between(float(a), b) for a, b in zip(found, exact, strict=True))
+
+
+def _span(scene: ExtremeScene, longest: float | None) -> float:
+    """Some 10 times in which the motion changes at the start, and no more than asked."""
+    rate = 0.0
+    state = (0.0, *scene.q, *scene.v)
+    with suppress(ArithmeticError, ValueError, Refusal):
+        rate = max(_rates(scene, state))
+    own = _TIMES / rate if 0 < rate < math.inf else math.inf
+    if longest is not None:
+        return min(longest, own)
+    return own if own < math.inf else 1.0
+
+
+def _rates(scene: ExtremeScene, state: Sequence[float]) -> Iterator[float]:
+    """1/time: of the linear equations, and of the path that is begun.
+
+    sqrt(|df_i/dq_j df_j/dq_i|) and their like do not depend on the units of coordinates.
+    """
+    n = scene.n
+    by_q, by_v = jacobian(scene.motion)(*state)
+    for i in range(n):
+        for j in range(n):
+            yield abs(by_q[i][j] * by_q[j][i]) ** 0.25
+            yield abs(by_v[i][j] * by_v[j][i]) ** 0.5
+    turning = {name for angle in angles_of(scene) for name, _ in angle.factors}
+    is_angle = [symbol.name in turning for symbol in scene.equations.q]
+    longest = max(
+        (abs(x) for x, turns in zip(scene.q, is_angle, strict=True) if not turns), default=0
+    )
+    found = scene.motion.accelerations(*state)
+    for x, v, a, turns in zip(scene.q, scene.v, found, is_angle, strict=True):
+        size = 1.0 if turns else max(abs(x), longest)
+        if size:
+            yield math.sqrt(abs(a) / size)
+            yield abs(v) / size
+
+
+# -- the run -------------------------------------------------------------------------------------
+
+
+def _moved(case: Case, measured: Trial, end: float, wanted: Wanted) -> Trial:
+    """The same with what came of a certified run, over a shorter span where it takes too long."""
+    assert measured.until is not None
+    asked = Asked(
+        until=measured.until,
+        accuracy=wanted.accuracy,
+        samples=_SAMPLES,
+        columns=tuple(Column(*column) for column in usual_columns(case.problem)),
+        project=bool(case.problem.constraints),
+        furthest=False,
+    )
+    for attempt in range(_ATTEMPTS):
+        now = process_time()
+        last = now + (end - now) * _SHARE if attempt < _ATTEMPTS - 1 else end
+        try:
+            return _run(case, asked, measured, last, wanted)
+        except LimitReached:
+            asked = replace(asked, until=asked.until / _SHORTER)
+            told = f"only until t = {asked.until:.3g}: {measured.until:.3g} takes too long"
+            measured = replace(measured, reason=told)
+    told = f"it takes more than {wanted.limit:g} s, until t = {asked.until * _SHORTER:.3g} too"
+    return replace(measured, reason=told)
+
+
+def _run(case: Case, asked: Asked, measured: Trial, end: float, wanted: Wanted) -> Trial:
+    def ticked(_: float) -> None:
+        if process_time() > end:
+            raise LimitReached
+
+    try:
+        result = simulate(case.problem, asked, ticked)
+    except Refusal as refusal:
+        return replace(measured, verdict="refused", reason=str(refusal), accuracy=None)
+    held = result.certificate
+    known = replace(
+        measured,
+        method=result.method,
+        drift=max(held.charges.values(), default=None),
+        holds_until=held.holds_until,
+    )
+    error, bound = _error(case, asked, result, _SHARE * wanted.limit)
+    if error is not None and error > wanted.accuracy + bound:
+        told = f"it claims {wanted.accuracy:g} and errs by {error:.1e}"
+        return replace(known, verdict="wrong", reason=told, error=error)
+    if not held.reached:
+        return replace(known, verdict="refused", reason=result.refusal, error=error)
+    verdict: Verdict = "claimed" if error is None or bound > wanted.accuracy else "right"
+    return replace(known, verdict=verdict, error=error)
+
+
+def _error(case: Case, asked: Asked, result: Result, limit: float) -> tuple[float | None, float]:
+    """The true error of the rows that are claimed, and how well it is known."""
+    regular = {asked.until * k / (asked.samples - 1) for k in range(asked.samples)}
+    rows = [row for row in result.rows if row[0] in regular or row is result.rows[-1]]
+    rows = [row for row in rows if row[0] is not None and _is_before_events(row[0], result)]
+    times = tuple(row[0] for row in rows if row[0] is not None)
+    if len(times) < 2 or any(x is None for row in rows for x in row):
+        return None, math.inf
+    same = replace(asked, until=times[-1], times=times, samples=len(times))
+    found: Rows = tuple(tuple(Decimal(x) for x in row if x is not None) for row in rows)
+    try:
+        near = precise_rows(case.problem, same, _DIGITS, limit)
+        scales = result.certificate.scales
+        if near is not None and (error := difference(near, found, scales)) <= asked.accuracy:
+            return error, 0.0
+        known = reference(case.problem, same, limit)
+    except (Refusal, LimitReached):
+        return None, math.inf
+    return difference(known.rows, found, scales), known.bound
+
+
+def _is_before_events(t: float, result: Result) -> bool:
+    """Rows beside an event are shown twice, and by its own time."""
+    return all(event.what == "singularity" or t < event.t for event in result.events)

@@ -1,0 +1,263 @@
+"""The study as text, JSON and CSV."""
+
+from __future__ import annotations
+
+import json
+import textwrap
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from lagcli.formatters.grammar import to_grammar
+from lagcli.record import record
+from lagcli.studies.extremes.case import GROUPS, KINDS, Case, CaseFormula, Group, Loss, Trial
+from lagcli.studies.extremes.study import ExtremesStudy
+
+_WIDTH = 80
+_NAME = 25
+_HEAD = ("case", "cond", "acc.", "run", "mult.", "charges", "drift", "outcome")
+#: The last column is aligned to the left.
+_WIDTHS = (_NAME, 5, 8, 4, 8, 8, 6, 9)
+#: A rewriting that gains fewer digits is not told of.
+_WORTH = 1.0
+_COLUMNS = (
+    "kind", "case", "outcome", "condition", "accelerations", "accelerations_rewritten",
+    "accelerations_in_a_run", "multipliers", "multipliers_rewritten", "charges",
+    "charges_rewritten", "drift", "until", "holds_until", "accuracy", "error", "method",
+    "seconds", "reason",
+)  # fmt: skip
+
+
+@record
+class Gain:
+    """A formula, and the case in which rewriting it gains most."""
+
+    formula: CaseFormula
+    case: str
+    loss: Loss
+
+    @property
+    def digits(self) -> float:
+        """How many are gained."""
+        return (self.loss.printed or 0.0) - (self.loss.rewritten or 0.0)
+
+
+def worst(trial: Trial, group: Group) -> tuple[float, float] | None:
+    """The most digits that a formula of the group loses, as printed and rewritten."""
+    found = [x for x in trial.losses if x.group == group and x.printed is not None]
+    if not found:
+        return None
+    return max(x.printed or 0.0 for x in found), max(x.rewritten or 0.0 for x in found)
+
+
+def gains(study: ExtremesStudy) -> list[Gain]:
+    """The formulas that are better rewritten, the best gain of each."""
+    found: list[Gain] = []
+    for place, formula in enumerate(study.formulas):
+        every = [
+            Gain(formula, case.name, trial.losses[place])
+            for case, trial in study.trials
+            if trial.losses
+        ]
+        best = max(every, key=lambda gain: gain.digits, default=None)
+        if best is not None and best.digits >= _WORTH:
+            found.append(best)
+    return found
+
+
+# -- text ----------------------------------------------------------------------------------------
+
+
+def to_text(study: ExtremesStudy) -> str:
+    """A table of at most 80 columns, then reasons and rewritten formulas."""
+    lines = [f"{study.name}: its extremes, to the accuracy {study.wanted.accuracy:g}"]
+    lines += [line for note in study.notes for line in textwrap.wrap(note, _WIDTH)]
+    lines += ["", _row(_HEAD)]
+    kind = ""
+    for case, trial in study.trials:
+        if case.kind != kind:
+            kind = case.kind
+            lines.append(f"{kind}: {KINDS[kind]}")
+        lines += _case(case, trial)
+    lines += ["", *_legend()]
+    lines += _told(study)
+    lines += _gains(study)
+    count = {
+        verdict: sum(t.verdict == verdict for _, t in study.trials)
+        for verdict in ("right", "claimed", "refused", "wrong", "undecided")
+    }
+    told = ", ".join(f"{n} {verdict}" for verdict, n in count.items() if n)
+    lines += ["", f"{len(study.trials)} case{'s' * (len(study.trials) != 1)}: {told}"]
+    return "".join(f"{line.rstrip()}\n" for line in lines)
+
+
+def _row(cells: Sequence[str]) -> str:
+    *first, last = (
+        cell.ljust(width) if k in {0, len(_WIDTHS) - 1} else cell.rjust(width)
+        for k, (cell, width) in enumerate(zip(cells, _WIDTHS, strict=True))
+    )
+    return " ".join([*first, last])
+
+
+def _case(case: Case, trial: Trial) -> Iterator[str]:
+    name = f"  {case.name}"
+    if len(name) > _NAME:
+        yield name
+        name = ""
+    accelerations, multipliers, charges = (_lost(worst(trial, group)) for group in GROUPS)
+    yield _row(
+        (
+            name,
+            _short(trial.condition),
+            accelerations,
+            "-" if trial.run_loss is None else _digits(trial.run_loss),
+            multipliers,
+            charges,
+            _short(trial.drift),
+            trial.verdict,
+        )
+    )
+
+
+def _lost(pair: tuple[float, float] | None) -> str:
+    if pair is None:
+        return "-"
+    printed, rewritten = map(_digits, pair)
+    return printed if printed == rewritten else f"{printed}>{rewritten}"
+
+
+def _digits(value: float) -> str:
+    return f"{value:.1f}" if value < 9.95 else f"{value:.0f}"
+
+
+def _short(value: float | None) -> str:
+    if value is None:
+        return "-"
+    return "0" if not value else f"{value:.0e}"
+
+
+def _legend() -> list[str]:
+    text = (
+        "cond: of the mass matrix, scaled. acc., mult., charges: decimal digits of 16 that the "
+        "printed formulas lose in doubles against 50 digits; 9.1>0.2: 9.1 as printed, 0.2 as "
+        "rewritten. run: those lost by the accelerations of a run. drift: of a charge over a "
+        "certified run. right: the claim was confirmed with more digits."
+    )
+    return textwrap.wrap(text, _WIDTH)
+
+
+def _told(study: ExtremesStudy) -> Iterator[str]:
+    told = [(case.name, trial.reason) for case, trial in study.trials if trial.reason]
+    if told:
+        yield ""
+    for name, reason in told:
+        yield from textwrap.wrap(f"{name}: {reason}", _WIDTH, subsequent_indent="  ")
+
+
+def _gains(study: ExtremesStudy) -> Iterator[str]:
+    found = gains(study)
+    if found:
+        yield ""
+        yield "Better written so:"
+    for gain in found:
+        printed, rewritten = (_digits(x or 0.0) for x in (gain.loss.printed, gain.loss.rewritten))
+        assert gain.formula.rewritten is not None
+        formula = f"  {gain.formula.name} = {to_grammar(gain.formula.rewritten)}"
+        yield from textwrap.wrap(formula, _WIDTH, subsequent_indent="      ")
+        yield f"    loses {rewritten} digits and not {printed} at {gain.case}"
+
+
+# -- for machines --------------------------------------------------------------------------------
+
+
+def to_json(study: ExtremesStudy) -> str:
+    """Everything; times in seconds of processor time, null where there is no number."""
+    document = {
+        "schema": 1,
+        "problem": study.name,
+        "accuracy": study.wanted.accuracy,
+        "notes": list(study.notes),
+        "formulas": [
+            {
+                "group": formula.group,
+                "name": formula.name,
+                "printed": to_grammar(formula.printed),
+                "rewritten": None if formula.rewritten is None else to_grammar(formula.rewritten),
+            }
+            for formula in study.formulas
+        ],
+        "cases": [_document(case, trial) for case, trial in study.trials],
+    }
+    return json.dumps(document, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _document(case: Case, trial: Trial) -> dict[str, Any]:
+    return {
+        "kind": case.kind,
+        "name": case.name,
+        "parameters": {name: to_grammar(x) for name, x in case.parameters.items()},
+        "initial": {str(name): to_grammar(x) for name, x in case.initial.items()},
+        "outcome": trial.verdict,
+        "reason": trial.reason or None,
+        "digits_lost": [
+            {
+                "group": loss.group,
+                "name": loss.name,
+                "printed": loss.printed,
+                "rewritten": loss.rewritten,
+            }
+            for loss in trial.losses
+        ],
+        "digits_lost_in_a_run": trial.run_loss,
+        "condition": _finite(trial.condition),
+        "singular": trial.condition == float("inf"),
+        "until": trial.until,
+        "holds_until": trial.holds_until,
+        "accuracy": trial.accuracy,
+        "error": _finite(trial.error),
+        "drift": _finite(trial.drift),
+        "method": trial.method or None,
+        "seconds": trial.seconds,
+    }
+
+
+def _finite(value: float | None) -> float | None:
+    return value if value is not None and abs(value) < float("inf") else None
+
+
+def to_csv(study: ExtremesStudy) -> str:
+    """One line for each case, the worst of each group of formulas."""
+    import csv
+    import io
+
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(_COLUMNS)
+    for case, trial in study.trials:
+        row: dict[str, Any] = {
+            "kind": case.kind,
+            "case": case.name,
+            "outcome": trial.verdict,
+            "accelerations_in_a_run": trial.run_loss,
+            **{
+                name: getattr(trial, name)
+                for name in (
+                    "condition until holds_until accuracy error drift method seconds reason"
+                ).split()
+            },
+        }
+        for group in GROUPS:
+            row |= _pair(group, worst(trial, group))
+        writer.writerow(["" if row[name] is None else row[name] for name in _COLUMNS])
+    return text.getvalue()
+
+
+def _pair(group: str, pair: tuple[float, float] | None) -> Mapping[str, float | None]:
+    printed, rewritten = pair or (None, None)
+    return {group: printed, f"{group}_rewritten": rewritten}
+
+
+WRITERS: dict[str, Callable[[ExtremesStudy], str]] = {
+    "text": to_text,
+    "json": to_json,
+    "csv": to_csv,
+}

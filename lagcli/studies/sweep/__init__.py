@@ -1,0 +1,9 @@
+"""Ensembles of motions over parameters and initial states, each row with its certificate."""
+
+from __future__ import annotations
+
+from lagcli.studies.sweep.plan import Plan, WrongPlan, plan_of
+from lagcli.studies.sweep.run import sweep
+from lagcli.studies.sweep.table import WRITERS, Table
+
+__all__ = ["WRITERS", "Plan", "Table", "WrongPlan", "plan_of", "sweep"]

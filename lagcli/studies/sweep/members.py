@@ -1,0 +1,116 @@
+"""Some members of an ensemble, one after another, in one process."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import groupby
+from typing import TYPE_CHECKING
+
+from lagcli.diagnostics import ProblemError
+from lagcli.expression import Expression, Name, Negative, Number
+from lagcli.numerics.certified.ensemble import Ensemble
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.hybrid.request import Asked, Result
+
+if TYPE_CHECKING:
+    from lagcli.problem_data import Problem
+
+Member = Sequence[float]
+Row = list[float | None]
+
+
+def rows_of(
+    problem: Problem, asked: Asked, names: Sequence[str], members: Sequence[Member], *, along: bool
+) -> list[Row]:
+    """The rows of some members.
+
+    Parameters
+    ----------
+    problem : Problem
+    asked : Asked
+        Columns and span.
+    names : sequence of str
+        What a member's values are given to, parameters first.
+    members : sequence
+        Values, in the order of `names`.
+    along : bool
+        Every row of a motion; otherwise the last one.
+
+    Returns
+    -------
+    list of rows
+        The values of the member, the columns, and what is known of them: 1 where the accuracy
+        holds at this row's motion to its end, until when it holds, the largest error.
+    """
+    free = {one.name for one in problem.parameters}
+    split = sum(name in free for name in names)
+    rows: list[Row] = []
+    for values, group in groupby(members, key=lambda member: tuple(member[:split])):
+        fixed = _with_parameters(problem, names[:split], values)
+        rows += _of_one_system(fixed, asked, names[split:], list(group), values, along=along)
+    return rows
+
+
+def _of_one_system(
+    problem: Problem,
+    asked: Asked,
+    names: Sequence[str],
+    members: Sequence[Member],
+    values: Sequence[float],
+    *,
+    along: bool,
+) -> Iterator[Row]:
+    ensemble: Ensemble | None = None
+    for member in members:
+        started = _with_state(problem, names, member[len(values) :])
+        try:
+            ensemble = ensemble or Ensemble(started, asked)
+            found = ensemble.result(started)
+        except (Refusal, ProblemError, ArithmeticError):
+            yield _row(member, [None] * len(asked.columns), reached=0.0, until=0.0, error=None)
+            continue
+        yield from _rows(member, found, along=along)
+
+
+def _rows(member: Member, found: Result, *, along: bool) -> Iterator[Row]:
+    held = found.certificate
+    error = max(held.global_error.values(), default=0.0)
+    rows = found.rows if along else found.rows[-1:]
+    for row in rows or [(None,) * len(found.columns)]:
+        yield _row(member, row, float(held.reached), held.holds_until, error)
+
+
+def _row(
+    member: Member,
+    row: Sequence[float | None],
+    reached: float,
+    until: float,
+    error: float | None,
+) -> Row:
+    return [*member, *row, reached, until, error]
+
+
+def exact(value: float) -> Expression:
+    """The double as an exact number."""
+    number = Number(abs(Fraction(value)))
+    return Negative(number) if value < 0 else number
+
+
+def _with_parameters(problem: Problem, names: Sequence[str], values: Sequence[float]) -> Problem:
+    given = dict(zip(names, map(exact, values), strict=True))
+    return replace(
+        problem,
+        parameters=tuple(
+            replace(one, value=given.get(one.name, one.value)) for one in problem.parameters
+        ),
+    )
+
+
+def _with_state(problem: Problem, names: Sequence[str], values: Sequence[float]) -> Problem:
+    initial = dict(problem.initial)
+    for name, value in zip(names, values, strict=True):
+        primes = len(name) - len(name.rstrip("'"))
+        initial[Name(name.rstrip("'"), primes)] = exact(value)
+    return replace(problem, initial=initial)

@@ -1,0 +1,102 @@
+"""The trades inside the model and its numbers, read off the runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
+
+from lagcli.numerics.certified.methods import METHODS
+from lagcli.record import field, record
+from lagcli.studies.tradeoff.front import ACCURACIES, COSTS, RunPoint, cheapest
+
+if TYPE_CHECKING:
+    from lagcli.studies.tradeoff.study import Study
+
+
+@record(kw_only=True)
+class Trade:
+    """One alternative: what it is, what it costs in words, and in numbers."""
+
+    name: str
+    told: str
+    numbers: Mapping[str, float] = field(default_factory=dict)
+
+
+def trades(study: Study) -> list[Trade]:
+    """Those that the runs say something of."""
+    found = (_cut(study), _compiled(study), _digits(study))
+    return [trade for trade in found if trade is not None]
+
+
+def _with(study: Study, wanted: Callable[[tuple[str, ...]], bool]) -> list[RunPoint]:
+    return [point for point in study.points if wanted(METHODS[point.method].properties)]
+
+
+def _cut(study: Study) -> Trade | None:
+    """Solved constraints and idle coordinates against multipliers, by the same method."""
+    cost = COSTS["integration"]
+    for accuracy in reversed(ACCURACIES):
+        full = cheapest(study.whole, accuracy, cost)
+        if full is None:
+            continue
+        same = [point for point in study.points if point.method == full.method]
+        less = cheapest(same, accuracy, cost)
+        if less is None or not full.integration or not less.integration:
+            continue
+        ratio = full.integration / less.integration
+        return Trade(
+            name="minimal coordinates against multipliers",
+            told=f"at {accuracy:.0e} {full.method} integrates\n  the model of the requested "
+            f"columns {ratio:.3g} times faster than the one of the file",
+            numbers={"accuracy": accuracy, "faster": ratio},
+        )
+    return None
+
+
+def _compiled(study: Study) -> Trade | None:
+    """At the finest of the accuracies that both reach in doubles."""
+    ours = _with(study, lambda words: "compiled" in words)
+    theirs = _with(study, lambda words: "compiled" not in words and "any precision" not in words)
+    cost = COSTS["integration"]
+    for accuracy in reversed(ACCURACIES):
+        fast, slow = cheapest(ours, accuracy, cost), cheapest(theirs, accuracy, cost)
+        if fast is None or slow is None or not fast.integration or not slow.integration:
+            continue
+        if fast.total is None or slow.total is None:
+            continue
+        ratio = slow.integration / fast.integration
+        later = (fast.total - fast.integration) - (slow.total - slow.integration)
+        told = (
+            f"at {accuracy:.0e} {fast.method} integrates {ratio:.3g} times faster than "
+            f"{slow.method},\n  and is ready {abs(later) * 1e3:.0f} ms "
+            f"{'later' if later > 0 else 'earlier'}"
+        )
+        return Trade(
+            name="compiled against interpreted",
+            told=told,
+            numbers={"accuracy": accuracy, "faster": ratio, "later": later},
+        )
+    return None
+
+
+def _digits(study: Study) -> Trade | None:
+    """How far doubles go, and what more digits take for the same and for more."""
+    doubles = _with(study, lambda words: "any precision" not in words)
+    more = _with(study, lambda words: "any precision" in words)
+    reached = [point.error for point in doubles if point.error is not None]
+    beyond = [point.error for point in more if point.error is not None]
+    if not reached or not beyond:
+        return None
+    cost = COSTS["integration"]
+    least, exact = min(reached), max(min(beyond), study.resolved)
+    near = cheapest(doubles, 10 * least, cost)
+    same = cheapest(more, 10 * least, cost)
+    if near is None or same is None or not near.integration or not same.integration:
+        return None
+    ratio = same.integration / near.integration
+    return Trade(
+        name="digits",
+        told=f"the hardware's numbers reach {least:.1e}; carried in software\n  the same costs "
+        f"{ratio:.3g} times as much to integrate, and goes on to {exact:.1e}",
+        numbers={"hardware_error": least, "software_error": exact, "slower": ratio},
+    )

@@ -1,0 +1,204 @@
+"""The study as text, JSON and CSV."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from lagcli.studies.tradeoff.front import AS_GOOD, AccuracyVerdict, RunPoint
+from lagcli.studies.tradeoff.inside import Trade, trades
+from lagcli.studies.tradeoff.study import Study
+
+_HEAD = (
+    "method", "tolerance", "true error", "integration", "total", "evaluations", "drift", "residual",
+)  # fmt: skip
+_WORDS = {"total": "total time", "integration": "integration time", "evaluations": "evaluations"}
+_COLUMNS = (
+    "kind", "method", "taken", "tolerance", "accuracy", "error", "integration", "total",
+    "evaluations", "steps", "drift", "residual", "front", "reached", "why",
+)  # fmt: skip
+
+
+def to_text(study: Study) -> str:
+    """Tables of at most 80 columns."""
+    known = study.reference
+    lines = [
+        f"{study.name}: what accuracy costs until t = {study.until:g}, at {study.samples} times",
+        f"reference: {known.kind},",
+        f"  error at most {_size(known.bound)}, made in {_seconds(known.seconds)}",
+        "",
+    ]
+    front = study.front
+    cells = [["", *_HEAD]]
+    cells += [["*" if point in front else "", *_cells(point, study)] for point in study.points]
+    lines += _aligned(cells)
+    lines += [f"* nothing is both as exact and cheaper ({_WORDS[study.cost]})", ""]
+    lines += [
+        f"{point.method} at {point.tolerance:.0e}: {point.why}"
+        for point in study.points
+        if point.why
+    ]
+    lines += [f"{name} is not for this problem: {why}" for name, why in study.unsuited.items()]
+    lines += ["", "with its certificate, a fresh process:"]
+    lines += _aligned(
+        [
+            ["accuracy", "cheapest", "total", "auto takes", "total", "ratio", "true error"],
+            *(_verdict(each) for each in study.verdicts),
+        ]
+    )
+    lines += ["", *map(_trade, trades(study))]
+    lines += [
+        f"warning: {point.method} claims {point.accuracy:g} and errs by {point.error:.1e}"
+        for point in study.broken
+    ]
+    lines += [f"warning: {warning}" for warning in known.warnings]
+    return "".join(f"{line.rstrip()}\n" for line in _without_double_blanks(lines))
+
+
+def _size(error: float) -> str:
+    return f"{error:.1e}" if error else "0"
+
+
+def _cells(point: RunPoint, study: Study) -> list[str]:
+    error = "–"
+    if point.error is not None:
+        below = point.error <= study.resolved
+        error = f"< {study.resolved:.1e}" if below and study.resolved else _size(point.error)
+    return [
+        point.method,
+        f"{point.tolerance:.0e}",
+        error,
+        _seconds(point.integration),
+        _seconds(point.total),
+        str(point.evaluations or "–"),
+        _small(point.drift),
+        _small(point.residual),
+    ]
+
+
+def _verdict(verdict: AccuracyVerdict) -> list[str]:
+    best, auto = verdict.best, verdict.auto
+    ratio = verdict.ratio
+    taken = "none"
+    if auto is not None and auto.reached:
+        taken = auto.taken
+    return [
+        f"{verdict.accuracy:.0e}",
+        best.taken if best is not None else "none",
+        _seconds(best.total if best is not None else None),
+        taken,
+        _seconds(auto.total if auto is not None and auto.reached else None),
+        "–" if ratio is None else f"{ratio:.2f}{'' if verdict.agrees else f' > {AS_GOOD:g}'}",
+        _small(auto.error if auto is not None and auto.reached else None),
+    ]
+
+
+def _trade(trade: Trade) -> str:
+    return f"{trade.name}: {trade.told}"
+
+
+def _seconds(value: float | None) -> str:
+    if value is None:
+        return "–"
+    for scale, unit in ((1.0, "s"), (1e-3, "ms")):
+        if value >= scale:
+            return f"{value / scale:.3g} {unit}"
+    return f"{value / 1e-6:.3g} µs"
+
+
+def _small(value: float | None) -> str:
+    return "–" if value is None else "0" if value == 0 else f"{value:.1e}"
+
+
+def _aligned(cells: Sequence[Sequence[str]]) -> list[str]:
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    return [
+        " ".join(
+            cell.ljust(width) if j < 2 and not cell[:1].isdigit() else cell.rjust(width)
+            for j, (cell, width) in enumerate(zip(row, widths, strict=True))
+        )
+        for row in cells
+    ]
+
+
+def _without_double_blanks(lines: Sequence[str]) -> list[str]:
+    return [line for k, line in enumerate(lines) if line or (k and lines[k - 1])]
+
+
+def to_json(study: Study) -> str:
+    """The machine's view; times in seconds of processor time."""
+    known, front = study.reference, study.front
+    document = {
+        "schema": 1,
+        "problem": study.name,
+        "until": study.until,
+        "samples": study.samples,
+        "cost": study.cost,
+        "reference": {
+            "kind": known.kind,
+            "error_bound": known.bound,
+            "seconds": known.seconds,
+        },
+        "runs": [{**_document(point), "front": point in front} for point in study.points],
+        "certified": [
+            {**_document(point), "accuracy": point.accuracy, "reached": point.reached}
+            for point in study.certified
+        ],
+        "cheapest": [
+            {
+                "accuracy": each.accuracy,
+                "method": each.best.taken if each.best is not None else None,
+                "total": each.best.total if each.best is not None else None,
+                "auto": each.auto.taken if each.auto is not None and each.auto.reached else None,
+                "ratio": each.ratio,
+                "auto_agrees": each.agrees,
+            }
+            for each in study.verdicts
+        ],
+        "trades": [
+            {"name": trade.name, "told": trade.told, **trade.numbers} for trade in trades(study)
+        ],
+        "not_suitable": dict(study.unsuited),
+        "warnings": list(known.warnings),
+    }
+    return json.dumps(document, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _document(point: RunPoint) -> dict[str, Any]:
+    return {
+        "method": point.method,
+        "taken": point.taken or None,
+        "tolerance": point.tolerance,
+        "error": _finite(point.error),
+        "integration": point.integration,
+        "total": point.total,
+        "evaluations": point.evaluations,
+        "steps": point.steps,
+        "drift": _finite(point.drift),
+        "residual": _finite(point.residual),
+        "why": point.why or None,
+    }
+
+
+def _finite(value: float | None) -> float | None:
+    return value if value is not None and abs(value) < float("inf") else None
+
+
+def to_csv(study: Study) -> str:
+    """One line for each run."""
+    import csv
+    import io
+
+    front, text = study.front, io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(_COLUMNS)
+    for kind, points in (("single", study.points), ("certified", study.certified)):
+        for point in points:
+            row = {**_document(point), "kind": kind, "front": int(point in front)}
+            row |= {"accuracy": point.accuracy, "reached": int(point.reached)}
+            writer.writerow(["" if row[name] is None else row[name] for name in _COLUMNS])
+    return text.getvalue()
+
+
+WRITERS: dict[str, Callable[[Study], str]] = {"text": to_text, "json": to_json, "csv": to_csv}
