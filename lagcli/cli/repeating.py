@@ -12,7 +12,7 @@ from lagcli.cli.files import read_input
 from lagcli.cli.printing import Printing
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line, tell_text
-from lagcli.platform.cache import Cache, Entry, folder, key
+from lagcli.platform.cache import Cache, KeptAnswer, folder, key
 
 if TYPE_CHECKING:
     from lagcli.cli.solving import Input, SolvingOutcome
@@ -43,7 +43,7 @@ def solve_or_repeat(
     status, outcome = _solved(inputs, options, printing)
     if outcome.repeatable:
         said = tuple(text for text in outcome.said if text)
-        cache.keep(place, Entry(outcome.status, outcome.text, said))
+        cache.keep(place, KeptAnswer(outcome.status, outcome.text, said))
     return status
 
 
@@ -86,7 +86,7 @@ def _key(inputs: Sequence[Input], options: CommandOptions, printing: Printing) -
         return None
 
 
-def _repeated(entry: Entry, inputs: Sequence[Input], printing: Printing) -> Status:
+def _repeated(entry: KeptAnswer, inputs: Sequence[Input], printing: Printing) -> Status:
     possible = has_place(printing.output, *(name for name, _ in inputs))
     for text in entry.said:
         tell_text(text)

@@ -28,7 +28,7 @@ _READ = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)
 _ABANDONED = 3600.0  # seconds after which a half-written file is nobody's
 
 
-class Entry(NamedTuple):
+class KeptAnswer(NamedTuple):
     """What a run printed: the result, the sentences beside it, and the exit status."""
 
     status: int
@@ -51,7 +51,7 @@ class Cache:
         self.folder = folder
         self.limit = limit
 
-    def find(self, key: str) -> Entry | None:
+    def find(self, key: str) -> KeptAnswer | None:
         """The entry of a key; None when there is none that can be trusted."""
         shelf = self._shelf(key)
         path = os.path.join(shelf, key)  # noqa: PTH118
@@ -70,7 +70,7 @@ class Cache:
                 os.utime(path)  # used just now
         return entry
 
-    def keep(self, key: str, entry: Entry) -> None:
+    def keep(self, key: str, entry: KeptAnswer) -> None:
         """Keep an entry, if there is a place for it."""
         shelf, data = self._shelf(key), _written(entry, key)
         if len(data) > self.limit // len(_SHELVES):
@@ -145,12 +145,12 @@ def _put(shelf: str, key: str, data: bytes) -> None:
         raise
 
 
-def _written(entry: Entry, key: str) -> bytes:
+def _written(entry: KeptAnswer, key: str) -> bytes:
     body = json.dumps({"key": key, **entry._asdict()}, separators=(",", ":")).encode()
     return _HEAD + sha256(body).hexdigest().encode() + b"\n" + body
 
 
-def _read(data: bytes, key: str) -> Entry | None:
+def _read(data: bytes, key: str) -> KeptAnswer | None:
     if not data.startswith(_HEAD):
         return None
     digest, _, body = data[len(_HEAD) :].partition(b"\n")
@@ -161,7 +161,7 @@ def _read(data: bytes, key: str) -> Entry | None:
         whole = (found["key"], found["status"], found["text"], tuple(found["said"]))
     except (ValueError, TypeError, LookupError, RecursionError):  # not of our making
         return None
-    return Entry(*whole[1:]) if _is_entry(*whole, sought=key) else None
+    return KeptAnswer(*whole[1:]) if _is_entry(*whole, sought=key) else None
 
 
 def _is_entry(

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from lagcli.platform.cache import Cache, Entry, folder, key
+from lagcli.platform.cache import Cache, KeptAnswer, folder, key
 
 FREE = "coordinates: [x]\nparameters: {m: {assume: positive, value: 3}}\nL: m*x'^2/2\n"
 WRONG = "coordinates: [x]\nL: x'^2/2 + y\n"
@@ -192,7 +192,7 @@ MALFORMED = {
 @pytest.mark.parametrize("body", MALFORMED.values(), ids=MALFORMED)
 def test_an_entry_with_a_malformed_body_is_not_believed(tmp_path, body):
     cache = Cache(str(tmp_path))
-    cache.keep(KEY, Entry(0, "x"))
+    cache.keep(KEY, KeptAnswer(0, "x"))
     digest = sha256(body).hexdigest().encode()
     (tmp_path / "a" / KEY).write_bytes(b"lagcli result 1\n" + digest + b"\n" + body)
     assert cache.find(KEY) is None
@@ -201,16 +201,16 @@ def test_an_entry_with_a_malformed_body_is_not_believed(tmp_path, body):
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names")
 def test_a_pipe_in_the_folder_is_not_waited_for(tmp_path):
     cache = Cache(str(tmp_path))
-    cache.keep("a" + "1" * 63, Entry(0, "x"))
+    cache.keep("a" + "1" * 63, KeptAnswer(0, "x"))
     os.mkfifo(tmp_path / "a" / KEY)
     assert cache.find(KEY) is None
-    cache.keep(KEY, Entry(0, "y"))
-    assert cache.find(KEY) == Entry(0, "y")
+    cache.keep(KEY, KeptAnswer(0, "y"))
+    assert cache.find(KEY) == KeptAnswer(0, "y")
 
 
 def test_an_entry_under_a_wrong_name_is_not_believed(tmp_path):
     cache = Cache(str(tmp_path))
-    cache.keep(KEY, Entry(0, "mine"))
+    cache.keep(KEY, KeptAnswer(0, "mine"))
     other = KEY[:-1] + "1"
     (tmp_path / "a" / KEY).rename(tmp_path / "a" / other)
     assert cache.find(other) is None
@@ -219,8 +219,8 @@ def test_an_entry_under_a_wrong_name_is_not_believed(tmp_path):
 @pytest.mark.long
 def test_processes_at_once_see_whole_entries(tmp_path):
     code = (
-        "import sys; from lagcli.platform.cache import Cache, Entry\n"
-        f"cache, entry = Cache(sys.argv[1]), Entry(0, 'x' * 200_000, ('said',))\n"
+        "import sys; from lagcli.platform.cache import Cache, KeptAnswer\n"
+        f"cache, entry = Cache(sys.argv[1]), KeptAnswer(0, 'x' * 200_000, ('said',))\n"
         "for _ in range(100):\n"
         f"    cache.keep({KEY!r}, entry)\n"
         f"    found = cache.find({KEY!r})\n"
@@ -233,9 +233,9 @@ def test_processes_at_once_see_whole_entries(tmp_path):
 
 def test_a_killed_writer_leaves_no_wrong_entry(tmp_path):
     code = (
-        "import sys; from lagcli.platform.cache import Cache, Entry\n"
+        "import sys; from lagcli.platform.cache import Cache, KeptAnswer\n"
         "while True:\n"
-        f"    Cache(sys.argv[1]).keep({KEY!r}, Entry(0, 'x' * 3_000_000))\n"
+        f"    Cache(sys.argv[1]).keep({KEY!r}, KeptAnswer(0, 'x' * 3_000_000))\n"
     )
     cache = Cache(str(tmp_path))
     for pause in (0.0, 0.01, 0.02, 0.05):
@@ -246,18 +246,18 @@ def test_a_killed_writer_leaves_no_wrong_entry(tmp_path):
         run.send_signal(signal.SIGKILL)
         run.wait()
         found = cache.find(KEY)
-        assert found is None or found == Entry(0, "x" * 3_000_000)
-    cache.keep(KEY, Entry(0, "new"))
-    assert cache.find(KEY) == Entry(0, "new")
+        assert found is None or found == KeptAnswer(0, "x" * 3_000_000)
+    cache.keep(KEY, KeptAnswer(0, "new"))
+    assert cache.find(KEY) == KeptAnswer(0, "new")
 
 
 def test_what_was_left_half_written_is_removed_in_time(tmp_path):
     cache = Cache(str(tmp_path))
-    cache.keep(KEY, Entry(0, "x"))
+    cache.keep(KEY, KeptAnswer(0, "x"))
     left = tmp_path / "a" / f".{KEY}.12345"
     left.write_bytes(b"half")
     os.utime(left, (1, 1))
-    cache.keep(KEY, Entry(0, "y"))
+    cache.keep(KEY, KeptAnswer(0, "y"))
     assert not left.exists()
 
 
@@ -265,21 +265,21 @@ def test_the_size_is_bounded_and_the_least_used_go_first(tmp_path):
     cache = Cache(str(tmp_path), limit=16 * 10_000)
     keys = ["a" + format(n, "063x") for n in range(30)]
     for n, one in enumerate(keys):
-        cache.keep(one, Entry(0, "x" * 800))
+        cache.keep(one, KeptAnswer(0, "x" * 800))
         os.utime(tmp_path / "a" / one, (n + 1, n + 1))
-        assert cache.find(keys[0]) == Entry(0, "x" * 800)  # used again and again
+        assert cache.find(keys[0]) == KeptAnswer(0, "x" * 800)  # used again and again
     count, size = cache.size()
     assert size <= 10_000
     assert 5 < count < 12
     assert cache.find(keys[-1]) is not None
     assert cache.find(keys[1]) is None
-    cache.keep(keys[1], Entry(0, "x" * 20_000))
+    cache.keep(keys[1], KeptAnswer(0, "x" * 20_000))
     assert cache.find(keys[1]) is None
 
 
 def test_clearing_removes_entries_and_nothing_else(tmp_path):
     cache = Cache(str(tmp_path))
-    cache.keep(KEY, Entry(0, "x"))
+    cache.keep(KEY, KeptAnswer(0, "x"))
     other = tmp_path / "a" / "thesis.tex"
     other.write_text("mine")
     cache.clear()
@@ -289,7 +289,7 @@ def test_clearing_removes_entries_and_nothing_else(tmp_path):
 
 def test_nobody_else_can_read_or_write_it(tmp_path):
     cache = Cache(str(tmp_path / "new"))
-    cache.keep(KEY, Entry(0, "x"))
+    cache.keep(KEY, KeptAnswer(0, "x"))
     for path, mode in (("new", 0o700), ("new/a", 0o700), (f"new/a/{KEY}", 0o600)):
         assert stat.S_IMODE((tmp_path / path).stat().st_mode) == mode
     (tmp_path / "new" / "a").chmod(0o777)
@@ -300,7 +300,7 @@ def test_a_shelf_that_is_a_link_is_not_used(tmp_path):
     (tmp_path / "elsewhere").mkdir(mode=0o700)
     (tmp_path / "a").symlink_to(tmp_path / "elsewhere")
     cache = Cache(str(tmp_path))
-    cache.keep(KEY, Entry(0, "x"))
+    cache.keep(KEY, KeptAnswer(0, "x"))
     assert cache.find(KEY) is None
     assert not any((tmp_path / "elsewhere").iterdir())
 

@@ -22,7 +22,7 @@ Prepare = Callable[[Setup, Modes], Prepared | str]
 
 
 @record(kw_only=True)
-class Entry:
+class MethodEntry:
     """A method as it is known before any problem.
 
     Attributes
@@ -105,17 +105,17 @@ def _taylor(simulation: Setup, modes: Modes) -> Prepared | str:
     return prepared(simulation, modes)
 
 
-METHODS: dict[str, Entry] = {
+METHODS: dict[str, MethodEntry] = {
     entry.name: entry
     for entry in (
-        Entry(
+        MethodEntry(
             name="dop853",
             order=8,
             properties=("explicit",),
             reason="explicit, of order 8: the cheapest that reaches the accuracy without stiffness",
             prepare=_dop853,
         ),
-        Entry(
+        MethodEntry(
             name="radau5",
             order=5,
             properties=("implicit", "stiff"),
@@ -123,28 +123,28 @@ METHODS: dict[str, Entry] = {
             "would need more steps than it costs",
             prepare=_radau5,
         ),
-        Entry(
+        MethodEntry(
             name="gauss8",
             order=8,
             properties=("implicit", "symplectic", "fixed step"),
             reason="implicit, symplectic, of order 8: keeps charges for long times",
             prepare=_gauss8,
         ),
-        Entry(
+        MethodEntry(
             name="yoshida8",
             order=8,
             properties=("explicit", "symplectic", "fixed step"),
             reason="explicit, symplectic, of order 8: keeps charges for long times",
             prepare=_yoshida8,
         ),
-        Entry(
+        MethodEntry(
             name="taylor64",
             order=None,
             properties=("explicit", "smooth", "compiled"),
             reason="power series in machine code: the cheapest of any order where it is compiled",
             prepare=_taylor64,
         ),
-        Entry(
+        MethodEntry(
             name="taylor80",
             order=None,
             properties=("explicit", "smooth", "compiled"),
@@ -152,7 +152,7 @@ METHODS: dict[str, Entry] = {
             "rounding of doubles",
             prepare=_taylor80,
         ),
-        Entry(
+        MethodEntry(
             name="taylor128",
             order=None,
             properties=("explicit", "smooth", "compiled"),
@@ -160,7 +160,7 @@ METHODS: dict[str, Entry] = {
             "rounding of 80 bits",
             prepare=_taylor128,
         ),
-        Entry(
+        MethodEntry(
             name="taylor",
             order=None,
             properties=("explicit", "smooth", "any precision"),

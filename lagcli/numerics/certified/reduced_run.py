@@ -12,7 +12,7 @@ from lagcli.graph.sharing import written_out
 from lagcli.numerics.equations.columns import Reading
 from lagcli.numerics.equations.reduced_model import CutEquations, Reduction, cut
 from lagcli.numerics.hybrid.modes import Modes
-from lagcli.numerics.hybrid.request import Cut, Eliminated
+from lagcli.numerics.hybrid.request import Cut, EliminatedCoordinate
 from lagcli.numerics.hybrid.setup import Setup
 
 AnySetup = TypeVar("AnySetup", bound=Setup)
@@ -96,7 +96,9 @@ def _reduced(
     formulas = written_out([each.formula for each in reduction.solved], order)
     write = simulation.asked.written
     solved = [
-        Eliminated(names[each.coordinate], whole.declared[each.constraint].name, write(formula))
+        EliminatedCoordinate(
+            names[each.coordinate], whole.declared[each.constraint].name, write(formula)
+        )
         for each, formula in zip(reduction.solved, formulas, strict=True)
     ]
     kept = set(equations.coordinates)

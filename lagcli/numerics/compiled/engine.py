@@ -19,7 +19,7 @@ from importlib.machinery import PathFinder
 from pathlib import Path
 from typing import Any
 
-from lagcli.platform.cache import Cache, Entry, folder
+from lagcli.platform.cache import Cache, KeptAnswer, folder
 
 #: Releases of llvmlite whose C interface is the one declared below.
 _RELEASES = ("0.50.",)
@@ -135,7 +135,7 @@ class Engine:
                 return self._loaded(b64decode(entry.text))
         code = self._code(text(), *(((), 0) if quickly else (_PASSES, _CODE_LEVEL)))
         if place:
-            place.keep(key, Entry(0, b64encode(code).decode()))
+            place.keep(key, KeptAnswer(0, b64encode(code).decode()))
         return self._loaded(code)
 
     def _key(self, source: bytes, *, quickly: bool) -> str:

@@ -14,7 +14,7 @@ high-order Taylor methods", Experimental Mathematics 14 (2005), section 3.
 from __future__ import annotations
 
 from lagcli.numerics.compiled.intrinsics import (
-    Doubles,
+    DoubleCells,
     Ints,
     Reals,
     at,
@@ -160,7 +160,7 @@ def raised(x: float, k: int) -> float:
 
 
 def coefficients(
-    rows: Reals, small: Doubles, signs: Reals, watch: Ints, counts: Ints, order: int
+    rows: Reals, small: DoubleCells, signs: Reals, watch: Ints, counts: Ints, order: int
 ) -> int:
     """As `series`; the later coefficients from doubles where these are good enough."""
     exact = counts[EXACT]
@@ -217,7 +217,7 @@ def suffice(rows: Reals, counts: Ints, order: int, part: float) -> int:
 
 def expand(
     rows: Reals,
-    small: Doubles,
+    small: DoubleCells,
     signs: Reals,
     state: Reals,
     peaks: Reals,

@@ -18,7 +18,7 @@ class Reals(Protocol):
     def __setitem__(self, index: int, value: float) -> None: ...
 
 
-class Doubles(Protocol):
+class DoubleCells(Protocol):
     """A place in memory with doubles, whatever the other real numbers are."""
 
     def __getitem__(self, index: int) -> float: ...
@@ -73,7 +73,7 @@ def series(rows: Reals, signs: Reals, order: int) -> int:
     raise NotImplementedError
 
 
-def in_doubles(rows: Doubles, signs: Reals, order: int) -> int:
+def in_doubles(rows: DoubleCells, signs: Reals, order: int) -> int:
     """`series` in doubles, of equations without kinks: it reads no sign."""
     raise NotImplementedError
 

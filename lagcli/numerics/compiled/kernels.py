@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from lagcli.numerics.compiled.expansion import expand
 from lagcli.numerics.compiled.intrinsics import (
-    Doubles,
+    DoubleCells,
     Ints,
     Reals,
     at,
@@ -246,7 +246,7 @@ def probe(
 
 def drive(
     rows: Reals,
-    small: Doubles,
+    small: DoubleCells,
     other: Reals,
     signs: Reals,
     state: Reals,

@@ -1,7 +1,7 @@
 """A small part of Python, translated to LLVM's language: what `kernels` is written in.
 
 Functions of numbers (`float`, the type of the run), whole numbers (`int`), places in
-memory (`Reals`, `Ints`, and `Doubles`, which are read and written as `float`); loops over
+memory (`Reals`, `Ints`, and `DoubleCells`, which are read and written as `float`); loops over
 `range` and `while`, `if`, assignments, the four operations and `//` of whole numbers that are
 not negative, comparisons of two, `and`, `or`, `not`, and calls of other functions.  A name in
 capitals is a constant of the module.  Both sides of `and` and `or` are worked out.
@@ -24,7 +24,7 @@ _KINDS = {
     "int": "i64",
     "Reals": "ptr",
     "Ints": "ints",
-    "Doubles": "doubles",
+    "DoubleCells": "doubles",
     "None": "void",
 }
 #: Of what is in memory from a place on.

@@ -88,7 +88,7 @@ class Certificate:
 
 
 @record
-class Eliminated:
+class EliminatedCoordinate:
     """A coordinate that a constraint gives: coordinate = formula."""
 
     coordinate: str
@@ -101,7 +101,7 @@ class Cut:
     """What the model was cut by."""
 
     kept: tuple[str, ...]
-    eliminated: tuple[Eliminated, ...]
+    eliminated: tuple[EliminatedCoordinate, ...]
     #: coordinates whose motion nothing asked for depends on
     dropped: tuple[str, ...]
     #: kept coordinates whose momentum is conserved

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from lagcli.numerics.certified.methods import METHODS, Entry
+from lagcli.numerics.certified.methods import METHODS, MethodEntry
 from lagcli.record import record, replace
 from lagcli.studies.tradeoff.front import (
     ACCURACIES,
@@ -176,7 +176,7 @@ class _RunMaker:
         self.unsuited = False
         self._too_long: dict[str, float] = {}  # the accuracy that took too long
 
-    def sweep(self, entry: Entry, *, whole: bool = False) -> Iterator[RunPoint]:
+    def sweep(self, entry: MethodEntry, *, whole: bool = False) -> Iterator[RunPoint]:
         """One method over its tolerances, until more of them say nothing."""
         finer = _FINER if "any precision" in entry.properties else ()
         last: RunPoint | None = None
