@@ -6,8 +6,8 @@ import itertools
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block, Formula, Paragraph
-from lagcli.expression import Name
+from lagcli.document import Block, Equations, Formula, Paragraph, Row
+from lagcli.expression import ZERO, Name
 from lagcli.formatters.json_values import Object, above, inequalities, place, unless_none
 from lagcli.problem_data import ExpectEquilibrium
 from lagcli.reader.expected_reduction import read_equilibria
@@ -31,7 +31,7 @@ def derive(statements: Statements) -> EquilibriaSection:
     if section.equilibria is None:
         statements.lacks("the equilibria", section.reason)
     elif not section.complete:
-        others = f": other solutions of {section.reason}" if section.reason else ""
+        others = ": other solutions of what is printed" if section.open else ""
         statements.warnings.append(f"there may be equilibria that are not listed{others}")
     return section
 
@@ -55,7 +55,9 @@ def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
         yield from state_blocks(equilibrium.at, on=equilibrium.on)
         yield Paragraph(_stability(equilibrium))
     if section.equilibria and not section.complete:
-        yield Paragraph(("There may be others.",))
+        yield Paragraph(("There may be others" + (", which solve" if section.open else "."),))
+        if section.open:
+            yield Equations(tuple(Row(ZERO, each) for each in section.open))
 
 
 def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:

@@ -61,6 +61,9 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
             yield Equations(tuple(_shape(other)))
 
 
+_NO_OSCILLATION = {True: "negative: no oscillation", False: "an oscillation where this is positive"}
+
+
 def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
     note = f"{mode.multiplicity} times" if mode.multiplicity > 1 else ""
     omega = own("omega")
@@ -68,7 +71,7 @@ def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
         yield Row(omega, mode.frequency, note)
     elif mode.frequency_squared is not None:
         squared = Power(omega, Number(Fraction(2)))
-        yield Row(squared, mode.frequency_squared, note or "an oscillation where this is positive")
+        yield Row(squared, mode.frequency_squared, note or _NO_OSCILLATION[mode.negative])
     yield from _shape(mode.shape or {})
 
 

@@ -32,7 +32,13 @@ from lagcli.sections.equations import equation_json
 from lagcli.statements.answers import Answers, ReductionSection
 from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.statements.motions import OneFreedom, PeriodSeries
-from lagcli.statements.wording import POTENTIAL, conditions, irreducible, state_blocks
+from lagcli.statements.wording import (
+    POTENTIAL,
+    conditions,
+    irreducible,
+    state_blocks,
+    turning_contacts,
+)
 
 if TYPE_CHECKING:
     from lagcli.mechanics.explaining.teller import Teller
@@ -117,6 +123,7 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
         yield Equations(tuple(Row(q, value) for value in motion.turning_points))
         for lower, upper in motion.turning_energies:
             yield Paragraph(("They are real for ", lower, " ≤ ", constant, " ≤ ", upper, "."))
+        yield from turning_contacts(motion)
     else:
         yield Paragraph(("There are no turning points.",))
     yield Paragraph(("Time, and period between two turning points:",))

@@ -224,7 +224,8 @@ class Equilibrium:
     """A state of rest, which exists where each of `where` holds.
 
     With `free` coordinates, or an equation `on`, a family, stable up to displacements along it.
-    The contacts `touching` are closed; with `sticking` dry friction holds it.
+    The contacts `touching` are closed, those in `open` are not; with `sticking` dry friction
+    holds it.
     The `indeterminate` coordinates have no value there, as the azimuth at a pole.
     """
 
@@ -234,6 +235,7 @@ class Equilibrium:
     where: tuple[Above, ...] = ()
     free: tuple[str, ...] = ()
     touching: tuple[str, ...] = ()
+    open: tuple[str, ...] = ()
     sticking: bool = False
     indeterminate: tuple[str, ...] = ()
 
@@ -242,22 +244,25 @@ class Equilibrium:
 class EquilibriaSection:
     """The equilibria found; None where none could be, with a `reason`.
 
-    `complete`: there can be no other.  Where there are none, there may be some for values of the
-    parameters for which each of `unless` vanishes.
+    `complete`: there can be no other, else all solve that each of `open` is 0 (where these are not
+    long).  Where there are none, there may be some for values of the
+    parameters for which each of `unless` vanishes; None: for special values that are not known.
     """
 
     equilibria: tuple[Equilibrium, ...] | None
     reason: str = ""
     complete: bool = True
-    unless: tuple[Expression, ...] = ()
+    open: tuple[Expression, ...] = ()
+    unless: tuple[Expression, ...] | None = ()
 
 
 @record(kw_only=True)
 class ModesOfFrequency:
     """The normal modes of one frequency about an equilibrium, or all `on` a line.
 
-    `frequency` is None where it is not real; the displacements of one frequency are the
-    combinations of `shape` and of `more_shapes`.
+    `frequency` is None where it is not real, and the square is `negative` or may be positive for
+    some values; the displacements of one frequency are the combinations of `shape` and of
+    `more_shapes`.  One-sided contacts in `open` do not act.
     """
 
     at: Mapping[str, Expression]
@@ -267,6 +272,8 @@ class ModesOfFrequency:
     shape: Mapping[str, Expression] | None
     more_shapes: tuple[Mapping[str, Expression], ...] = ()
     multiplicity: int = 1
+    negative: bool = False
+    open: tuple[str, ...] = ()
 
 
 @record(kw_only=True)

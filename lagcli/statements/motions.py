@@ -80,7 +80,8 @@ class OneFreedom:
 
     `turning_points` are the roots of U_eff = E, None where that has no closed solution; those
     that are real count, where the coordinate is `positive` those that are positive.  All of
-    them are real for E between the bounds of each of `turning_energies`.
+    them are real for E between the bounds of each of `turning_energies`; one-sided contacts hold
+    at each of them under the conditions of `turning_where`.
     """
 
     coordinate: str
@@ -91,6 +92,7 @@ class OneFreedom:
     periods: tuple[PeriodSeries, ...]
     positive: bool = False
     turning_energies: tuple[tuple[Expression, Expression], ...] = ()
+    turning_where: tuple[tuple[Above, ...], ...] = ()
     reason: str = ""
 
 
@@ -124,7 +126,7 @@ class SteadySection:
 
     They are dU_eff/dq minus what is `acting`: "forces", "constraints", along which they are taken.
     `momenta` are the cyclic coordinates whose momenta are constant.  Where there are no motions,
-    there may be some for parameters for which each of `unless` vanishes.
+    there may be some for parameters for which each of `unless` vanishes; None: for special values.
 
     Under velocity constraints the conditions are those of constant velocities, where the
     `eliminated` ones follow from the constraints; each motion is then `rolling`.
@@ -137,7 +139,7 @@ class SteadySection:
     acting: tuple[str, ...] = ()
     reason: str = ""
     momenta: tuple[str, ...] = ()
-    unless: tuple[Expression, ...] = ()
+    unless: tuple[Expression, ...] | None = ()
 
 
 @record

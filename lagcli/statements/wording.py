@@ -18,7 +18,7 @@ from lagcli.expression import (
     operation_count,
 )
 from lagcli.statements.answers import QuantityUnit, Verification
-from lagcli.statements.motions import Above, Irreducible, SteadyMotion, Verdict
+from lagcli.statements.motions import Above, Irreducible, OneFreedom, SteadyMotion, Verdict
 from lagcli.statements.questions import Answer, Solutions
 
 Part = str | Formula
@@ -79,6 +79,22 @@ def enumerated(words: Sequence[str], before: str = "") -> str:
 def conditions(where: Sequence[Above]) -> list[Part]:
     """Inequalities within a sentence, all of which hold."""
     return _joined(where, " and ")
+
+
+def turning_contacts(motion: OneFreedom) -> Iterator[Paragraph]:
+    """For which energies one-sided contacts hold at the turning points."""
+    different = dict.fromkeys(motion.turning_where)
+    if len(different) == 1:
+        [where] = different
+        if where:
+            yield Paragraph(("The one-sided constraints hold there for ", *conditions(where), "."))
+        return
+    for root, where in zip(motion.turning_points or (), motion.turning_where, strict=True):
+        if where:
+            place = ("At ", Name(motion.coordinate), " = ", root)
+            yield Paragraph(
+                (*place, " the one-sided constraints hold for ", *conditions(where), ".")
+            )
 
 
 def _joined(where: Sequence[Above], word: str) -> list[Part]:
@@ -223,22 +239,24 @@ def fold(determinant: Expression | None) -> Iterator[Block]:
         yield Equations((Row(ZERO, determinant),))
 
 
-def unless(what: str, vanishing: Sequence[Expression]) -> list[Part]:
+def unless(what: str, vanishing: Sequence[Expression] | None) -> list[Part]:
     """That there is none, but for values of the parameters for which these vanish."""
+    if vanishing is None:
+        return [f"for general values of the parameters there is no {what}"]
     parts: list[Part] = [f"there is no {what}"]
     for position, each in enumerate(vanishing):
         parts += [" and " if position else " unless ", *_compared(each, " = ")]
     return parts
 
 
-def none_found(what: str, vanishing: Sequence[Expression], *, complete: bool) -> Paragraph:
+def none_found(what: str, vanishing: Sequence[Expression] | None, *, complete: bool) -> Paragraph:
     """That there is none of what was sought, or that none is known."""
     if not complete:
         return Paragraph(("None was found.",))
-    if not vanishing:
+    if vanishing == ():
         return Paragraph(("There is none.",))
     lead, *rest = unless(what, vanishing)
-    return Paragraph((f"T{str(lead)[1:]}", *rest, "."))
+    return Paragraph((f"{str(lead)[0].upper()}{str(lead)[1:]}", *rest, "."))
 
 
 def remark(answer: Answer) -> Iterator[Paragraph]:

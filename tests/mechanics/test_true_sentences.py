@@ -257,7 +257,7 @@ def test_a_condition_without_coordinates_has_no_other_solutions():
         "coordinates: [x, y]\nparameters: {m: {assume: positive}, g: {assume: positive}}\n"
         "T: m*(x'^2 + y'^2)/2\nV: m*g*y + m*x^2\n"
     )
-    assert RestPoints(derive(text).dynamics).conditions == "2*m*x = 0"
+    assert list(map(str, RestPoints(derive(text).dynamics).conditions)) == ["2*m*x"]
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -50,19 +50,20 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
     rest = RestPoints(teller.dynamics)
     constrained = bool(teller.dynamics.constraints.equations)
     sticking = any(each.sticking for each in found or ())
+    conditions = [teller.readable.as_written(e) for e in rest.equations]
+    end = "." if sticking else ":" if conditions else ", which they do everywhere."
     yield says(
         "At an equilibrium all velocities and accelerations are 0. Lagrange's equations then "
         "require that the generalized forces vanish"
         + (" along every displacement that the constraints allow" if constrained else "")
-        + ("." if sticking else ":")
+        + end
     )
     if sticking:
         yield says(
             "Dry friction takes at rest whatever is needed to hold the body, up to its largest "
             "value, in either direction: what it acts on is at rest in a whole range of places."
         )
-    else:
-        conditions = [teller.readable.as_written(e) for e in rest.equations]
+    elif conditions:
         yield Equations(tuple(Row(ZERO, condition) for condition in conditions))
     if teller.system.problem.contacts:
         yield says("Each contact is either closed, and pushes, or open, and there is no force.")
@@ -95,7 +96,7 @@ def _none(rest: RestPoints, states: EquilibriaSection) -> list[Part]:
     if rest.at_singular_coordinates:
         where = "These hold only where the coordinates are singular"
         lead = f"{where}, and in regular coordinates that is not an equilibrium: "
-        none = unless("equilibrium", states.unless) if states.unless else ["there is none"]
+        none = unless("equilibrium", states.unless) if states.unless != () else ["there is none"]
         return [lead, *none, "."]
     return ["These have no solution: ", *unless("equilibrium", states.unless), "."]
 

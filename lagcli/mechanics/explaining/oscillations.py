@@ -117,9 +117,14 @@ def _mode(mode: ModesOfFrequency, omega: Name) -> Iterator[Block]:
         again = "and independently of these, as the root is multiple,"
         yield says(again if number else "with the amplitudes in the ratio")
         yield _amplitudes(shape)
-    if mode.frequency is None:
+    if mode.negative:
+        yield says("This is negative: the displacement does not oscillate, it grows exponentially.")
+    elif mode.frequency is None:
         yield says("It oscillates only where this is real and positive.")
-    if value == ZERO:
+    if value == ZERO and 0 < len(shapes) < mode.multiplicity:
+        yield says("The root is multiple and has fewer independent shapes: to first order other "
+                   "displacements grow in proportion to a higher power of the time.")  # fmt: skip
+    elif value == ZERO:
         yield says("To first order this is not an oscillation but a uniform drift.")
 
 

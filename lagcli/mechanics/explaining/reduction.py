@@ -15,7 +15,13 @@ from lagcli.mechanics.reduction.minimal import minimal
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import ReductionSection, Section
 from lagcli.statements.motions import OneFreedom, PeriodSeries
-from lagcli.statements.wording import POTENTIAL, conditions, irreducible, place_rows
+from lagcli.statements.wording import (
+    POTENTIAL,
+    conditions,
+    irreducible,
+    place_rows,
+    turning_contacts,
+)
 
 _TWICE = "the period is twice the time between the turning points."
 
@@ -113,6 +119,7 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
         for lower, upper in motion.turning_energies:
             yield says("They exist for ", lower, " ≤ ", E, " ≤ ", upper, ".")
             yield says("For larger ", E, ", ", q, " does not turn back.")
+        yield from turning_contacts(motion)
     else:
         yield says("It has no turning point.")
     for each in motion.periods:

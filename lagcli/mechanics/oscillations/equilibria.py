@@ -22,12 +22,13 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import Field, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
-from lagcli.algebra.equations import is_decimal, rounded
+from lagcli.algebra.equations import is_decimal, rounded, written
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.numeric import vanishes_at_random
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
+from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.family import Family, exists_where, family
 from lagcli.mechanics.oscillations.kinks import at_kinks
@@ -36,7 +37,7 @@ from lagcli.record import record
 _MAX_EVIDENT = 64
 _NO_CLOSED_SOLUTION = "the conditions of equilibrium have no closed solution"
 _AT_A_KINK = "a force jumps where its sign changes, and rest at such a kink is not decided"
-_LONGEST = 120  # characters of conditions that are quoted
+_LONGEST = 60  # operations of conditions that are quoted
 _LAST_DIGITS = sympy.Float("1e-13")
 _PERIODIC = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 
@@ -194,17 +195,18 @@ class RestPoints:
         return [e for e in (*conditions, *forces) if is_zero(e) is not True]
 
     @property
-    def conditions(self) -> str:
+    def conditions(self) -> tuple[Expr, ...]:
         """What the coordinates of an equilibrium solve; empty where that is long."""
         short = [simplify(e) for e in self.equations if not free_of(e, self.system.q)]
         short = [-e if e.could_extract_minus_sign() else e for e in short]
-        texts = [f"{e} = 0".replace("**", "^") for e in short]
-        whole = ", ".join(texts)
-        return whole if len(whole) <= _LONGEST else ""
+        return tuple(short) if sum(int(e.count_ops()) for e in short) <= _LONGEST else ()
 
     @cached_property
-    def unless(self) -> tuple[Expr, ...]:
-        """What has no coordinate in it and is 0 for some values of the parameters only."""
+    def unless(self) -> tuple[Expr, ...] | None:
+        """What has no coordinate in it and is 0 for some values of the parameters only.
+
+        None where special values were not excluded.
+        """
         return without_unknowns(self.equations, self.system.q)
 
     @property
@@ -334,8 +336,27 @@ def _vanishes(expression: Expr) -> bool:
     return value is not sympy.nan and bool(abs(value) < sympy.Float("1e-40"))
 
 
-def without_unknowns(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[Expr, ...]:
-    """What no choice of the unknowns makes 0, but perhaps one of parameters."""
+def without_unknowns(
+    conditions: Sequence[Expr], unknowns: Sequence[Symbol]
+) -> tuple[Expr, ...] | None:
+    """What no choice of the unknowns makes 0, but perhaps one of parameters.
+
+    None where all conditions may hold for special values of parameters that are not known.
+    """
+    found = _factors_without(conditions, unknowns)
+    if found or any(sign(e) in (1, -1) for e in conditions):
+        return found
+    return () if all(e.free_symbols <= {*unknowns} for e in conditions) else None
+
+
+def unless_written(
+    vanishing: Sequence[Expr] | None, order: Sequence[str]
+) -> tuple[Expression, ...] | None:
+    """`unless` as it is read."""
+    return None if vanishing is None else tuple(written(e, order) for e in vanishing)
+
+
+def _factors_without(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[Expr, ...]:
     open_ = [simplify(e) for e in conditions if free_of(e, unknowns)]
     if open_:
         deciding = [_perhaps_zero(e, unknowns) for e in open_]

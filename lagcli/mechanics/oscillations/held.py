@@ -84,6 +84,7 @@ class HeldCombination:
     demands: tuple[Expr, ...] = ()
     gaps: tuple[Expr, ...] = ()
     touching: tuple[str, ...] = ()
+    open: tuple[str, ...] = ()
     sticking: bool = False
 
     def points(self) -> tuple[RestPoint, ...] | None:
@@ -208,6 +209,7 @@ def _variant(
         tuple(demands),
         tuple(x.gap for x in contacts if x.name in opened and x.gap is not None),
         tuple(each.name for each in closed if each.may_open),
+        tuple(opened),
         sticking=bool(friction),
     )
 

@@ -120,6 +120,16 @@ class Linearization:
             for force in forcing
         )
 
+    @cached_property
+    def drifts(self) -> bool:
+        """Whether displacements must move: a constraint a(q) q' + b(q) = 0 has a gradient of b.
+
+        The velocities that it allows are not those of displacements along it then.
+        """
+        terms = [e.drift for e in self.dynamics.constraints.equations if not e.holonomic]
+        slopes = (drift.diff(q) for drift in terms for q in self.system.q)
+        return any(is_zero(at(slope, self.point.values)) is not True for slope in slopes)
+
     def _along(self, matrix: Sequence[Sequence[Expr]]) -> Matrix:
         """B^T matrix B at the equilibrium, with q' = 0."""
         still = dict.fromkeys(self.system.qdot, S.Zero)

@@ -28,13 +28,15 @@ _ROUNDED = mpf(10) ** -10  # for squared frequencies given as decimals
 class NormalMode:
     """`square` is omega^2; `frequency` None where it is not real, no `shapes` where complex.
 
-    Both are None, without shapes, for a frequency that was not found, or not undamped.
+    `negative`: the square is, for all values.  Both are None, without shapes, for a frequency that
+    was not found, or not undamped.
     """
 
     square: Expr | None
     frequency: Expr | None
     shapes: tuple[tuple[Expr, ...], ...]
     multiplicity: int
+    negative: bool = False
 
 
 def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[NormalMode]:
@@ -59,9 +61,9 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
             else:
                 frequency = _frequency(linear, root, choices)
                 square = shorter(simplify(root), root)
-            modes.append(
-                NormalMode(square, frequency, _shapes(linear, square, values), multiplicity)
-            )
+            falls = frequency is None and sign(square, linear.point.positive) == -1
+            shapes = _shapes(linear, square, values)
+            modes.append(NormalMode(square, frequency, shapes, multiplicity, falls))
     modes.sort(key=lambda mode: _number(mode.square, values))
     if unknown:
         modes.append(NormalMode(None, None, (), unknown))

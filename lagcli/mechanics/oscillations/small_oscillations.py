@@ -22,7 +22,7 @@ from lagcli.algebra.equations import written
 from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import RestPoint
+from lagcli.mechanics.oscillations.equilibria import RestPoint, unless_written
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.held import HeldCombination, held
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
@@ -30,6 +30,7 @@ from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
 from lagcli.mechanics.oscillations.singular import OnMeridians, is_singular
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.stability.judge import (
+    DRIFTS,
     EXCLUDED,
     GRAZES,
     Stability,
@@ -57,10 +58,10 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     return EquilibriaSection(
         equilibria=tuple(map(oscillations.equilibrium, places)),
         complete=oscillations.complete,
-        reason="" if oscillations.complete else oscillations.rest.conditions,
-        unless=()
-        if places
-        else tuple(written(e, dynamics.system.order) for e in oscillations.rest.unless),
+        open=()
+        if oscillations.complete
+        else tuple(written(e, dynamics.system.order) for e in oscillations.rest.conditions),
+        unless=() if places else unless_written(oscillations.rest.unless, dynamics.system.order),
     )
 
 
@@ -80,12 +81,19 @@ def modes(dynamics: Dynamics) -> ModesSection:
         return ModesSection(modes=(), reason=EXCLUDED)
     if not found and all(place.held.firmly and not place.linear.M for place in places):
         return ModesSection(modes=(), reason="contacts or static friction hold what is at rest")
+    if not found and all(place.held.grazes(place.point) for place in chosen):
+        return ModesSection(modes=(), reason=GRAZES)
     if not found:
-        singular = all(place.indeterminate for place in chosen)
-        bent = any(place.linear.has_kink for place in chosen)
-        reason = _SINGULAR if singular else _NO_LINEAR_PART if bent else _NO_MODES
-        return ModesSection(modes=None, reason=reason)
+        return ModesSection(modes=None, reason=_why_none(chosen))
     return ModesSection(modes=tuple(found))
+
+
+def _why_none(places: Sequence[Place]) -> str:
+    if any(place.linear.drifts for place in places):
+        return DRIFTS
+    if all(place.indeterminate for place in places):
+        return _SINGULAR
+    return _NO_LINEAR_PART if any(place.linear.has_kink for place in places) else _NO_MODES
 
 
 class Place:
@@ -135,7 +143,9 @@ class Place:
     def modes(self) -> list[NormalMode]:
         """The normal modes, each verified; empty where the motion is singular."""
         try:
-            if not self.linear.regular or self.linear.has_kink:
+            if not self.linear.regular or self.linear.has_kink or self.linear.drifts:
+                return []
+            if self.held.grazes(self.point):
                 return []
             return normal_modes(self.linear, self.characteristic)
         except ZeroDivisionError:
@@ -182,6 +192,7 @@ class SmallOscillations:
             free=tuple(q.name for q in free if q not in gone),
             indeterminate=tuple(q.name for q in free if q in gone),
             touching=place.held.touching,
+            open=place.held.open,
             sticking=place.held.sticking,
         )
 
@@ -196,6 +207,8 @@ class SmallOscillations:
                 shape=self._shape(mode.shapes[0]) if mode.shapes else None,
                 more_shapes=tuple(map(self._shape, mode.shapes[1:])),
                 multiplicity=mode.multiplicity,
+                negative=mode.negative,
+                open=place.held.open,
             )
             for mode in place.modes
         ]

@@ -28,6 +28,7 @@ from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.parameter_values import DIGITS, admissible_values
 from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.routh import Routh
+from lagcli.mechanics.reduction.steady import SteadyMotions
 
 _ZERO = mpf(10) ** -(DIGITS - 15)
 _TRIED = 24
@@ -49,6 +50,7 @@ class ReducedFreedom:
         self.mass: Expr = simplify(self.dynamics.lagrange.mass_matrix[0][0])
         self.potential: Expr = routh.effective_potential
         self.E: Symbol = symbol(free_name(routh, ENERGY))
+        self.contacts = SteadyMotions(routh)
 
     @cached_property
     def why_not_conserved(self) -> str:
@@ -72,7 +74,10 @@ class ReducedFreedom:
 
     @cached_property
     def turning_points(self) -> tuple[Expr, ...] | None:
-        """The roots of U_eff = E, each by substitution; None without a closed form."""
+        """The roots of U_eff = E, each by substitution; None without a closed form.
+
+        Those at which a one-sided contact would have to pull are left out.
+        """
         excess = self.potential - self.E
         if free_of(self.potential, [self.q]):
             return ()
@@ -81,7 +86,15 @@ class ReducedFreedom:
             return None
         roots = [simplify(root) for root in found.values]
         roots = [root for root in roots if not self._excluded(root)]
-        return tuple(roots) if all(self._is_root(root, excess) for root in roots) else None
+        if not all(self._is_root(root, excess) for root in roots):
+            return None
+        return tuple(r for r in roots if self.contacts.where_pressed({self.q: r}) is not None)
+
+    @cached_property
+    def turning_where(self) -> tuple[tuple[Expr, ...], ...]:
+        """What must be positive for the one-sided contacts to hold at each turning point."""
+        roots = self.turning_points or ()
+        return tuple(self.contacts.where_pressed({self.q: root}) or () for root in roots)
 
     @cached_property
     def turning_energies(self) -> tuple[tuple[Expr, Expr], ...]:

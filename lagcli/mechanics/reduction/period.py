@@ -30,7 +30,7 @@ from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom
 from lagcli.mechanics.reduction.readable import weak_sign
-from lagcli.record import record
+from lagcli.record import record, replace
 
 #: T/T0 is given to this order in the amplitude.
 ORDER = 4
@@ -83,8 +83,12 @@ class Periods:
             return self._anywhere()
         found = []
         for point in points:
-            if point.free:
+            pressed = self.motion.contacts.where_pressed(point.values)
+            if pressed is None:
+                self.reason = "the one-sided constraints do not hold at every minimum of U_eff"
+            if point.free or pressed is None:
                 continue
+            point = replace(point, positive=(*point.positive, *pressed))
             try:
                 series = self._about(point)
             except ZeroDivisionError:
@@ -103,9 +107,10 @@ class Periods:
         """2 pi sqrt(M/U'') at a place that is given by U' = 0 only."""
         motion = self.motion
         curvature = simplify(motion.potential.diff(motion.q, 2))
-        if sign(curvature) in (0, -1):
+        pressed = motion.contacts.where_pressed({})
+        if sign(curvature) in (0, -1) or pressed is None:
             return ()
-        return (AmplitudeSeries(None, _root(motion.mass, curvature), (), ()),)
+        return (AmplitudeSeries(None, _root(motion.mass, curvature), (), pressed),)
 
     def _about(self, point: RestPoint) -> AmplitudeSeries | None:
         motion = self.motion

@@ -147,7 +147,7 @@ class RollingMotions:
         return {j: simplify(f.xreplace(still)) for j, f in pairs}
 
     @property
-    def unless(self) -> tuple[Expr, ...]:
+    def unless(self) -> tuple[Expr, ...] | None:
         """What only values of the parameters make 0, so that there may be a steady motion."""
         return without_unknowns(list(self.conditions.values()), (*self.system.q, *self.system.qdot))
 

@@ -6,6 +6,7 @@ from sympy import Expr
 
 from lagcli.algebra.equations import written
 from lagcli.expression import Expression
+from lagcli.mechanics.oscillations.equilibria import unless_written
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.rolling import RollingMotion, RollingMotions
 from lagcli.mechanics.stability.statement import stated
@@ -19,7 +20,7 @@ def rolling_section(found: RollingMotions) -> SteadySection:
         conditions={names[j]: written(c, order) for j, c in found.conditions.items()},
         motions=tuple(_motion(found, motion) for motion in found.motions or ()),
         complete=found.complete,
-        unless=() if found.motions else tuple(written(e, order) for e in found.unless),
+        unless=() if found.motions else unless_written(found.unless, order),
         eliminated=tuple(n for j, n in enumerate(names) if j not in found.velocities),
     )
 

@@ -173,6 +173,7 @@ class _Statement:
                 (shape(lower, order), shape(upper, order))
                 for lower, upper in motion.turning_energies
             ),
+            turning_where=tuple(conditions(each, order) for each in motion.turning_where),
             reason=periods.reason,
         )
 

@@ -151,7 +151,7 @@ class SteadyMotions:
         return [simplify(-force) for force in self.rest.forces_at_rest]
 
     @property
-    def unless(self) -> tuple[Expr, ...]:
+    def unless(self) -> tuple[Expr, ...] | None:
         """What only values of the parameters make 0, so that there may be a steady motion."""
         return without_unknowns(self.balance, (*self.system.q, *self.routh.momenta))
 
@@ -180,6 +180,7 @@ class SteadyMotions:
             found = [given.on_motion(part) for part in parts if part is not None]
             demands += [(part, not each.given) for part in found if part is not None]
         solved = {} if constraints.relations is None else dict(constraints.relations.solved)
+        demands += [(q, bool(q.is_positive)) for q in solved if q.is_nonnegative]
         flow = dict(zip(given.system.q, given.system.qdot, strict=True))
         for q, value in reversed([(q, v) for q, v in solved.items() if q in flow]):
             put_in = {q: value, flow[q]: given.system.total_derivative(value)}
@@ -210,6 +211,21 @@ class SteadyMotions:
         except ZeroDivisionError:
             return []
         return [] if any(x.has(S.NaN, S.ComplexInfinity) for x, _ in found) else found
+
+    def where_pressed(self, values: Mapping[Symbol, Expr]) -> tuple[Expr, ...] | None:
+        """What must be positive for all one-sided contacts to press; None where one does not.
+
+        `values` are a place, at the momenta of the cyclic coordinates.
+        """
+        try:
+            anywhere, there = (self._pressing(Steady(x, self._rates(x))) for x in ({}, values))
+        except ZeroDivisionError:
+            return ()
+        known = {k for k, (value, _) in enumerate(anywhere) if sign(value) == 1}
+        open_ = [value for k, (value, _) in enumerate(there) if k not in known and sign(value) != 1]
+        if any(sign(value) in (0, -1) or weak_sign(value) == -1 for value in open_):
+            return None
+        return tuple(open_)
 
     def grazes(self, motion: Steady) -> bool:
         """Whether nothing presses on something that is closed, so that it may open."""

@@ -13,7 +13,7 @@ from lagcli.algebra.equations import rounded, written
 from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.equilibria import at, unless_written
 from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
@@ -81,7 +81,7 @@ class _SteadyStatement:
                 complete=steady.complete,
                 acting=steady.acting,
                 momenta=cyclic,
-                unless=() if found else tuple(map(self._shape, steady.unless)),
+                unless=() if found else unless_written(steady.unless, self.order),
             ),
             [],
         )
@@ -103,8 +103,10 @@ class _SteadyStatement:
         try:
             if not motion.derivatives:
                 linear = Linearization(self.steady.rest, self.steady.point(motion))
-                judged, matrices = judge(linear), (linear.M, linear.C, linear.K)
-                squares, turning = squares_of(linear), held_by_gyroscopic_terms(linear)
+                judged = judge(linear)
+                if not (linear.drifts or self.steady.grazes(motion)):
+                    matrices = (linear.M, linear.C, linear.K)
+                    squares, turning = squares_of(linear), held_by_gyroscopic_terms(linear)
                 if motion.family is not None:
                     squares, matrices = self._on_all(motion.family, squares, matrices)
             else:

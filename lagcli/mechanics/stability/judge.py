@@ -52,13 +52,16 @@ NOT_DEFINITE = (
 #: Of contacts without a force.
 GRAZES = "nothing presses on the contact, which may open"
 _INDEFINITE = "the kinetic energy is not positive definite"
+#: Of constraints whose displacements move.
+DRIFTS = "a velocity constraint has a term without velocities that depends on the place"
 #: Of a system without a degree of freedom.
 EXCLUDED = "the constraints exclude every displacement"
 _FALLING = "a squared frequency is negative, since {V} has no minimum there"
 _GROWING = "a root of the characteristic polynomial has a positive real part"
 _ALL_ROOTS = "all roots have negative real parts"
 _NO_SECOND = "{V} has no minimum of second order"
-_NEUTRAL = "neutral: no force to first order"
+_NEUTRAL = "there is no force to first order"
+_POWERS = "all roots are 0, and to first order displacements grow in proportion to a power of t"
 _MAY_FEED = "a force that is not linear, or has no potential, may feed energy"
 _MOST_ROLLING = 4
 _NUMERIC = Float("1e-20")
@@ -152,6 +155,8 @@ def judge_on_meridians(linear: OnMeridians) -> Stability:
 
 
 def _not_to_be_judged(near: Near) -> str:
+    if near.linear.drifts:
+        return DRIFTS
     if not near.linear.regular:
         return "the mass matrix is singular there"
     if not near.smooth:
@@ -165,7 +170,8 @@ def _not_to_be_judged(near: Near) -> str:
 
 def _judged(near: Near) -> Stability:
     if len(near.others) == 1 and not near.linear.gyroscopic:
-        return by_higher_order(near) or undecided(_NEUTRAL)
+        forced = any(x != 0 for row in near.linear.K for x in row)
+        return by_higher_order(near) or undecided(_POWERS if forced else _NEUTRAL)
     if near.has_energy and not near.inertia_is_definite:
         roots = by_roots(near)
         known = roots.stable is not None or roots.opposed or roots.exact
@@ -403,7 +409,7 @@ def by_polynomial(
     zeros = next(k for k, c in enumerate(powers) if c != 0)
     others = [simplify(c / powers[-1]) for c in powers[zeros:]]
     if len(others) == 1:
-        return undecided(_NEUTRAL), ()
+        return undecided("all roots of the linearised equations are 0"), ()
     even = all(c == 0 for c in others[1::2])
     squares = (others[0],) if even and len(others) == 3 else ()
     if even:

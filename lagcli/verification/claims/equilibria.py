@@ -20,6 +20,7 @@ from lagcli.verification.claims.rest import (
     named,
     not_confirmed,
     with_closed_contacts,
+    without_open,
 )
 from lagcli.verification.claims.stability import refutes
 from lagcli.verification.claims.unlisted import Balance, shown, unlisted
@@ -43,9 +44,9 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
                 x.unchecked.append(what)
                 found.append(each)
                 continue
-            place = RestPlace(x, what, each.at, {}, each.on, each.where)
-            y = with_closed_contacts(x, place)
-            place = place if y is x else RestPlace(y, what, each.at, {}, each.on, each.where)
+            y = without_open(x, each.open)
+            y = with_closed_contacts(y, RestPlace(y, what, each.at, {}, each.on, each.where))
+            place = RestPlace(y, what, each.at, {}, each.on, each.where)
             verdict = _stays(x, what, place, each.verdict, cyclic=0)
             if verdict is None:
                 return replace(section, equilibria=None, reason=not_confirmed("an equilibrium"))

@@ -15,6 +15,7 @@ from lagcli.verification.claims.rest import (
     named,
     not_confirmed,
     with_closed_contacts,
+    without_open,
 )
 from lagcli.verification.claims.unlisted import Balance, shown, unlisted
 from lagcli.verification.examination import Examination
@@ -49,6 +50,7 @@ def _all_modes(x: Examination, about: Sequence[ModesOfFrequency]) -> RestPlace |
     """The equilibrium, if it has as many modes as it must have."""
     first = about[0]
     what = f"the number of normal modes about {named(first.at, first.on)}"
+    x = without_open(x, first.open)
     place = RestPlace(x, what, first.at, {}, first.on, ())
     if with_closed_contacts(x, place) is not x:
         return place
@@ -80,6 +82,7 @@ def _of_other_equilibria(x: Examination, places: Sequence[RestPlace]) -> None:
 
 def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
     what = f"the normal modes about {named(mode.at, mode.on)}"
+    x = without_open(x, mode.open)
     place = RestPlace(x, what, mode.at, {}, mode.on, ())
     if with_closed_contacts(x, place) is not x:
         x.unchecked.append(what)  # on one side only the motion is that of the equations
@@ -105,10 +108,23 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
         if not all(_moves_so(near, W[0], row) for row in rows):
             x.refute(what, "a shape is not that of its frequency")
             return False
-        if rows and _independent(rows, size) not in {mode.multiplicity, -1}:
+        if rows and _independent(rows, size) not in {_expected(near, W[0], mode), -1}:
             x.refute(what, "the shapes of a frequency are not as many as it has")
             return False
     return True
+
+
+def _expected(near: LinearMotion, W: arb, mode: ModesOfFrequency) -> int:
+    """How many independent shapes a frequency has: fewer than its multiplicity where defective.
+
+    Those of q'' = S q are the kernel of S + W along the constraints.
+    """
+    by_q, _ = near.slopes
+    rows = [[e + W * (i == j) for j, e in enumerate(row)] for i, row in enumerate(by_q)]
+    try:
+        return min(mode.multiplicity, near.size - rank([*rows, *near.laws.jacobian], near.size))
+    except Unclear:
+        return -1
 
 
 def _independent(rows: Sequence[Sequence[arb]], size: int) -> int:

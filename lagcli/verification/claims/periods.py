@@ -105,15 +105,25 @@ class Well:
             there = {**known, (self.one.coordinate, 0): q0}
             true = 2 * arb.pi() * (M / k).sqrt()
             return size(self.x.reference.values(there)(place) - true) < 1e-30 * size(true)
-        energy = self._value(known, self.U, q0 + _AMPLITUDE)
-        low = self._turning(known, q0 - _AMPLITUDE, energy)
-        if low is None:
+        far = self._error(known, series, place, q0, _AMPLITUDE)
+        if far is None or far < 1e3 * size(_AMPLITUDE) ** (series.order + 1):
             return True
-        a, middle = (q0 + _AMPLITUDE - low) / 2, (q0 + _AMPLITUDE + low) / 2
+        # beyond the printed powers the error falls with a higher one, whatever its factor
+        near = self._error(known, series, place, q0, _AMPLITUDE / 4)
+        return near is None or 2 * near * 4**series.order < far
+
+    def _error(
+        self, known: Environment, series: PeriodSeries, place: int, q0: arb, step: arb
+    ) -> float | None:
+        """Of the printed period, relative, where the motion turns at q0 + step."""
+        energy = self._value(known, self.U, q0 + step)
+        low = self._turning(known, q0 - step, energy)
+        if low is None:
+            return None
+        a, middle = (q0 + step - low) / 2, (q0 + step + low) / 2
         true = self._integral(known, middle.mid(), a.mid(), energy)
         printed = self.x.reference.values({**known, (series.amplitude, 0): a})(place)
-        near = 1e3 * size(a) ** (series.order + 1)
-        return not printed.is_finite() or size(printed - true) < near * size(true)
+        return size(printed - true) / size(true) if printed.is_finite() else None
 
     def _turning(self, known: Environment, q: arb, energy: arb) -> arb | None:
         for _ in range(_STEPS):

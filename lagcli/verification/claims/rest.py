@@ -170,6 +170,14 @@ class RestPlace:
         return False
 
 
+def without_open(x: Examination, names: Sequence[str]) -> Examination:
+    """The examination without the constraints that are open."""
+    kept = tuple(c for c in x.problem.constraints if c.name not in names)
+    if len(kept) == len(x.problem.constraints):
+        return x
+    return x.of(replace(x.problem, constraints=kept))
+
+
 def with_closed_contacts(x: Examination, place: RestPlace) -> Examination:
     """The examination in which the contacts that are closed at a place are constraints."""
     near = next(place.states(), None) if place.readable else None
