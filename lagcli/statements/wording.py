@@ -83,11 +83,11 @@ def conditions(where: Sequence[Above]) -> list[Part]:
 
 def turning_contacts(motion: OneFreedom) -> Iterator[Paragraph]:
     """For which energies one-sided contacts hold at the turning points."""
-    different = dict.fromkeys(motion.turning_where)
-    if len(different) == 1:
-        [where] = different
-        if where:
-            yield Paragraph(("The one-sided constraints hold there for ", *conditions(where), "."))
+    different = {*motion.turning_where}
+    if len(different) == 1 and different != {()}:
+        where = motion.turning_where[0]
+        yield Paragraph(("The one-sided constraints hold there for ", *conditions(where), "."))
+    if len(different) < 2:
         return
     for root, where in zip(motion.turning_points or (), motion.turning_where, strict=True):
         if where:
