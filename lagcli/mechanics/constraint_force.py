@@ -69,6 +69,14 @@ def on_points(
     return answer
 
 
+def fixed_axes(dynamics: Dynamics, point: str) -> tuple[str, ...]:
+    """The axes along which a point never moves: a force along them does no work."""
+    [particle] = [p for p in dynamics.system.particles if p.name == point]
+    placed = zip("xyz", particle.position, strict=False)
+    q = dynamics.system.q
+    return tuple(axis for axis, x in placed if all(is_zero(x.diff(s)) is True for s in q))
+
+
 def turning_coordinates(dynamics: Dynamics) -> list[int]:
     """Coordinates on which no point depends, such as the angle of a body about its centre."""
     positions = [x for particle in dynamics.system.particles for x in particle.position]

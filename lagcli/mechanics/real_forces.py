@@ -21,7 +21,7 @@ from sympy import Expr, S
 from lagcli.algebra import is_zero
 from lagcli.algebra.signs import sign
 from lagcli.expression import Expression
-from lagcli.mechanics.constraint_force import Vector, on_points, turning_coordinates
+from lagcli.mechanics.constraint_force import Vector, fixed_axes, on_points, turning_coordinates
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.parameter_values import exact_values
@@ -126,6 +126,7 @@ class RealForces:
                 towards=centre.name if centre is not None and along == 1 else None,
                 away_from=centre.name if centre is not None and along == -1 else None,
                 allowed=None if allowed is None else allowed * orientation,
+                fixed=fixed_axes(self.dynamics, point),
             )
 
     def _kept(self, allowed: int, length: Expr, signed: Expr) -> int | None:

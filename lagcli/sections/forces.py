@@ -16,6 +16,7 @@ from lagcli.reader.scope import ANSWER
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
+from lagcli.statements.wording import only_along_its_path
 
 if TYPE_CHECKING:
     from lagcli.mechanics.explaining.teller import Teller
@@ -55,6 +56,7 @@ def blocks(section: ForcesSection, _: Answers) -> Iterator[Block]:
         yield Heading(f"{name} ({_KINDS[kind]})" if kind else name, 2)
         for force in forces:
             yield from _force(force)
+            yield from only_along_its_path(force.point, force.fixed)
         torques = section.torques.get(name, {})
         if torques:
             note = "no point depends on it"

@@ -17,7 +17,8 @@ class PointForce:
     `force` is None where redundancy leaves the multiplier undetermined.  `towards` and
     `away_from` name a point on the line of the force (empty: the origin), where there is
     one.  `allowed` is the sign of `force` while the contact holds, None where it is held
-    from both sides, or where which side `direction` points to depends on the state.
+    from both sides, or where which side `direction` points to depends on the state.  Along the
+    `fixed` axes the point cannot move: a force along them does no work and is not part of it.
     """
 
     constraint: str
@@ -28,6 +29,7 @@ class PointForce:
     towards: str | None = None
     away_from: str | None = None
     allowed: int | None = None
+    fixed: tuple[str, ...] = ()
 
 
 @record(kw_only=True)

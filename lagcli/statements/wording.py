@@ -81,6 +81,14 @@ def conditions(where: Sequence[Above]) -> list[Part]:
     return _joined(where, " and ")
 
 
+def only_along_its_path(point: str, fixed: Sequence[str]) -> Iterator[Paragraph]:
+    """That a force on a point that cannot move along an axis is not known along that."""
+    if fixed:
+        axes = enumerated(fixed)
+        lead = f"{point} cannot move along {axes}: a force along {axes}"
+        yield Paragraph((f"{lead} does no work on it and is not determined here.",))
+
+
 def turning_contacts(motion: OneFreedom) -> Iterator[Paragraph]:
     """For which energies one-sided contacts hold at the turning points."""
     different = {*motion.turning_where}

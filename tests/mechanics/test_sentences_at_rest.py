@@ -129,3 +129,24 @@ def test_equal_weights_balance(seed):
     assert section.equilibria == ()
     assert section.unless is None
     assert "general values" in said(text, "Equilibria", "equilibria")
+
+
+# -- forces on points that are guided -------------------------------------------------------------
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_force_across_the_path_of_a_guided_point_is_not_called_0(axis):
+    """The rod of a pendulum pushes its support down, too, which the rail bears."""
+    place = ["x", "0"] if axis == 0 else ["0", "x"]
+    text = (
+        "{coordinates: [x, u, v], parameters: {m: {assume: positive}, l: {assume: positive}}, "
+        f"points: {{support: {{position: [{', '.join(place)}], mass: m}}, "
+        "bob: {position: [u, v], mass: m}}, V: m*v, "
+        f"constraints: {{rod: (u - {place[0]})^2 + (v - {place[1]})^2 = l^2}}}}"
+    )
+    fixed, moving = "yx" if axis == 0 else "xy"
+    told = said(text, "What the multipliers mean")
+    assert f"support cannot move along {fixed}" in told
+    assert f"F_support_{moving}" in told
+    assert f"F_support_{fixed}" not in told
+    assert "cannot move" in said(text, "Forces", "forces")

@@ -9,11 +9,12 @@ import sympy
 from lagcli.algebra import is_zero
 from lagcli.document import Block, Equations, Label, Row
 from lagcli.expression import Name
-from lagcli.mechanics.constraint_force import forces_on_points
+from lagcli.mechanics.constraint_force import fixed_axes, forces_on_points
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import SolvedMotion
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import names, says
+from lagcli.statements.wording import only_along_its_path
 
 #: What acts along a coordinate, by its unit.
 _KINDS = {"m": "force", "cm": "force", "mm": "force", "km": "force", "rad": "torque",
@@ -112,6 +113,7 @@ def _direction(
 def _on_points(teller: Teller, points: dict[str, tuple[sympy.Expr, ...]]) -> Iterator[Block]:
     if not points:
         return
+    fixed = {point: fixed_axes(teller.dynamics, point) for point in points}
     yield says("In Cartesian components its force on the " + ("points is" if len(points) > 1
                else "point is"))  # fmt: skip
     yield Equations(
@@ -119,5 +121,8 @@ def _on_points(teller: Teller, points: dict[str, tuple[sympy.Expr, ...]]) -> Ite
             Row(Label("F", (point, axis)), teller.readable.on_surface(component))
             for point, components in points.items()
             for axis, component in zip("xyz", components, strict=False)
+            if axis not in fixed[point]
         )
     )
+    for point, axes in fixed.items():
+        yield from only_along_its_path(point, axes)

@@ -12,6 +12,7 @@ from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, says, shows
 from lagcli.statements.answers import Section
 from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
+from lagcli.statements.wording import only_along_its_path
 
 _KINDS = {"normal": "normal force", "friction": "friction", "tension": "tension"}
 
@@ -53,9 +54,11 @@ def real_forces(teller: Teller, section: Section) -> Iterator[Block]:
                         teller.readable.on_surface(equation.multiplier * slope),
                     )
                     for axis, slope in rows
+                    if axis not in force.fixed
                 )
             )
             yield from _magnitude(force, multiplier)
+            yield from only_along_its_path(force.point, force.fixed)
         if torques:
             yield says("Along an angle on which no point depends it acts as a torque:")
             yield Equations(tuple(Row(Label("Q", (q,)), value) for q, value in torques.items()))
