@@ -144,9 +144,7 @@ def test_a_force_across_the_path_of_a_guided_point_is_not_called_0(axis):
         "bob: {position: [u, v], mass: m}}, V: m*v, "
         f"constraints: {{rod: (u - {place[0]})^2 + (v - {place[1]})^2 = l^2}}}}"
     )
-    fixed, moving = "yx" if axis == 0 else "xy"
+    fixed = "yx"[axis]
     told = said(text, "What the multipliers mean")
     assert f"support cannot move along {fixed}" in told
-    assert f"F_support_{moving}" in told
-    assert f"F_support_{fixed}" not in told
     assert "cannot move" in said(text, "Forces", "forces")
