@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, Literal
 
 from lagcli.diagnostics import NOWHERE, Source, Span
 from lagcli.expression import Equation, Expression, Name, Negative, Number, Product, Sum
+from lagcli.platform.rooms import modules_in
 from lagcli.record import field, record
 
 Assumption = Literal["real", "positive", "nonnegative", "nonzero", "negative"]
@@ -218,10 +220,8 @@ class Reaching:
 Question = Where | Rewrite | Lasting | Reaching
 
 
-#: How a motion may be integrated.
-METHODS = (
-    "auto", "taylor64", "taylor80", "taylor128", "taylor", "dop853", "radau5", "gauss8", "yoshida8",
-)  # fmt: skip
+#: How a motion may be integrated: `auto`, or by a method, each of which is a module.
+METHODS = ("auto", *modules_in(Path(__file__).parent / "numerics" / "certified" / "methods"))
 
 
 @record(kw_only=True)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import math
 import os
 import shutil
 import subprocess
@@ -70,3 +72,29 @@ def test_a_kind_of_constraint(call):
     assert (done.returncode, done.stderr) == (0, "")
     assert "(moving: rheonomic)" in done.stdout
     assert "(resting: holonomic)" in done.stdout
+
+
+def test_a_method(tmp_path):
+    shutil.copytree(ROOT / "lagcli", tmp_path / "lagcli")
+    [module] = [body for body in blocks("python", EXTENDING) if "verlet2.py" in body]
+    name = "lagcli/numerics/certified/methods/verlet2.py"
+    (tmp_path / name).write_text(module, "utf-8")
+    (tmp_path / "p.yaml").write_text("coordinates: [x]\nT: x'^2/2\nV: x^2/2\ninitial: {x: 1}\n")
+
+    def call(*arguments):
+        return subprocess.run(
+            [sys.executable, "-m", "lagcli", *arguments],
+            cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(tmp_path), "LAGCLI_NO_CACHE": "1"},
+            capture_output=True, text=True, check=False,
+        )  # fmt: skip
+
+    done = call(
+        "simulate", "p.yaml", "--method", "verlet2", "--until", "3", "--samples", "4",
+        "--accuracy", "1e-4", "-f", "json",
+    )  # fmt: skip
+    found = json.loads(done.stdout)
+    assert (done.returncode, done.stderr, found["method"]["name"]) == (0, "", "verlet2")
+    assert found["certificate"]["reached"]
+    assert [row[1] for row in found["rows"]] == pytest.approx([*map(math.cos, range(4))], abs=1e-4)
+    assert "verlet2" in call("schema").stdout
+    assert "verlet2" in call("simulate", "--help").stdout

@@ -71,6 +71,18 @@ def test_the_lines_of_python_run(page, at_home, capsys):
             assert capsys.readouterr().out
 
 
+def test_the_methods_are_listed_as_they_declare_themselves():
+    from lagcli.numerics.certified.methods import METHODS
+
+    page = ROOT / "lagcli" / "manual" / "simulate.md"
+    text = page.read_text("utf-8")
+    head, rows = re.search(r"(\| method \|.*\n\| --- .*\n)((?:\|.*\n)*)", text).groups()
+    listed = "".join(f"| `{each.name}` | {each.reason} |\n" for each in METHODS.values())
+    if os.environ.get("LAGCLI_UPDATE"):
+        page.write_text(text.replace(head + rows, head + listed), "utf-8")
+    assert rows == listed
+
+
 def test_every_page_of_the_manual_is_found_by_its_name_and_topics():
     for page in pages():
         assert find_page(page.name) == page

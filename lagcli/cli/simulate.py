@@ -8,6 +8,7 @@ import typer
 
 from lagcli.cli.choices import complete_column, complete_method, complete_problem, complete_table
 from lagcli.cli.options import Output, State
+from lagcli.problem_data import METHODS
 
 File = Annotated[
     str,
@@ -79,8 +80,7 @@ Method = Annotated[
     typer.Option(
         "--method",
         metavar="NAME",
-        help="auto, taylor64, taylor80, taylor128, taylor (any number of digits), dop853, radau5 "
-        "(stiff), gauss8 or yoshida8 (symplectic).",
+        help=f"{', '.join(METHODS)}: see `lagcli help simulate`.",
         autocompletion=complete_method,
     ),
 ]

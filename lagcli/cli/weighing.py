@@ -120,7 +120,7 @@ def _drawn(svg: str, path: Path) -> bytes:
 
 
 def _methods(text: str | None) -> tuple[str, ...] | None:
-    """Those asked for, in their usual order; None where one is unknown."""
+    """Those requested; None where one is unknown."""
     every = METHODS[1:]  # without auto
     if text is None:
         return every
@@ -129,7 +129,7 @@ def _methods(text: str | None) -> tuple[str, ...] | None:
     for word in wrong:
         advice = did_you_mean(word, every) or f"there are {', '.join(every)}"
         tell_line(f"lagcli: error: --methods: unknown name '{word}': {advice}")
-    return None if wrong else tuple(name for name in every if name in asked)
+    return None if wrong else tuple(asked)
 
 
 def _can_be_drawn(path: Path | None) -> bool:

@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib import import_module
-from os import scandir
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
+from lagcli.platform.rooms import modules_in
 from lagcli.statements.declaration import Declaration, Expected
 
 if TYPE_CHECKING:
@@ -108,8 +108,7 @@ def find_expected(key: str) -> tuple[Declaration, Expected]:
 @cache
 def _rooms() -> frozenset[str]:
     """The names of the built-in sections: those of their modules."""
-    names = (entry.name.removesuffix(".py") for entry in scandir(_FOLDER))
-    return frozenset(name for name in names if not name.startswith("_"))
+    return frozenset(modules_in(_FOLDER))
 
 
 def _built_in(name: str) -> Declaration:

@@ -8,7 +8,8 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from lagcli.numerics.certified.methods import METHODS, MethodEntry
+from lagcli.numerics.certified.method_entry import MethodEntry
+from lagcli.numerics.certified.methods import METHODS
 from lagcli.record import record, replace
 from lagcli.studies.tradeoff.front import (
     ACCURACIES,
@@ -123,6 +124,7 @@ def study(
     Refusal
         When there is nothing to run, or no reference.
     """
+    methods = [name for name in METHODS if name in methods]
     problem, asked = asked_of(given)
     known = reference(problem, asked, _reference_limit(given))
     maker = _RunMaker(given, known, repeat, progress, methods)

@@ -1,0 +1,24 @@
+"""Power series with any number of digits."""
+
+from __future__ import annotations
+
+from lagcli.numerics.certified.method_entry import MethodEntry
+from lagcli.numerics.certified.prepared import Prepared
+from lagcli.numerics.hybrid.modes import Modes
+from lagcli.numerics.hybrid.setup import Setup
+
+
+def _prepare(simulation: Setup, modes: Modes) -> Prepared | str:
+    from lagcli.numerics.certified.precise import prepared
+
+    return prepared(simulation, modes)
+
+
+METHOD = MethodEntry(
+    name="taylor",
+    place=40,
+    order=None,
+    properties=("explicit", "smooth", "any precision"),
+    reason="power series with more digits than doubles: the accuracy lies within their rounding",
+    prepare=_prepare,
+)
