@@ -10,13 +10,14 @@ from collections.abc import Iterator
 from typing import Any
 
 from lagcli.diagnostics import Diagnostic, ProblemError, Source
-from lagcli.expression import FUNCTIONS, Expression
+from lagcli.expression import FUNCTIONS, Expression, Number
 from lagcli.reader import parse_text, read_problem
 from lagcli.reader.compose import compose
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.schema import problem_schema
 from lagcli.reader.text import Mistake, SourceText
 from lagcli.record import record
+from lagcli.rewriting import rebuilt
 
 #: The keys whose entries have names that a formula may use.
 _NAMED = ("coordinates", "parameters", "definitions", "functions", "observables")
@@ -230,4 +231,11 @@ def _printed(expression: Expression) -> str:
     from lagcli.formatters.layout import joined
     from lagcli.formatters.unicode import UnicodePrinter
 
-    return joined(UnicodePrinter().show(expression))
+    return joined(UnicodePrinter().show(_as_written(expression)))
+
+
+def _as_written(node: Expression) -> Expression:
+    """9.81 with its decimal point: the reader makes fractions of decimals alone."""
+    if isinstance(node, Number):
+        return Number(node.value, decimal=node.value.denominator > 1)
+    return rebuilt(node, _as_written)

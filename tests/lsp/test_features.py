@@ -70,6 +70,19 @@ def test_what_stands_at_a_place(line, column, expected):
     assert hover(FILE, line, column) == expected
 
 
+@pytest.mark.parametrize(
+    ("formula", "shown"),
+    [
+        ("9.81*m", "9.81 m"),
+        ("m*x'^2/2 + 0.25*x", "m ẋ²/2 + 0.25 x"),
+        ("x^1.5", "x^1.5"),
+        ("1e-3*cos(0.5*x)", "0.001 cos(0.5 x)"),
+    ],
+)
+def test_decimals_are_shown_as_they_are_written(formula, shown):
+    assert hover(f"T: {formula}", 0, 3) == f"```\n{shown}\n```"
+
+
 def test_mistakes_are_those_of_the_command_line():
     (found,) = mistakes("p.yaml", FILE.replace("cos(theta)", "cos(tetha)"))
     assert found.message == "unknown name 'tetha' in V"
