@@ -371,17 +371,33 @@ def test_better_code_gives_the_same_numbers(monkeypatch, text):
     monkeypatch.setattr(compiled_taylor, "_FIRST", 3)
     for limit in (0.0, 3e4, math.inf):
         monkeypatch.setattr(machine, "LONG_RUN", limit)
+        monkeypatch.setattr(machine, "_IMPROVED", set())
         found.append(simulated(text, 5, 1e-9).rows)
     assert found[0] == found[1] == found[2]
 
 
-def test_better_code_is_made_for_a_long_run():
+def test_better_code_is_made_for_a_long_run(monkeypatch):
+    from lagcli.numerics.compiled import machine
+
+    monkeypatch.setattr(machine, "_IMPROVED", set())
     motion, _ = motions(KEPLER)
     made = Machine(motion, DOUBLE)
     assert made.is_quick
     made.improve(100, 20)
     assert made.is_quick
     made.improve(10**6, 20)
+    assert not made.is_quick
+    assert not Machine(motion, DOUBLE).is_quick
+
+
+def test_better_code_is_made_for_many_runs(monkeypatch):
+    from lagcli.numerics.compiled import machine
+
+    monkeypatch.setattr(machine, "_IMPROVED", set())
+    motion, _ = motions(KEPLER)
+    made = Machine(motion, DOUBLE)
+    made.spent = made.work(10**6, 20)
+    made.improve(1, 20)
     assert not made.is_quick
 
 

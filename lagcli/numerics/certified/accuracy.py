@@ -28,6 +28,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from operator import gt
 from typing import Any
 
 from lagcli.numerics.certified.drift import changes
@@ -263,16 +264,12 @@ class Controller:
         good = len(differences)
         while True:
             scales = [*scaled(good), 1.0]
-            within = 0
-            for row in differences[:good]:
-                if any(x > self.accuracy * s for x, s in zip(row, scales, strict=True)):
-                    break
-                within += 1
-            if within == good:
+            allowed = [self.accuracy * scale for scale in scales]
+            worst = [max(column) for column in zip(*differences[:good], strict=True)]
+            if not any(map(gt, worst, allowed)):
                 break
-            good = within
-        columns = zip(*differences[:good], strict=True)
-        held = [relative(max(each), s) for each, s in zip(columns, scales, strict=False)][:-1]
+            good = next(k for k, row in enumerate(differences) if any(map(gt, row, allowed)))
+        held = [relative(most, scale) for most, scale in zip(worst, scales, strict=False)][:-1]
         return good, held or [0.0] * (len(scales) - 1), scales[:-1]
 
     def refined(self, found: Outcome, between: Callable[[float, float], None]) -> Outcome:

@@ -98,6 +98,7 @@ class Engine:
         self.extended = self._triple.startswith(b"x86_64-") and sys.platform != "win32"
         self._has_quadruple: bool | None = None
         self._cpu = self._told("GetHostCPUName"), self._told("GetHostCPUFeatures")
+        self._modules: dict[str, Compiled] = {}
         self._folder = None if os.environ.get("LAGCLI_NO_CACHE") else folder(os.environ)
 
     @property
@@ -127,16 +128,24 @@ class Engine:
         NoCompiler
             Where the module cannot be compiled here.
         """
-        place = Cache(self._folder) if self._folder else None
         for lesser in (False, True) if quickly else (False,):
             key = self._key(source, quickly=lesser)
-            entry = place.find(key) if place else None
-            if entry is not None and entry.text is not None:
-                return self._loaded(b64decode(entry.text))
+            found = self._known(key)
+            if found is not None:
+                return found
         code = self._code(text(), *(((), 0) if quickly else (_PASSES, _CODE_LEVEL)))
-        if place:
-            place.keep(key, KeptAnswer(0, b64encode(code).decode()))
-        return self._loaded(code)
+        if self._folder:
+            Cache(self._folder).keep(key, KeptAnswer(0, b64encode(code).decode()))
+        self._modules[key] = self._loaded(code)
+        return self._modules[key]
+
+    def _known(self, key: str) -> Compiled | None:
+        """A module that is loaded, or kept on disk."""
+        if key not in self._modules and self._folder:
+            entry = Cache(self._folder).find(key)
+            if entry is not None and entry.text is not None:
+                self._modules[key] = self._loaded(b64decode(entry.text))
+        return self._modules.get(key)
 
     def _key(self, source: bytes, *, quickly: bool) -> str:
         whole = b"\0".join((*self._cpu, self._triple, repr((_HOW, quickly)).encode(), source))

@@ -56,10 +56,12 @@ _SUMS = {
 }
 #: Operations beyond which straight code takes too long to make.
 LARGEST = 20_000
-#: Work of a run, operations times the square of the order, from which on better code pays: a
+#: Work of all runs, operations times the square of the order, from which on better code pays: a
 #: unit takes 1.2 ns in quick code and 0.3 ns in the better one, whose making takes 40 to 120 ms
 #: more; a run of more work follows, with the finer tolerance.
 LONG_RUN = 1e8
+#: The problems for which better code has been made in this process.
+_IMPROVED: set[str] = set()
 
 
 class NotCompiled(Exception):
@@ -111,7 +113,9 @@ class Machine:
             raise NotCompiled("something is not defined") from None
         self.rows = series.rows
         self._text, self._calls_sums = "\n".join(parts), large
-        self.is_quick = True
+        self.is_quick = self._text not in _IMPROVED
+        #: work of the runs that are done
+        self.spent = 0.0
         self._make()
 
     def _make(self) -> None:
@@ -143,12 +147,16 @@ class Machine:
         return self._problem.address("series")
 
     def improve(self, steps: float, order: int) -> None:
-        """Go over to better code where a run of so many steps is long."""
-        work = steps * order**2 * (self.ops + 4 * self.motion.n)
-        if self.is_quick and work >= LONG_RUN:
+        """Go over to better code where a run of so many steps, with those before it, is long."""
+        if self.is_quick and self.spent + self.work(steps, order) >= LONG_RUN:
             self.is_quick = False
+            _IMPROVED.add(self._text)
             self._make()
             self.take()
+
+    def work(self, steps: float, order: int) -> float:
+        """What a run of so many steps takes."""
+        return steps * order**2 * (self.ops + 4 * self.motion.n)
 
     @staticmethod
     def _hook(code: Compiled, name: str) -> c_void_p:

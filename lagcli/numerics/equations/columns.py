@@ -106,12 +106,13 @@ class Values:
             Where one is not defined.
         """
         found = list(self._of_state(t, *q, *v))
-        if self._of_all is not None:
-            solved = self._solved(t, q, v)
-            if None not in solved:
-                found += self._of_all(t, *q, *v, *solved)
-            else:
-                found += [self._one(function, (t, *q, *v, *solved)) for function in self._single]
+        if self._of_all is None:
+            return found
+        solved = self._solved(t, q, v)
+        if None not in solved:
+            found += self._of_all(t, *q, *v, *solved)
+        else:
+            found += [self._one(function, (t, *q, *v, *solved)) for function in self._single]
         return [found[place] for place in self._order]
 
     def _solved(self, t: Any, q: Sequence[Any], v: Sequence[Any]) -> Sequence[Any]:

@@ -162,11 +162,18 @@ class Sizes:
         self._program = Program([size(graph, each, known) for each in charges], Floats())
         self._names = [str(symbol) for symbol in state]
         self._known = {str(symbol): float(value) for symbol, value in constants.items()}
+        self._last: tuple[Sequence[Mark], list[int], list[float]] | None = None
 
     def largest(self, marks: Sequence[Mark], places: Sequence[int]) -> list[float]:
         """Of each charge the largest at some of the rows of a phase."""
+        looks = [*places[:: max(1, len(places) // _LOOKS)], places[-1]]
+        if self._last is None or self._last[0] is not marks or self._last[1] != looks:
+            self._last = marks, looks, self._largest(marks, looks)
+        return self._last[2]
+
+    def _largest(self, marks: Sequence[Mark], places: Sequence[int]) -> list[float]:
         found = [0.0] * self._charges
-        for place in {*places[:: max(1, len(places) // _LOOKS)], places[-1]}:
+        for place in places:
             mark = marks[place]
             state = map(float, (mark.t, *mark.q, *mark.v))
             try:

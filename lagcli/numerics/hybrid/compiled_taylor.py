@@ -289,14 +289,15 @@ class CompiledTaylor:
         if status == k.PIVOT:
             raise self._vanishes(state)
         done = int(counts[k.PENDING])
-        whole = self._read(out)
+        whole, n = self._read(out), self.n
+        places = range(0, len(whole), both + 1)
         run.marks = [
-            Mark(float(t), whole[j : j + self.n], whole[j + self.n : j + both], 0, sample)
-            for sample, t in enumerate(times[:done])
-            for j in (sample * (both + 1),)
+            Mark(float(t), whole[j : j + n], whole[j + n : j + both], 0, sample)
+            for sample, (t, j) in enumerate(zip(times[:done], places, strict=False))
         ]
         run.method_name = self.name
         run.steps = int(counts[k.STEPS])
+        self.machine.spent += self.machine.work(run.steps, self.order)
         run.shortened = int(counts[k.SHORTENED])
         run.defect = min(float(facts[k.DEFECT]), math.inf)
         run.evaluations = run.steps * self.order

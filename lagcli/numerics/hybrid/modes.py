@@ -130,7 +130,8 @@ class Mode:
         def row(t: float, q: Sequence[Any], v: Sequence[Any]) -> list[Any]:
             try:
                 found = values(t, q, v)
-                if all(x is None or math.isfinite(float(x)) for x in found):
+                defined = [x for x in found if x is not None] if None in found else found
+                if all(map(math.isfinite, defined)):
                     return found
             except (ArithmeticError, ValueError):
                 pass
