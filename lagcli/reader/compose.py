@@ -136,9 +136,8 @@ class _Composer:
             elif key.label in entries:
                 first = entries[key.label][0]
                 related = ((first.span, "first given here"),)
-                self._report(
-                    key.start, key.end, f"the key '{key.label}' is given twice", related=related
-                )
+                message = f"the key '{key.label}' is given twice"
+                self._report(key.start, key.end, message, "leave out one of them", related)
             else:
                 entries[key.label] = (key, value)
         return list(entries.values())

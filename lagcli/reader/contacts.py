@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from lagcli.expression import ZERO, Equation
@@ -93,6 +94,10 @@ def _gap(sections: Sections, node: DocumentNode, what: str) -> Equation:
         if found is not None and found.comparison[0] == "<":
             left, right = right, left
         gap = Equation(left, right, span=node.span)
+    elif isinstance(node, Scalar) and "=" in node.value:
+        hint = f"write {re.sub('=+', '>=', node.value.strip())}"
+        sections.error(f"{what} is an inequality", node.span, hint)
+        return Equation(ZERO, ZERO, span=node.span)
     else:
         gap = Equation(sections.expression(node, what, POSITION), ZERO, span=node.span)
     if len(sections.diagnostics) == before:

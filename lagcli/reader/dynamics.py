@@ -23,13 +23,13 @@ _POINT_ATTRIBUTES = ("position", "mass", "force")
 def check_energies(sections: Sections, given: dict[str, Scalar]) -> None:
     """The kinetic energy comes from one place: L, or H, or T, or the masses of the points."""
     for whole, others in (("L", "TV"), ("H", "LTV")):
-        for key in others:
-            if whole in given and key in given:
-                related = ((given[whole].span, f"{whole} is given here"),)
-                message = f"both {whole} and {key} are given"
-                hint = "give L, or H" if key == "L" else f"give {whole}, or T and V"
-                sections.error(message, given[key].span, hint, related)
-                sections.scope.refused.append(key)  # as in L: T - V
+        both = [key for key in others if whole in given and key in given]
+        if both:
+            related = ((given[whole].span, f"{whole} is given here"),)
+            message = f"both {whole} and {' and '.join(both)} are given"
+            hint = "give L, or H" if "L" in both else f"give {whole}, or T and V"
+            sections.error(message, given[both[0]].span, hint, related)
+            sections.scope.refused += both  # as in L: T - V
 
 
 def check_masses(sections: Sections, problem: Problem, span: Span) -> None:

@@ -23,6 +23,11 @@ KEYS = {
     "initial_conditions": "initial", "initial_state": "initial", "x0": "initial",
     "force": "forces", "external_forces": "forces", "particles": "points", "masses": "points",
     "constraint": "constraints", "symmetry": "symmetries", "simulate": "simulation",
+    **dict.fromkeys(("time", "t_end", "tend", "t_max", "tmax", "end", "duration"), "until"),
+    **dict.fromkeys(("tol", "tolerance", "rtol", "precision"), "accuracy"),
+    **dict.fromkeys(("solver", "integrator"), "method"),
+    **dict.fromkeys(("author", "book"), "source"),
+    **dict.fromkeys(("comment", "note", "notes"), "description"),
     "run": "simulation", "questions": "find", "expected": "expect", "answers": "expect",
 }  # fmt: skip
 
@@ -66,18 +71,24 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
         return f"write assume: {word}"
     if word == "friction" and "dissipation" in known:
         return "a friction force -c*x' is written dissipation: c*x'^2/2"
-    part = _PARTS.get(word)
+    if word in {"dt", "h", "step", "steps", "timestep"} and "accuracy" in known:
+        return "the steps follow from the accuracy: write accuracy: 1e-9"
+    if word in {"unit", "units"} and "parameters" in known:
+        return "each name has its own: write parameters: {m: {unit: kg}}"
+    part = _PARTS.get(KEYS.get(word, word))
     if part in known:
-        return f"write {part}: {{{word}: {value or '…'}}}"
+        return f"write {part}: {{{KEYS.get(word, word)}: {value or '…'}}}"
     if "parameters" in known and is_constant(word, value):
         return f"a constant stands under parameters: write parameters: {{{word}: {value.strip()}}}"
     return ""
 
 
 def colon_advice(line: str) -> str:
-    """`write V: k*x` for a line such as `V k*x`, `V = k*x` or `V：k*x`."""
-    found = re.match(r"\s*([^\W\d]\w*)\s*[=：]?\s*(.+)", line)
-    return f"write {found[1]}: {found[2].strip()}" if found else "key: value"
+    """`write V: k*x` for a line such as `V k*x`, `V = k*x`, `V:k*x` or `V：k*x`."""
+    found = re.match(r"\s*([^\W\d]\w*)(?:\s*[=:：]\s*|\s+)([^-+*/^].*)", line)
+    if found:
+        return f"write {found[1]}: {found[2].strip()}"
+    return f"write L: {line.strip()}" if re.search(r"[\w)][*/^+-]", line) else "key: value"
 
 
 def is_constant(word: str, value: str) -> bool:
@@ -91,9 +102,9 @@ def name_meant(name: str) -> str:
     given = re.fullmatch(r"\s*(\w+)\s*=\s*(\S+)\s*", name)
     if given:
         return f"{given[1]}: {given[2]}"
-    if re.fullmatch(r"[^\W\d]\w*(\s+[^\W\d]\w*)+", name):
-        return ", ".join(name.split())
-    plain = "".join(map(_on_the_line, name)).lstrip("\\$").rstrip("$")
+    if re.fullmatch(r"[^\W\d]\w*(\s+(-\s*)?[^\W\d]\w*)+", name):
+        return ", ".join(re.findall(r"\w+", name))
+    plain = "".join(map(_on_the_line, name.removesuffix("(t)"))).lstrip("\\$").rstrip("$")
     found = re.sub(r"[\s.,{}()\[\]^_-]+", "_", plain).strip("_")
     return found if re.fullmatch(r"[^\W\d]\w*", found) and found != name else ""
 

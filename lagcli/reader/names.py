@@ -25,6 +25,7 @@ from lagcli.reader.undeclared import UNDECLARED
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+_MOMENTA = "momenta stand in H: give H, or write velocities x'"
 _ORDERS = ("coordinate", "velocity", "acceleration", "third derivative")
 
 
@@ -183,7 +184,7 @@ def _other_name(node: Name, scope: Scope, role: Role, what: str) -> Iterator[Dia
         yield Diagnostic(f"'{name}' is a function and needs arguments", span, f"write {name}(…)")
     elif scope.coordinate_of_momentum(name) is not None:
         if not role.momenta:
-            yield Diagnostic(f"the momentum '{name}' cannot stand in {what}", span)
+            yield Diagnostic(f"the momentum '{name}' cannot stand in {what}", span, _MOMENTA)
         elif node.primes:
             yield Diagnostic("a momentum has no primes", span)
     elif not scope.refused:  # else it may be one of those that could not be declared
@@ -198,6 +199,8 @@ def _advice(name: str, scope: Scope, role: Role, primes: int) -> str:
         return f"a time derivative is a prime: d{coordinates[0]}/dt is {coordinates[0]}'"
     if role.momenta and name in {"p", "P"} and coordinates:
         return "momenta are named p_" + ", p_".join(coordinates)
+    if name in {"p", "P"} and role.order > 0:
+        return _MOMENTA
     if role.order > 0 and velocity_meant(name, coordinates):
         return velocity_meant(name, coordinates)
     if name.casefold() in {"inf", "infinity", "oo"}:

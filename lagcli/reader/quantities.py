@@ -43,6 +43,7 @@ def read_coordinates(sections: Sections, node: DocumentNode) -> tuple[Coordinate
         coordinates.append(Coordinate(name=key.label, span=key.span, **_said(sections, attributes)))
     if isinstance(node, Mapping | Sequence) and not size(node):
         sections.error("the problem has no coordinates", node.span, "write coordinates: [x]")
+        sections.scope.refused.append("")
     return tuple(coordinates)
 
 
@@ -65,7 +66,10 @@ def read_parameters(
         else:
             attributes = _attributes(sections, node, key, "parameter", _PARAMETER_ATTRIBUTES)
         value = None
-        if "value" in attributes:
+        if sign := _sign(attributes.get("value")):
+            hint = f"write {{assume: {sign}}}"
+            sections.error(f"an assumption stands under 'assume' of '{key.label}'", key.span, hint)
+        elif "value" in attributes:
             what = f"the value of '{key.label}'"
             value = sections.expression(attributes["value"], what, VALUES)
         integer = "integer" in attributes and _truth(sections, attributes["integer"])
@@ -106,6 +110,10 @@ def _declared(
 ) -> Iterator[tuple[Scalar, DocumentNode | None]]:
     """The names of a list or of a map's keys, as far as they could be declared."""
     entries: list[tuple[Scalar, DocumentNode | None]]
+    if given := _pairs(node):
+        sections.error(f"{section} with values are a map", node.span, f"write {{{given}}}")
+        sections.scope.refused.append("")
+        return
     if isinstance(node, Mapping):
         entries = list(node.entries)
     elif isinstance(node, Sequence):
@@ -113,7 +121,7 @@ def _declared(
         entries = [(name, None) for name in names if name is not None]
     elif isinstance(node, Scalar) and not node.is_empty:
         sections.error(f"{section} must be a list or a map", node.span, _list_advice(node.value))
-        sections.scope.refused += re.findall(r"[^\W\d]\w*", node.value)
+        sections.scope.refused += ["", *re.findall(r"[^\W\d]\w*", node.value)]
         return
     else:
         hint = "such as [x, y]" if section == "coordinates" else "such as [m, g]"
@@ -134,7 +142,25 @@ def _list_advice(text: str) -> str:
     if given:
         listed = ", ".join(f"{name}: {value}" for name, value in given)
         return f"write {{{listed}}}" if "," in text else f"write {listed.split(', ')[0]}"
-    return f"write [{', '.join(text.replace(',', ' ').split())}]"
+    names = [name for name in re.findall(r"[^\W\d]\w*", text.replace("(t)", "")) if name != "and"]
+    return f"write [{', '.join(names)}]" if names else "such as [x, y]"
+
+
+def _pairs(node: DocumentNode) -> str:
+    """`m: 1, k: 2` for `[m = 1, k = 2]`, `{m 1, k 2}` and a list of maps; else nothing."""
+    given = []
+    if isinstance(node, Mapping) and all(_is_empty(value) for _, value in node.entries):
+        given = [re.fullmatch(r"(\w+)[\s=]+([\d.]\S*)", key.label) for key, _ in node.entries]
+    elif isinstance(node, Sequence):
+        source = [item.text.source.text[item.start : item.end] for item in node.items]
+        given = [re.fullmatch(r"(\w+)\s*[=:]\s*(\S.*?)\s*", text) for text in source]
+    if not all(given):
+        return ""
+    return ", ".join(f"{each[1]}: {each[2]}" for each in given if each)
+
+
+def _is_empty(node: DocumentNode) -> bool:
+    return isinstance(node, Scalar) and node.is_empty
 
 
 def _attributes(
@@ -165,10 +191,16 @@ def _said(sections: Sections, attributes: dict[str, DocumentNode]) -> _Said:
             said["assume"] = cast("Assumption", text.value)
         elif text is not None:
             hint = did_you_mean(text.value, _ASSUMPTIONS) or f"known are {', '.join(_ASSUMPTIONS)}"
-            sign = re.sub(r"[\w\s]", "", text.value.removesuffix("0"))
-            hint = f"write {_SIGNS[sign]}" if sign in _SIGNS else hint
+            sign = _sign(text)
+            hint = f"write {sign}" if sign else hint
             sections.error(f"unknown assumption '{text.value}'", text.span, hint)
     return said
+
+
+def _sign(node: DocumentNode | None) -> str:
+    """`positive` for `> 0` and `x > 0`; nothing for other texts."""
+    found = isinstance(node, Scalar) and re.fullmatch(r"\s*\w*\s*(\W+?)\s*0?\s*", node.value)
+    return _SIGNS.get(found[1], "") if found else ""
 
 
 def _check_unit(sections: Sections, text: Scalar) -> None:

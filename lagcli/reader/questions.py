@@ -15,6 +15,7 @@ from lagcli.problem_data import (
     SimulationDefaults,
     Where,
 )
+from lagcli.reader.habits import velocity_meant
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping
 from lagcli.reader.scope import NUMBERS, POSITION, QUESTION, VALUES, Role
@@ -63,7 +64,8 @@ def read_initial(sections: Sections, node: DocumentNode) -> dict[Name, Expressio
 def _state_name(sections: Sections, key: Scalar, coordinates: list[str]) -> Name | None:
     letters = key.label.rstrip("'’′″")
     if letters not in coordinates:
-        hint = did_you_mean(letters, coordinates) or "give coordinates x and velocities x'"
+        hint = velocity_meant(letters, coordinates) or did_you_mean(letters, coordinates)
+        hint = hint or "give coordinates x and velocities x'"
         plain = re.sub(r"\(\s*0\s*\)$", "", key.label)
         if plain != key.label and plain.rstrip("'") in coordinates:
             hint = f"write {plain}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from lagcli.expression import FUNCTIONS, RESERVED
+from lagcli.expression import RESERVED
 from lagcli.reader.growth import SMALL, Growth
 from lagcli.reader.habits import name_meant
 
@@ -111,20 +111,23 @@ class Scope:
         names = [name for name, kind in self.kinds.items() if allowed[kind]]
         if role.momenta:
             names += [f"p_{name}" for name in self.of_kind("coordinate")]
-        return [*names, *FUNCTIONS, "pi", "diff", *(["t"] if role.time else [])]
+        return [*names, "pi", *(["t"] if role.time else [])]
 
 
 def name_mistake(name: str) -> tuple[str, str] | None:
     """Why `name` cannot be declared, and what to do; None when it can."""
     if name in RESERVED:
         meaning = {"t": "the time", "pi": "the number", "diff": "the partial derivative"}
-        return f"'{name}' is {meaning.get(name, 'a function')} and cannot be declared", ""
+        meant = meaning.get(name, "a function")
+        return f"'{name}' is {meant} and cannot be declared", f"choose another name: {name}_1"
     if any(prime in name for prime in "'’′″‴"):
         return f"'{name}' is not a name", "declare it without primes; x' is the velocity of x"
     if not name:
         return "a name is missing", ""
     if name[0].isdigit():
-        return f"'{name}' is not a name", "a name does not begin with a digit"
+        better = name.lstrip("0123456789") + name[: -len(name.lstrip("0123456789"))]
+        hint = "a name does not begin with a digit"
+        return f"'{name}' is not a name", f"{hint}: write {better}" if better else hint
     if not all(_is_name_character(character) for character in name):
         better = name_meant(name)
         message = f"'{name}' is not a name: a name has letters, digits and underscores"

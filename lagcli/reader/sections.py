@@ -91,7 +91,8 @@ class Sections:
         if node.broken:
             return None
         if not node.value.strip():
-            self.error(f"{what} is empty", node.span)
+            hint = "write left = right" if what.startswith("the constraint") else ""
+            self.error(f"{what} is empty", node.span, hint)
             return None
         return node
 
@@ -191,7 +192,7 @@ class Sections:
     def _read(self, node: DocumentNode, what: str, read: Callable[[Excerpt], _T]) -> _T | None:
         if not isinstance(node, Scalar):
             hint = "one function for all coordinates, such as c*x'^2/2"
-            hint = hint if what == "dissipation" else ""
+            hint = hint if what == "dissipation" else _one_sum(node)
             self.error(f"{what} must be an expression, not {kind(node)}", node.span, hint)
             return None
         if self.is_full or self.scalar(node, what) is None:
@@ -220,11 +221,19 @@ class Sections:
         if name in self.scope.kinds:
             taken = self.scope.kinds[name]
             related = ((self.scope.spans[name], f"first declared here, as a {taken}"),)
-            self.error(f"'{name}' is declared twice", span, related=related)
+            hint = "leave out one of them" if taken == kind else "give one of them another name"
+            self.error(f"'{name}' is declared twice", span, hint, related)
             return False
         self.scope.kinds[name] = kind
         self.scope.spans[name] = span
         return True
+
+
+def _one_sum(node: DocumentNode) -> str:
+    """`write a + b` for the list `[a, b]` and the map `{spring: a, weight: b}`."""
+    terms = node.items if isinstance(node, Sequence) else [value for _, value in node.entries]
+    written = [term.value.strip() for term in terms if isinstance(term, Scalar)]
+    return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""
 
 
 def _as_map(node: DocumentNode, names: tuple[str, ...]) -> str:

@@ -9,13 +9,14 @@ from lark.exceptions import UnexpectedCharacters
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import FUNCTIONS
-from lagcli.reader.habits import fraction, latex_meant, superscript
+from lagcli.reader.habits import fraction, latex_meant, superscript, unit_behind
 
 if TYPE_CHECKING:
     from lark.lexer import Token
 
     from lagcli.reader.positions import Excerpt
 
+_CASES = frozenset({"if", "for", "when", "where", "else", "otherwise"})
 _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
 _END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
 
@@ -100,6 +101,9 @@ def _meant(rest: str, tokens: list[Token]) -> str:
     before = tokens[-1].type if tokens else ""
     if rest[0] == "%" and before == "NUMBER":
         return f"write {tokens[-1]}/100"
+    unit = re.match(r"\[([^\[\]]+)\]\s*$", rest)
+    if unit and before in _END_VALUE and unit_behind(f"1 {unit[1]}"):
+        return f"leave out '{unit[0].strip()}': units stand where names are declared"
     word = re.match(r"\.([A-Za-z]\w*)", rest)
     if word and before == "NAME":
         return f"write {word[1]}"
@@ -120,7 +124,8 @@ def _unexpected_end(tokens: list[Token], excerpt: Excerpt) -> Diagnostic:
     """The text ends too early: an open parenthesis, or an operator without its right side."""
     last = tokens[-1]
     if last.type not in _END_VALUE:
-        return Diagnostic(f"nothing follows '{last}'", _span(last, excerpt))
+        hint = f"write what follows, or leave out '{last}'"
+        return Diagnostic(f"nothing follows '{last}'", _span(last, excerpt), hint)
     open_ = _open_parenthesis(tokens)
     if open_ is not None:
         hint = "a ')' is missing"
@@ -139,6 +144,8 @@ def _missing_product(
     if left.type == "NAME" and str(left) in FUNCTIONS:
         message = f"the argument of {left} stands in parentheses"
         return Diagnostic(message, span, f"did you mean {left}({right})?")
+    if {str(left), str(right)} & _CASES:
+        return Diagnostic("a formula has no cases", span, "(1 + sign(x))/2 is 1 for x > 0, else 0")
     before = _written(left) if left.type != "RPAR" else "(…)"
     if str(right) in {"rad", "radian", "radians"}:
         return Diagnostic("angles are in radians", span, f"leave out '{right}'")
@@ -172,7 +179,7 @@ def _unexpected(
     inside = _open_parenthesis(before)
     if token.type == "RPAR":
         if inside is None:
-            return "this parenthesis was never opened", ""
+            return "this parenthesis was never opened", "leave it out, or write its '('"
         if previous is not None and previous.type == "LPAR":
             return "nothing stands between the parentheses", ""
         return f"nothing stands between '{previous}' and ')'", ""
@@ -180,7 +187,7 @@ def _unexpected(
         if previous is not None and previous.type == "EQUAL":
             return "'==' has no meaning", "an equation is written with one '='"
         if start == "equation" and inside is None and previous is not None:
-            return "an equation has one '='", ""
+            return "an equation has one '='", "write an equation of its own for each"
         if start == "equation" and inside is not None:
             return "'=' stands inside parentheses", "is a ')' missing before it?"
         alone = len(before) == 1 and previous is not None and previous.type == "NAME"

@@ -17,13 +17,17 @@ _SENTENCES = (
     ("tab character", "a tab cannot indent", "indent with spaces"),
     ("that cannot start any token",
      "a value cannot begin with this character", "put the value in quotes"),
-    ("while scanning a quoted scalar", "this quote is never closed", ""),
+    ("while scanning a quoted scalar", "this quote is never closed", "write the closing quote"),
     ("unknown escape character",
      "an unknown escape after '\\'", "in single quotes a backslash is only a backslash"),
-    ("did not find expected ',' or ']'", "a list '[' is never closed, or lacks a comma", ""),
-    ("expected ',' or ']'", "a list '[' is never closed, or lacks a comma", ""),
-    ("did not find expected ',' or '}'", "a map '{' is never closed, or lacks a comma", ""),
-    ("expected ',' or '}'", "a map '{' is never closed, or lacks a comma", ""),
+    ("did not find expected ',' or ']'", "a list '[' is never closed, or lacks a comma",
+     "',' stands between its items, ']' at its end"),
+    ("expected ',' or ']'", "a list '[' is never closed, or lacks a comma",
+     "',' stands between its items, ']' at its end"),
+    ("did not find expected ',' or '}'", "a map '{' is never closed, or lacks a comma",
+     "',' stands between its entries, '}' at its end"),
+    ("expected ',' or '}'", "a map '{' is never closed, or lacks a comma",
+     "',' stands between its entries, '}' at its end"),
     ("could not find expected ':'", "a key without ': ' after it", "write 'key: value'"),
     ("did not find expected key",
      "this is no key of the map around it", "is it indented like its neighbours?"),
@@ -78,6 +82,9 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         return Diagnostic("a tab cannot indent", span, "indent with spaces")
     if at_end and "node content" in said:
         return Diagnostic("the file ends inside of a list '[' or a map '{'", span)
+    if quoted := _QUOTED.fullmatch(text.source.text.split("\n")[text.position(offset)[0] - 1]):
+        hint = f"leave out the outer quotes: {quoted[1]}: {quoted[3]}"
+        return Diagnostic("this quote ends before the text does", span, hint)
     if "mapping values are not allowed" in said:
         return _second_colon(offset, text)
     for piece, sentence, hint in _SENTENCES:
@@ -86,6 +93,8 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
     return Diagnostic(f"this is not YAML: {problem}", span)
 
 
+#: A text in quotes with one of them inside.
+_QUOTED = re.compile(r"\s*([\w ]+):\s*(['\"])([^#]*\2[^#]*)\2\s*(?:#.*)?")
 _BEFORE = re.compile(r"(?P<indent>\s*)(?P<key>[^\W\d][\w ]*)(?P<colon>:\s+\S)?")
 
 
@@ -105,7 +114,8 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
         if not above["colon"] and len(above["indent"]) == len(here["indent"]):
             start = text.line_starts[place] + len(above["indent"])
             end = text.line_starts[place] + len(lines[place])
-            message = f"a ':' is missing behind '{above['key'].split()[0]}'"
+            missing = "blank" if lines[place][above.end() :].startswith(":") else "':'"
+            message = f"a {missing} is missing behind '{above['key'].split()[0]}'"
             return Diagnostic(message, text.span(start, end), colon_advice(lines[place]))
     span = text.span(offset, offset + 1)
     return Diagnostic("a second ':' in one value", span, "put the whole value in quotes")

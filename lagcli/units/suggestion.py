@@ -20,6 +20,7 @@ _ELSEWHERE = {
     "lbs": "lb",
     "gauß": "gauss",
     "kilos": "kg",
+    "kg": "kg",  # Kg, KG
 }
 
 
