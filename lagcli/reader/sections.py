@@ -231,7 +231,9 @@ class Sections:
 
 def _one_sum(node: DocumentNode) -> str:
     """`write a + b` for the list `[a, b]` and the map `{spring: a, weight: b}`."""
-    terms = node.items if isinstance(node, Sequence) else [value for _, value in node.entries]
+    terms = node.items if isinstance(node, Sequence) else []
+    if isinstance(node, Mapping):
+        terms = [value for _, value in node.entries]
     written = [term.value.strip() for term in terms if isinstance(term, Scalar)]
     return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""
 
