@@ -74,20 +74,42 @@ def test_a_kind_of_constraint(call):
     assert "(resting: holonomic)" in done.stdout
 
 
-def test_a_method(tmp_path):
-    shutil.copytree(ROOT / "lagcli", tmp_path / "lagcli")
-    [module] = [body for body in blocks("python", EXTENDING) if "verlet2.py" in body]
-    name = "lagcli/numerics/certified/methods/verlet2.py"
-    (tmp_path / name).write_text(module, "utf-8")
-    (tmp_path / "p.yaml").write_text("coordinates: [x]\nT: x'^2/2\nV: x^2/2\ninitial: {x: 1}\n")
+@pytest.fixture
+def with_module(tmp_path):
+    """A copy of lagcli with a module more, and its command."""
 
-    def call(*arguments):
-        return subprocess.run(
-            [sys.executable, "-m", "lagcli", *arguments],
-            cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(tmp_path), "LAGCLI_NO_CACHE": "1"},
-            capture_output=True, text=True, check=False,
-        )  # fmt: skip
+    def added(name: str, problem: str):
+        shutil.copytree(ROOT / "lagcli", tmp_path / "lagcli")
+        file = Path(name).name
+        [module] = [body for body in blocks("python", EXTENDING) if body.startswith(f'"""{file}')]
+        (tmp_path / name).write_text(module, "utf-8")
+        (tmp_path / "p.yaml").write_text(problem)
 
+        def call(*arguments: str):
+            return subprocess.run(
+                [sys.executable, "-m", "lagcli", *arguments],
+                cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(tmp_path), "LAGCLI_NO_CACHE": "1"},
+                capture_output=True, text=True, check=False,
+            )  # fmt: skip
+
+        return call
+
+    return added
+
+
+def test_a_built_in_formatter(with_module):
+    call = with_module("lagcli/formatters/built_in/charges.py", "coordinates: [x]\nT: x'^2/2\n")
+    done = call("solve", "p.yaml", "-f", "charges", "--show", "charges")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "p_x\n" in done.stdout
+    assert "charges   The names of the conserved charges.\n" in call("formats").stdout
+
+
+def test_a_method(with_module):
+    call = with_module(
+        "lagcli/numerics/certified/methods/verlet2.py",
+        "coordinates: [x]\nT: x'^2/2\nV: x^2/2\ninitial: {x: 1}\n",
+    )
     done = call(
         "simulate", "p.yaml", "--method", "verlet2", "--until", "3", "--samples", "4",
         "--accuracy", "1e-4", "-f", "json",

@@ -39,9 +39,9 @@ def complete_section(incomplete: str) -> list[str]:
 
 def complete_format(incomplete: str) -> list[str]:
     """The formats that begin so."""
-    from lagcli.formatters.registry import BUILT_IN
+    from lagcli.formatters.registry import built_in
 
-    return [name for name in (*BUILT_IN, "pdf") if name.startswith(incomplete)]
+    return [name for name in (*built_in(), "pdf") if name.startswith(incomplete)]
 
 
 def complete_report(incomplete: str) -> list[str]:

@@ -13,7 +13,7 @@ from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.cli.working import CommandWork, Result
 from lagcli.diagnostics import ProblemError
-from lagcli.formatters.registry import BUILT_IN
+from lagcli.formatters.registry import built_in
 from lagcli.pipeline import Request, derive, read
 from lagcli.platform.failures import describe
 from lagcli.problem_data import Problem
@@ -79,7 +79,7 @@ def solve_files(
             text = work.render([answer for _, answer in answered], printing.format_name, options)
     lasting = not (tally.missing or tally.unreadable or only_read)
     plain = all(map(is_built_in, asked.request.sections or ()))
-    repeatable = lasting and plain and printing.format_name in BUILT_IN
+    repeatable = lasting and plain and printing.format_name in built_in()
     return SolvingOutcome(tally.status, text, tuple(tally.said), repeatable)
 
 

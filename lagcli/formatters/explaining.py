@@ -29,7 +29,7 @@ def render(explanations: Sequence[Explanation], format_name: str, options: Optio
     if format_name not in PAGES:
         raise LookupError(f"an explanation has the formats {', '.join(FORMATS)}")
     documents = [to_document(each) for each in explanations]
-    page: str = import_module(f"lagcli.formatters.{format_name}").pages(documents, options)
+    page: str = import_module(f"lagcli.formatters.built_in.{format_name}").pages(documents, options)
     return page
 
 

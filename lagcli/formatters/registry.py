@@ -1,15 +1,19 @@
 """Formatters by name: the built-in ones, and those that other packages bring.
 
-All of them are entry points of the group `lagcli.formatters`.  A built-in name is
-resolved without looking at what is installed: that is quick, and nobody else can take it.
+A built-in formatter is a module of `lagcli.formatters.built_in`; another package declares one as
+an entry point of the group `lagcli.formatters`.  A built-in name is resolved without looking at
+what is installed: that is quick, and nobody else can take it.
 """
 
 from __future__ import annotations
 
+from functools import cache
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from lagcli.formatters.options import Formatter
+from lagcli.platform.rooms import modules_in
 from lagcli.record import record
 
 if TYPE_CHECKING:
@@ -18,15 +22,7 @@ if TYPE_CHECKING:
 
 GROUP = "lagcli.formatters"
 
-#: The built-in formatters in the order in which they are listed, each with what it says
-#: of itself: the list imports none of them.
-BUILT_IN: dict[str, str] = {
-    "text": "Aligned equations for reading in a terminal.",
-    "json": "JSON for machines: a stable contract.",
-    "latex": r"LaTeX with amsmath: a fragment for \input, or a whole document.",
-    "markdown": "Markdown for GitHub and Pandoc, with LaTeX in $$ blocks.",
-    "html": "HTML with MathML: a fragment, or a whole page.",
-}
+_FOLDER = Path(__file__).parent / "built_in"
 
 
 @record
@@ -48,10 +44,20 @@ class ListedFormatter:
     problem: str | None = None
 
 
+@cache
+def built_in() -> tuple[str, ...]:
+    """The names of the built-in formatters; nothing of them is imported."""
+    return tuple(modules_in(_FOLDER))
+
+
+def _built_in(name: str) -> Formatter:
+    return cast(Formatter, import_module(f"{GROUP}.built_in.{name}").render)
+
+
 def find_formatter(name: str) -> Formatter | UnknownFormatter:
     """Find the formatter of that name; only its own module is imported."""
-    if name in BUILT_IN:
-        return cast(Formatter, import_module(f"lagcli.formatters.{name}").render)
+    if name in built_in():
+        return _built_in(name)
     plug_ins = [point for point in _plug_ins() if point.name == name]
     if plug_ins:
         return _loaded(plug_ins[0])
@@ -60,17 +66,17 @@ def find_formatter(name: str) -> Formatter | UnknownFormatter:
 
 def list_formatters() -> tuple[ListedFormatter, ...]:
     """List every formatter with its origin and what it says of itself."""
-    built_in = [ListedFormatter(name, "lagcli", told) for name, told in BUILT_IN.items()]
+    ours = [_listed(name, "lagcli", _built_in(name)) for name in built_in()]
     others: list[ListedFormatter] = []
     for point in _plug_ins():
         origin = point.dist.name if point.dist else "unknown"
-        taken = point.name in BUILT_IN or any(point.name == other.name for other in others)
+        taken = point.name in built_in() or any(point.name == other.name for other in others)
         if taken:
             problem = f"the name {point.name!r} is taken"
             others.append(ListedFormatter(point.name, origin, "", problem))
         else:
             others.append(_listed(point.name, origin, _loaded(point)))
-    return (*built_in, *others)
+    return (*ours, *others)
 
 
 def entry_points(*, group: str) -> Iterable[EntryPoint]:
@@ -82,12 +88,9 @@ def entry_points(*, group: str) -> Iterable[EntryPoint]:
 
 def _plug_ins() -> list[EntryPoint]:
     """Scan for the formatters of other packages, by name and then by package."""
-    points = [point for point in entry_points(group=GROUP) if not _ours(point)]
+    every = entry_points(group=GROUP)  # of lagcli itself, too, where an older one is installed
+    points = [point for point in every if not point.dist or point.dist.name != "lagcli"]
     return sorted(points, key=lambda point: (point.name, point.dist.name if point.dist else ""))
-
-
-def _ours(point: EntryPoint) -> bool:
-    return point.name in BUILT_IN and point.value == f"{__package__}.{point.name}:render"
 
 
 def _loaded(point: EntryPoint) -> Formatter | UnknownFormatter:
@@ -109,7 +112,7 @@ def _listed(name: str, origin: str, found: Formatter | UnknownFormatter) -> List
 
 
 def _unknown(name: str) -> UnknownFormatter:
-    known = [*BUILT_IN, *(point.name for point in _plug_ins())]
+    known = [*built_in(), *(point.name for point in _plug_ins())]
     from difflib import get_close_matches
 
     close = get_close_matches(name.lower(), known, n=1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-from lagcli.formatters.json import render
+from lagcli.formatters.built_in.json import render
 from lagcli.formatters.options import Options
 from lagcli.statements.registry import built_in
 

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 import lagcli
 from lagcli.document import Equations, Row
 from lagcli.expression import Call, Diff, Name, Negative, PartialCall, Power, Quotient, Rate
-from lagcli.formatters.latex import render
+from lagcli.formatters.built_in.latex import render
 from lagcli.formatters.latex_display import LatexDisplay, lines_of
 from lagcli.formatters.latex_math import WIDEST, LatexPrinter
 from lagcli.formatters.latex_names import LatexNames

@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from lagcli.expression import Name
+from lagcli.formatters.built_in.text import render
 from lagcli.formatters.display_width import display_width
 from lagcli.formatters.layout import joined
 from lagcli.formatters.options import Options
-from lagcli.formatters.text import render
 from lagcli.formatters.unicode import UnicodePrinter, unicode_name
 from lagcli.statements.answers import LagrangianSection
 

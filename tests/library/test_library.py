@@ -16,9 +16,9 @@ from typing import NamedTuple
 import pytest
 
 from lagcli.formatters import explaining
+from lagcli.formatters.built_in.json import to_object
+from lagcli.formatters.built_in.latex import render
 from lagcli.formatters.display_width import display_width
-from lagcli.formatters.json import to_object
-from lagcli.formatters.latex import render
 from lagcli.formatters.options import Options
 from lagcli.mechanics.derivation import Derivation
 from lagcli.pipeline import Request, derive, explain, load, state

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from lagcli.formatters.json import to_object
+from lagcli.formatters.built_in.json import to_object
 from lagcli.mechanics.statements import Statements
 from tests.mechanics.derived import derive
 

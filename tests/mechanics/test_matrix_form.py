@@ -14,8 +14,8 @@ import pytest
 import sympy
 
 from lagcli.algebra.numeric import Evaluator
+from lagcli.formatters.built_in.json import to_object
 from lagcli.formatters.grammar import to_grammar
-from lagcli.formatters.json import to_object
 from lagcli.graph.nodes import Graph
 from lagcli.graph.reading import GraphReader
 from lagcli.graph.values import Floats, Program

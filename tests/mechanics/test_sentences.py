@@ -14,9 +14,9 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.document import Paragraph
 from lagcli.expression import Name
 from lagcli.formatters import explaining
+from lagcli.formatters.built_in.text import render
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.options import Options
-from lagcli.formatters.text import render
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.reduction.averaged import averaged
 from lagcli.mechanics.reduction.readable import conditions, opposites

@@ -18,7 +18,7 @@ from typing import Any
 
 from mpmath import mp, mpf
 
-from lagcli.formatters.json import to_object
+from lagcli.formatters.built_in.json import to_object
 from lagcli.pipeline import load, solve
 from lagcli.problem_data import Problem
 from lagcli.reader import parse_text

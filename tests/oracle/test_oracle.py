@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from mpmath import mp, mpf
 
-from lagcli.formatters.json import to_object
+from lagcli.formatters.built_in.json import to_object
 from lagcli.pipeline import load, solve
 from lagcli.problem_data import Problem
 from tests.library.test_library import EXAMINED as SECTIONS

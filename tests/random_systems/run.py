@@ -20,7 +20,7 @@ from pathlib import Path
 
 import lagcli
 from lagcli.diagnostics import ProblemError
-from lagcli.formatters.json import to_object
+from lagcli.formatters.built_in.json import to_object
 from lagcli.pipeline import Request, derive, read, state
 
 from .judge import Finding, Judge

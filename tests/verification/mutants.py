@@ -78,7 +78,7 @@ ASKED: dict[str, tuple[str, ...]] = {
 def solved(name: str, before: Any = None) -> dict[str, Any]:
     """One problem as it is derived, and, where that is not as before, as it is then printed."""
     from lagcli import pipeline
-    from lagcli.formatters.json import to_object
+    from lagcli.formatters.built_in.json import to_object
     from lagcli.verification import verified
 
     pipeline.VERIFYING = False

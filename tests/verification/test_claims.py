@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from lagcli.formatters.json import to_object
+from lagcli.formatters.built_in.json import to_object
 from lagcli.formatters.options import Options
 from lagcli.pipeline import Request, derive, render, state
 from lagcli.reader import parse_text, read_problem
