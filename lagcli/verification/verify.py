@@ -49,7 +49,7 @@ from lagcli.verification.claims import (
     units,
 )
 from lagcli.verification.claims.given_hamiltonian import legendre_transform
-from lagcli.verification.claims.point_symmetries import no_other_point_symmetry
+from lagcli.verification.claims.unlisted_symmetries import symmetries_are_listed
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear
 from lagcli.verification.sweeps import Unknown
@@ -109,20 +109,19 @@ def verified(problem: Problem, answers: Answers) -> Answers:
             sections["find"] = _tried(
                 examination, "find", asked, lambda x, s: find.find(x, s, known)
             )
-        listed = sections.get("discovered")
-        if isinstance(listed, ChargesSection) and listed.sought:
-            no_other_point_symmetry(examination, listed)
-        if isinstance(counted := sections.get("algebra"), AlgebraSection):
-            found = listed.charges if isinstance(listed, ChargesSection) else ()
-            sections["algebra"] = _tried(
-                examination, "algebra", counted, lambda x, s: algebra.algebra(x, s, found)
-            )
+        if isinstance(listed := sections.get("discovered"), ChargesSection):
+            every = not listed.sought or symmetries_are_listed(examination, listed)
+            if isinstance(counted := sections.get("algebra"), AlgebraSection):
+                sections["algebra"] = every and _tried(
+                    examination, "algebra", counted, lambda x, s: algebra.algebra(x, s, listed)
+                )
     warnings = examination.warnings()
     if not warnings:
         return answers
     return replace(
         answers,
-        sections=sections,
+        sections={name: each for name, each in sections.items() if each},
+        absent=(*answers.absent, *(name for name, each in sections.items() if not each)),
         warnings=(*answers.warnings, *warnings),
         complete=answers.complete and not examination.retracted,
     )

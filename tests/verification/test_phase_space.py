@@ -94,5 +94,24 @@ def test_the_algebra_is_examined(change: dict[str, object]) -> None:
     assert verified(problem, answers) is answers
     section = replace(answers.sections["algebra"], **change)
     found = verified(problem, replace(answers, sections={**answers.sections, "algebra": section}))
-    assert getattr(found.sections["algebra"], next(iter(change))) in {0, None}
+    left = found.sections.get("algebra")
+    assert "algebra" in found.absent if left is None else getattr(left, next(iter(change))) is None
     assert not found.complete
+
+
+LISTED = ("particles/isotropic-oscillator", "central/kepler", "discovery/smorodinsky-winternitz")
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", LISTED)
+def test_a_symmetry_that_is_not_listed_is_noticed(name: str) -> None:
+    problem, answers = derived(name, ("discovered", "algebra"))
+    listed = answers.sections["discovered"]
+    sought = [c for c in listed.charges if "*t)" not in to_grammar(c.charge)]  # not sin(2 w t)
+    assert len(sought) > 2
+    for charge in sought:
+        others = tuple(each for each in listed.charges if each is not charge)
+        wrong = {**answers.sections, "discovered": replace(listed, charges=others)}
+        found = verified(problem, replace(answers, sections=wrong))
+        assert any("no other" in w for w in found.warnings), charge.name
+        assert "algebra" in found.absent, charge.name

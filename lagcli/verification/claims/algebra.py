@@ -14,7 +14,7 @@ from flint import arb, arb_mat
 
 from lagcli.expression import Name, walk
 from lagcli.record import replace
-from lagcli.statements.answers import AlgebraSection, Charge
+from lagcli.statements.answers import AlgebraSection, Charge, ChargesSection
 from lagcli.verification.claims.canonical_samples import CanonicalSample, samples
 from lagcli.verification.claims.near import eigenvalues
 from lagcli.verification.examination import Examination
@@ -32,13 +32,15 @@ _KNOWN: dict[str, Signature] = {
 }  # fmt: skip
 
 
-def algebra(x: Examination, section: AlgebraSection, charges: Sequence[Charge]) -> AlgebraSection:
-    """Every number and the name."""
-    known = [c.charge for c in charges if c.charge is not None]
+def algebra(
+    x: Examination, section: AlgebraSection, listed: ChargesSection
+) -> AlgebraSection | None:
+    """Every number and the name; None where a number is wrong."""
+    known = [c.charge for c in listed.charges if c.charge is not None]
     places = x.places("the algebra", known)
     if places is None or not 0 < len(known) <= _MOST or x.reference.rows or x.reference.large:
         return section
-    points = sum(_is_point(charge) for charge in charges)
+    points = sum(_is_point(charge) for charge in listed.charges)
     found = samples(x, places, 2 * len(known) + 6)
     if len(found) < 2 * len(known) + 6:
         x.unchecked.append("the algebra of the conserved quantities")
@@ -69,21 +71,21 @@ class Counted:
         self.x, self.section, self.samples = x, section, found
         self.places, self.count, self.points = places, len(places), points
 
-    def examined(self) -> AlgebraSection:
+    def examined(self) -> AlgebraSection | None:
         """The section without what does not hold."""
         section, x = self.section, self.x
         if section.dimension not in {self.count, self.points}:
             x.refute("the dimension of the algebra", f"{self.count} charges are listed")
-            return _nothing(section)
+            return None
         if self._rank_of_values() < self.count:
             x.refute("the dimension of the algebra", "the listed charges depend on each other")
-            return _nothing(section)
+            return None
         independent = self._rank_of_slopes(range(self.count))
         given_up = "brackets were not worked out" in section.ansatz  # then it is at least 1
         if independent != section.independent and not given_up:
             why = f"{independent} are independent, not {section.independent}"
             x.refute("the number of independent charges", why)
-            return _nothing(section)
+            return None
         if section.name is not None and not self._has_name(section.name):
             x.refute(f"that the algebra is {section.name}", "its structure constants are others")
             section = replace(section, name=None)
@@ -186,12 +188,6 @@ def _rank(rows: Sequence[Sequence[arb]], columns: int) -> int:
         return rank(rows, columns)
     except Unclear:
         return -1
-
-
-def _nothing(section: AlgebraSection) -> AlgebraSection:
-    return replace(
-        section, dimension=0, name=None, independent=0, in_involution=None, integrable=None
-    )
 
 
 def signature_of(name: str) -> Signature | None:

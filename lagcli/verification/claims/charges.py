@@ -39,7 +39,8 @@ def _evident_are_listed(x: Examination, charges: Sequence[Charge]) -> None:
     for what, place, conserved in evident(x):
         if not conserved(states):
             continue
-        known = [each for c in charges if c.conserved for each in x.places("", [c.charge]) or ()]  # type: ignore[list-item]
+        kept = [c.charge for c in charges if c.conserved and c.charge is not None]
+        known = [each for charge in kept for each in x.places("", [charge]) or ()]
         known += [row.value for row in reference.rows] + [row.velocity for row in reference.rows]
         symbols = [*reference.q, *reference.v, reference.time]
         rows = [column(states[0].at.gradient(each), symbols) for each in known]

@@ -1,0 +1,178 @@
+"""Symmetries that are not listed: the determining equations in numbers.
+
+For eta = sum c_k f_k(q, q', t) at constant t the change of the action K is linear in the c_k,
+and Euler's operator of K vanishes identically for a symmetry (`boundary`): at random q, q', …
+that is a linear system for the c_k, whose solutions the listed charges span: with
+eta_j = Delta q_j - q_j' Delta t, and Q eta' + Q' eta of the product of two charges.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations_with_replacement
+from random import Random
+
+from flint import arb
+
+from lagcli.expression import ZERO
+from lagcli.statements.answers import ChargesSection
+from lagcli.verification.claims.boundary import change_of_action, euler_operator
+from lagcli.verification.examination import Examination
+from lagcli.verification.linear import Unclear, dot, rank, solve
+from lagcli.verification.states import Environment, State
+
+#: More coordinates make too many functions: 3 (n^2 + n + 1) of them, n (n + 1)^2 (n + 2)/4.
+_MOST = 3
+_CIRCULAR = {"sin", "cos", "tan", "cot", "sec", "csc"}
+_LENGTHS = {None, "m"}
+#: One function of the search: the steps of eta by coordinate.
+Change = list[int]
+
+
+def symmetries_are_listed(x: Examination, section: ChargesSection) -> bool:
+    """Whether no other is affine in lengths and to t^2, or linear in p; noted if not."""
+    given = x.problem
+    pushed = given.forces or given.dissipation or any(p.force for p in given.points)
+    size = len(x.reference.names)
+    if size > _MOST or pushed or x.reference.rows or given.functions or not x.regular:
+        return True
+    listed = _listed(x, section)
+    if not x.states() or listed is None:
+        return True
+    for what, changes, spanned in (
+        ("symmetries are point transformations", _of_points(x), [c for c, _ in listed]),
+        ("integrals are of second degree", _of_second_degree(x), _with_products(x, listed)),
+    ):
+        try:
+            other = _search(x, changes, spanned) if changes else 0
+        except Unclear:
+            continue
+        if other:
+            x.refute(f"that no other {what}", f"there is {other} more")
+            return False
+    return True
+
+
+def _listed(x: Examination, section: ChargesSection) -> list[tuple[Change, int]] | None:
+    """eta and Q of each; None where one cannot be read."""
+    program, reference = x.reference.program, x.reference
+    names, found = (*reference.names, "t"), []
+    for each in section.charges:
+        if each.transformation and each.charge is not None:
+            changes = [each.transformation.get(n, ZERO) for n in names]
+            places = x.places("", [*changes, each.charge])
+            if places is None:
+                return None
+            *moved, time, charge = places
+            back = [program.negative(program.product(v, time)) for v in reference.v]
+            found.append((list(map(program.sum, moved, back)), charge))
+    return found
+
+
+def _with_products(x: Examination, listed: Sequence[tuple[Change, int]]) -> list[Change]:
+    """Those listed and the products of two that are of first degree and without t."""
+    program, reference = x.reference.program, x.reference
+    moving = {*reference.v, reference.time}
+    first = [each for each in listed if moving.isdisjoint(program.order(each[0]))]
+    products = [
+        [
+            program.sum(program.product(Q, b), program.product(R, a))
+            for a, b in zip(one, other, strict=True)
+        ]
+        for (one, Q), (other, R) in combinations_with_replacement(first, 2)
+    ]
+    return [*(change for change, _ in listed), *products]
+
+
+def _search(x: Examination, changes: Sequence[Change], listed: Sequence[Change]) -> int:
+    """The number of symmetries that the listed ones do not span."""
+    zero, size = x.reference.program.zero, len(x.reference.names)
+    residuals = [euler_operator(x, change_of_action(x, change, zero)) for change in changes]
+    rows = []
+    for known in _jets(x, len(changes) // size + 3):
+        at = x.reference.values(known)
+        rows += [[at(each[i]) for each in residuals] for i in range(size)]
+    kernel = solve(rows, [arb(0)] * len(rows), len(changes)).kernel
+    count = (len(kernel) + len(listed)) // size + 3
+    places = [x.reference.values(jet) for jet in _jets(x, count)]
+
+    def seen(change: Change) -> list[arb]:
+        return [at(place) for at in places for place in change]
+
+    columns = [seen(change) for change in changes]
+    found = [[dot(vector, entries) for entries in zip(*columns, strict=True)] for vector in kernel]
+    spanned = [seen(each) for each in listed]
+    width = len(columns[0])
+    return rank([*spanned, *found], width) - rank(spanned, width)
+
+
+def _of_points(x: Examination) -> list[Change]:
+    """1, t, t^2 times 1 and the coordinates that are lengths, for each coordinate and for t."""
+    program, reference = x.reference.program, x.reference
+    t = reference.time
+    powers = [program.one, t, program.product(t, t)]
+    found = [[program.product(T, v) for v in reference.v] for T in powers]
+    for j in range(len(reference.names)):
+        for T in powers:
+            made = [program.product(T, g) for g in (program.one, *_lengths(x))]
+            found += [_only(x, j, f) for f in made]
+    return found
+
+
+def _of_second_degree(x: Examination) -> list[Change]:
+    """eta_i = f p_j, eta_j = f p_i, with f up to second degree in lengths; none for L of t."""
+    program, reference = x.reference.program, x.reference
+    L = reference.lagrangian
+    if program.derivative(L, {reference.time: program.one}) != program.zero:
+        return []
+    momenta = [program.derivative(L, {v: program.one}) for v in reference.v]
+    factors = [program.one, *_lengths(x)]
+    functions = [program.product(a, b) for a, b in combinations_with_replacement(factors, 2)]
+    found = []
+    for i, j in combinations_with_replacement(range(len(momenta)), 2):
+        for f in functions:
+            change = _only(x, i, program.product(f, momenta[j]))
+            change[j] = program.product(f, momenta[i])
+            found.append(change)
+    return found
+
+
+def _only(x: Examination, j: int, step: int) -> Change:
+    """Of one coordinate."""
+    return [step if i == j else x.reference.program.zero for i in range(len(x.reference.names))]
+
+
+def _lengths(x: Examination) -> list[int]:
+    return [q for q in x.reference.q if _is_length(x, q)]
+
+
+def _is_length(x: Examination, q: int) -> bool:
+    """Whether the coordinate is in no circular function, and its inertia is constant."""
+    program, reference = x.reference.program, x.reference
+    j = reference.q.index(q)
+    if x.problem.coordinates[j].unit not in _LENGTHS:
+        return False
+    for place in program.order([reference.lagrangian]):
+        step = program.steps[place]
+        if step.kind == "call" and step.what in _CIRCULAR and q in program.order([place]):
+            return False
+    state = x.states()[0]
+    own = state.laws.mass_matrix[j]
+    moved = State(reference, _jet(x, dict(state.environment), Random(3)))
+    return all((a - b).contains(0) for a, b in zip(own, moved.laws.mass_matrix[j], strict=True))
+
+
+def _jets(x: Examination, count: int) -> list[Environment]:
+    """Random t, q, q', … with the parameters of one state."""
+    first, random = dict(x.states()[0].environment), Random(29)
+    return [_jet(x, first, random) for _ in range(count)]
+
+
+def _jet(x: Examination, known: Environment, random: Random) -> Environment:
+    there = dict(known)
+    there["t", 0] = arb(random.randint(200, 1800)) / 1024
+    for name in x.reference.names:
+        there[name, 0] = known[name, 0] * (1 + arb(random.randint(-400, 400)) / 1024)
+        for primes in range(1, 6):
+            there[name, primes] = arb(random.randint(-1500, 1500)) / 1024
+    return there
