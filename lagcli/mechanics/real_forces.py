@@ -30,7 +30,7 @@ from lagcli.problem_data import Constraint, pushing_sign
 from lagcli.record import record
 from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
 
-_UNSOLVED = "the multipliers were not solved in closed form"
+UNSOLVED = "the multipliers were not solved in closed form"
 _NO_POINTS = "the file has no `points`, so where the forces act is not known"
 _NOT_UNIQUE = (
     "the forces on the points are not unique: each coordinate that a point depends on needs "
@@ -71,7 +71,7 @@ class RealForces:
             return ForcesSection(forces=())
         reason = ""
         if self.dynamics.motion is None:
-            reason = _UNSOLVED
+            reason = UNSOLVED
         elif not self._gradients:
             reason = _NOT_UNIQUE if self.system.particles else _NO_POINTS
         if reason:

@@ -23,11 +23,14 @@ if TYPE_CHECKING:
     from lagcli.studies.check.expectations import Expectations, Found
 
 
-def derive(statements: Statements) -> AlgebraSection:
-    """From the brackets of the generators."""
+def derive(statements: Statements) -> AlgebraSection | None:
+    """From the brackets of the generators; None where one is missing."""
     from lagcli.mechanics.discovery.summary import algebra_section, summary
 
     discovery = statements.derivation.discovery
+    if discovery.unproved:
+        statements.lacks("the algebra of all symmetries", discovery.unproved)
+        return None
     found = summary(discovery)  # before the special values, which take the work that is left
     special = tuple(
         SpecialValue(

@@ -8,6 +8,8 @@ where it claims less and says so: null, undecided, not complete.
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from random import Random
@@ -73,8 +75,14 @@ class Meaning:
 
     def _differ_as_objects(self, path: str, a: Any, b: Any) -> Iterator[Difference]:
         skipped = set(PROSE)
-        if path == "hamilton_jacobi" and self._same_action(a, b):
-            skipped |= {"functions", "cases"}
+        if path == "hamilton_jacobi":
+            b = _renamed(b, b.get("constants") or (), a.get("constants") or ())
+            if self._same_action(a, b):
+                skipped |= {"functions", "cases"}
+        if path == "hamilton_jacobi/equations" and all(
+            n in b and self.values.parallel([a[n], "0"], [b[n], "0"]) for n in a
+        ):
+            return
         if "charge" in a and a.get("conserved") and b.get("conserved") and self._same_charge(a, b):
             skipped |= {"charge", "gauge", "transformation", "name"}
         for key in sorted((a.keys() | b.keys()) - skipped):
@@ -117,7 +125,7 @@ class Meaning:
                 left.remove(best[1])
             else:
                 alone.append(number)
-        if path == "discovered":  # another one that is conserved is as true
+        if path in {"discovered", "charges"}:  # another one that is conserved is as true
             left = [each for each in left if not self._is_conserved(each)]
         if alone or left:
             yield Difference(
@@ -163,6 +171,14 @@ class Meaning:
         if not a or not b:
             return a == b
         return self.values.parallel([a[n] for n in a], [b.get(n, "0") for n in a])
+
+
+def _renamed(sheet: Any, old: Sequence[str], new: Sequence[str]) -> Any:
+    """The sheet with other names for the constants of integration."""
+    names = dict(zip(old, new, strict=False))
+    pattern = re.compile(r"\b(" + "|".join(map(re.escape, names)) + r")\b") if names else None
+    text = json.dumps(sheet)
+    return json.loads(pattern.sub(lambda m: names[m[0]], text)) if pattern else sheet
 
 
 class _Values:

@@ -75,6 +75,8 @@ class Discovery:
         Of symmetries that nonholonomic constraints admit without a constant charge.
     stopped : list of str
         Which parts of the search were not finished, and why.
+    unproved : str
+        The sentence of that where a symmetry is known, but not its charge.
     """
 
     def __init__(self, noether: Noether) -> None:
@@ -88,6 +90,7 @@ class Discovery:
         self.hidden_charges: tuple[NoetherCharge, ...] = ()
         self.momentum_equations: tuple[NoetherCharge, ...] = ()
         self.unsearched = False
+        self.unproved = ""
         self._found: list[tuple[str, NoetherCharge]] = []
         self._of_lagrangian: list[Transformation] = []
         self._run()
@@ -271,7 +274,8 @@ class Discovery:
             allowed.check()
             charge = point.charge_of(self.noether, transformation, allowed)
             if charge is None or is_zero(charge.charge) is True:
-                self.stopped.append("a symmetry whose charge was not proved is left out")
+                self.unproved = "a symmetry whose charge was not proved is left out"
+                self.stopped.append(self.unproved)
                 continue
             self._add(charge)
 

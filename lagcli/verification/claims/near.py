@@ -93,6 +93,11 @@ class LinearMotion:
         by_q, by_v = ([list(r) for r in zip(*c, strict=True)] for c in columns)
         return by_q, by_v
 
+    @property
+    def still(self) -> bool:
+        """Whether velocities play no part, so that each frequency has a real shape."""
+        return all(size(e) < NOTHING for row in self.slopes[1] for e in row)
+
     @cached_property
     def eigenvalues(self) -> list[complex]:
         """Those of J that no constraint adds."""

@@ -29,6 +29,8 @@ from lagcli.verification.sweeps import StepValues, column
 _WHY = "what was derived does not hold at random states"
 _STEPS = 30
 _NEAR = 1e-20
+#: States with moved constants until a condition holds at two; Kepler's with E < 0 takes some 10.
+_ATTEMPTS, _WANTED = 60, 2
 
 
 def hamilton_jacobi(x: Examination, section: HamiltonJacobiSection) -> HamiltonJacobiSection:
@@ -271,7 +273,9 @@ class Action:
             if known is None:
                 return None
             values: tuple[list[arb], list[arb]] = [], []
-            for at in self._tried(known):
+            for at in self._tried(known, _ATTEMPTS if above else 0):
+                if len(values[0]) == _WANTED:
+                    break
                 slope = at.gradient(places[0]).get(self.q[k], arb(0))
                 if all(at(c) > 0 for c in above) and slope.is_finite():
                     values[0].append(slope**2)
@@ -280,13 +284,25 @@ class Action:
 
         before = len(x.unchecked)
         holds = x.decide(what, sides)
-        if above:
-            del x.unchecked[before:]  # the case of no random state
+        if above and len(x.unchecked) > before:
+            del x.unchecked[before:]
+            x.refute(what, "no state was found where its conditions hold")
+            return False
         return holds
 
-    def _tried(self, known: Environment) -> Iterator[StepValues]:
-        """The constants of a state, and of other energies."""
+    def _tried(self, known: Environment, attempts: int) -> Iterator[StepValues]:
+        """The constants of a state, other energies, and all constants and coordinates moved."""
+        values, random = self.x.reference.values, Random(17)
         for scale in (1, -1, 3):
-            yield self.x.reference.values(
-                {**known, self.energy: known.get(self.energy, arb(1)) * scale}
+            yield values({**known, self.energy: known.get(self.energy, arb(1)) * scale})
+        moved = [key for key in (*self.constants, *((n, 0) for n in self.names)) if key in known]
+        for _ in range(attempts):
+            scales = [arb(random.choice((2, 3, 5)) ** random.randint(-2, 2)) for _ in moved]
+            there = {key: known[key] * scale for key, scale in zip(moved, scales, strict=True)}
+            yield values(
+                {
+                    **known,
+                    **there,
+                    self.energy: there.get(self.energy, arb(1)) * random.choice((1, -1)),
+                }
             )

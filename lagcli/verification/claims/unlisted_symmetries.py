@@ -48,7 +48,7 @@ def symmetries_are_listed(x: Examination, section: ChargesSection) -> bool:
         except Unclear:
             continue
         if other:
-            x.refute(f"that no other {what}", f"there is {other} more")
+            x.refute(f"that no other {what}", f"more than are listed: {other}")
             return False
     return True
 
