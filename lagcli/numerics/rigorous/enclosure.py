@@ -1,20 +1,24 @@
-r"""Steps of an interval Taylor method with Lohner's sets, computed with outward rounding.
+r"""Steps of a validated Taylor method with Lohner's sets, computed with outward rounding.
 
-Let x' = f(t, x), x = (q, v), and let c_k(X) be balls that contain the k-th Taylor coefficients of
-every solution that starts in X.  A step of length h from the set X goes in three parts.
+The motion obeys x' = f(t, x), x = (q, v).  A step of length h starts from the set m + B r: m a
+point, B a matrix of points, r a box.
 
-1. An a-priori enclosure of high order: if
+1. p(s) = sum_{k<=K} c_k s^k is the Taylor polynomial of the solution from m, its coefficients
+   enclosed.  Its defect p' - f(p) vanishes to the order s^(K-1), so |p' - f(p)| <= |F_K| s^K, where
+   F_K encloses the K-th Taylor coefficient of f(p(s)) at every s of the step: one evaluation.
+2. The error e = x - p of any solution from the set obeys e' = A(s) e - (p' - f(p)), where A(s) is a
+   mean of J = df/dx on the segment from p to x.  With E the box in which e is supposed to stay,
 
-       Y = sum_{k<=K} c_k(X) [0, h]^k + c_{K+1}(Y0) [0, h]^(K+1)
+       A(s) in sum_{k<Q} J_k s^k + J_Q s^Q,
 
-   lies in the interior of Y0, every solution from X exists on [0, h] and stays in Y.
-2. The set is m + B r, m a point, B an orthogonal matrix of points, r a box.  By the mean value
-   theorem x(h) lies in
+   J_k from p + E at the beginning of the step, J_Q from p + E at every s of it.
+3. With N >= |A| entry by entry, |e(s)| <= exp(N h) (|B r| + h^(K+1)/(K+1) |F_K|).  Where that lies
+   inside E, the solutions exist on the whole step and the supposition was right.
+4. The flow of A is P(s) = sum_{k<=Q} P_k s^k up to h exp(N h) max |A P - P'|, so that
 
-       sum_{k<=K} c_k(m) h^k + c_{K+1}(Y) h^(K+1) + (S B) r,
+       x(h) in p(h) + (P(h) + D) B r + d,
 
-   S an enclosure of the derivative of the flow over X, from Phi' = J(t, x(t)) Phi, Phi(0) = 1.
-3. B is turned by the QR decomposition of S B, which keeps the wrapping of boxes away.
+   and B is turned by a QR decomposition, which keeps the wrapping of boxes small.
 
 References
 ----------
@@ -32,23 +36,24 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from lagcli.graph.derivative import partial
 from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.rigorous.field import Field
+from lagcli.numerics.rigorous.sets import LohnerSet
 from lagcli.record import record
 
 #: Of the length at which the last coefficients say that the remainder is small enough.
-_FIRST_TRY = 0.7
-#: The trial box is wider than the range of the polynomial by this part.
-_WIDER = 0.1
-#: Boxes over a step are wide: their coefficients need no more bits.
-_BOX_BITS = 64
-#: A remainder may be this multiple of the target, which is reached on smooth stretches.
-_REMAINDER = 1e3
-#: The derivative of the flow multiplies radii only.
+_FIRST_TRY = 0.9
+#: Bounds over a step are wide: they need no more bits.
+_WIDE_BITS = 64
+#: Q.  The flow multiplies radii only: at the usual lengths its remainder is 1e-6 of it.
 _FLOW_ORDER = 8
-_SHORTER, _HALVINGS = 0.75, 80
+#: E beside the error at the beginning, and beside the largest values so far.
+_ROOM, _LEAST_ROOM = 1e3, 1e-12
+_TUBES = 4
+_SHORTER, _LONGER, _LEAST_PART, _HALVINGS = 0.85, 1.02, 0.3, 80
 #: A step that is a smaller part of the span comes to a singularity, or to a set grown too wide.
 _SHORTEST = 1e-7
+_LARGEST = 1e30
 
 
 class NotEnclosed(Exception):
@@ -56,53 +61,62 @@ class NotEnclosed(Exception):
 
 
 @record
+class Flow:
+    """P and what bounds the rest.
+
+    Attributes
+    ----------
+    coefficients : list of arb_mat
+        P_0 .. P_Q.
+    error : arb_mat
+        D, entry by entry, for every time of the step.
+    defect : arb_mat
+        d, a column, likewise.
+    """
+
+    coefficients: list[Any]
+    error: Any
+    defect: Any
+
+
+@record
 class Piece:
-    """The motion over one step, from the set at its beginning.
+    """The motion over one step.
 
     Attributes
     ----------
     begin, end : arb
         The times, exact.
     centre : list of list of arb
-        c_0 .. c_K of each component, from the middle of the set.
-    remainder : list of arb
-        c_{K+1} over the step.
-    flow : list of arb_mat
-        The coefficients of Phi; the last holds over the step.
-    frame : arb_mat
-        B.
-    radii : arb_mat
-        r, a column.
+        c_0 .. c_K of each component.
+    flow : Flow
+    start : LohnerSet
+        The set at the beginning.
     """
 
     begin: Any
     end: Any
     centre: list[list[Any]]
-    remainder: list[Any]
-    flow: list[Any]
-    frame: Any
-    radii: Any
+    flow: Flow
+    start: LohnerSet
 
     def middle(self, t: Any) -> list[Any]:
-        """Where the middle of the set goes, with the remainder."""
-        s = t - self.begin
-        return [
-            _horner([*coefficients, rest], s)
-            for coefficients, rest in zip(self.centre, self.remainder, strict=True)
-        ]
+        """Where the middle of the set goes, with the defect of its polynomial."""
+        s, defect = t - self.begin, self.flow.defect
+        return [_horner(c, s) + defect[i, 0] for i, c in enumerate(self.centre)]
 
-    def turned(self, t: Any) -> Any:
-        """S B at a time of the step."""
-        s = t - self.begin
-        total = self.flow[-1]
-        for matrix in reversed(self.flow[:-1]):
-            total = matrix + total * s
-        return total * self.frame
+    def derivative(self, t: Any) -> Any:
+        """An enclosure of the derivative of the flow over the set."""
+        return _horner(self.flow.coefficients, t - self.begin) + self.flow.error
 
     def at(self, t: Any) -> list[Any]:
-        """An enclosure of (q, v) at a time of the step, which is an exact ball."""
-        spread = self.turned(t) * self.radii
+        """An enclosure of (q, v) at a time of the step, or at all times of a ball."""
+        spread = (self.derivative(t) * self.start.frame) * self.start.radii
         return [x + spread[i, 0] for i, x in enumerate(self.middle(t))]
+
+    def at_end(self) -> LohnerSet:
+        """The set at the end of the step."""
+        return self.start.moved(self.middle(self.end), self.derivative(self.end))
 
 
 class Enclosures:
@@ -115,222 +129,181 @@ class Enclosures:
     order : int
         K.
     target : float
-        What the remainder of a step may be, relative to the largest component.
+        What the remainder of a step may be beside the largest value of each component so far.
     """
 
     def __init__(self, motion: Motion, order: int, target: float) -> None:
-        from flint import arb, arb_mat, arb_series, ctx
+        from flint import arb, arb_mat, ctx
 
         self.motion, self.order, self.target = motion, order, target
-        self._ball, self._matrix, self._series, self._context = arb, arb_mat, arb_series, ctx
+        self._ball, self._matrix, self._context = arb, arb_mat, ctx
+        self.field = Field(motion)
         self.steps = 0
-        equations = motion.equations
-        eliminated = equations.eliminated
-        if eliminated is None:
-            raise NotEnclosed("the accelerations have no formula of their own")
-        roots, _ = eliminated.motion(equations.forcing, equations.bias)
-        symbols = (*equations.q, *equations.qdot)
-        self._accelerations = motion.function(roots)
-        slopes = [partial(equations.graph, x) for x in symbols]
-        self._jacobian = motion.function([slope(a) for a in roots for slope in slopes])
-        mask = 0
-        for symbol in equations.qdot:
-            mask |= symbol.mask
-        #: coefficients that one evaluation gives
-        self._gain = 1 if any(a.mask & mask for a in roots) else 2
+        #: what the last steps were of the estimated length
+        self._part = _FIRST_TRY
+        self._peaks = [0.0] * (2 * motion.n)
 
-    def pieces(self, state: Sequence[Any], until: Any) -> Iterator[Piece]:
-        """Steps from t = 0 to the end, each enclosed.
+    def pieces(self, start: LohnerSet, begin: Any, until: Any) -> Iterator[Piece]:
+        """Steps to the end, each enclosed.
 
         Raises
         ------
         NotEnclosed
             Where a step finds no enclosure.
         """
-        n = len(state)
-        t, frame = self._ball(0), _identity(self._matrix, n)
-        middle = [x.mid() for x in state]
-        radii = self._matrix(n, 1, [x - m for x, m in zip(state, middle, strict=True)])
-        before = None
+        t = begin
         while not t >= until:
-            piece = self._step(t, middle, frame, radii, until, before)
+            piece = self._step(t, start, until)
             yield piece
             self.steps += 1
-            before = float(piece.end - piece.begin)
-            t = piece.end
-            middle, frame, radii = self._set(piece)
+            t, start = piece.end, piece.at_end()
 
-    def _set(self, piece: Piece) -> tuple[list[Any], Any, Any]:
-        """The set at the end of a step: its middle, its frame and its radii."""
-        ends = piece.middle(piece.end)
-        middle = [x.mid() for x in ends]
-        n = len(ends)
-        rest = self._matrix(n, 1, [x - m for x, m in zip(ends, middle, strict=True)])
-        turned = piece.turned(piece.end)
-        frame = _orthogonal(turned, piece.radii, self._matrix)
-        inverse = frame.inv()
-        return middle, frame, (inverse * turned) * piece.radii + inverse * rest
-
-    def _step(
-        self,
-        t: Any,
-        middle: Sequence[Any],
-        frame: Any,
-        radii: Any,
-        until: Any,
-        before: float | None,
-    ) -> Piece:
-        centre = self._coefficients(t, middle, self.order)
-        spread = frame * radii
-        whole = [x + spread[i, 0] for i, x in enumerate(middle)]
+    def _step(self, t: Any, start: LohnerSet, until: Any) -> Piece:
+        centre = self.field.coefficients(t, start.middle, self.order)
         if not all(c.is_finite() for each in centre for c in each):
             raise NotEnclosed("the equations are not defined at every point of the enclosure")
-        h = self._length(centre)
-        if before is not None:
-            h = min(h, 1.1 * before)
-        for _ in range(_HALVINGS):
+        self._peaks = [
+            max(peak, abs(float(each[0]))) for peak, each in zip(self._peaks, centre, strict=True)
+        ]
+        h = self._part * self._length(centre)
+        for attempt in range(_HALVINGS):
             if h < _SHORTEST * float(until):
                 break
             end = until if t + 1.05 * h >= until else self._ball(float(t + h))
-            found = self._remainder(t, end, centre, whole)
-            if found is not None:
-                remainder, box, times = found
-                flow = self._flow(t, whole, box, times, float(end - t))
-                if flow is not None:
-                    return Piece(t, end, centre, remainder, flow, frame, radii)
-            h *= _SHORTER
+            flow = self._wide(t, end, centre, start)
+            if flow is not None:
+                self._part = min(1.0, self._part * (_LONGER if attempt == 0 else 1.0))
+                return Piece(t, end, centre, flow, start)
+            h, self._part = _SHORTER * h, max(_LEAST_PART, _SHORTER * self._part)
         raise NotEnclosed(
             "no enclosure was found over any step: the set has grown too wide, or the motion "
             "comes to a singularity"
         )
 
-    def _coefficients(self, t: Any, x: Sequence[Any], order: int) -> list[list[Any]]:
-        """c_0 .. c_order of q and v, where q' = v and v' is the acceleration."""
-        n, series, context, ball = self.motion.n, self._series, self._context, self._ball
-        q, v = [[c] for c in x[:n]], [[c] for c in x[n:]]
-        usual = context.cap
-        try:
-            while len(v[0]) <= order:
-                known = len(v[0]) + self._gain - 1
-                for c, rate in zip(q, v, strict=True):
-                    c.append(rate[-1] / len(rate))
-                context.cap = known
-                time = series([t, 1][:known])
-                places, rates = [series(c[:known]) for c in q], [series(c) for c in v]
-                found = [
-                    a if isinstance(a, series) else series([a])
-                    for a in self._accelerations(time, *places, *rates)
-                ]
-                for _ in range(self._gain):
-                    k = len(v[0])
-                    for c, rate, a in zip(q, v, found, strict=True):
-                        if len(c) < k + 1:
-                            c.append(rate[k - 1] / k)
-                        rate.append(a[k - 1] / ball(k))
-        finally:
-            context.cap = usual
-        return [c[: order + 1] for c in (*q, *v)]
+    @property
+    def _scales(self) -> list[float]:
+        """The largest value of each component so far; of its kind, where that is 0."""
+        n, largest = self.motion.n, max(self._peaks) or 1.0
+        kinds = [max(self._peaks[:n]) or largest] * n + [max(self._peaks[n:]) or largest] * n
+        return [peak or kind for peak, kind in zip(self._peaks, kinds, strict=True)]
 
-    def _length(self, series: Sequence[Sequence[Any]]) -> float:
+    def _length(self, centre: Sequence[Sequence[Any]]) -> float:
         """A length at which the term after the last is about the target."""
-        scale = max((float(abs(each[0])) for each in series), default=1.0) or 1.0
-        shortest = float("inf")
-        for each in series:
+        exponent = math.inf
+        for each, scale in zip(centre, self._scales, strict=True):
             for k in (self.order, self.order - 1):
-                last = float(abs(each[k]))
+                last = abs(float(each[k]))
                 if last > 0.0:
-                    shortest = min(shortest, (self.target * scale / last) ** (1.0 / k))
-        return _FIRST_TRY * shortest if shortest < float("inf") else 1.0
+                    exponent = min(exponent, math.log(self.target * scale / last) / k)
+        return math.exp(min(exponent, 50.0))
 
-    def _remainder(
-        self, t: Any, end: Any, centre: Sequence[Sequence[Any]], whole: Sequence[Any]
-    ) -> tuple[list[Any], list[Any], Any] | None:
-        """c_{K+1} over the step, the box that holds the motion, and the times; or None."""
-        ball, context = self._ball, self._context
-        h = float(end - t) * (1 + 1e-12)
-        usual, context.prec = context.prec, _BOX_BITS
+    def _wide(
+        self, t: Any, end: Any, centre: Sequence[Sequence[Any]], start: LohnerSet
+    ) -> Flow | None:
+        """What bounds the errors over a step; None where it is too long."""
+        context = self._context
+        usual, context.prec = context.prec, _WIDE_BITS
         try:
-            span = ball(h / 2, h / 2)  # contains [0, h]
-            offset = [x - c[0] for x, c in zip(whole, centre, strict=True)]
-            # the solutions from the whole set stay near that of its middle
-            spread = [_horner(c, span) + 4 * o for c, o in zip(centre, offset, strict=True)]
-            box = [_widened(each, ball) for each in spread]
-            times = ball(float(t) + h / 2, h / 2 * (1 + 1e-9) + 1e-15 * abs(float(t)))
-            coefficients = self._coefficients(t, whole, min(_FLOW_ORDER, self.order))
-            wide = self._coefficients(times, box, self.order + 1)
-            last = [each[-1] for each in wide]
-            low = len(coefficients[0])
-            # existence: the polynomial of low order over the whole set, its remainder over the box
-            inside = [_horner([*c, w[low]], span) for c, w in zip(coefficients, wide, strict=True)]
-            if not all(
-                b.is_finite() and b.contains_interior(y) for b, y in zip(box, inside, strict=True)
-            ):
-                return None
-            scale = max((float(abs(each[0])) for each in centre), default=1.0) or 1.0
-            power = h ** (self.order + 1)
-            largest = max(float(abs(rest).upper()) for rest in last)
-            if not largest * power <= _REMAINDER * self.target * scale:
-                return None
+            h = (end - t).abs_upper()
+            times, along = self.field.shifted(t, h, centre)
+            last = self.field.highest(times, along)
+            power = h ** (self.order + 1) / (self.order + 1)
+            defect = [x.abs_upper() * power for x in last]
+            small = all(
+                d < 8 * self.target * scale for d, scale in zip(defect, self._scales, strict=True)
+            )
+            return self._flow(t, h, centre, (times, along), start, defect) if small else None
+        except (ZeroDivisionError, ValueError):
+            return None
         finally:
             context.prec = usual
-        return last, box, times
 
     def _flow(
-        self, t: Any, whole: Sequence[Any], box: Sequence[Any], times: Any, h: float
-    ) -> list[Any] | None:
-        """The Taylor coefficients of Phi over the set, the last over the step."""
-        context, matrix = self._context, self._matrix
-        n = len(whole)
-        order = _FLOW_ORDER
-        usual, context.prec = context.prec, _BOX_BITS
-        try:
-            over = self._matrices(times, box, order)
-            bound = max(sum(float(abs(over[0][i, j]).upper()) for j in range(n)) for i in range(n))
-            grown = bound * h
-            if not grown < 5:
+        self,
+        t: Any,
+        h: Any,
+        centre: Sequence[Sequence[Any]],
+        over: tuple[Any, Sequence[Any]],
+        start: LohnerSet,
+        defect: Sequence[Any],
+    ) -> Flow | None:
+        """The flow, where a tube E is found in which the errors stay."""
+        whole = [x + d for x, d in zip(start.spread, defect, strict=True)]
+        column = self._matrix(len(whole), 1, whole)
+        tube = [
+            _ROOM * x + _LEAST_ROOM * scale for x, scale in zip(whole, self._scales, strict=True)
+        ]
+        for _ in range(_TUBES):
+            matrices = self._matrices(t, centre, over, tube)
+            if matrices is None:
                 return None
-            # |Phi - 1| <= exp(|J| h) - 1 over the step
-            slack = 1.5 ** int(grown / 0.4 + 1) - 1
-            around = matrix(n, n, [
-                self._ball(1.0 if i == j else 0.0, slack) for i in range(n) for j in range(n)
-            ])  # fmt: skip
-            wide = _variational(over, around, order)
-            narrow = _variational(self._matrices(t, whole, order), _identity(matrix, n), order)
-        finally:
-            context.prec = usual
-        found = [*narrow[:order], wide[order]]
-        finite = all(m[i, j].is_finite() for m in found for i in range(n) for j in range(n))
-        return found if finite else None
+            bound = _sum_of_sizes(matrices, h)
+            if not all(x < 12 for x in (bound * h).entries()):
+                return None
+            grown = (bound * h).exp()
+            errors = (grown * column).entries()
+            if all(x < e for x, e in zip(errors, tube, strict=True)):
+                return self._bounded(matrices, grown, h, defect)
+            tube = [2 * x.abs_upper() for x in errors]
+            if not all(x < _LARGEST for x in tube):
+                return None
+        return None
 
-    def _matrices(self, t: Any, x: Sequence[Any], order: int) -> list[Any]:
-        """The Taylor coefficients of J along the solutions from x."""
-        n, series, context = self.motion.n, self._series, self._context
-        coefficients = self._coefficients(t, x, order)
-        usual, context.cap = context.cap, order
-        try:
-            time = series([t, 1])
-            entries = [
-                a if isinstance(a, series) else series([a])
-                for a in self._jacobian(time, *(series(c[:order]) for c in coefficients))
-            ]
-        finally:
-            context.cap = usual
-        found = []
-        for k in range(order):
-            top = [1 if k == 0 and j == i + n else 0 for i in range(n) for j in range(2 * n)]
-            found.append(self._matrix(2 * n, 2 * n, [*top, *(a[k] for a in entries)]))
-        return found
+    def _matrices(
+        self, t: Any, centre: Sequence[Sequence[Any]], over: tuple[Any, Any], tube: Sequence[Any]
+    ) -> list[Any] | None:
+        """J_0 .. J_Q."""
+        room = [self._ball(0, e) for e in tube]
+        at_start = [[c[0] + e, *c[1:_FLOW_ORDER]] for c, e in zip(centre, room, strict=True)]
+        times, along = over
+        anywhere = [[c[0] + e, *c[1 : _FLOW_ORDER + 1]] for c, e in zip(along, room, strict=True)]
+        found = self.field.jacobian([t, 1], at_start, _FLOW_ORDER)
+        found += self.field.jacobian([times, 1], anywhere, _FLOW_ORDER + 1)[_FLOW_ORDER:]
+        return found if all(x.is_finite() for m in found for x in m.entries()) else None
+
+    def _bounded(self, matrices: Sequence[Any], grown: Any, h: Any, defect: Sequence[Any]) -> Flow:
+        """P from the middles of J_k; D from the defect A P - P'."""
+        middles = [m.mid() for m in matrices]
+        size = len(defect)
+        found = [self._matrix(size, size, [int(i == j) for i in range(size) for j in range(size)])]
+        for k in range(_FLOW_ORDER):
+            found.append(_convolved(middles, found, k) / (k + 1))
+        found = [m.mid() for m in found]
+        rest = [
+            _convolved(matrices, found, k)
+            - ((k + 1) * found[k + 1] if k < _FLOW_ORDER else 0 * found[0])
+            for k in range(2 * _FLOW_ORDER + 1)
+        ]
+        error = grown * _sum_of_sizes(rest, h) * h
+        moved = grown * self._matrix(size, 1, list(defect))
+        return Flow(found, self._around_zero(error), self._around_zero(moved))
+
+    def _around_zero(self, bound: Any) -> Any:
+        """A matrix of balls around 0."""
+        entries = [self._ball(0, x.abs_upper()) for x in bound.entries()]
+        return self._matrix(bound.nrows(), bound.ncols(), entries)
 
 
-def _variational(jacobian: Sequence[Any], start: Any, order: int) -> list[Any]:
-    """Phi_{k+1} = sum_j J_j Phi_{k-j} / (k + 1)."""
-    found = [start]
-    for k in range(order):
-        total = jacobian[0] * found[k]
-        for j in range(1, k + 1):
-            total += jacobian[j] * found[k - j]
-        found.append(total / (k + 1))
-    return found
+def _convolved(left: Sequence[Any], right: Sequence[Any], k: int) -> Any:
+    """sum_j left_j right_(k-j)."""
+    pairs = [
+        (left[j], right[k - j])
+        for j in range(max(0, k - len(right) + 1), min(k, len(left) - 1) + 1)
+    ]
+    total = pairs[0][0] * pairs[0][1]
+    for a, b in pairs[1:]:
+        total += a * b
+    return total
+
+
+def _sum_of_sizes(matrices: Sequence[Any], h: Any) -> Any:
+    """sum_k |M_k| h^k, rounded up."""
+    total, power = None, 1
+    for m in matrices:
+        sizes = type(m)(m.nrows(), m.ncols(), [x.abs_upper() * power for x in m.entries()])
+        total = sizes if total is None else total + sizes
+        power *= h
+    return total
 
 
 def _horner(coefficients: Sequence[Any], s: Any) -> Any:
@@ -338,40 +311,3 @@ def _horner(coefficients: Sequence[Any], s: Any) -> Any:
     for c in reversed(coefficients[:-1]):
         value = c + value * s
     return value
-
-
-def _widened(around: Any, ball: Any) -> Any:
-    """A ball around another, with room for the remainder."""
-    size = float(abs(around.mid()))
-    return ball(float(around.mid()), float(around.rad()) * (1 + _WIDER) + 1e-13 * size + 1e-16)
-
-
-def _identity(matrix: Any, n: int) -> Any:
-    return matrix(n, n, [int(i == j) for i in range(n) for j in range(n)])
-
-
-def _orthogonal(turned: Any, radii: Any, matrix: Any) -> Any:
-    """An orthogonal matrix of points along the longest sides of the set: Gram and Schmidt.
-
-    It need not be exact: whatever it is, its inverse is enclosed.
-    """
-    n = turned.nrows()
-    columns = [[float(turned[i, j].mid()) for i in range(n)] for j in range(n)]
-    lengths = [
-        float(abs(radii[j, 0]).upper()) * sum(x * x for x in columns[j]) ** 0.5 for j in range(n)
-    ]
-    frame: list[list[float]] = []
-    units = [[float(i == k) for i in range(n)] for k in range(n)]
-    for candidate in [*(columns[j] for j in sorted(range(n), key=lambda j: -lengths[j])), *units]:
-        before = _norm(candidate)
-        for other in (*frame, *frame):  # twice is enough
-            along = sum(a * b for a, b in zip(candidate, other, strict=True))
-            candidate = [a - along * b for a, b in zip(candidate, other, strict=True)]
-        after = _norm(candidate)
-        if len(frame) < n and after > 1e-8 * before:  # else the direction is there already
-            frame.append([x / after for x in candidate])
-    return matrix(n, n, [frame[j][i] for i in range(n) for j in range(n)])
-
-
-def _norm(x: Sequence[float]) -> float:
-    return math.sqrt(sum(a * a for a in x))

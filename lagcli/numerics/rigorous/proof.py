@@ -17,6 +17,7 @@ from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import refined_state
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.numerics.rigorous.enclosure import Enclosures, NotEnclosed
+from lagcli.numerics.rigorous.sets import around
 from lagcli.problem_data import Problem
 from lagcli.record import record
 
@@ -27,7 +28,7 @@ _STEPS = 5_000
 #: More bits go on where the last doubling has reached so much farther.
 _GAIN = 1.01
 #: Bits between the working precision and what the remainder of a step may be.
-_SPARE = 16
+_SPARE = 0
 #: A constraint's residual at the beginning, beside its terms, in bits below the precision.
 _RESIDUAL = 24
 
@@ -125,7 +126,7 @@ def _attempt(simulation: Simulation, bits: int, progress: Progress | None) -> Pr
     constants = constants_of(simulation.equations, simulation.all_nodes, arithmetic)
     motion = Motion(simulation.equations, constants, arithmetic)
     state, assumed = _start(simulation, motion, bits)
-    order = bits // 4
+    order = int(0.36 * bits)
     enclosures = Enclosures(motion, order, 2.0 ** -(bits - _SPARE))
     values = Values(motion, simulation.reading, simulation.nodes)
     ball = arithmetic.ball
@@ -140,7 +141,7 @@ def _attempt(simulation: Simulation, bits: int, progress: Progress | None) -> Pr
     try:
         take(state, ball(0))
         waiting = 1
-        for piece in enclosures.pieces(state, times[-1]):
+        for piece in enclosures.pieces(around(state), ball(0), times[-1]):
             while waiting < len(times) and times[waiting] <= piece.end:
                 take(piece.at(times[waiting]), times[waiting])
                 waiting += 1
