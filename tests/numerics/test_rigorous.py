@@ -10,7 +10,6 @@ import pytest
 import lagcli
 from lagcli.cli.run import run
 from lagcli.interface.motion import asked_of
-from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.rigorous import prove
 
 
@@ -127,18 +126,6 @@ def test_the_table_shows_proved_digits_only(capsysbinary):
     last = capsysbinary.readouterr().out.decode().splitlines()[2].split()
     assert mpmath.mpf(last[1]) == pytest.approx(-0.98006699293340488, abs=1e-14)
     assert len(last[1]) >= 14
-
-
-REFUSED = [
-    "{coordinates: [y], T: y'^2/2, V: y, contacts: {floor: y >= 0}, initial: {y: 1}}",
-    "{coordinates: [x], T: x'^2/2, V: abs(x), initial: {x: 1}}",
-]
-
-
-@pytest.mark.parametrize("text", REFUSED)
-def test_what_is_not_enclosed_is_refused_with_its_reason(text):
-    with pytest.raises(Refusal, match="not enclosed"):
-        proof(lagcli.loads(text), 1.0)
 
 
 def test_a_format_without_enclosures_is_a_mistake(capsysbinary, tmp_path):

@@ -40,7 +40,7 @@ class Motion:
     arithmetic
         `Doubles()` or `Balls()`.
     signs
-        Those of another motion of the same problem, to share with it.
+        Those of another motion of the same problem, to share with it; balls need them given.
 
     Raises
     ------
@@ -63,7 +63,7 @@ class Motion:
         self.arithmetic = arithmetic
         self.constants = constants
         self.n, self.m = len(equations.q), len(equations.rows)
-        self.kinks = equations.kinks if arithmetic.ordered else []
+        self.kinks = equations.kinks if arithmetic.ordered or signs is not None else []
         #: of each kink's argument, as the dynamics is to take it
         self.signs = [1.0] * len(self.kinks) if signs is None else signs
         self._independent: tuple[int, ...] | None = None

@@ -33,11 +33,10 @@ Trans. Comput. 66 (2017) 1281.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any
 
-from lagcli.numerics.equations.motion import Motion
-from lagcli.numerics.rigorous.field import Field
+from lagcli.numerics.rigorous.field import Field, convolved
 from lagcli.numerics.rigorous.sets import LohnerSet
 from lagcli.record import record
 
@@ -50,6 +49,7 @@ _FLOW_ORDER = 8
 #: E beside the error at the beginning, and beside the largest values so far.
 _ROOM, _LEAST_ROOM = 1e3, 1e-12
 _TUBES = 4
+_LEAST_SCALE = 1e-6
 _SHORTER, _LONGER, _LEAST_PART, _HALVINGS = 0.85, 1.02, 0.3, 80
 #: A step that is a smaller part of the span comes to a singularity, or to a set grown too wide.
 _SHORTEST = 1e-7
@@ -114,6 +114,11 @@ class Piece:
         spread = (self.derivative(t) * self.start.frame) * self.start.radii
         return [x + spread[i, 0] for i, x in enumerate(self.middle(t))]
 
+    def first_part(self, part: float) -> Piece:
+        """The beginning of the step."""
+        end = (self.begin + part * (self.end - self.begin)).mid()
+        return Piece(self.begin, end, self.centre, self.flow, self.start)
+
     def at_end(self) -> LohnerSet:
         """The set at the end of the step."""
         return self.start.moved(self.middle(self.end), self.derivative(self.end))
@@ -124,45 +129,37 @@ class Enclosures:
 
     Parameters
     ----------
-    motion : Motion
-        In balls, with exact parameters.
+    field : Field
+        f and J.
     order : int
         K.
     target : float
         What the remainder of a step may be beside the largest value of each component so far.
+    peaks : list of float
+        These values, which the proof goes on with.
     """
 
-    def __init__(self, motion: Motion, order: int, target: float) -> None:
+    def __init__(self, field: Field, order: int, target: float, peaks: list[float]) -> None:
         from flint import arb, arb_mat, ctx
 
-        self.motion, self.order, self.target = motion, order, target
+        self.field, self.order, self.target = field, order, target
         self._ball, self._matrix, self._context = arb, arb_mat, ctx
-        self.field = Field(motion)
-        self.steps = 0
+        self._peaks = peaks
         #: what the last steps were of the estimated length
         self._part = _FIRST_TRY
-        self._peaks = [0.0] * (2 * motion.n)
 
-    def pieces(self, start: LohnerSet, begin: Any, until: Any) -> Iterator[Piece]:
-        """Steps to the end, each enclosed.
+    def step(self, t: Any, start: LohnerSet, until: Any) -> Piece:
+        """A step from a set towards the end.
 
         Raises
         ------
         NotEnclosed
-            Where a step finds no enclosure.
+            Where no enclosure is found.
         """
-        t = begin
-        while not t >= until:
-            piece = self._step(t, start, until)
-            yield piece
-            self.steps += 1
-            t, start = piece.end, piece.at_end()
-
-    def _step(self, t: Any, start: LohnerSet, until: Any) -> Piece:
         centre = self.field.coefficients(t, start.middle, self.order)
         if not all(c.is_finite() for each in centre for c in each):
             raise NotEnclosed("the equations are not defined at every point of the enclosure")
-        self._peaks = [
+        self._peaks[:] = [
             max(peak, abs(float(each[0]))) for peak, each in zip(self._peaks, centre, strict=True)
         ]
         h = self._part * self._length(centre)
@@ -181,16 +178,15 @@ class Enclosures:
         )
 
     @property
-    def _scales(self) -> list[float]:
-        """The largest value of each component so far; of its kind, where that is 0."""
-        n, largest = self.motion.n, max(self._peaks) or 1.0
-        kinds = [max(self._peaks[:n]) or largest] * n + [max(self._peaks[n:]) or largest] * n
-        return [peak or kind for peak, kind in zip(self._peaks, kinds, strict=True)]
+    def scales(self) -> list[float]:
+        """The largest value of each component so far, or a small part of the largest of all."""
+        least = _LEAST_SCALE * (max(self._peaks) or 1.0)
+        return [max(peak, least) for peak in self._peaks]
 
     def _length(self, centre: Sequence[Sequence[Any]]) -> float:
         """A length at which the term after the last is about the target."""
         exponent = math.inf
-        for each, scale in zip(centre, self._scales, strict=True):
+        for each, scale in zip(centre, self.scales, strict=True):
             for k in (self.order, self.order - 1):
                 last = abs(float(each[k]))
                 if last > 0.0:
@@ -210,7 +206,7 @@ class Enclosures:
             power = h ** (self.order + 1) / (self.order + 1)
             defect = [x.abs_upper() * power for x in last]
             small = all(
-                d < 8 * self.target * scale for d, scale in zip(defect, self._scales, strict=True)
+                d < 8 * self.target * scale for d, scale in zip(defect, self.scales, strict=True)
             )
             return self._flow(t, h, centre, (times, along), start, defect) if small else None
         except (ZeroDivisionError, ValueError):
@@ -231,7 +227,7 @@ class Enclosures:
         whole = [x + d for x, d in zip(start.spread, defect, strict=True)]
         column = self._matrix(len(whole), 1, whole)
         tube = [
-            _ROOM * x + _LEAST_ROOM * scale for x, scale in zip(whole, self._scales, strict=True)
+            _ROOM * x + _LEAST_ROOM * scale for x, scale in zip(whole, self.scales, strict=True)
         ]
         for _ in range(_TUBES):
             matrices = self._matrices(t, centre, over, tube)
@@ -267,10 +263,10 @@ class Enclosures:
         size = len(defect)
         found = [self._matrix(size, size, [int(i == j) for i in range(size) for j in range(size)])]
         for k in range(_FLOW_ORDER):
-            found.append(_convolved(middles, found, k) / (k + 1))
+            found.append(convolved(middles, found, k) / (k + 1))
         found = [m.mid() for m in found]
         rest = [
-            _convolved(matrices, found, k)
+            convolved(matrices, found, k)
             - ((k + 1) * found[k + 1] if k < _FLOW_ORDER else 0 * found[0])
             for k in range(2 * _FLOW_ORDER + 1)
         ]
@@ -282,18 +278,6 @@ class Enclosures:
         """A matrix of balls around 0."""
         entries = [self._ball(0, x.abs_upper()) for x in bound.entries()]
         return self._matrix(bound.nrows(), bound.ncols(), entries)
-
-
-def _convolved(left: Sequence[Any], right: Sequence[Any], k: int) -> Any:
-    """sum_j left_j right_(k-j)."""
-    pairs = [
-        (left[j], right[k - j])
-        for j in range(max(0, k - len(right) + 1), min(k, len(left) - 1) + 1)
-    ]
-    total = pairs[0][0] * pairs[0][1]
-    for a, b in pairs[1:]:
-        total += a * b
-    return total
 
 
 def _sum_of_sizes(matrices: Sequence[Any], h: Any) -> Any:

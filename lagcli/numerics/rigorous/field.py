@@ -6,10 +6,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from lagcli.graph.derivative import partial
-from lagcli.graph.nodes import Node, Symbol
+from lagcli.graph.nodes import Node, Symbol, ancestry
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import Refusal
+
+#: Coefficients found one by one; from there on each step of Newton's method doubles them.
+_BASE = 7
 
 
 class Field:
@@ -31,30 +34,45 @@ class Field:
 
         self._ball, self._matrix, self._series, self._context = arb, arb_mat, arb_series, ctx
         self._polynomial = arb_poly
-        self.n, self._motion = motion.n, motion
+        self.n = motion.n
         equations = motion.equations
-        roots, entries = _written_out(equations)
+        symbols = (*equations.q, *equations.qdot)
+        roots, columns = solved(equations, equations.forcing, equations.bias, symbols)
         self._accelerations = motion.function(roots, frozen=True)
+        entries = [entry for row in zip(*columns, strict=True) for entry in row]
         self._slopes = motion.function(entries, frozen=True)
+        #: what an evaluation costs, in nodes
+        self.cost = len(ancestry([*roots, *entries]))
         mask = 0
         for symbol in equations.qdot:
             mask |= symbol.mask
         #: coefficients that one evaluation gives
         self._gain = 1 if any(a.mask & mask for a in roots) else 2
 
-    def accelerations(self, t: Any, x: Sequence[Any]) -> list[Any]:
-        """a at balls."""
-        return list(self._accelerations(t, *x))
+    def rate(self, t: Any, x: Sequence[Any]) -> list[Any]:
+        """f at balls."""
+        return [*x[self.n :], *self._accelerations(t, *x)]
+
+    def slope(self, t: Any, x: Sequence[Any]) -> Any:
+        """J at balls."""
+        return self.jacobian([t], [[each] for each in x], 1)[0]
 
     def coefficients(self, t: Any, x: Sequence[Any], order: int) -> list[list[Any]]:
         """Taylor coefficients 0 .. order of the solution from x: of q, then of v."""
+        found = self._first(t, x, min(order, _BASE))
+        while len(found[0]) <= order:
+            found = self._doubled(t, found, min(2 * len(found[0]), order + 1))
+        return found
+
+    def _first(self, t: Any, x: Sequence[Any], order: int) -> list[list[Any]]:
+        """The coefficients one after the other: k v_k = a_(k-1)."""
         n, ball = self.n, self._ball
         q, v = [[c] for c in x[:n]], [[c] for c in x[n:]]
         while len(v[0]) <= order:
             known = len(v[0]) + self._gain - 1
             for c, rate in zip(q, v, strict=True):
                 c.append(rate[-1] / len(rate))
-            found = self._evaluated(self._accelerations, [t, 1], [*q, *v], known)
+            found = self.evaluated(self._accelerations, [t, 1], [*q, *v], known)
             for _ in range(self._gain):
                 k = len(v[0])
                 for c, rate, a in zip(q, v, found, strict=True):
@@ -62,6 +80,31 @@ class Field:
                         c.append(rate[k - 1] / k)
                     rate.append(a[k - 1] / ball(k))
         return [c[: order + 1] for c in (*q, *v)]
+
+    def _doubled(self, t: Any, x: Sequence[Sequence[Any]], count: int) -> list[list[Any]]:
+        """From the coefficients 0 .. k-1 those up to 2k-1, by a step of Newton's method.
+
+        f(x + e) = f(x) + J(x) e + O(e^2), and e = O(s^k).
+        """
+        n, known = self.n, len(x[0])
+        found = [list(c) for c in x]
+        a = self.evaluated(self._accelerations, [t, 1], x, count)
+        slopes = self.evaluated(self._slopes, [t, 1], x, count - known)
+        matrices = [
+            self._matrix(n, 2 * n, [entry[k] for entry in slopes]) for k in range(count - known)
+        ]
+        errors: list[Any] = []
+        for k in range(known, count):
+            change = [entry[k - 1] for entry in a]
+            if errors:
+                added = convolved(matrices, errors, len(errors) - 1).entries()
+                change = [b + c for b, c in zip(change, added, strict=True)]
+            places = [(found[n + i][k - 1]) / k for i in range(n)]
+            rates = [b / k for b in change]
+            for c, value in zip(found, [*places, *rates], strict=True):
+                c.append(value)
+            errors.append(self._matrix(2 * n, 1, [*places, *rates]))
+        return found
 
     def shifted(
         self, t: Any, h: Any, centre: Sequence[Sequence[Any]]
@@ -80,21 +123,19 @@ class Field:
     def highest(self, times: Any, along: Sequence[Sequence[Any]]) -> list[Any]:
         """The last Taylor coefficient of f along polynomials x of degree K: the K-th."""
         order = len(along[0]) - 1
-        found = self._evaluated(self._accelerations, [times, 1], along, order + 1)
+        found = self.evaluated(self._accelerations, [times, 1], along, order + 1)
         return [*(c[order] for c in along[self.n :]), *(a[order] for a in found)]
 
-    def jacobian(
-        self, time: Sequence[Any], x: Sequence[Sequence[Any]], length: int
-    ) -> list[Any]:
+    def jacobian(self, time: Sequence[Any], x: Sequence[Sequence[Any]], length: int) -> list[Any]:
         """The first Taylor coefficients of J along power series x."""
         n, found = self.n, []
-        entries = self._evaluated(self._slopes, time, x, length)
+        entries = self.evaluated(self._slopes, time, x, length)
         for k in range(length):
             top = [int(k == 0 and j == i + n) for i in range(n) for j in range(2 * n)]
             found.append(self._matrix(2 * n, 2 * n, [*top, *(a[k] for a in entries)]))
         return found
 
-    def _evaluated(
+    def evaluated(
         self, function: Any, time: Sequence[Any], x: Sequence[Sequence[Any]], length: int
     ) -> list[Any]:
         """The values of a function as series of a length."""
@@ -107,42 +148,65 @@ class Field:
             context.cap = usual
 
 
-def _written_out(equations: Equations) -> tuple[list[Node], list[Node]]:
-    """The accelerations, and their derivatives with respect to q and q', row by row.
+Solution = tuple[list[Node], list[list[Node]]]
 
-    With a and lambda the solution of M a - A^T lambda = F, A a = -c, the derivatives obey
-    the same equations:
+
+def solved(
+    equations: Equations, forcing: Sequence[Node], bias: Sequence[Node], symbols: Sequence[Symbol]
+) -> Solution:
+    """a of M a - A^T lambda = F, A a = -c, and the columns of its derivatives.
+
+    These obey the same equations:
 
         M da - A^T dlambda = dF - dM a + dA^T lambda,    A da = -(dc + dA a).
+
+    Raises
+    ------
+    Refusal
+        When the solution cannot be written out.
     """
     eliminated = equations.eliminated
     if eliminated is None:
         raise Refusal("not enclosed: the accelerations have no formula of their own", mistake=False)
-    accelerations, multipliers = eliminated.motion(equations.forcing, equations.bias)
+    a, multipliers = eliminated.motion(forcing, bias)
     columns = []
-    for symbol in (*equations.q, *equations.qdot):
-        forcing, bias = _differentiated(equations, symbol, accelerations, multipliers)
-        columns.append(eliminated.motion(forcing, bias)[0])
-    return accelerations, [entry for row in zip(*columns, strict=True) for entry in row]
+    for symbol in symbols:
+        right = _differentiated(equations, symbol, forcing, bias, (a, multipliers))
+        columns.append(eliminated.motion(*right)[0])
+    return a, columns
 
 
 def _differentiated(
-    equations: Equations, symbol: Symbol, a: Sequence[Node], multipliers: Sequence[Node]
+    equations: Equations,
+    symbol: Symbol,
+    forcing: Sequence[Node],
+    bias: Sequence[Node],
+    solution: tuple[Sequence[Node], Sequence[Node]],
 ) -> tuple[list[Node], list[Node]]:
     """dF - dM a + dA^T lambda, and dc + dA a."""
     graph, slope = equations.graph, partial(equations.graph, symbol)
-    product, minus = graph.product, lambda x: graph.scaled(x, -1)
+    a, multipliers = solution
     rows = [[slope(entry) for entry in row] for row in equations.rows]
-    forcing = [
-        graph.sum([
-            slope(force),
-            *(minus(product(slope(m), x)) for m, x in zip(mass, a, strict=True)),
-            *(product(row[i], y) for row, y in zip(rows, multipliers, strict=True)),
-        ])
-        for i, (force, mass) in enumerate(zip(equations.forcing, equations.mass, strict=True))
-    ]  # fmt: skip
-    bias = [
-        graph.sum([slope(c), *(product(x, y) for x, y in zip(row, a, strict=True))])
-        for c, row in zip(equations.bias, rows, strict=True)
+
+    def right(i: int) -> Node:
+        moved = [graph.product(slope(m), x) for m, x in zip(equations.mass[i], a, strict=True)]
+        held = [graph.product(row[i], y) for row, y in zip(rows, multipliers, strict=True)]
+        return graph.difference(graph.sum([slope(forcing[i]), *held]), graph.sum(moved))
+
+    turned = [
+        graph.sum([slope(c), *(graph.product(x, y) for x, y in zip(row, a, strict=True))])
+        for c, row in zip(bias, rows, strict=True)
     ]
-    return forcing, bias
+    return [right(i) for i in range(len(forcing))], turned
+
+
+def convolved(left: Sequence[Any], right: Sequence[Any], k: int) -> Any:
+    """sum_j left_j right_(k-j)."""
+    pairs = [
+        (left[j], right[k - j])
+        for j in range(max(0, k - len(right) + 1), min(k, len(left) - 1) + 1)
+    ]
+    total = pairs[0][0] * pairs[0][1]
+    for a, b in pairs[1:]:
+        total += a * b
+    return total

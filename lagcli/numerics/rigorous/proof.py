@@ -3,37 +3,61 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
 from typing import Any
 
 from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.arithmetic import Balls
-from lagcli.numerics.equations.columns import Values
 from lagcli.numerics.equations.constants import constants_of
-from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.equations.start import refined_state
 from lagcli.numerics.hybrid.request import Asked
-from lagcli.numerics.rigorous.enclosure import Enclosures, NotEnclosed
-from lagcli.numerics.rigorous.sets import around
+from lagcli.numerics.rigorous.crossings import Undecided, Watched, behind, when
+from lagcli.numerics.rigorous.enclosure import NotEnclosed, Piece
+from lagcli.numerics.rigorous.initial import initial_state
+from lagcli.numerics.rigorous.modes import Mode, Modes
+from lagcli.numerics.rigorous.sets import LohnerSet, around
 from lagcli.problem_data import Problem
 from lagcli.record import record
 
-#: Bits of the first attempt and of the last.
-_BITS, _MOST_BITS = 80, 640
-#: Steps of one attempt.
-_STEPS = 5_000
-#: More bits go on where the last doubling has reached so much farther.
-_GAIN = 1.01
-#: Bits between the working precision and what the remainder of a step may be.
-_SPARE = 0
-#: A constraint's residual at the beginning, beside its terms, in bits below the precision.
-_RESIDUAL = 24
+#: Bits of the first attempt and of the last; the order in proportion, from a scan of costs.
+_BITS, _MOST_BITS, _ORDER = 80, 640, 0.36
+#: Entries of f and J that are evaluated to order 28, all attempts together: some 10 minutes.
+_WORK = 2e6
+#: More bits help where the enclosures are wider than this part of the accuracy.
+_NARROW = 1e-3
+#: And where the last ones have brought the proof so much farther.
+_GAIN = 1.02
+#: An attempt ends where they are wider by this factor: what it lacks is known.
+_LOST = 1e3
+#: A loss of digits is taken to go on as it began, over at most so many times the time.
+_FARTHEST = 8
+#: Of a step whose end is at an event.
+_SHORTER = 0.8
+#: Where something may happen at the very end, steps go farther.
+_BEYOND = 1.0625
+#: Bits beyond those that are lost and those that are wanted.
+_SPARE = 8
+
+_WIDE = "the enclosures are wider than the accuracy {:g}"
+_TORN = "the next row is at the time of an event, before it or after it"
 
 Progress = Callable[[float], None]
 Enclosure = tuple[Any, ...]
+
+
+#: Time, set, mode, and the orders of what is 0 there.
+Following = tuple[Any, LohnerSet, Mode, Mapping[Watched, int]]
+
+
+@record
+class ProvedEvent:
+    """An event that happens once within a ball of times."""
+
+    t: Any
+    name: str
+    what: str
 
 
 @record(kw_only=True)
@@ -51,6 +75,8 @@ class Proof:
         Of the successful attempt.
     assumed : tuple of str
         What the proof stands on.
+    events : tuple of ProvedEvent
+        All that happened, in order.
     refusal : str
         Why the rows end early; empty where they do not.
     """
@@ -64,6 +90,7 @@ class Proof:
     order: int
     steps: int
     assumed: tuple[str, ...]
+    events: tuple[ProvedEvent, ...] = ()
     refusal: str = ""
 
 
@@ -87,90 +114,239 @@ def prove(problem: Problem, asked: Asked, progress: Progress | None = None) -> P
     Raises
     ------
     Refusal
-        When the motion is of a kind that is not enclosed: contacts, switching functions.
+        When the motion is of a kind that is not enclosed.
     """
-    simulation = _simulation(problem, asked)
+    setup, implied = _setup(problem, asked)
     best: Proof | None = None
     bits = _BITS
-    while bits <= _MOST_BITS:
+    work, last = _WORK, 0.0
+    while True:
         with _precision(bits):
-            found = _attempt(simulation, bits, progress)
-        gained = best is None or found.holds_until > _GAIN * best.holds_until
+            attempt = Attempt(setup, implied, bits, work, progress)
+            found = attempt.proof()
         best = found if best is None or found.holds_until >= best.holds_until else best
-        if found.reached or not gained:
-            break
-        bits *= 2
-    assert best is not None
-    return best
+        work -= attempt.work
+        bits = attempt.bits_needed()
+        if found.reached or not 0 < bits <= _MOST_BITS or work <= 0 or attempt.last < _GAIN * last:
+            return best
+        last = attempt.last
 
 
-def _simulation(problem: Problem, asked: Asked) -> Simulation:
-    """What is integrated, where it can be enclosed."""
-    whole = Simulation(problem, asked)
-    if problem.contacts or any(one.holds_while is not None for one in problem.constraints):
-        raise Refusal("contacts are not enclosed: --rigorous is for motions without them",
-                      mistake=False)  # fmt: skip
-    if whole.equations.kinks:
-        message = "abs and sign are not enclosed: --rigorous is for smooth motions"
+def _setup(problem: Problem, asked: Asked) -> tuple[Simulation, frozenset[int]]:
+    """What is integrated, and the constraints that the others imply at the beginning."""
+    setup, modes = Simulation(problem, asked).ready()
+    implied: frozenset[int] = frozenset()
+    if setup.equations.rows:
+        first = modes.first
+        q, v = setup.start
+        kept = first.motion.independent(0.0, *q, *v)
+        if kept is not None:
+            implied = frozenset(
+                k for k, place in first.equations.place.items() if place not in kept
+            )
+    symbols = setup.reading.multipliers
+    if implied and any(node.mask & s.mask for node in setup.nodes for s in symbols):
+        message = "with constraints that others imply the multipliers are not determined"
         raise Refusal(message, mistake=False)
-    if asked.stop_when is not None:
-        raise Refusal("--stop-when is not enclosed", mistake=False)
-    integrated, _ = whole.ready()
-    return integrated
+    return setup, implied
 
 
-def _attempt(simulation: Simulation, bits: int, progress: Progress | None) -> Proof:
+class Attempt:
     """One proof at a given precision, with the order that suits it."""
-    asked = simulation.asked
-    arithmetic = Balls()
-    constants = constants_of(simulation.equations, simulation.all_nodes, arithmetic)
-    motion = Motion(simulation.equations, constants, arithmetic)
-    state, assumed = _start(simulation, motion, bits)
-    order = int(0.36 * bits)
-    enclosures = Enclosures(motion, order, 2.0 ** -(bits - _SPARE))
-    values = Values(motion, simulation.reading, simulation.nodes)
-    ball = arithmetic.ball
-    times = [arithmetic.number(Fraction(t)) for t in _times(asked)]
-    rows: list[Enclosure] = []
-    refusal = ""
 
-    def take(x: Sequence[Any], t: Any) -> None:
-        n = motion.n
-        rows.append(tuple(values(t, list(x[:n]), list(x[n:]))))
+    def __init__(
+        self,
+        setup: Simulation,
+        implied: frozenset[int],
+        bits: int,
+        most: float,
+        progress: Progress | None,
+    ) -> None:
+        self.setup, self.implied, self.bits, self.most = setup, implied, bits, most
+        self.progress = progress
+        self.order = int(_ORDER * bits)
+        self.arithmetic = Balls()
+        self.steps, self.work = 0, 0.0
+        self.rows: list[Enclosure] = []
+        self.events: list[ProvedEvent] = []
+        self.refusal = ""
+        self.assumed = ["the file as it is written", "the interval arithmetic of python-flint"]
+        #: radius beside the scale of a component, the largest, at the last time
+        self.width = 0.0
+        self.last = 0.0
+        #: whether the last row is within the enclosure of the time of an event
+        self.is_torn = False
+        number = self.arithmetic.number
+        self.times = [number(Fraction(t)) for t in _times(setup.asked)]
 
-    try:
-        take(state, ball(0))
-        waiting = 1
-        for piece in enclosures.pieces(around(state), ball(0), times[-1]):
-            while waiting < len(times) and times[waiting] <= piece.end:
-                take(piece.at(times[waiting]), times[waiting])
-                waiting += 1
-            if progress is not None:
-                progress(float(piece.end) / asked.until)
-            if enclosures.steps > _STEPS:
-                refusal = f"more than {_STEPS} steps"
-                break
-    except NotEnclosed as reason:
-        refusal = str(reason)
-    except (ArithmeticError, ValueError, OverflowError) as reason:
-        refusal = f"the equations are not defined on the enclosure: {reason}"
-    good = _good(rows, asked.accuracy)
-    reached = good == len(times)
-    if not reached and not refusal:
-        refusal = f"the enclosures are wider than the accuracy {asked.accuracy:g}"
-    holds = float(times[good - 1]) if good else 0.0
-    return Proof(
-        columns=tuple(column.name for column in asked.columns),
-        rows=tuple(rows[:good]),
-        accuracy=asked.accuracy,
-        reached=reached,
-        holds_until=holds,
-        bits=bits,
-        order=order,
-        steps=enclosures.steps,
-        assumed=assumed,
-        refusal="" if reached else f"proved until t = {holds:g}: {refusal}",
-    )
+    def proof(self) -> Proof:
+        """The rows up to where they are proved."""
+        try:
+            self._go()
+        except NotEnclosed as reason:
+            self.refusal = str(reason)
+        except (ArithmeticError, ValueError, OverflowError) as reason:
+            self.refusal = f"the equations are not defined on the enclosure: {reason}"
+        asked = self.setup.asked
+        good = _good(self.rows, asked.accuracy)
+        self.is_torn = self.is_torn and good == len(self.rows) - 1
+        reached = good == len(self.times)
+        self.too_wide = good < len(self.rows)
+        if self.too_wide:
+            self.refusal = _TORN if self.is_torn else _WIDE.format(asked.accuracy)
+        holds = float(self.times[good - 1]) if good else 0.0
+        return Proof(
+            columns=tuple(column.name for column in asked.columns),
+            rows=tuple(self.rows[:good]),
+            accuracy=asked.accuracy,
+            reached=reached,
+            holds_until=holds,
+            bits=self.bits,
+            order=self.order,
+            steps=self.steps,
+            assumed=tuple(self.assumed),
+            events=tuple(e for e in self.events if not e.t > (self.times[good - 1] if good else 0)),
+            refusal="" if reached else f"proved until t = {holds:g}: {self.refusal}",
+        )
+
+    def bits_needed(self) -> int:
+        """For the whole span, by what was lost so far; 0 where more do not help."""
+        accuracy, until = self.setup.asked.accuracy, self.setup.asked.until
+        if self.is_torn or not (self.too_wide or self.width > _NARROW * accuracy):
+            return 0
+        lost = max(1.0, self.bits + math.log2(max(self.width, 2.0**-self.bits)))
+        share = until / max(self.last, until / _FARTHEST)
+        wanted = lost * share - math.log2(accuracy) + _SPARE
+        return max(self.bits + 32, 16 * math.ceil(wanted / 16))
+
+    def _go(self) -> None:
+        setup, ball = self.setup, self.arithmetic.ball
+        constants = constants_of(setup.equations, setup.all_nodes, self.arithmetic)
+        modes = Modes(setup, constants, self.arithmetic, self.implied, self.order, 2.0**-self.bits)
+        first = modes(setup.given, [1] * len(setup.equations.kinks))
+        state, assumed = initial_state(first.motion, setup.start)
+        self.assumed += assumed
+        self._name_implied()
+        t, start = ball(0), around(state)
+        if setup.stop is not None:
+            modes.stop_sign = first.sign_of_stop(t, state)
+            first.__dict__.pop("watched")
+        found = modes.at_first(t, state)
+        self._take(found[0], t, state)
+        following: Following | None = (t, start, *found)
+        while following is not None and len(self.rows) < len(self.times):
+            following = self._through_mode(*following)
+
+    def _name_implied(self) -> None:
+        """Constraints that others imply at the beginning are taken to be implied all the way."""
+        if not self.implied:
+            return
+        names = [self.setup.whole.constraints[k].name for k in sorted(self.implied)]
+        self.assumed.append(f"the other constraints imply {', '.join(names)}")
+
+    def _through_mode(
+        self, t: Any, start: LohnerSet, mode: Mode, leaving: Mapping[Watched, int]
+    ) -> Following | None:
+        """Rows until the mode ends or the span does; what follows."""
+        while len(self.rows) < len(self.times):
+            piece, crossed = self._step(mode, t, start, leaving)
+            self._rows_of(piece, mode, None if crossed is None else crossed[1])
+            self._count(piece, mode)
+            if crossed is not None:
+                return self._cross(piece, mode, *crossed)
+            t, start, leaving = piece.end, piece.at_end(), {}
+        return None
+
+    def _step(
+        self, mode: Mode, t: Any, start: LohnerSet, leaving: Mapping[Watched, int]
+    ) -> tuple[Piece, tuple[Watched, Any] | None]:
+        """A step and what ends it; a shorter one where its end is at an event."""
+        last = self.times[-1]
+        piece = mode.enclosures.step(t, start, last * _BEYOND if mode.watched else last)
+        try:
+            return piece, self._crossing(piece, mode, leaving)
+        except Undecided as reason:
+            if not reason.t >= piece.end:
+                raise
+            piece = piece.first_part(_SHORTER)
+            return piece, self._crossing(piece, mode, leaving)
+
+    def _crossing(
+        self, piece: Piece, mode: Mode, leaving: Mapping[Watched, int]
+    ) -> tuple[Watched, Any] | None:
+        """What becomes 0 first in a step, and when."""
+        found = []
+        for each in mode.watched:
+            time = when(piece, mode.field, each, leaving.get(each, 0))
+            if time is not None:
+                found.append((each, time))
+        found.sort(key=lambda pair: float(pair[1]))
+        if len(found) > 1 and not found[0][1] < found[1][1]:
+            at = float(found[0][1])
+            raise NotEnclosed(f"two events come together near t = {at:.6g}: their order is open")
+        return found[0] if found else None
+
+    def _cross(self, piece: Piece, mode: Mode, watched: Watched, tau: Any) -> Following | None:
+        """What follows an event; None where the motion stops there."""
+        state, ends = piece.at(tau), mode.ends(watched)
+        if ends:
+            self.events.append(ProvedEvent(tau, watched.name, ends))
+            self.times[len(self.rows) :] = [tau]
+            self._take(mode, tau, state)
+            return None
+        after, restart, what = mode.through(watched, tau, state)
+        t, start = behind(piece, tau, watched, (mode.field, after.field), restart)
+        if watched.kind != "kink":
+            self.events.append(ProvedEvent(tau, watched.name, what))
+        self._rows_within(after, tau, state, restart.state(tau, state))
+        leaves = {each: order for each in after.watched if (order := _order(each, watched))}
+        return t, start, after, leaves
+
+    def _rows_within(
+        self, mode: Mode, tau: Any, before: Sequence[Any], after: Sequence[Any]
+    ) -> None:
+        """Rows within the enclosure of the time of an event: the states on both sides."""
+        while len(self.rows) < len(self.times) and self.times[len(self.rows)] <= tau.upper():
+            both = [x.union(y) for x, y in zip(before, after, strict=True)]
+            self._take(mode, self.times[len(self.rows)], both)
+            accuracy, until = self.setup.asked.accuracy, self.setup.asked.until
+            self.is_torn = tau.rad() < accuracy * until
+
+    def _rows_of(self, piece: Piece, mode: Mode, event: Any) -> None:
+        until = piece.end if event is None else event.lower()
+        while len(self.rows) < len(self.times):
+            t = self.times[len(self.rows)]
+            if not (t <= until if event is None else t < until):
+                return
+            self._take(mode, t, piece.at(t))
+
+    def _take(self, mode: Mode, t: Any, x: Sequence[Any]) -> None:
+        n = mode.motion.n
+        self.rows.append(tuple(mode.values(t, list(x[:n]), list(x[n:]))))
+
+    def _count(self, piece: Piece, mode: Mode) -> None:
+        self.steps += 1
+        self.last = float(piece.end)
+        self.work += mode.field.cost * (self.order / 28) ** 2
+        scales = mode.enclosures.scales
+        self.width = max(
+            float(x) / scale for x, scale in zip(piece.start.spread, scales, strict=True)
+        )
+        if self.progress is not None:
+            self.progress(self.last / self.setup.asked.until)
+        if self.width > self.setup.asked.accuracy * _LOST:
+            raise NotEnclosed(_WIDE.format(self.setup.asked.accuracy))
+        if self.work > self.most:
+            raise NotEnclosed(f"the limit of work is reached, after {self.steps} steps")
+
+
+def _order(each: Watched, crossed: Watched) -> int:
+    """The order of its zero at an event: a contact is lost with gap, speed and force 0."""
+    if each.index != crossed.index or crossed.kind == "stop":
+        return 0
+    if crossed.kind == "force":
+        return 3 if each.kind == "gap" else 0
+    return 1 if each.kind == crossed.kind else 0
 
 
 def _times(asked: Asked) -> list[float]:
@@ -179,33 +355,6 @@ def _times(asked: Asked) -> list[float]:
         return [*asked.times]
     count = asked.samples - 1
     return [asked.until * k / count for k in range(count)] + [asked.until]
-
-
-def _start(simulation: Simulation, motion: Motion, bits: int) -> tuple[list[Any], tuple[str, ...]]:
-    """The exact initial state as balls, and what is assumed of it.
-
-    Raises
-    ------
-    Refusal
-        When the state that the file gives does not satisfy the constraints exactly.
-    """
-    q, v = refined_state(motion, None, *simulation.start, anew=True)
-    state = [*q, *v]
-    assumed = ["the file as it is written", "the interval arithmetic of python-flint"]
-    equations = motion.equations
-    if equations.rows:
-        nodes = [*equations.positions, *equations.rates]
-        residuals = motion.function(nodes)(motion.arithmetic.number(Fraction(0)), *state)
-        bound = 2.0 ** -(bits - _RESIDUAL)
-        if not all(abs(r) < bound for r in residuals):
-            message = (
-                "the initial state is not given exactly on the constraints: write every "
-                "coordinate and velocity under `initial`, as exact numbers or roots"
-            )
-            raise Refusal(message, mistake=False)
-        assumed.append(f"the initial state satisfies the constraints, whose residuals are below "
-                       f"{bound:.0e}")  # fmt: skip
-    return state, tuple(assumed)
 
 
 def _good(rows: Sequence[Enclosure], accuracy: float) -> int:

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
-
 #: What the enclosure of the derivative may mix of one axis into another, in a step.
 _MIXED = 1e-4
 
@@ -49,7 +48,7 @@ class LohnerSet:
 
 
 def _carried(turned: Any) -> tuple[Any, Any] | None:
-    """The axes as the flow carries them, of length 1, and their inverse; None where they have become too flat.
+    """The axes as the flow carries them, of length 1, and their inverse; None where too flat.
 
     In these axes the derivative of the flow is diagonal up to the radii of its enclosure.
     """

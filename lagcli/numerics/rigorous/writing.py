@@ -33,6 +33,15 @@ def to_json(proof: Proof) -> bytes:
             "order": proof.order,
             "steps": proof.steps,
         },
+        "events": [
+            {
+                "t": float(event.t.mid()),
+                "enclosure": _ball(event.t),
+                "name": event.name,
+                "what": event.what,
+            }
+            for event in proof.events
+        ],
         "refused": _refused(proof),
     }
     return (json.dumps(content, ensure_ascii=False, allow_nan=False) + "\n").encode()
@@ -86,12 +95,16 @@ def to_table(proof: Proof) -> bytes:
     cells += [[_proved(x) for x in row] for row in proof.rows]
     widths = [max(len(row[j]) for row in cells) for j in range(len(proof.columns))]
     lines = ["  ".join(f"{x:>{w}}" for x, w in zip(row, widths, strict=True)) for row in cells]
+    lines += [""] if proof.events else []
+    lines += [f"{e.what} at t = {_proved(e.t)} ({e.name})" for e in proof.events]
     whole = "proved" if proof.reached else f"proved until t = {proof.holds_until:g}"
+    if proof.events:
+        whole += ", order and number of the events, too"
     made = f"{proof.steps} steps of order {proof.order} in {proof.bits} bits"
     lines += [
         "",
-        f"{whole}: every digit shown holds for the exact motion, within one unit of its last",
-        f"  place; accuracy {proof.accuracy:g}, {made}",
+        f"{whole}: every digit shown holds for the exact motion, within",
+        f"  one unit of its last place; accuracy {proof.accuracy:g}, {made}",
         f"assumed: {'; '.join(proof.assumed)}",
     ]
     return "".join(f"{line}\n" for line in lines).encode()
@@ -100,8 +113,8 @@ def to_table(proof: Proof) -> bytes:
 def _proved(x: Any) -> str:
     if x is None:
         return ""
-    if x.rad() == 0 and x.is_integer():
-        return str(int(x.unique_fmpz()))
+    if x.rad() == 0 and x == float(x):
+        return f"{float(x):.15g}"
     radius, size = float(x.rad()), float(abs(x).upper())
     digits = 15 if radius == 0 else max(1, min(40, math.floor(math.log10(size / radius)) + 1))
     shown: str = x.str(digits, radius=False)

@@ -1,0 +1,195 @@
+r"""Where a function of the state changes its sign, proved; and the set behind it.
+
+A function g(t, x) is watched over a step in intervals of time: where its enclosure keeps its sign,
+nothing happens; where its rate along the motion keeps its sign, it has one zero or none, by the
+sign at the end; else the interval is halved.  The time tau of a zero is enclosed by Newton's
+method for intervals.
+
+Behind a crossing the motion goes on with other equations f+, from the state x+ = R(t, x).  All is
+referred to one time s near tau: the map psi from the state that the old equations have at s to the
+one that the new equations have at s is, up to the flows over |tau - s|,
+
+    psi(x) = R(tau, x + (tau - s) f-) - (tau - s) f+,
+    Dpsi = DR - (dR/dt + DR f- - f+) grad g / (dg/dt + grad g . f-),
+
+the saltation matrix.
+
+References
+----------
+R. Leine, H. Nijmeijer, *Dynamics and Bifurcations of Non-Smooth Mechanical Systems* (2004),
+section 7.
+R. Moore, R. Kearfott, M. Cloud, *Introduction to Interval Analysis* (2009), section 8.1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from lagcli.numerics.rigorous.enclosure import NotEnclosed, Piece
+from lagcli.numerics.rigorous.field import Field
+from lagcli.numerics.rigorous.sets import LohnerSet
+from lagcli.record import record
+
+#: Intervals of a step that are a smaller part of its length are not halved.
+_SHORTEST = 1e-12
+#: They are divided where no simple fraction of a step is: events are often there.
+_PART = 0.4656
+_NEWTON = 30
+#: A trial box is wider by this factor, and found in so many rounds.
+_ROOM, _WIDENED = 4, 3
+
+
+@record
+class Watched:
+    """A function that is positive while a mode lasts.
+
+    Attributes
+    ----------
+    kind, index
+        "kink", "gap", "force" or "stop", and of which.
+    name : str
+        As the events have it.
+    sign : int
+        Of g in this mode.
+    value : function
+        Of t and the state: g, dg/dt, then the gradient.
+    """
+
+    kind: str
+    index: int
+    name: str
+    sign: int
+    value: Callable[..., Sequence[Any]]
+
+    def at(self, t: Any, x: Sequence[Any]) -> Any:
+        """sign * g."""
+        return self.sign * self.value(t, *x)[0]
+
+    def rate(self, field: Field, t: Any, x: Sequence[Any]) -> Any:
+        """The rate of sign * g along the motion."""
+        _, explicit, *gradient = self.value(t, *x)
+        along = sum((a * b for a, b in zip(gradient, field.rate(t, x), strict=True)), explicit)
+        return self.sign * along
+
+    def term(self, field: Field, t: Any, x: Sequence[Any], order: int) -> Any:
+        """The Taylor coefficient of sign * g along the motion."""
+        series = field.coefficients(t, x, order)
+        return self.sign * field.evaluated(self.value, [t, 1], series, order + 1)[0][order]
+
+
+class Undecided(NotEnclosed):
+    """Whether something becomes 0 at a time is not decided."""
+
+    def __init__(self, watched: Watched, t: Any) -> None:
+        what = {"kink": "passes 0", "gap": "closes", "force": "is lost", "stop": "holds"}[
+            watched.kind
+        ]
+        super().__init__(f"whether {watched.name} {what} near t = {float(t):.6g} is not decided")
+        self.t = t
+
+
+@record
+class Restart:
+    """What follows a crossing at once: R, dR/dt and DR, as functions of t and the state."""
+
+    state: Callable[[Any, Sequence[Any]], list[Any]]
+    explicit: Callable[[Any, Sequence[Any]], Any]
+    slope: Callable[[Any, Sequence[Any]], Any]
+
+
+def when(piece: Piece, field: Field, watched: Watched, begun: int = 0) -> Any:
+    """The time of the first zero within a step, enclosed; None where there is none.
+
+    Parameters
+    ----------
+    begun : int
+        The order of the zero of g at the beginning of the step, which the motion leaves.
+
+    Raises
+    ------
+    Undecided
+        Where it is open whether there is one.
+    """
+    pending = [(piece.begin, piece.end, begun)]
+    shortest = _SHORTEST * (piece.end - piece.begin)
+    while pending:
+        a, b, leaves = pending.pop()
+        whole = a.union(b)
+        state = piece.at(whole)
+        if watched.at(whole, state) > 0:
+            continue
+        rate = watched.rate(field, whole, state)
+        last = watched.at(b, piece.at(b))
+        if last > 0 and (rate if leaves < 2 else watched.term(field, whole, state, leaves)) > 0:
+            continue
+        if rate < 0 and not leaves:
+            if last > 0:
+                continue
+            if last < 0:
+                return _newton(piece, field, watched, whole)
+        if not b - a > shortest:
+            raise Undecided(watched, b)
+        middle = (a + _PART * (b - a)).mid()
+        pending += [(middle, b, 0), (a, middle, leaves)]
+    return None
+
+
+def _newton(piece: Piece, field: Field, watched: Watched, bracket: Any) -> Any:
+    """The only zero within a bracket."""
+    for _ in range(_NEWTON):
+        t = bracket.mid()
+        slope = watched.rate(field, bracket, piece.at(bracket))
+        if not slope < 0:
+            return bracket
+        found = bracket.intersection(t - watched.at(t, piece.at(t)) / slope)
+        if not found.rad() < bracket.rad() / 2:
+            return found
+        bracket = found
+    return bracket
+
+
+def behind(
+    piece: Piece, tau: Any, watched: Watched, fields: tuple[Field, Field], restart: Restart
+) -> tuple[Any, LohnerSet]:
+    """A time near a crossing, and the set from which the new equations go on there."""
+    old, new = fields
+    s = tau.mid()
+    before = piece.start.moved(piece.middle(s), piece.derivative(s))
+    late = tau - s
+    box, flow = _moved(old, tau, before.box, late)
+    _, explicit, *gradient = watched.value(tau, *box)
+    matrix = type(flow)
+    n = len(box)
+    row, column = matrix(1, n, gradient), matrix(n, 1, old.rate(tau, box))
+    rate = (row * column)[0, 0] + explicit
+    struck = restart.state(tau, box)
+    after, back = _moved(new, tau, struck, late)
+    slope = restart.slope(tau, box)
+    jump = matrix(n, 1, restart.explicit(tau, box)) + slope * column
+    f = matrix(n, 1, new.rate(tau, after))
+    derivative = back * (slope - (jump - f) * row / rate) * flow
+    delay = -watched.value(s, *before.middle)[0] / rate
+    middle = matrix(n, 1, before.middle) + column * delay
+    ends = matrix(n, 1, restart.state(s + delay, middle.entries())) - f * delay
+    return s, before.moved(ends.entries(), derivative)
+
+
+def _moved(field: Field, times: Any, box: Sequence[Any], late: Any) -> tuple[list[Any], Any]:
+    """Where solutions from a box are over a short time, and the derivative of their flow."""
+    room = list(box)
+    for _ in range(_WIDENED):
+        change = field.rate(times, room)
+        room = [x + _ROOM * late * f for x, f in zip(box, change, strict=True)]
+    found = [x + late * f for x, f in zip(box, field.rate(times, room), strict=True)]
+    if not all(y.contains(x) for x, y in zip(found, room, strict=True)):
+        raise NotEnclosed(f"no enclosure was found at the event near t = {float(times):.6g}")
+    slope = field.slope(times, room)
+    matrix, n, ball = type(slope), len(box), type(late)
+    sizes = matrix(n, n, [x.abs_upper() * late.abs_upper() for x in slope.entries()]).exp()
+    entries = [
+        int(i == j) + ball(0, (sizes[i, j] - int(i == j)).abs_upper())
+        for i in range(n)
+        for j in range(n)
+    ]
+    return room, matrix(n, n, entries)

@@ -1,0 +1,162 @@
+"""The exact initial state in balls: what the file gives, and what the constraints add to it.
+
+Coordinates that the file leaves out obey f(q, 0) = 0, velocities A q' + b = 0.  Near the state in
+doubles the root is enclosed by Krawczyk's operator
+
+    K(X) = x - Y f(x) + (1 - Y J(X)) (X - x):
+
+K(X) inside X proves that there is one root in X, and that it lies in K(X).
+
+References
+----------
+R. Moore, R. Kearfott, M. Cloud, *Introduction to Interval Analysis* (2009), section 8.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+from lagcli.graph.derivative import partial
+from lagcli.graph.nodes import Node, Symbol
+from lagcli.graph.substitution import Substitution
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.equations.start import given_values
+
+#: What a given state may leave of a constraint: then it is taken to satisfy it.
+_RESIDUAL = 2.0**-56
+#: Radius of the first X, beside the largest component; pivots below a part of the largest are 0.
+_AROUND, _NO_PIVOT = 1e-10, 1e-9
+_KRAWCZYK = 12
+
+
+def initial_state(
+    motion: Motion, start: tuple[Sequence[float], Sequence[float]]
+) -> tuple[list[Any], list[str]]:
+    """The state at t = 0, and what is assumed of it.
+
+    Parameters
+    ----------
+    motion : Motion
+        In balls.
+    start : q, q'
+        The same state in doubles.
+
+    Raises
+    ------
+    Refusal
+        When no state on the constraints is proved to be there.
+    """
+    equations = motion.equations
+    graph, number = equations.graph, motion.arithmetic.number
+    symbols = (*equations.q, *equations.qdot)
+    doubles = dict(zip(symbols, (*start[0], *start[1]), strict=True))
+    state = given_values(motion)
+    assumed: list[str] = []
+    formulas = {
+        graph.symbol(name.name, name.primes): equations.form.read(value)
+        for name, value in equations.problem.initial.items()
+    }
+    known = Substitution(graph, {**formulas, equations.t: graph.zero})
+    for kind, rows in ((equations.q, equations.positions), (equations.qdot, equations.rates)):
+        unknown = [s for s in kind if s not in state]
+        state |= {s: number(Fraction(doubles[s])) for s in unknown}
+        used = _solve(motion, symbols, state, unknown, rows)
+        rest = [row for k, row in enumerate(rows) if k not in used]
+        open_ = [row for row in rest if known(row) is not graph.zero]
+        assumed += _residual(motion, [state.get(s, number(Fraction(0))) for s in symbols], open_)
+    return [state[s] for s in symbols], list(dict.fromkeys(assumed))
+
+
+def _residual(motion: Motion, state: Sequence[Any], rows: Sequence[Node]) -> list[str]:
+    found = motion.function(rows)(motion.arithmetic.number(Fraction(0)), *state) if rows else ()
+    if not all(abs(r) < _RESIDUAL for r in found):
+        message = "the initial state is not on the constraints as exactly as a proof needs it"
+        raise Refusal(message, mistake=False)
+    if all(r.is_zero() for r in found):
+        return []
+    return [f"the initial state, whose residuals are below {_RESIDUAL:.0e}, is on the constraints"]
+
+
+def _solve(
+    motion: Motion,
+    symbols: Sequence[Symbol],
+    state: dict[Symbol, Any],
+    unknown: Sequence[Symbol],
+    rows: Sequence[Node],
+) -> set[int]:
+    """Put the roots in for the unknowns that rows determine; which rows."""
+    from flint import arb, arb_mat
+
+    if not unknown or not rows:
+        return set()
+    zero = motion.arithmetic.number(Fraction(0))
+    slopes = [partial(motion.equations.graph, s)(row) for row in rows for s in unknown]
+    residual, slope = motion.function(rows), motion.function(slopes)
+
+    def at(function: Any) -> Any:
+        return function(zero, *(state.get(s, zero) for s in symbols))
+
+    width = len(unknown)
+    values = [float(x) for x in at(slope)]
+    matrix = [values[i * width : (i + 1) * width] for i in range(len(rows))]
+    pivots = _pivots(matrix, [abs(float(state[s])) > 0 for s in unknown])
+    free = [unknown[j] for j in range(width) if j not in {j for _, j in pivots}]
+    if any(not state[s].is_zero() for s in free):
+        message = f"the file does not determine the initial value of {free[0]} exactly"
+        raise Refusal(message, mistake=False)
+    n = len(pivots)
+    if not n:
+        return set()
+    chosen = [unknown[j] for _, j in pivots]
+
+    def square(all_slopes: Sequence[Any]) -> Any:
+        return arb_mat(n, n, [all_slopes[i * width + j] for i, _ in pivots for _, j in pivots])
+
+    inverse = square(at(slope)).mid().inv().mid()
+    middle = [state[s].mid() for s in chosen]
+    largest = max(1.0, *(abs(float(x)) for x in middle))
+    box = [x + arb(0, _AROUND * largest) for x in middle]
+    proved = False
+    for _ in range(_KRAWCZYK):
+        state |= dict(zip(chosen, middle, strict=True))
+        values = at(residual)
+        step = inverse * arb_mat(n, 1, [values[i] for i, _ in pivots])
+        state |= dict(zip(chosen, box, strict=True))
+        identity = arb_mat(n, n, [int(i == j) for i in range(n) for j in range(n)])
+        spread = (identity - inverse * square(at(slope))) * arb_mat(
+            n, 1, [x - m for x, m in zip(box, middle, strict=True)]
+        )
+        found = [m - step[i, 0] + spread[i, 0] for i, m in enumerate(middle)]
+        proved = proved or all(x.contains_interior(y) for x, y in zip(box, found, strict=True))
+        if not proved:
+            raise Refusal(
+                "no initial state on the constraints is proved to be there", mistake=False
+            )
+        box = [x.intersection(y) for x, y in zip(box, found, strict=True)]
+        middle = [x.mid() for x in box]
+    state |= dict(zip(chosen, box, strict=True))
+    return {i for i, _ in pivots}
+
+
+def _pivots(matrix: list[list[float]], preferred: Sequence[bool]) -> list[tuple[int, int]]:
+    """Rows and columns of an elimination with full pivoting; columns of zeros come last."""
+    rest = [list(row) for row in matrix]
+    largest = max((abs(x) for row in rest for x in row), default=0.0)
+    rows, columns, found = set(range(len(rest))), set(range(len(rest[0]))), []
+    while rows and columns:
+        _, i, j = max(
+            (abs(rest[i][j]) * (1.0 if preferred[j] else _NO_PIVOT ** 0.5), i, j)
+            for i in rows for j in columns
+        )  # fmt: skip
+        if not abs(rest[i][j]) > _NO_PIVOT * largest:
+            break
+        found.append((i, j))
+        rows.discard(i)
+        columns.discard(j)
+        for k in rows:
+            factor = rest[k][j] / rest[i][j]
+            rest[k] = [a - factor * b for a, b in zip(rest[k], rest[i], strict=True)]
+    return found

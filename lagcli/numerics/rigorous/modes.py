@@ -1,0 +1,275 @@
+"""The modes of a proof: which constraints act, on which side of 0 the switching functions are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from lagcli.graph.derivative import partial
+from lagcli.graph.nodes import Node
+from lagcli.graph.substitution import Substitution
+from lagcli.numerics.equations.columns import Values
+from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.hybrid.setup import Setup
+from lagcli.numerics.rigorous.crossings import Restart, Watched
+from lagcli.numerics.rigorous.enclosure import Enclosures, NotEnclosed
+from lagcli.numerics.rigorous.field import Field, solved
+
+Key = tuple[frozenset[int], tuple[int, ...]]
+
+
+class Modes:
+    """The equations of each mode, made when it is met.
+
+    Parameters
+    ----------
+    setup : Setup
+    constants, arithmetic
+        Exact parameters in balls.
+    implied : frozenset of int
+        Constraints that the others imply.
+    order, target
+        As of `Enclosures`.
+    """
+
+    def __init__(
+        self,
+        setup: Setup,
+        constants: Any,
+        arithmetic: Any,
+        implied: frozenset[int],
+        order: int,
+        target: float,
+    ) -> None:
+        self.setup, self.constants, self.arithmetic = setup, constants, arithmetic
+        self.implied, self.order, self.target = implied, order, target
+        #: of what `--stop-when` compares with 0, at the beginning
+        self.stop_sign = 0
+        self.peaks = [0.0] * (2 * len(setup.equations.q))
+        self._known: dict[Key, Mode] = {}
+
+    def __call__(self, held: frozenset[int], signs: Sequence[int]) -> Mode:
+        """The mode in which these constraints act, and the switching functions have these signs."""
+        key = held, tuple(signs)
+        if key not in self._known:
+            self._known[key] = Mode(self, *key)
+        return self._known[key]
+
+    def at_first(self, t: Any, x: Sequence[Any]) -> tuple[Mode, dict[Watched, int]]:
+        """The mode of the initial state, and what is 0 there and leaves it at once.
+
+        Raises
+        ------
+        NotEnclosed
+            When the state is at the edge of a mode and does not leave it.
+        """
+        setup = self.setup
+        trial = self(setup.given, [1] * len(setup.equations.kinks))
+        signs = [_sign_of(each.at(t, x)) for each in trial.watched if each.kind == "kink"]
+        mode = self(setup.given, self._leaving(t, x, signs) if 0 in signs else signs)
+        leaving = {each: 1 for each in mode.watched if not each.at(t, x) > 0}
+        for each in leaving:
+            if not (each.at(t, x).contains(0) and each.rate(mode.field, t, x) > 0):
+                raise NotEnclosed(
+                    f"{each.name} is at its edge at the beginning, and may stay there"
+                )
+        return mode, leaving
+
+    def _leaving(self, t: Any, x: Sequence[Any], signs: Sequence[int]) -> list[int]:
+        """The signs just after the beginning, where some are 0 there."""
+        found = [sign or 1 for sign in signs]
+        for _ in range(2):
+            mode = self(self.setup.given, found)
+            kinks = [each for each in mode.watched if each.kind == "kink"]
+            rates = {each.index: each.rate(mode.field, t, x) for each in kinks}
+            wrong = [k for k, sign in enumerate(signs) if sign == 0 and not rates[k] > 0]
+            if not wrong:
+                return found
+            found = [-sign if k in wrong else sign for k, sign in enumerate(found)]
+        raise NotEnclosed("a switching function is 0 at the beginning, and its rate may be 0, too")
+
+
+class Mode:
+    """The motion while some constraints act and the switching functions keep their signs."""
+
+    def __init__(self, modes: Modes, held: frozenset[int], signs: tuple[int, ...]) -> None:
+        self.modes, self.held, self.signs = modes, held, signs
+        setup = modes.setup
+        self.equations = _without(setup.equations.holding(held), modes.implied)
+        self.motion = Motion(
+            self.equations, modes.constants, modes.arithmetic, [float(sign) for sign in signs]
+        )
+        self.field = Field(self.motion)
+        self.enclosures = Enclosures(self.field, modes.order, modes.target, modes.peaks)
+        self.values = Values(self.motion, setup.reading, setup.nodes)
+
+    @cached_property
+    def watched(self) -> list[Watched]:
+        """What ends the mode."""
+        setup, equations = self.modes.setup, self.equations
+        names = [c.name for c in setup.whole.constraints]
+        found = [
+            self._watch("kink", k, "the argument of abs or sign", sign, node)
+            for (k, node), sign in zip(enumerate(equations.kinks), self.signs, strict=True)
+        ]
+        if setup.stop is not None:
+            sign = self.modes.stop_sign or 1
+            found.append(self._watch("stop", 0, setup.asked.stop_name, sign, setup.stop))
+        found += [
+            self._watch("gap", k, names[k], 1, node)
+            for k, node in setup.gaps.items()
+            if k not in self.held
+        ]
+        found += [
+            self._watch("force", k, names[k], 1, node)
+            for k, node in setup.margins.items()
+            if k in self.held
+        ]
+        return found
+
+    def _of_state(self, node: Node) -> Node:
+        """A node without accelerations and multipliers."""
+        equations, reading = self.equations, self.modes.setup.reading
+        symbols = [*reading.accelerations, *reading.multipliers]
+        if not any(node.mask & s.mask for s in symbols):
+            return node
+        assert equations.eliminated is not None
+        a, found = equations.eliminated.motion(equations.forcing, equations.bias)
+        zero = equations.graph.zero
+        places = map(equations.place.get, range(len(reading.multipliers)))
+        held = [zero if place is None else found[place] for place in places]
+        known = dict(zip(symbols, [*a, *held], strict=True))
+        return Substitution(equations.graph, known)(node)
+
+    def _watch(self, kind: str, index: int, name: str, sign: int, node: Node) -> Watched:
+        node = self._of_state(node)
+        roots = [node, *(partial(self.equations.graph, x)(node) for x in self.equations.state)]
+        return Watched(kind, index, name, sign, self.motion.function(roots, frozen=True))
+
+    def sign_of_stop(self, t: Any, x: Sequence[Any]) -> int:
+        """Of what `--stop-when` compares with 0."""
+        return next(_sign_of(w.at(t, x)) for w in self.watched if w.kind == "stop")
+
+    def ends(self, watched: Watched) -> str:
+        """What the end of the motion is called, where it is one."""
+        setup, k = self.modes.setup, watched.index
+        match watched.kind:
+            case "stop":
+                return "stopped"
+            case "gap":
+                return "contact closes" if setup.contacts[k].restitution is None else ""
+            case "force":
+                return "contact lost" if setup.whole.constraints[k].on_loss == "stop" else ""
+        return ""
+
+    def through(self, watched: Watched, t: Any, x: Sequence[Any]) -> tuple[Mode, Restart, str]:
+        """What follows when a watched function becomes 0: mode, state, and what it is called.
+
+        Raises
+        ------
+        NotEnclosed
+            When the motion does not go on in one mode.
+        """
+        if watched.kind == "gap":
+            return self._struck(watched, t, x)
+        same = Restart(lambda _, y: list(y), self._nothing, self._identity)
+        if watched.kind == "force":
+            return self.modes(self.held - {watched.index}, self.signs), same, "contact lost"
+        signs = [-s if k == watched.index else s for k, s in enumerate(self.signs)]
+        after = self.modes(self.held, signs)
+        if not watched.rate(after.field, t, x) < 0:
+            raise NotEnclosed(f"near t = {float(t):.6g} the motion stays where {watched.name} is 0")
+        return after, same, "switch"
+
+    def _struck(self, watched: Watched, t: Any, x: Sequence[Any]) -> tuple[Mode, Restart, str]:
+        """An impact by Newton's law: M (v+ - v) = A^T Lambda, g'+ = -e g'."""
+        k, setup = watched.index, self.modes.setup
+        contact = setup.contacts[k]
+        assert contact.restitution is not None
+        equations = _without(setup.equations.holding(self.held | {k}), self.modes.implied)
+        graph, e = equations.graph, equations.form.read(contact.restitution)
+        zero = graph.zero
+        own = equations.place[k]
+        jump = graph.product(graph.sum([graph.one, e]), equations.rates[own])
+        bias = [jump if row == own else zero for row in range(len(equations.rows))]
+        change, columns = solved(equations, [zero] * self.motion.n, bias, equations.state)
+        restart = self._impulse(change, columns)
+        ratio = self.motion.function([e])(t, *x)[0]
+        after = restart.state(t, x)
+        signs = self._signs_after(t, after)
+        if ratio > 0:
+            return self.modes(self.held, signs), restart, "impact"
+        if not ratio.is_zero():
+            raise NotEnclosed(f"whether {watched.name} bounces is not decided")
+        mode = self.modes(self.held | {k}, signs)
+        if not all(each.at(t, after) > 0 for each in mode.watched if each.kind == "force"):
+            raise NotEnclosed(
+                f"whether {watched.name} stays closed after the impact is not decided"
+            )
+        return mode, restart, "contact closes"
+
+    def _signs_after(self, t: Any, x: Sequence[Any]) -> list[int]:
+        found = []
+        for each in self.watched:
+            if each.kind == "kink":
+                found.append(_sign_of(each.sign * each.at(t, x)))
+                if not found[-1]:
+                    raise NotEnclosed("an impact leaves a switching function undecided")
+            elif each.kind == "force" and not each.at(t, x) > 0:
+                raise NotEnclosed(f"whether {each.name} is lost by an impact is not decided")
+        return found
+
+    def _impulse(self, change: Sequence[Node], columns: Sequence[Sequence[Node]]) -> Restart:
+        n, motion = self.motion.n, self.motion
+        velocities = motion.function(change, frozen=True)
+        flat = [entry for row in zip(*columns, strict=True) for entry in row]
+        slopes = motion.function(flat, frozen=True)
+        width = 1 + 2 * n
+
+        def state(t: Any, x: Sequence[Any]) -> list[Any]:
+            jumps = velocities(t, *x)
+            return [*x[:n], *(v + d for v, d in zip(x[n:], jumps, strict=True))]
+
+        def explicit(t: Any, x: Sequence[Any]) -> Any:
+            return [self._zero] * n + list(slopes(t, *x)[::width])
+
+        def slope(t: Any, x: Sequence[Any]) -> Any:
+            found = self._identity(t, x)
+            values = slopes(t, *x)
+            for i in range(n):
+                for j in range(2 * n):
+                    found[n + i, j] += values[i * width + 1 + j]
+            return found
+
+        return Restart(state, explicit, slope)
+
+    @property
+    def _zero(self) -> Any:
+        return self.modes.arithmetic.number(Fraction(0))
+
+    def _nothing(self, _: Any, x: Sequence[Any]) -> list[Any]:
+        return [self._zero] * len(x)
+
+    @staticmethod
+    def _identity(_: Any, x: Sequence[Any]) -> Any:
+        from flint import arb_mat
+
+        n = len(x)
+        return arb_mat(n, n, [int(i == j) for i in range(n) for j in range(n)])
+
+
+def _sign_of(x: Any) -> int:
+    """1 or -1; 0 where that is not decided."""
+    return 1 if x > 0 else -1 if x < 0 else 0
+
+
+def _without(equations: Equations, implied: frozenset[int]) -> Equations:
+    if not implied:
+        return equations
+    kept = [place for k, place in equations.place.items() if k not in implied]
+    fewer = equations.without_implied(kept)
+    fewer.place = {k: kept.index(place) for k, place in equations.place.items() if place in kept}
+    return fewer

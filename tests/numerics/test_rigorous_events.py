@@ -1,0 +1,145 @@
+"""Events, contacts and switching functions in proved motions, against closed forms."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+
+import mpmath
+import pytest
+
+import lagcli
+from lagcli.cli.run import run
+from tests.numerics.test_rigorous import contains, proof
+
+
+def test_twenty_bounces_are_counted_and_timed():
+    """t_k = sqrt(2 h/g) (1 + 2 (e + ... + e^k)); the speed falls by e each time."""
+    ball = lagcli.loads(
+        "{coordinates: [y], T: y'^2/2, V: 9.81*y, contacts: {floor: {gap: y >= 0, "
+        "restitution: 0.9}}, initial: {y: 1}}"
+    )
+    found = proof(ball, 7.5, samples=4)
+    assert found.reached
+    assert len(found.events) == 20
+    with mpmath.workdps(40):
+        g, e = mpmath.mpf(981) / 100, mpmath.mpf(9) / 10
+        fall = mpmath.sqrt(2 / g)
+        times = [fall * (1 + 2 * sum(e**j for j in range(1, k + 1))) for k in range(20)]
+        for event, exact in zip(found.events, times, strict=True):
+            assert (event.name, event.what) == ("floor", "impact")
+            assert contains(event.t, exact)
+        t = mpmath.mpf(7.5)
+        since, speed = t - times[-1], g * fall * e**20
+        assert contains(found.rows[-1][1], speed * since - g * since**2 / 2)
+        assert contains(found.rows[-1][2], speed - g * since)
+    assert all(float(x.rad()) < 1e-15 for x in found.rows[-1][1:])
+
+
+def test_a_corner_of_the_potential_is_crossed():
+    """x'' = -sign(x) from x = 1: parabolas, and 0 at odd multiples of sqrt 2."""
+    problem = lagcli.loads("{coordinates: [x], T: x'^2/2, V: abs(x), initial: {x: 1}}")
+    found = proof(problem, 10.0, samples=2)
+    with mpmath.workdps(40):
+        after = 10 - 7 * mpmath.sqrt(2)  # it rises through 0 with the speed sqrt 2
+        assert contains(found.rows[-1][1], mpmath.sqrt(2) * after - after**2 / 2)
+        assert contains(found.rows[-1][2], mpmath.sqrt(2) - after)
+
+
+def test_a_force_that_switches_with_the_time_does_so_exactly():
+    """x'' = sign(t - 1/3): x = -t^2/2 until then."""
+    problem = lagcli.loads(
+        "{coordinates: [x], T: x'^2/2, forces: {x: sign(t - 1/3)}, initial: {x: 0}}"
+    )
+    row = proof(problem, 1.0, samples=2).rows[-1]
+    exact = Fraction(-1, 18) - Fraction(1, 3) * Fraction(2, 3) + Fraction(2, 3) ** 2 / 2
+    with mpmath.workdps(40):
+        assert contains(row[1], mpmath.mpf(exact.numerator) / exact.denominator)
+
+
+def test_friction_that_is_passed_with_speed_and_friction_that_holds():
+    """x'' = -x - sign(x')/10 from 3: half a period takes pi and 1/5 of the amplitude; from 1 it
+    stops after five halves of a period, where no single motion without sticking goes on.
+    """
+    text = "{coordinates: [x], T: x'^2/2, V: x^2/2, forces: {x: -sign(x')/10}, initial: {x: %s}}"
+    row = proof(lagcli.loads(text % 3), 6.0, samples=2).rows[-1]
+    with mpmath.workdps(40):
+        amplitude = mpmath.mpf(27) / 10  # from -2.8, about -1/10
+        assert contains(row[1], -mpmath.mpf(1) / 10 - amplitude * mpmath.cos(6 - mpmath.pi))
+    stopped = proof(lagcli.loads(text % 1), 20.0, samples=21)
+    assert not stopped.reached
+    assert stopped.holds_until == 15.0
+    assert "stays where" in stopped.refusal
+
+
+def test_impacts_that_accumulate_end_the_proof():
+    found = proof(lagcli.load("bouncing-ball"), 4.0, samples=41)
+    assert not found.reached
+    assert 2.2 < found.holds_until < 2.5542  # sqrt(2 h/g) (1 + e)/(1 - e) = 2.5542
+    assert all(event.what == "impact" for event in found.events)
+
+
+@pytest.mark.parametrize(
+    ("name", "until"), [("ball-leaves-sphere-with-speed", 1.5), ("pendulum-on-string", 3.0)]
+)
+def test_a_motion_ends_where_its_contact_is_lost(name, until):
+    problem = lagcli.load(name)
+    found = proof(problem, until, samples=3)
+    motion = lagcli.simulate(problem, until, samples=3)
+    assert found.reached
+    [event], [other] = found.events, motion.events
+    assert event.what == other.what == "contact lost"
+    assert float(event.t) == pytest.approx(other.t, rel=1e-12)
+    assert float(event.t.rad()) < 1e-18
+
+
+def test_a_moving_floor_adds_its_speed():
+    """The gap y - t/2 from 1, g = 2, e = 1: 1 - t^2 = t/2 at (sqrt(17) - 1)/4."""
+    problem = lagcli.loads(
+        "{coordinates: [y], T: y'^2/2, V: 2*y, contacts: {floor: {gap: y - t/2 >= 0, "
+        "restitution: 1}}, initial: {y: 1}}"
+    )
+    found = proof(problem, 1.0, samples=2)
+    with mpmath.workdps(40):
+        t = (mpmath.sqrt(17) - 1) / 4
+        assert contains(found.events[0].t, t)
+        assert contains(found.rows[-1][2], 1 + 2 * t - 2 * (1 - t))
+
+
+def test_an_event_at_the_beginning_and_one_at_the_end():
+    """x'' = -sign(x) from 0 with speed 1 is back at 0 at t = 2, 4, ...: with exactly that speed."""
+    problem = lagcli.loads("{coordinates: [x], T: x'^2/2, V: abs(x), initial: {x': 1}}")
+    row = proof(problem, 8.0, samples=2).rows[-1]
+    assert row[1].contains(0)
+    assert row[2].contains(1)
+    assert float(row[1].rad()) < 1e-15
+    still = proof(lagcli.loads("{coordinates: [x], T: x'^2/2, V: abs(x)}"), 1.0, samples=2)
+    assert not still.reached
+
+
+def test_the_run_stops_at_a_condition(capsysbinary):
+    command = [
+        "simulate",
+        "plane-pendulum",
+        "--until",
+        "2",
+        "--stop-when",
+        "theta",
+        "--rigorous",
+    ]
+    assert run([*command, "-f", "json"]) == 0
+    content = json.loads(capsysbinary.readouterr().out)
+    [event] = content["events"]
+    with mpmath.workdps(30):
+        quarter = mpmath.ellipk(mpmath.sin(mpmath.mpf(1) / 2) ** 2) / mpmath.sqrt(
+            mpmath.mpf("9.81")
+        )
+        assert abs(mpmath.mpf(event["enclosure"]["midpoint"]) - quarter) < 1e-18
+    assert content["rows"][-1][0] == event["t"]
+
+
+def test_the_table_lists_what_happened(capsysbinary):
+    assert run(["simulate", "bouncing-ball", "--until", "1", "--samples", "2", "--rigorous"]) == 0
+    text = capsysbinary.readouterr().out.decode()
+    assert "impact at t = 0.63855085681410092842" in text
+    assert "order and number of the events" in text
