@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Formula, Paragraph, Row
 from lagcli.expression import ZERO, Name
-from lagcli.formatters.json_values import Object, above, inequalities, place, unless_none
+from lagcli.formatters.json_values import Object, above, inequalities, place, string, unless_none
 from lagcli.problem_data import ExpectEquilibrium
 from lagcli.reader.expected_reduction import read_equilibria
 from lagcli.reader.schema_parts import FORMULAS, STABLE, list_of, record_of, ref
@@ -86,11 +86,14 @@ def _equilibrium(equilibrium: Equilibrium) -> Object:
         result["condition"] = " and ".join(map(above, equilibrium.where))
     if verdict.asymptotic:
         result["asymptotic"] = True
-    for name in ("minimum", "hurwitz", "spectrum"):
+    if verdict.rapid is not None:
+        minimum = None if verdict.minimum is None else inequalities(verdict.minimum)
+        result["averaged"] = {"frequency": string(verdict.rapid), "minimum": minimum}
+    for name in () if verdict.rapid else ("minimum", "hurwitz", "spectrum"):
         found = getattr(verdict, name)
         if found is not None and not (name == "minimum" and verdict.stable):
             result[name] = inequalities(found)
-    if verdict.unstable:
+    if verdict.unstable and verdict.rapid is None:
         result["unstable"] = inequalities(verdict.unstable)
     for name in ("free", "touching", "indeterminate"):
         if names := getattr(equilibrium, name):

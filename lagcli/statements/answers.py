@@ -244,14 +244,16 @@ class Equilibrium:
 class EquilibriaSection:
     """The equilibria found; None where none could be, with a `reason`.
 
-    `complete`: there can be no other, else all solve that each of `open` is 0 (where these are not
-    long).  Where there are none, there may be some for values of the
-    parameters for which each of `unless` vanishes; None: for special values that are not known.
+    Of equations that depend on t they are those `at_all_times`.  `complete`: there can be no other,
+    else all solve that each of `open` is 0 (where these are not long).  Where there are none, there
+    may be some for values of the parameters for which each of `unless` vanishes; None: for special
+    values that are not known.
     """
 
     equilibria: tuple[Equilibrium, ...] | None
     reason: str = ""
     complete: bool = True
+    at_all_times: bool = False
     open: tuple[Expression, ...] = ()
     unless: tuple[Expression, ...] | None = ()
 

@@ -27,8 +27,9 @@ class Verdict:
     None: never, or not decided.  `unstable` is it where one of these inequalities holds.
     `asymptotic`: where it is stable by the first two, what is disturbed returns, to the family
     where it is stable `across` one.  `gyroscopic`: the spectrum is that of terms that damping
-    would outdo.  `theorem` is the name of the one that decides.  `critical` is the order of the
-    minimum at equality in the one condition of `minimum`: 0, it is unstable; None, not known.
+    would outdo.  `rapid` is the frequency of a drive over whose period the motion is averaged.
+    `theorem` is the name of the one that decides.  `critical` is the order of the minimum at
+    equality in the one condition of `minimum`: 0, it is unstable; None, not known.
     """
 
     stable: bool | None
@@ -43,6 +44,7 @@ class Verdict:
     unstable: tuple[Above, ...] = ()
     exact: bool = False
     gyroscopic: bool = False
+    rapid: Expression | None = None
     critical: int | None = None
 
 

@@ -34,6 +34,7 @@ _LONG = 24
 #: The most operations of a value within a sentence.
 _SHORT = 3
 _SHORT_RELATION = 12
+_BOUNDED = ", since the equations of motion are linear and all their solutions are then bounded"
 _THEOREM = "(Kelvin, Tait and Chetaev)"
 _SUBSTITUTED = {"exact": "exactly", "50 digits": "at random states to 50 digits"}
 
@@ -215,6 +216,8 @@ def stability(
 
     It is one of a family where coordinates are `free` or tied by the equation `on`.
     """
+    if verdict.rapid is not None:
+        return _on_average(verdict, verdict.rapid)
     stable = "Asymptotically stable" if verdict.asymptotic else "Stable"
     reason = _with_potential(verdict.reason, verdict.potential)
     if verdict.stable is not None:
@@ -232,6 +235,21 @@ def stability(
         lead = f"{first[0].upper()}{first[1:]}" if isinstance(first, str) else first
         parts += [lead, *reason[1:], "."]
     return _trimmed(parts)
+
+
+def _on_average(verdict: Verdict, frequency: Expression) -> list[Part]:
+    """Of the motion averaged over a rapid drive."""
+    V = Label("V", ("eff",))
+    parts: list[Part] = ["For ", frequency, " large against the frequencies without the drive "]
+    parts += ["and a small amplitude of the drive: "]
+    if verdict.minimum is None:
+        parts += ["unstable, since ", V, " has no minimum there "]
+    elif not verdict.minimum:
+        parts += ["stable, since ", V, " has a minimum there "]
+    else:
+        parts += ["stable where ", *conditions(verdict.minimum), ", a minimum of ", V]
+        parts += ["; unstable where ", *_joined(verdict.unstable, " or "), " "]
+    return [*parts, "(Landau and Lifshitz, section 30)."]
 
 
 def _potential(name: str) -> Part:
@@ -323,11 +341,12 @@ def _by_roots(verdict: Verdict, stable: str) -> list[Part]:
     spectrum = verdict.spectrum
     if spectrum is None:
         return []
-    parts = ["Stable" if verdict.exact else "Stable to first order"]
-    parts += [", all frequencies being real and distinct"]
-    parts += (
-        [", where ", *conditions(spectrum), *_opposite(verdict.unstable)] if spectrum else [". "]
-    )
+    if verdict.exact:
+        parts = [*(["Stable where ", *conditions(spectrum)] if spectrum else ["Stable"]), _BOUNDED]
+    else:
+        parts = ["Stable to first order, all frequencies being real and distinct"]
+        parts += [", where ", *conditions(spectrum)] if spectrum else []
+    parts += _opposite(verdict.unstable if spectrum else ())
     if verdict.gyroscopic:
         potential = _potential(verdict.potential)
         parts += ["Where ", potential, " has no minimum, damping of all motions destroys this "]

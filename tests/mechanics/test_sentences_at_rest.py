@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import random
 
 import pytest
+import sympy
 
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
@@ -148,3 +150,76 @@ def test_a_force_across_the_path_of_a_guided_point_is_not_called_0(axis):
     told = said(text, "What the multipliers mean")
     assert f"support cannot move along {fixed}" in told
     assert "cannot move" in said(text, "Forces", "forces")
+
+
+# -- rest under a drive ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("factor", ["cos(w*t)", "(1 + exp(-w*t))", "(2 + sin(w*t))/t^2", "F(t)"])
+def test_rest_at_all_times_is_rest(factor):
+    """A factor of t in the force leaves its zeros where they are, a force of t alone has none."""
+    head = (
+        "{coordinates: [x, y], parameters: {w: {assume: positive}}, functions: {F: [t]}, "
+        "T: (x'^2 + y'^2)/2, V: "
+    )
+    stands = equilibria(derive(f"{head}'{factor}*(x^2/2 - 2*x + y^2)'}}").dynamics)
+    assert stands.at_all_times
+    assert [[to_grammar(e) for e in each.at.values()] for each in stands.equilibria] == [["2", "0"]]
+    assert stands.equilibria[0].verdict.stable is None
+    pushed = derive(f"{head}'x^2/2 + y^2 - x*{factor}'}}").dynamics
+    assert equilibria(pushed).equilibria == ()
+
+
+def test_a_rest_of_a_family_at_each_time_is_found():
+    """x cos t = y sin t is a line that turns: only its centre rests."""
+    text = "{coordinates: [x, y], T: (x'^2 + y'^2)/2, V: (x*cos(t) - y*sin(t))^2/2}"
+    found = equilibria(derive(text).dynamics)
+    assert [[to_grammar(e) for e in each.at.values()] for each in found.equilibria] == [["0", "0"]]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_kapitzas_pendulum_stands_where_the_averaged_potential_says_so(seed):
+    """Landau, Lifshitz, Mechanics, 3rd ed., section 30, problem 1: upright for a^2 w^2 > 2 g l.
+
+    The motion itself, with a drive of small amplitude, keeps to what is said of the average.
+    """
+    source = random.Random(seed)
+    length, shift = source.choice([1, 2]), source.choice(["0", "pi/2", "1"])
+    text = (
+        (
+            "{coordinates: [u], parameters: {g: {assume: positive}, a: {assume: positive}, "
+            f"w: {{assume: positive}}}}, definitions: {{q: u + {shift}}}, "
+            f"L: '{length}^2*u'^2/2 + {length}*a*w*u'*sin(q)*sin(w*t) + g*{length}*cos(q)'}}"
+        )
+        .replace("'*sin(q)", "''*sin(q)")
+        .replace("^2*u'^2", "^2*u''^2")
+    )
+    derivation = derive(text)
+    found = equilibria(derivation.dynamics).equilibria
+    up = [each for each in found if each.verdict.unstable]
+    assert len(found) == 2
+    assert len(up) == 1
+    system, [motion] = derivation.system, derivation.dynamics.motion.accelerations
+    [where] = up[0].verdict.minimum
+    build = system.build
+    for speed, stands in ((2.5, True), (0.6, False)):  # a w over sqrt(g l)
+        w = 60.0
+        values = {"g": 1.0, "w": w, "a": speed * length**0.5 / w}
+        put_in = {p: values[p.name] for p in system.parameters}
+        difference = (build(where.left) - build(where.right)).xreplace(put_in)
+        assert (difference > 0) == stands
+        start = float(build(next(iter(up[0].at.values())))) + 0.02
+        force = sympy.lambdify(
+            (system.q[0], system.qdot[0], system.t), motion.xreplace(put_in), "math"
+        )
+        assert (_leaves(force, start) < 0.3) == stands
+
+
+def _leaves(force, start):
+    x, v, h, far = start, 0.0, 2 * math.pi / 60 / 24, 0.0
+    for k in range(3600):  # 15 units of time, many periods of the slow motion
+        a = force(x, v, k * h)
+        middle = force(x + h * v / 2, v + h * a / 2, (k + 0.5) * h)
+        x, v = x + h * (v + h * a / 2), v + h * middle
+        far = max(far, abs(x - start))
+    return far

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
-from lagcli.document import Block, Equations, Heading, Row
+from sympy import S
+
+from lagcli.document import Block, Equations, Heading, Label, Row
 from lagcli.expression import ZERO, Expression
+from lagcli.mechanics.explaining.reduction import averaged_potential
 from lagcli.mechanics.explaining.teller import Teller
-from lagcli.mechanics.explaining.words import Part, names, says
+from lagcli.mechanics.explaining.words import Part, names, says, shows
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.mechanics.statements import Statements
 from lagcli.statements.answers import EquilibriaSection, Section
@@ -67,6 +70,15 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
         yield Equations(tuple(Row(ZERO, condition) for condition in conditions))
     if teller.system.problem.contacts:
         yield says("Each contact is either closed, and pushes, or open, and there is no force.")
+    if states.at_all_times and found:
+        yield says("An equilibrium is where they hold at all times.")
+        yield from averaged_potential(teller)
+    still = teller.system.L.xreplace(dict.fromkeys(teller.system.qdot, S.Zero))
+    named = any(each.verdict.potential == "V_eff" for each in found or ())
+    if named and still != 0 and not states.at_all_times:
+        yield says("V_eff stands for the terms of ", teller.letters.L,
+                   " without velocities, with the opposite sign:")  # fmt: skip
+        yield shows(Label("V", ("eff",)), teller.readable.as_written(-still))
     if found is None:
         yield says(f"These were not solved: {states.reason}.")
         return
@@ -98,7 +110,8 @@ def _none(rest: RestPoints, states: EquilibriaSection) -> list[Part]:
         lead = f"{where}, and in regular coordinates that is not an equilibrium: "
         none = unless("equilibrium", states.unless) if states.unless != () else ["there is none"]
         return [lead, *none, "."]
-    return ["These have no solution: ", *unless("equilibrium", states.unless), "."]
+    lead = "These have no solution" + " that holds at all times" * states.at_all_times
+    return [f"{lead}: ", *unless("equilibrium", states.unless), "."]
 
 
 def _state(

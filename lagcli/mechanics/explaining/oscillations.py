@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, cast
 
 from sympy import Expr, Symbol
 
-from lagcli.algebra import is_zero, simplify, terms
+from lagcli.algebra import is_zero, shape, simplify
 from lagcli.algebra.signs import sign
 from lagcli.document import Block, Equations, Label, Matrix, Row
-from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, operation_count
+from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, Sum, operation_count
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, says, shows
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
@@ -113,10 +113,10 @@ def _mode(mode: ModesOfFrequency, omega: Name) -> Iterator[Block]:
         return
     yield shows(omega if mode.frequency is not None else Power(omega, _SQUARE), value)
     shapes = [] if mode.shape is None else [mode.shape, *mode.more_shapes]
-    for number, shape in enumerate(shapes if len(mode.shape or ()) > 1 else ()):
+    for number, each in enumerate(shapes if len(mode.shape or ()) > 1 else ()):
         again = "and independently of these, as the root is multiple,"
         yield says(again if number else "with the amplitudes in the ratio")
-        yield _amplitudes(shape)
+        yield _amplitudes(each)
     if mode.negative:
         yield says("This is negative: the displacement does not oscillate, it grows exponentially.")
     elif mode.frequency is None:
@@ -148,9 +148,9 @@ def _damped(teller: Teller, place: Place) -> Iterator[Block]:
     powers = place.characteristic.in_s
     if powers is None:
         return
-    symbol = Symbol(s.name, real=True)
-    polynomial = sum((c * symbol**k for k, c in enumerate(powers)), powers[0] * 0)
-    written = terms(polynomial, (*teller.system.order, s.name), {s.name})
+    symbol, order = Symbol(s.name, real=True), (*teller.system.order, s.name)
+    falling = [shape(c * symbol**k, order) for k, c in reversed([*enumerate(powers)]) if c != 0]
+    written = Sum(tuple(falling)) if len(falling) > 1 else falling[0]
     if operation_count(written) <= _LONG:
         yield says("This gives")
         yield shows(ZERO, written)

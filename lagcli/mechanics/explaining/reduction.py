@@ -51,7 +51,7 @@ def reduction(teller: Teller, section: Section) -> Iterator[Block]:
         yield Equations(tuple(Row(each.left, each.right) for each in reduced.equations))
     if reduced.one_freedom is not None:
         yield from _one_freedom(reduced.one_freedom)
-    yield from _averaged(teller)
+    yield from averaged_potential(teller)
 
 
 def _timed(reduced: ReductionSection) -> bool:
@@ -93,14 +93,20 @@ def _routhian(teller: Teller, reduced: ReductionSection, routhian: Expression) -
     yield shows(R, routhian)
 
 
-def _averaged(teller: Teller) -> Iterator[Block]:
+def averaged_potential(teller: Teller) -> Iterator[Block]:
+    """V_eff of the motion averaged over a rapid drive, where there is one."""
     found = averaged(minimal(teller.derivation).dynamics)
     if found is None:
         return
     write = teller.readable.as_written
     yield says(
-        *("For ", write(found.frequency), " large against the frequencies without the drive, the "),
-        "motion averaged over its period has the potential (Landau and Lifshitz, section 30)",
+        *(
+            "For ",
+            write(found.frequency),
+            " large against the frequencies without the drive and a ",
+        ),
+        "small amplitude of the drive, the motion averaged over its period has the potential "
+        "(Landau and Lifshitz, section 30)",
     )
     yield shows(Label("V", ("eff",)), write(found.potential))
 

@@ -36,6 +36,8 @@ from lagcli.record import record
 
 _MAX_EVIDENT = 64
 _NO_CLOSED_SOLUTION = "the conditions of equilibrium have no closed solution"
+#: Why nothing is solved for that is constant.
+TIMED = "the equations depend explicitly on the time"
 _AT_A_KINK = "a force jumps where its sign changes, and rest at such a kink is not decided"
 _LONGEST = 60  # operations of conditions that are quoted
 _LAST_DIGITS = sympy.Float("1e-13")
@@ -78,20 +80,20 @@ class RestPoints:
 
         `complete` tells afterwards whether there can be no other.
         """
-        if self.depends_on_time:
-            self.reason = "the equations depend explicitly on the time"
-            return None
-        equations = self.equations
+        equations = self._at_all_times
         found, lost = self._found(equations)
         if lost and self._along_one:
             found, lost = self._found(self._along_one)
-        kinks = at_kinks(self.forces_at_rest, equations, self.system.q, found)
+        kinks = not self.depends_on_time and at_kinks(
+            self.forces_at_rest, equations, self.system.q, found
+        )
         self.complete &= not lost and not kinks
         if not self.complete:
             known = {tuple(p.values.get(q, q) for q in self.system.q) for p in found}
             found += [p for p in self._evident() if tuple(p.values.values()) not in known]
             if not found:
                 self.reason = _AT_A_KINK if kinks else _NO_CLOSED_SOLUTION
+                self.reason = TIMED if self.depends_on_time else self.reason
                 return None
         from lagcli.mechanics.oscillations.singular import survives
 
@@ -106,7 +108,9 @@ class RestPoints:
         found, lost = [], False
         for solution in solved.solutions:
             point = self._point(solution)
-            if point is not None and self.balanced(point.values):
+            if any(not free_of(x, [self.system.t]) for x in solution.values.values()):
+                lost |= len(solution.values) < len(self.system.q)
+            elif point is not None and self.balanced(point.values):
                 found.append(point)
             elif len(solution.values) < len(self.system.q) and self._may_be_real(solution):
                 lost = True
@@ -194,6 +198,15 @@ class RestPoints:
             ]
         return [e for e in (*conditions, *forces) if is_zero(e) is not True]
 
+    @cached_property
+    def _at_all_times(self) -> list[Expr]:
+        """The same with its first rates of change: a state of rest is one at all times."""
+        if not self.depends_on_time:
+            return self.equations
+        t = self.system.t
+        rates = [e.diff(t, k) for k in (0, 1, 2) for e in self.equations]
+        return [e for e in rates if is_zero(e) is not True]
+
     @property
     def conditions(self) -> tuple[Expr, ...]:
         """What the coordinates of an equilibrium solve; empty where that is long."""
@@ -207,7 +220,8 @@ class RestPoints:
 
         None where special values were not excluded.
         """
-        return without_unknowns(self.equations, self.system.q)
+        timed = [self.system.t] if self.depends_on_time else []
+        return without_unknowns(self._at_all_times, (*self.system.q, *timed))
 
     @property
     def _along_one(self) -> list[Expr]:

@@ -22,7 +22,7 @@ from lagcli.algebra.equations import written
 from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import RestPoint, unless_written
+from lagcli.mechanics.oscillations.equilibria import TIMED, RestPoint, unless_written
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.held import HeldCombination, held
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
@@ -35,6 +35,7 @@ from lagcli.mechanics.stability.judge import (
     GRAZES,
     Stability,
     judge,
+    judge_on_average,
     judge_on_meridians,
     undecided,
 )
@@ -55,9 +56,12 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     places = oscillations.places
     if places is None:
         return EquilibriaSection(equilibria=None, reason=oscillations.rest.reason)
+    timed = oscillations.rest.depends_on_time
     return EquilibriaSection(
         equilibria=tuple(map(oscillations.equilibrium, places)),
         complete=oscillations.complete,
+        reason=TIMED if timed else "",
+        at_all_times=timed,
         open=()
         if oscillations.complete
         else tuple(written(e, dynamics.system.order) for e in oscillations.rest.conditions),
@@ -81,6 +85,8 @@ def modes(dynamics: Dynamics) -> ModesSection:
         return ModesSection(modes=(), reason=EXCLUDED)
     if not found and all(place.held.firmly and not place.linear.M for place in places):
         return ModesSection(modes=(), reason="contacts or static friction hold what is at rest")
+    if oscillations.rest.depends_on_time:
+        return ModesSection(modes=(), reason=TIMED)
     if not found and all(place.held.grazes(place.point) for place in chosen):
         return ModesSection(modes=(), reason=GRAZES)
     if not found:
@@ -119,6 +125,8 @@ class Place:
     @cached_property
     def verdict(self) -> Stability:
         """Whether it is stable."""
+        if self.held.rest.depends_on_time:
+            return judge_on_average(self.linear) or undecided(TIMED)
         if self.held.grazes(self.point):
             return undecided(GRAZES)
         if self.held.firmly and not self.linear.M:
@@ -143,7 +151,12 @@ class Place:
     def modes(self) -> list[NormalMode]:
         """The normal modes, each verified; empty where the motion is singular."""
         try:
-            if not self.linear.regular or self.linear.has_kink or self.linear.drifts:
+            if (
+                self.held.rest.depends_on_time
+                or not self.linear.regular
+                or self.linear.has_kink
+                or self.linear.drifts
+            ):
                 return []
             if self.held.grazes(self.point):
                 return []

@@ -24,8 +24,10 @@ from sympy import Expr, Float, I, count_ops, im
 
 from lagcli.algebra import simplify
 from lagcli.mechanics.oscillations.characteristic import Characteristic
+from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.oscillations.singular import OnMeridians
+from lagcli.mechanics.reduction.averaged import averaged
 from lagcli.mechanics.stability.higher import (
     order_at_critical_values,
     order_of_minimum,
@@ -61,6 +63,7 @@ _GROWING = "a root of the characteristic polynomial has a positive real part"
 _ALL_ROOTS = "all roots have negative real parts"
 _NO_SECOND = "{V} has no minimum of second order"
 _NEUTRAL = "there is no force to first order"
+_FLAT = "{V} has no second derivative there"
 _POWERS = "all roots are 0, and to first order displacements grow in proportion to a power of t"
 _MAY_FEED = "a force that is not linear, or has no potential, may feed energy"
 _MOST_ROLLING = 4
@@ -91,6 +94,8 @@ class Stability:
         It is unstable where this is positive, and it is nowhere negative.
     opposed
         It is unstable where one of these is negative, and they are nowhere all positive.
+    rapid
+        The frequency of a drive: the verdict is on the averaged motion where that is large.
     critical
         The order of the minimum where the one condition of `minimum` is an equality; 0: it is no
         minimum, and unstable.  None: not known.
@@ -108,6 +113,7 @@ class Stability:
     across: bool = False
     growing: Expr | None = None
     opposed: tuple[Expr, ...] = ()
+    rapid: Expr | None = None
     critical: int | None = None
 
 
@@ -133,6 +139,19 @@ def judge(linear: Linearization, characteristic: Characteristic | None = None) -
         return by_a_growing_root(near) or _judged(near)
     except ZeroDivisionError:
         return undecided("the equations of motion are singular there")
+
+
+def judge_on_average(linear: Linearization) -> Stability | None:
+    """By the potential of the motion averaged over a rapid drive; None without one."""
+    found, point = averaged(linear.dynamics), linear.point
+    if found is None or point.free:
+        return None
+    curvature = at(found.potential.diff(linear.system.q[0], 2), point.values)
+    known = sign_of(curvature, point.positive)
+    if known == 0:
+        return None
+    minimum = {1: (), -1: None, None: (curvature,)}[known]
+    return Stability(rapid=found.frequency, minimum=minimum, reverses=known is None)
 
 
 def judge_on_meridians(linear: OnMeridians) -> Stability:
@@ -299,7 +318,7 @@ def _minimum(near: Near, neutral: int) -> Stability:
     if neutral == 0:
         return _strict_minimum(near)
     if neutral == len(near.restoring.M):
-        return undecided(_NEUTRAL)
+        return undecided(_FLAT if near.linear.gyroscopic else _NEUTRAL)
     if neutral > near.dimension_released:
         return undecided("neutral to first order in some direction")
     if not near.is_even:

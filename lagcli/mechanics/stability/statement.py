@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from sympy import Expr, S
 
 from lagcli.algebra import is_zero
+from lagcli.algebra.equations import written
 from lagcli.mechanics.oscillations.characteristic import determinant
 from lagcli.mechanics.oscillations.equilibria import RestPoints
 from lagcli.mechanics.oscillations.linearization import Linearization
@@ -35,7 +36,7 @@ def stated(
         return plain if short == plain else (*conditions(given, order), *short)
 
     for name in ("minimum", "hurwitz"):
-        if getattr(found, name) and where(getattr(found, name)) == ():
+        if found.rapid is None and getattr(found, name) and where(getattr(found, name)) == ():
             found = always(found, name)
     decisive = found.hurwitz if found.hurwitz is not None else found.spectrum
     if decisive is None:
@@ -55,6 +56,7 @@ def stated(
         else conditions([found.growing], order, positive),
         exact=found.exact,
         gyroscopic=gyroscopic and found.spectrum is not None,
+        rapid=None if found.rapid is None else written(found.rapid, order),
         critical=found.critical,
     )
 
@@ -68,7 +70,7 @@ def potential_of(rest: RestPoints, usual: str = "V_eff") -> str:
     if _feeds_by_time(system):
         return ""
     if usual != "V_eff" or system.V is None:
-        return usual if usual != "V_eff" else "V"
+        return usual
     alone = is_zero(system.L.xreplace(at_rest) + system.V.xreplace(at_rest))
     return "V" if alone is True else usual
 

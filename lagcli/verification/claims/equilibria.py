@@ -47,11 +47,13 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
             y = without_open(x, each.open)
             y = with_closed_contacts(y, RestPlace(y, what, each.at, {}, each.on, each.where))
             place = RestPlace(y, what, each.at, {}, each.on, each.where)
-            verdict = _stays(x, what, place, each.verdict, cyclic=0)
+            judged = Verdict(stable=None) if section.at_all_times else each.verdict
+            verdict = _stays(x, what, place, judged, cyclic=0)
             if verdict is None:
                 return replace(section, equilibria=None, reason=not_confirmed("an equilibrium"))
-            found.append(each if verdict is each.verdict else replace(each, verdict=verdict))
-        other = _another(x, found) if section.complete else ""
+            found.append(each if verdict is judged else replace(each, verdict=verdict))
+        searched = section.complete and not section.at_all_times
+        other = _another(x, found) if searched else ""
     if other:
         x.refute("completeness of the equilibria", f"there is one at {other}")
         section = replace(section, complete=False)
