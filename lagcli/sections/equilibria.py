@@ -50,7 +50,8 @@ def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
     if section.equilibria is None:
         yield Paragraph((f"Not found: {section.reason}.",))
     elif not section.equilibria:
-        yield none_found("equilibrium", section.unless, complete=section.complete)
+        complete, edge = section.complete, section.edge
+        yield none_found("equilibrium", section.unless, complete=complete, edge=edge)
     for equilibrium in section.equilibria or ():
         yield from state_blocks(equilibrium.at, on=equilibrium.on)
         yield Paragraph(_stability(equilibrium))

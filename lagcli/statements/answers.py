@@ -247,7 +247,7 @@ class EquilibriaSection:
     Of equations that depend on t they are those `at_all_times`.  `complete`: there can be no other,
     else all solve that each of `open` is 0 (where these are not long).  Where there are none, there
     may be some for values of the parameters for which each of `unless` vanishes; None: for special
-    values that are not known.
+    values that are not known; and at the `edge` 0 of coordinates that are assumed positive.
     """
 
     equilibria: tuple[Equilibrium, ...] | None
@@ -256,6 +256,7 @@ class EquilibriaSection:
     at_all_times: bool = False
     open: tuple[Expression, ...] = ()
     unless: tuple[Expression, ...] | None = ()
+    edge: tuple[str, ...] = ()
 
 
 @record(kw_only=True)

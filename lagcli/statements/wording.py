@@ -265,23 +265,36 @@ def fold(determinant: Expression | None) -> Iterator[Block]:
         yield Equations((Row(ZERO, determinant),))
 
 
-def unless(what: str, vanishing: Sequence[Expression] | None) -> list[Part]:
-    """That there is none, but for values of the parameters for which these vanish."""
-    if vanishing is None:
-        return [f"for general values of the parameters there is no {what}"]
-    parts: list[Part] = [f"there is no {what}"]
+def unless(
+    what: str, vanishing: Sequence[Expression] | None, edge: Sequence[str] = ()
+) -> list[Part]:
+    """That there is none, but for values of the parameters for which these vanish.
+
+    Nor where the coordinates at the `edge` of their range are positive.
+    """
+    general = "for general values of the parameters " if vanishing is None else ""
+    parts: list[Part] = [f"{general}there is no {what}"]
+    for position, name in enumerate(edge):
+        parts += [" and " if position else " with ", Name(name), " > 0"]
+    vanishing = vanishing or ()
     for position, each in enumerate(vanishing):
         parts += [" and " if position else " unless ", *_compared(each, " = ")]
     return parts
 
 
-def none_found(what: str, vanishing: Sequence[Expression] | None, *, complete: bool) -> Paragraph:
+def none_found(
+    what: str,
+    vanishing: Sequence[Expression] | None,
+    *,
+    complete: bool,
+    edge: Sequence[str] = (),
+) -> Paragraph:
     """That there is none of what was sought, or that none is known."""
     if not complete:
         return Paragraph(("None was found.",))
-    if vanishing == ():
+    if vanishing == () and not edge:
         return Paragraph(("There is none.",))
-    lead, *rest = unless(what, vanishing)
+    lead, *rest = unless(what, vanishing, edge)
     return Paragraph((f"{str(lead)[0].upper()}{str(lead)[1:]}", *rest, "."))
 
 

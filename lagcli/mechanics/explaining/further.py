@@ -111,7 +111,7 @@ def _none(rest: RestPoints, states: EquilibriaSection) -> list[Part]:
         none = unless("equilibrium", states.unless) if states.unless != () else ["there is none"]
         return [lead, *none, "."]
     lead = "These have no solution" + " that holds at all times" * states.at_all_times
-    return [f"{lead}: ", *unless("equilibrium", states.unless), "."]
+    return [f"{lead}: ", *unless("equilibrium", states.unless, states.edge), "."]
 
 
 def _state(

@@ -81,8 +81,11 @@ def _steady_without_momenta(teller: Teller, found: SteadySection) -> str:
 
 
 def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
-    wanted = dict.fromkeys(found.conditions.values())
-    yield Equations(tuple(Row(ZERO, each) for each in wanted if each != ZERO or len(wanted) == 1))
+    wanted = [each for each in dict.fromkeys(found.conditions.values()) if each != ZERO]
+    if wanted:
+        yield Equations(tuple(Row(ZERO, each) for each in wanted))
+    elif found.conditions:
+        yield says("These are 0 everywhere.")
     if found.motions is None:
         yield says(f"These were not solved: {found.reason}.")
         return
@@ -150,6 +153,8 @@ def _rolling(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
         yield says("This holds for any value of ", _free(motion), end)
     if rows:
         yield Equations(rows)
+    if motion.where:
+        yield says("It is possible for ", *conditions(motion.where), ".")
     if motion.frequencies_squared:
         family = (
             "The linearised equations have the root 0 once for each dimension of the family of "

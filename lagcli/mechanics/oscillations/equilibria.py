@@ -39,6 +39,7 @@ _NO_CLOSED_SOLUTION = "the conditions of equilibrium have no closed solution"
 #: Why nothing is solved for that is constant.
 TIMED = "the equations depend explicitly on the time"
 _AT_A_KINK = "a force jumps where its sign changes, and rest at such a kink is not decided"
+_MOST_CONDITIONS = 4  # of which each is left out in turn
 _LONGEST = 60  # operations of conditions that are quoted
 _LAST_DIGITS = sympy.Float("1e-13")
 _PERIODIC = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
@@ -224,6 +225,17 @@ class RestPoints:
         return without_unknowns(self._at_all_times, (*self.system.q, *timed))
 
     @property
+    def edge(self) -> tuple[str, ...]:
+        """Coordinates assumed positive at whose value 0 there may be an equilibrium."""
+
+        def excluded(q: Symbol) -> bool:
+            there = [e.xreplace({q: S.Zero}) for e in self.equations]
+            infinite = (S.NaN, S.ComplexInfinity, S.Infinity, S.NegativeInfinity)
+            return any(e.has(*infinite) or sign(e) in (1, -1) for e in there)
+
+        return tuple(q.name for q in self.system.q if q.is_positive and not excluded(q))
+
+    @property
     def _along_one(self) -> list[Expr]:
         """f = 0 and a_i F_j = a_j F_i: the force along the gradient of a single constraint.
 
@@ -360,7 +372,21 @@ def without_unknowns(
     found = _factors_without(conditions, unknowns)
     if found or any(sign(e) in (1, -1) for e in conditions):
         return found
-    return () if all(e.free_symbols <= {*unknowns} for e in conditions) else None
+    return None if _may_hold_for_special_values(conditions, unknowns) else ()
+
+
+def _may_hold_for_special_values(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> bool:
+    """Whether all conditions but one have a solution at which that one has only parameters."""
+    if len(conditions) > _MOST_CONDITIONS:
+        return False
+    for k, left in enumerate(conditions):
+        others = [e for j, e in enumerate(conditions) if j != k]
+        solutions = solve_system(others, unknowns).solutions if others else ()
+        for each in solutions:
+            rest = simplify(left.xreplace(dict(each.values)))
+            if rest.free_symbols and free_of(rest, unknowns) and sign(rest) not in (1, -1):
+                return True
+    return False
 
 
 def unless_written(

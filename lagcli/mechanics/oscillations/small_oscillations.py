@@ -16,24 +16,28 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 
-from sympy import Expr, Symbol
+from sympy import Expr, S, Symbol
 
 from lagcli.algebra.equations import written
 from lagcli.expression import Expression
+from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import TIMED, RestPoint, unless_written
+from lagcli.mechanics.oscillations.equilibria import TIMED, RestPoint, at, unless_written
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.held import HeldCombination, held
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
 from lagcli.mechanics.oscillations.singular import OnMeridians, is_singular
 from lagcli.mechanics.reduction.readable import conditions
+from lagcli.mechanics.reduction.routh import Routh
+from lagcli.mechanics.reduction.steady import Steady, SteadyMotions
 from lagcli.mechanics.stability.judge import (
     DRIFTS,
     EXCLUDED,
     GRAZES,
     Stability,
+    by_routh,
     judge,
     judge_on_average,
     judge_on_meridians,
@@ -62,6 +66,7 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
         complete=oscillations.complete,
         reason=TIMED if timed else "",
         at_all_times=timed,
+        edge=() if places else oscillations.rest.edge,
         open=()
         if oscillations.complete
         else tuple(written(e, dynamics.system.order) for e in oscillations.rest.conditions),
@@ -187,18 +192,46 @@ class SmallOscillations:
         """Whether there can be no other."""
         return all(each.rest.complete and each.rest.points is not None for each in self.held)
 
+    @cached_property
+    def _steady(self) -> SteadyMotions | None:
+        """The motions at constant momenta of cyclic coordinates, rest among them."""
+        if self.dynamics.constraints.equations or self.rest.depends_on_time:
+            return None
+        routh = Routh(Derivation(self.system.problem))
+        return SteadyMotions(routh) if routh.cyclic and routh.reduced is not None else None
+
+    def _by_routh(self, place: Place) -> Stability | None:
+        """The verdict on rest as a steady motion; None where that decides nothing."""
+        steady, values = self._steady, place.point.values
+        if steady is None or place.point.family is not None or place.held.firmly:
+            return None
+        still = dict.fromkeys(self.system.qdot, S.Zero)
+        full = steady.routh.full.dynamics.lagrange
+        fixed = {q: values[q] for q in steady.system.q if q in values}
+        for p, j in zip(steady.routh.momenta, steady.routh.cyclic, strict=True):
+            fixed[p] = at(full.momenta[j].xreplace(still), values)
+        try:
+            found = judge(Linearization(steady.rest, steady.point(Steady(fixed, None))))
+        except ZeroDivisionError:
+            return None
+        return by_routh(replace(found, across=True)) if found.minimum is not None else None
+
     def equilibrium(self, place: Place) -> Equilibrium:
         """One equilibrium as a statement."""
+        verdict, potential = place.verdict, potential_of(self.rest)
+        reduced = self._by_routh(place) if verdict.is_open else None
+        if reduced is not None:
+            verdict, potential = reduced, "U_eff"
         linear, order = place.linear, self.system.order
         free, gone = untied(place.point, self.system.q), place.indeterminate
         return Equilibrium(
             at=self._at(place.point),
             on=relation_sides(place.point, self.system.q, order),
             verdict=stated(
-                place.verdict,
+                verdict,
                 order,
                 place.point.positive,
-                potential=potential_of(self.rest),
+                potential=potential,
                 gyroscopic=held_by_gyroscopic_terms(linear),
             ),
             where=conditions(place.point.positive, order),

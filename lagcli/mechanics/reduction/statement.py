@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 import sympy
-from sympy import Expr
+from sympy import Expr, S
 
 from lagcli.algebra import shape, terms
 from lagcli.algebra.build import symbol
 from lagcli.algebra.equations import written
 from lagcli.algebra.writing import Writer
-from lagcli.expression import ONE, ZERO, Expression, Name, Number, Product, Quotient, Sum
+from lagcli.expression import ONE, ZERO, Expression, Name, Number, Power, Product, Quotient, Sum
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom as Motion
 from lagcli.mechanics.reduction.one_freedom import free_name
@@ -139,7 +139,9 @@ class _Statement:
         if potential is None:
             return terms(R, self.order, self.fast)
         writer = Writer(self.order)
-        moving = sympy.expand(R + self.routh.effective_potential)
+        assert self.routh.reduced is not None
+        still = dict.fromkeys(self.routh.reduced.system.qdot, S.Zero)
+        moving = sympy.expand(R - R.xreplace(still))
         return writer.sum([terms(moving, self.order, self.fast), writer.negative(potential)])
 
     # -- one degree of freedom --------------------------------------------------------------------
@@ -212,7 +214,9 @@ def _two_pi_times(root: Expression) -> Expression:
     number, factors = _number_and_rest(above_)
     divisor, divisors = _number_and_rest(below)
     number = 2 * number / divisor
-    whole = [Name("pi"), *factors]
+    powers = factors.count(Name("pi")) + 1
+    pi = Name("pi") if powers == 1 else Power(Name("pi"), Number(Fraction(powers)))
+    whole = [pi, *(factor for factor in factors if factor != Name("pi"))]
     if number.numerator != 1:
         whole.insert(0, Number(Fraction(number.numerator)))
     if number.denominator != 1:

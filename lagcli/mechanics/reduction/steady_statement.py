@@ -23,9 +23,15 @@ from lagcli.mechanics.reduction.rolling_statement import rolling_section
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.statement import Missing
 from lagcli.mechanics.reduction.steady import Steady, SteadyMotions
-from lagcli.mechanics.stability.judge import GRAZES, Stability, by_curvature, judge, undecided
+from lagcli.mechanics.stability.judge import (
+    GRAZES,
+    Stability,
+    by_curvature,
+    by_routh,
+    judge,
+    undecided,
+)
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
-from lagcli.mechanics.theorems import LAGRANGE_DIRICHLET, ROUTH
 from lagcli.record import replace
 from lagcli.statements.motions import Above, SteadyMotion, SteadySection, Verdict
 
@@ -154,11 +160,8 @@ class _SteadyStatement:
 
     def _verdict(self, judged: Stability, motion: Steady, *, turning: bool) -> Verdict:
         cyclic = bool(self.routh.cyclic)
-        if cyclic and judged.by is LAGRANGE_DIRICHLET:
-            reason = judged.reason.replace(LAGRANGE_DIRICHLET.name, ROUTH.name)
-            judged = replace(judged, by=ROUTH, reason=reason)
         return stated(
-            judged,
+            by_routh(judged) if cyclic else judged,
             self.order,
             motion.positive,
             potential=potential_of(self.steady.rest, "U_eff"),

@@ -42,6 +42,7 @@ from lagcli.mechanics.theorems import (
     KELVIN_TAIT_CHETAEV,
     LAGRANGE_DIRICHLET,
     LYAPUNOV_MALKIN,
+    ROUTH,
     Theorem,
 )
 from lagcli.record import record
@@ -115,6 +116,20 @@ class Stability:
     opposed: tuple[Expr, ...] = ()
     rapid: Expr | None = None
     critical: int | None = None
+
+    @property
+    def is_open(self) -> bool:
+        """Whether nothing was decided, not even under conditions."""
+        decided = (self.stable, self.minimum, self.spectrum, self.hurwitz, self.growing, self.rapid)
+        return all(each is None for each in decided) and not self.opposed
+
+
+def by_routh(found: Stability) -> Stability:
+    """The same of a motion with momenta of cyclic coordinates."""
+    if found.by is not LAGRANGE_DIRICHLET:
+        return found
+    reason = found.reason.replace(LAGRANGE_DIRICHLET.name, ROUTH.name)
+    return replace(found, by=ROUTH, reason=reason)
 
 
 def undecided(reason: str) -> Stability:

@@ -48,7 +48,8 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
             y = with_closed_contacts(y, RestPlace(y, what, each.at, {}, each.on, each.where))
             place = RestPlace(y, what, each.at, {}, each.on, each.where)
             judged = Verdict(stable=None) if section.at_all_times else each.verdict
-            verdict = _stays(x, what, place, judged, cyclic=0)
+            cyclic = _cyclic(x) if judged.potential == "U_eff" else 0
+            verdict = _stays(x, what, place, judged, cyclic=cyclic)
             if verdict is None:
                 return replace(section, equilibria=None, reason=not_confirmed("an equilibrium"))
             found.append(each if verdict is judged else replace(each, verdict=verdict))
@@ -58,6 +59,13 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
         x.refute("completeness of the equilibria", f"there is one at {other}")
         section = replace(section, complete=False)
     return replace(section, equilibria=tuple(found))
+
+
+def _cyclic(x: Examination) -> int:
+    """How many coordinates do not occur in L."""
+    program, L = x.reference.program, x.reference.lagrangian
+    slopes = (program.derivative(L, {q: program.one}) for q in x.reference.q)
+    return sum(slope == program.zero for slope in slopes)
 
 
 def _another(x: Examination, found: list[Equilibrium]) -> str:
