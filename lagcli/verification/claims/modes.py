@@ -117,12 +117,11 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
 
 
 def _expected(near: LinearMotion, W: arb, mode: ModesOfFrequency) -> int:
-    """How many independent shapes a frequency has: fewer than its multiplicity where defective.
-
-    Those of q'' = S q are the kernel of S + W along the constraints.
-    """
+    """How many independent shapes a frequency has: of the root 0 those that nothing moves."""
+    if abs(float(W.mid())) > NOTHING:
+        return mode.multiplicity
     by_q, _ = near.slopes
-    rows = [[e + W * (i == j) for j, e in enumerate(row)] for i, row in enumerate(by_q)]
+    rows = [[e if abs(float(e.mid())) > NOTHING else arb(0) for e in row] for row in by_q]
     try:
         return min(mode.multiplicity, near.size - rank([*rows, *near.laws.jacobian], near.size))
     except Unclear:
