@@ -14,7 +14,14 @@ from lagcli.reader.expected_reduction import read_equilibria
 from lagcli.reader.schema_parts import FORMULAS, STABLE, list_of, record_of, ref
 from lagcli.statements.answers import Answers, EquilibriaSection, Equilibrium
 from lagcli.statements.declaration import Declaration, Expected, Told
-from lagcli.statements.wording import conditions, holding, none_found, stability, state_blocks
+from lagcli.statements.wording import (
+    at_the_limit,
+    conditions,
+    holding,
+    none_found,
+    stability,
+    state_blocks,
+)
 
 if TYPE_CHECKING:
     from lagcli.mechanics.explaining.teller import Teller
@@ -67,6 +74,7 @@ def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:
         parts += ["It exists where ", *conditions(equilibrium.where), ". "]
     parts += [holding(equilibrium.touching, sticking=equilibrium.sticking)]
     parts += stability(equilibrium.verdict, equilibrium.free, equilibrium.on)
+    parts += [at_the_limit(equilibrium.where, sticking=equilibrium.sticking)]
     for lead, names in ((" Free: ", equilibrium.free), (_NO_VALUE, equilibrium.indeterminate)):
         for position, name in enumerate(names):
             parts += [", " if position else lead, Name(name)]

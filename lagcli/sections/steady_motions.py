@@ -26,7 +26,13 @@ from lagcli.reader.schema_parts import FORMULA, FORMULAS, STABLE, list_of, recor
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.statements.motions import SteadyMotion, SteadySection
-from lagcli.statements.wording import conditions, none_found, place_rows, steady_stability
+from lagcli.statements.wording import (
+    conditions,
+    none_found,
+    place_rows,
+    steady_stability,
+    there_may_be_others,
+)
 
 if TYPE_CHECKING:
     from lagcli.mechanics.explaining.teller import Teller
@@ -65,7 +71,7 @@ def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(motion)
     if section.motions and not section.complete:
-        yield Paragraph(("There may be others.",))
+        yield there_may_be_others(section)
 
 
 def _motion(motion: SteadyMotion) -> Iterator[Block]:

@@ -129,6 +129,7 @@ class SteadySection:
     They are dU_eff/dq minus what is `acting`: "forces", "constraints", along which they are taken.
     `momenta` are the cyclic coordinates whose momenta are constant.  Where there are no motions,
     there may be some for parameters for which each of `unless` vanishes; None: for special values.
+    What is not `complete` was not sought where each of `singular_where` vanishes.
 
     Under velocity constraints the conditions are those of constant velocities, where the
     `eliminated` ones follow from the constraints; each motion is then `rolling`.
@@ -142,6 +143,7 @@ class SteadySection:
     reason: str = ""
     momenta: tuple[str, ...] = ()
     unless: tuple[Expression, ...] | None = ()
+    singular_where: tuple[Expression, ...] = ()
 
 
 @record

@@ -18,7 +18,14 @@ from lagcli.expression import (
     operation_count,
 )
 from lagcli.statements.answers import QuantityUnit, Verification
-from lagcli.statements.motions import Above, Irreducible, OneFreedom, SteadyMotion, Verdict
+from lagcli.statements.motions import (
+    Above,
+    Irreducible,
+    OneFreedom,
+    SteadyMotion,
+    SteadySection,
+    Verdict,
+)
 from lagcli.statements.questions import Answer, Solutions
 
 Part = str | Formula
@@ -282,6 +289,15 @@ def unless(
     return parts
 
 
+def there_may_be_others(section: SteadySection) -> Paragraph:
+    """That not all steady motions are listed, and where none was sought."""
+    parts: list[Part] = []
+    for each in section.singular_where:
+        parts += [" or " if parts else ", as where ", each, " = 0"]
+    parts += [": the coordinates are singular there"] if parts else []
+    return Paragraph(("There may be others", *parts, "."))
+
+
 def none_found(
     what: str,
     vanishing: Sequence[Expression] | None,
@@ -310,6 +326,11 @@ def remark(answer: Answer) -> Iterator[Paragraph]:
         if isinstance(parts[-1], str):
             parts[-1] = parts[-1].rstrip(".")
         yield Paragraph((*parts, "."))
+
+
+def at_the_limit(where: Sequence[Above], *, sticking: bool) -> str:
+    """What holds where a condition for static friction is an equality."""
+    return " At equality it rests, too, with no force to spare." if where and sticking else ""
 
 
 def holding(touching: Sequence[str], *, sticking: bool) -> str:

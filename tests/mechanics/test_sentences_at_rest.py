@@ -223,3 +223,39 @@ def _leaves(force, start):
         x, v = x + h * (v + h * a / 2), v + h * middle
         far = max(far, abs(x - start))
     return far
+
+
+# -- where coordinates end ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("power", ["r^2/2", "r^4", "r^2 + r^4"])
+def test_no_equilibrium_is_denied_where_polar_coordinates_end(power):
+    """The oscillator rests in the centre, which r > 0 does not reach; a falling body nowhere."""
+    head = "{coordinates: {r: {assume: positive}, u: {}}, T: (r'^2 + r^2*u'^2)/2, V: "
+    assert "with r > 0" in said(head + f"{power}}}", "Equilibria", "equilibria").replace("…", "r")
+    for V in (f"{power} + 2*r", "-1/r"):
+        assert "with" not in said(head + f"'{V}'}}", "Equilibria", "equilibria").split("unless")[0]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_rest_of_a_charge_has_one_verdict_in_all_coordinates(seed):
+    """In a magnetic field it stays: by linear equations, and by Routh's theorem in polar ones."""
+    source = random.Random(seed)
+    field, mass = source.choice([-3, -1, 2, 5]), source.randint(1, 4)
+    plane = f"{{coordinates: [x, y], L: {mass}*(x'^2 + y'^2)/2 + {field}*(x*y' - y*x')/2}}"
+    landau = f"{{coordinates: [x, y], L: {mass}*(x'^2 + y'^2)/2 + {field}*x*y'}}"
+    polar = (
+        "{coordinates: {r: {assume: positive}, u: {}}, "
+        f"L: {mass}*(r'^2 + r^2*u'^2)/2 + {field}*r^2*u'/2}}"
+    )
+    for text in (plane, landau, polar):
+        [found] = equilibria(derive(text).dynamics).equilibria
+        assert found.verdict.stable is True
+
+
+def test_static_friction_holds_at_its_limit():
+    text = (
+        "{coordinates: [x], parameters: {mu: {assume: positive}, a: {}}, T: x'^2/2, "
+        "V: -a*x, forces: {x: -mu*sign(x')}}"
+    )
+    assert "At equality it rests" in said(text, "Equilibria", "equilibria")

@@ -17,8 +17,8 @@ from lagcli.mechanics.statements import Statements
 from lagcli.statements.answers import EquilibriaSection, Section
 from lagcli.statements.explanation import ExplanationStep
 from lagcli.statements.registry import find_section
+from lagcli.statements.wording import at_the_limit, holding, place_rows, stability, unless
 from lagcli.statements.wording import conditions as inequalities
-from lagcli.statements.wording import holding, place_rows, stability, unless
 
 if TYPE_CHECKING:
     from lagcli.mechanics.oscillations.equilibria import RestPoints
@@ -95,7 +95,8 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
         if each.where:
             yield says("It exists for ", *inequalities(each.where), ".")
         firm = holding(each.touching, sticking=each.sticking)
-        yield says(firm, *stability(each.verdict, each.free, each.on))
+        limit = at_the_limit(each.where, sticking=each.sticking)
+        yield says(firm, *stability(each.verdict, each.free, each.on), limit)
     if found and not states.complete:
         yield says("There may be others.")
 

@@ -21,7 +21,14 @@ from lagcli.mechanics.explaining.words import Part, listed, names, says, shows
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import Section
 from lagcli.statements.motions import SteadyMotion, SteadySection
-from lagcli.statements.wording import POTENTIAL, conditions, place_rows, steady_stability, unless
+from lagcli.statements.wording import (
+    POTENTIAL,
+    conditions,
+    place_rows,
+    steady_stability,
+    there_may_be_others,
+    unless,
+)
 
 _BALANCED = {
     (): "vanish",
@@ -95,7 +102,7 @@ def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(teller, motion)
     if found.motions and not found.complete:
-        yield says("There may be others.")
+        yield there_may_be_others(found)
 
 
 def _none(teller: Teller, found: SteadySection) -> list[Part]:

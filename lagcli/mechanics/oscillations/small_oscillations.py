@@ -51,7 +51,7 @@ _STICKS = "static friction holds it with force to spare"
 _PRESSED = "it is pressed against what it touches"
 _SINGULAR = "the coordinates are singular at the equilibria"
 _NO_LINEAR_PART = "a force has a kink or a jump at the equilibrium, and no linear part"
-_NO_MODES = "the equilibria are singular, or do not exist for the values of the file"
+_NO_MODES = "the equilibria do not exist for the values of the file"
 
 
 def equilibria(dynamics: Dynamics) -> EquilibriaSection:
@@ -102,7 +102,7 @@ def modes(dynamics: Dynamics) -> ModesSection:
 def _why_none(places: Sequence[Place]) -> str:
     if any(place.linear.drifts for place in places):
         return DRIFTS
-    if all(place.indeterminate for place in places):
+    if all(place.at_singular_coordinates for place in places):
         return _SINGULAR
     return _NO_LINEAR_PART if any(place.linear.has_kink for place in places) else _NO_MODES
 
@@ -142,12 +142,17 @@ class Place:
         return replace(found, asymptotic=False) if self.held.firmly else found
 
     @property
+    def at_singular_coordinates(self) -> bool:
+        """Whether the mass matrix has null vectors there."""
+        try:
+            return is_singular(self.linear)
+        except ZeroDivisionError:
+            return False
+
+    @property
     def indeterminate(self) -> frozenset[Symbol]:
         """Coordinates that have no value there, as the azimuth at a pole."""
-        try:
-            if not is_singular(self.linear):
-                return frozenset()
-        except ZeroDivisionError:
+        if not self.at_singular_coordinates:
             return frozenset()
         gone = OnMeridians(self.linear).indeterminate
         return frozenset(self.linear.system.q[j] for j in gone)

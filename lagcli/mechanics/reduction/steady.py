@@ -102,7 +102,7 @@ class SteadyMotions:
             self.reason = "the equations depend explicitly on the time"
             return None
         if self._sticks:
-            self.reason = "static friction holds it at rest where it can: see the equilibria"
+            self.reason = "static friction holds the body at rest where it can (see the equilibria)"
             return None
         given = self._given()
         if self.routh.cyclic and self._free:
@@ -186,6 +186,17 @@ class SteadyMotions:
             put_in = {q: value, flow[q]: given.system.total_derivative(value)}
             demands = [(part.xreplace(put_in), strict) for part, strict in demands]
         return tuple(demands)
+
+    @property
+    def singular_where(self) -> tuple[Expr, ...]:
+        """What vanishes where the coordinates are singular, as far as det M shows it."""
+        full = self.routh.full
+        still = dict.fromkeys(self.full.qdot, S.Zero)
+        rows = [[x.xreplace(still) for x in row] for row in full.dynamics.lagrange.mass_matrix]
+        whole = determinant(rows)
+        factors = sympy.Mul.make_args(S.One if whole is None else whole)
+        bases = [f.base if isinstance(f, sympy.Pow) else f for f in factors]
+        return tuple(f for f in bases if isinstance(f, (sympy.sin, sympy.cos)))
 
     def _standing(self, motion: Steady) -> Steady | None:
         """The motion where every one-sided contact holds; None where one does not."""

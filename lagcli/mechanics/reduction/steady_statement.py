@@ -85,6 +85,9 @@ class _SteadyStatement:
                 conditions=conditions,
                 motions=tuple(map(self._motion, found)),
                 complete=steady.complete,
+                singular_where=()
+                if steady.complete
+                else tuple(map(self._shape, steady.singular_where)),
                 acting=steady.acting,
                 momenta=cyclic,
                 unless=() if found else unless_written(steady.unless, self.order),
