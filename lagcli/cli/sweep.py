@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.options import Output, State
-from lagcli.cli.simulate import Accuracy, File, Format, Method, Set, Show, Until
+from lagcli.cli.simulate import Accuracy, File, Format, Method, Set, Show, StopWhen, Until
 
 Vary = Annotated[
     list[str] | None,
@@ -28,6 +28,14 @@ Samples = Annotated[
     typer.Option("--samples", metavar="N", min=2, max=1_000_000, help="With --along: rows."),
 ]
 Along = Annotated[bool, typer.Option("--along", help="Every row of each motion, not its end.")]
+Times = Annotated[
+    str | None,
+    typer.Option(
+        "--times",
+        metavar="T,T",
+        help="Rows at these times instead: 100:250:25 (first, last, count), or 1,2,5.",
+    ),
+]
 Jobs = Annotated[
     int | None,
     typer.Option("--jobs", "-j", metavar="N", min=1, help="Processes.  [default: one per core]"),
@@ -52,6 +60,8 @@ def sweep(
     show: Show = None,
     along: Along = False,
     samples: Samples = 101,
+    times: Times = None,
+    stop_when: StopWhen = None,
     settings: Set = None,
     state: State = None,
     method: Method = "auto",
@@ -63,8 +73,8 @@ def sweep(
     """Compute an ensemble of motions over parameters and initial states.
 
     Each row has the values that were varied, the columns at the end of its motion (with
-    --along at every sample), and its certificate: `reached` (1 or 0), `holds_until` and
-    `error`, the bound on the global error.  The rows are in the order of the ranges, the
+    --along at every sample, with --times at these), and its certificate: `reached` (1 or
+    0), `holds_until` and `error`, the bound on the global error.  The rows are in the order of the ranges, the
     last parameter or state varying fastest; `theta(0)` is an initial value.
 
     With -o, finished parts are kept next to the output: a sweep that was killed goes on
@@ -95,8 +105,8 @@ def sweep(
         project=False,
         precision=None,
         method=method,
-        stop_when=None,
+        stop_when=stop_when,
         whole=False,
     )
     drawn = tuple(vary or ()), random, seed
-    return sweep_file(wish, *drawn, along=along, jobs=jobs, scheduler=scheduler)
+    return sweep_file(wish, *drawn, along=along, times=times, jobs=jobs, scheduler=scheduler)

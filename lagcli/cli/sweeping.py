@@ -15,7 +15,7 @@ from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.problem_data import Problem
-from lagcli.studies.sweep import WRITERS, Plan, Table, WrongPlan, plan_of, sweep
+from lagcli.studies.sweep import WRITERS, Plan, Table, WrongPlan, at_times, plan_of, sweep, times_of
 from lagcli.studies.sweep.journal import Journal
 from lagcli.studies.sweep.workers import NoCluster
 
@@ -27,6 +27,7 @@ def sweep_file(
     seed: int,
     *,
     along: bool,
+    times: str | None,
     jobs: int | None,
     scheduler: str | None,
 ) -> Status:
@@ -38,12 +39,13 @@ def sweep_file(
         wish.file,
         wish.settings,
         wish.state,
-        lambda problem: _options(problem, wish, vary, random, seed),
+        lambda problem: _options(problem, wish, vary, random, seed, times),
     )
     if found is None:
         return Status.USAGE
     problem, (asked, plan) = found
-    digest = _digest(wish, problem, plan, along=along)
+    along = along or bool(asked.times)
+    digest = _digest(wish, problem, asked, plan, along=along)
     with Journal(wish.output, digest) as journal:
         if journal.done:
             tell_line(f"{wish.output}: going on after {len(journal.done)} finished parts")
@@ -113,23 +115,31 @@ def _without_cluster(wish: SimulateOptions, journal: Journal) -> Status:
 
 
 def _options(
-    problem: Problem, wish: SimulateOptions, vary: Sequence[str], random: int | None, seed: int
+    problem: Problem,
+    wish: SimulateOptions,
+    vary: Sequence[str],
+    random: int | None,
+    seed: int,
+    times: str | None,
 ) -> tuple[Asked, Plan] | None:
-    plan = None
     try:
         plan = plan_of(problem, vary, random, seed)
+        given = times_of(times) if times else ()
     except WrongPlan as error:
         for line in error.lines:
             tell_line(f"lagcli: error: {line}")
-    asked = asked_of(problem, wish)
-    return None if plan is None or asked is None else (asked, plan)
+        return None
+    asked = asked_of(problem, wish, without_end=given[-1] if given else None)
+    return None if asked is None else (at_times(asked, given), plan)
 
 
-def _digest(wish: SimulateOptions, problem: Problem, plan: Plan, *, along: bool) -> str:
+def _digest(
+    wish: SimulateOptions, problem: Problem, asked: Asked, plan: Plan, *, along: bool
+) -> str:
     """Names the sweep by all that its rows depend on, the program included."""
     from lagcli.platform.cache import key
 
     options = [repr(plan), wish.until, wish.accuracy, wish.samples, wish.settings, wish.state,
-               wish.show, wish.method, along]  # fmt: skip
+               wish.show, wish.method, along, asked.times, wish.stop_when]  # fmt: skip
     text = key({"sweep": repr(options)}, [(wish.file, problem.source.text.encode())])
     return sha256(str(text).encode()).hexdigest()

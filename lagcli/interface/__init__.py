@@ -205,6 +205,8 @@ def sweep(
     seed: int = 0,
     along: bool = False,
     samples: int = 101,
+    times: Sequence[float] = (),
+    stop_when: str | None = None,
     accuracy: float | None = None,
     show: Sequence[str] | str = (),
     values: Values | None = None,
@@ -227,6 +229,10 @@ def sweep(
         So many draws between the ends of each range (`"0:3.14"`) instead.
     along : bool
         Every row of each motion, `samples` of them; its end otherwise.
+    times : sequence of float
+        Rows at these times instead; the last is the end.
+    stop_when : str
+        An expression: a motion ends where it changes its sign, at the time in the column `t`.
     jobs : int
         Processes.
 
@@ -246,6 +252,8 @@ def sweep(
         along=along,
         jobs=jobs,
         samples=samples,
+        times=times,
+        stop_when=stop_when,
         until=until,
         accuracy=accuracy,
         show=[show] if isinstance(show, str) and show else list(show),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.interface.columns import Columns
-from lagcli.studies.sweep import WRITERS, Table, WrongPlan, plan_of, sweep
+from lagcli.studies.sweep import WRITERS, Table, WrongPlan, at_times, plan_of, sweep
 from lagcli.studies.sweep.journal import Journal
 
 if TYPE_CHECKING:
@@ -73,6 +73,7 @@ def ensemble(
     along: bool,
     jobs: int,
     samples: int,
+    times: Sequence[float],
     **options: object,
 ) -> Sweep:
     """Run every member; see `lagcli.studies.sweep`.
@@ -89,7 +90,10 @@ def ensemble(
         plan = plan_of(problem, ranges, random, seed)
     except WrongPlan as error:
         raise ProblemError(problem.source, tuple(map(Diagnostic, error.lines))) from None
+    if times:
+        options["until"] = times[-1]
     asked = asked_of(problem, samples=samples if along else 2, **options)  # type: ignore[arg-type]
+    asked, along = at_times(asked, times), along or bool(times)
     with Journal(None, "") as journal:
         return Sweep(sweep(problem, asked, plan, journal, along=along, jobs=jobs), problem.title)
 

@@ -65,6 +65,36 @@ def test_the_period_grows_with_the_amplitude_as_the_elliptic_integral_says(capsy
         assert row["theta'"] == pytest.approx(0, abs=1e-8)
 
 
+def test_the_time_of_an_event_is_a_column(capsysbinary):
+    """The pendulum at rest at an angle passes the vertical after a quarter of its period."""
+    status, rows = table(
+        "plane-pendulum", "--vary", "theta=0.5,1,2", "--until", "10",
+        "--stop-when", "theta", "--show", "t", capture=capsysbinary,
+    )  # fmt: skip
+    assert status == 0
+    for row in rows:
+        x, y = 1.0, math.cos(row["theta(0)"] / 2)
+        while abs(x - y) > 1e-15:
+            x, y = (x + y) / 2, math.sqrt(x * y)
+        quarter = math.pi / 2 / x * math.sqrt(1 / 9.81)
+        assert row["t"] == pytest.approx(quarter, rel=1e-12)
+        assert abs(row["t"] - quarter) / 10 <= row["error"] + 2e-16
+
+
+def test_rows_at_times_are_those_of_runs_to_these_times(capsysbinary):
+    status, rows = table(
+        "plane-pendulum", "--vary", "theta=0.5,2", "--times", "1,2.5,3",
+        "--show", "theta", capture=capsysbinary,
+    )  # fmt: skip
+    assert status == 0
+    assert [row["t"] for row in rows] == [1, 2.5, 3] * 2
+    pendulum = lagcli.load("plane-pendulum")
+    found = lagcli.sweep(pendulum, {"theta": [0.5, 2]}, times=[1, 2.5, 3], show=["theta"])
+    assert [row["theta"] for row in rows] == list(found["theta"])
+    alone = lagcli.simulate(pendulum, 2.5, samples=2, show=["theta"], at={"theta": 2})
+    assert rows[4]["theta"] == pytest.approx(alone["theta"][-1], rel=1e-12)
+
+
 def test_along_gives_every_row(capsysbinary):
     _, rows = table(
         "plane-pendulum", "--vary", "theta=1,2", "--until", "1", "--samples", "5", "--along",
@@ -141,6 +171,9 @@ MISTAKES = [
     (["--vary", "theta=1:2:3", "--random", "4"], "draws between two ends"),
     (["--vary", "theta=1:2:10000", "--vary", "l=1:2:10000"], "too many"),
     ([], "what varies?"),
+    (["--vary", "theta=1", "--times", "2,1"], "times increase"),
+    (["--vary", "theta=1", "--times", "0:2:3"], "after 0"),
+    (["--vary", "theta=1", "--times", "1:2"], "FIRST:LAST:COUNT"),
 ]
 
 

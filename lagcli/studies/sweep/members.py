@@ -71,13 +71,14 @@ def _of_one_system(
         except (Refusal, ProblemError, ArithmeticError):
             yield _row(member, [None] * len(asked.columns), reached=0.0, until=0.0, error=None)
             continue
-        yield from _rows(member, found, along=along)
+        yield from _rows(member, found, along=along, given=bool(asked.times))
 
 
-def _rows(member: Member, found: Result, *, along: bool) -> Iterator[Row]:
+def _rows(member: Member, found: Result, *, along: bool, given: bool) -> Iterator[Row]:
     held = found.certificate
-    error = max(held.global_error.values(), default=0.0)
-    rows = found.rows if along else found.rows[-1:]
+    late = [event.error / held.scales[0] for event in found.events if event.what == "stopped"]
+    error = max([*held.global_error.values(), *late], default=0.0)
+    rows = found.rows[given:] if along else found.rows[-1:]  # times that are given follow 0
     for row in rows or [(None,) * len(found.columns)]:
         yield _row(member, row, float(held.reached), held.holds_until, error)
 

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from itertools import product
+from itertools import pairwise, product
 from random import Random
+from typing import TYPE_CHECKING
 
 from lagcli.decimals import value_of
 from lagcli.diagnostics import ProblemError
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import read_number
 from lagcli.reader.suggest import did_you_mean
-from lagcli.record import record
+from lagcli.record import record, replace
+
+if TYPE_CHECKING:
+    from lagcli.numerics.hybrid.request import Asked
 
 #: More members are a mistake rather than a wish: a row takes 100 bytes at least.
 MOST = 10_000_000
@@ -135,6 +139,32 @@ def plan_of(problem: Problem, vary: Sequence[str], random: int | None, seed: int
     if wrong:
         raise WrongPlan(wrong)
     return plan
+
+
+def times_of(text: str) -> tuple[float, ...]:
+    """The times of rows, as `first:last:count` or `a,b,c`.
+
+    Raises
+    ------
+    WrongPlan
+        When they do not increase, or one is not after 0.
+    """
+    try:
+        parts = [part.strip() for part in text.split(":")]
+        times = _spaced(parts) if len(parts) > 1 else tuple(map(_number, text.split(",")))
+    except ValueError as error:
+        raise WrongPlan([f"--times {text}: {error}"]) from None
+    if any(a >= b for a, b in pairwise((0.0, *times))):
+        raise WrongPlan([f"--times {text}: times increase, and all are after 0"])
+    return times
+
+
+def at_times(asked: Asked, times: Sequence[float]) -> Asked:
+    """The same run with rows at these times, the last of which is its end."""
+    if not times:
+        return asked
+    given = (0.0, *times)
+    return replace(asked, times=given, until=given[-1], samples=len(given))
 
 
 def _range(text: str, names: Sequence[str], *, random: bool) -> SweptRange:
