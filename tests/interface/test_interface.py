@@ -198,7 +198,7 @@ def test_the_cell_magic_answers_and_keeps_the_problem(capsys):
     assert shell.names["p"].title == "Pendulum"
     assert magic("simulate theta", PENDULUM).columns == ("t", "theta")
     assert magic("explain", PENDULUM).complete
-    assert magic("", "T: x'") is None
+    assert magic("", "coordinates: [y]\nT: x'") is None
     assert "error: unknown name" in capsys.readouterr().out
 
 
