@@ -74,8 +74,9 @@ def sweep(
 
     Each row has the values that were varied, the columns at the end of its motion (with
     --along at every sample, with --times at these), and its certificate: `reached` (1 or
-    0), `holds_until` and `error`, the bound on the global error.  The rows are in the order of the ranges, the
-    last parameter or state varying fastest; `theta(0)` is an initial value.
+    0), `holds_until` and `error`, the bound on the global error.  The rows are in the order
+    of the ranges, the last parameter or state varying fastest; `theta(0)` is an initial
+    value.
 
     With -o, finished parts are kept next to the output: a sweep that was killed goes on
     where it ended when the same command is given again.
