@@ -1,6 +1,12 @@
 """No test fails because the machine is busy."""
 
+import signal
+
 from hypothesis import HealthCheck, settings
+
+# a run in the background ignores Ctrl-C, and so would the commands that it starts
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 settings.register_profile("busy", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("busy")

@@ -15,20 +15,12 @@ Hairer, Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., sections 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 from functools import cache
-from itertools import pairwise
 from math import comb
 from typing import Any
 
-from lagcli.numerics.integrators.linear import Factors
-
-Polynomial = list[Fraction]
-
-#: Nodes are found so exactly that the coefficients are right to the last bit.
-_BITS = 120
-_GRID = 512
-_SWEEPS = 200
+#: Everything is worked out so exactly that the coefficients are right to the last bit.
+_BITS = 200
 
 
 class Collocation:
@@ -36,8 +28,8 @@ class Collocation:
 
     Parameters
     ----------
-    polynomial
-        Whose roots in (0, 1] are the nodes; its coefficients from the constant on.
+    polynomial : flint.fmpz_poly
+        Whose roots in (0, 1] are the nodes.
 
     Attributes
     ----------
@@ -48,50 +40,35 @@ class Collocation:
         b and b A, for v and q at the end of the step.
     eigenvalues : list of complex
         mu of A; of each pair of conjugates the first only.
+    to_modes, from_modes : list of list of complex
+        Rows of T^-1 and columns of T, twice the column of a pair: its half is the real part.
     """
 
-    def __init__(self, polynomial: Polynomial) -> None:
-        nodes = _roots(polynomial)
-        self.size = s = len(nodes)
-        basis = [_lagrange(nodes, j) for j in range(s)]
-        a = [[_integral(basis[j], nodes[i]) for j in range(s)] for i in range(s)]
-        b = [_integral(basis[j], Fraction(1)) for j in range(s)]
-        squared = [[sum(a[i][k] * a[k][j] for k in range(s)) for j in range(s)] for i in range(s)]
-        self.nodes = [float(c) for c in nodes]
-        self.a = [[float(x) for x in row] for row in a]
-        self.a_squared = [[float(x) for x in row] for row in squared]
-        self.weights = [float(x) for x in b]
-        self.weights_a = [float(sum(b[k] * a[k][j] for k in range(s))) for j in range(s)]
-        self._basis = [[float(x) for x in each] for each in basis]
-        self._diagonalize(a)
+    def __init__(self, polynomial: Any) -> None:
+        from flint import acb_mat, arb_mat, ctx, fmpq
 
-    def _diagonalize(self, a: list[list[Fraction]]) -> None:
-        every = sorted(_eigenvalues(a), key=lambda mu: (abs(mu.imag) > 1e-12, mu.real, -mu.imag))
-        self.eigenvalues = [
-            complex(mu.real, 0.0) if abs(mu.imag) <= 1e-12 else mu
-            for mu in every
-            if mu.imag > -1e-12
-        ]
-        columns = [_eigenvector(self.a, mu) for mu in self.eigenvalues]
-        #: a pair's second column is the conjugate of its first
-        pairs = [mu.imag > 0 for mu in self.eigenvalues]
-        whole = [
-            column
-            for vector, pair in zip(columns, pairs, strict=True)
-            for column in ([vector, [x.conjugate() for x in vector]] if pair else [vector])
-        ]
-        matrix = [[column[i] for column in whole] for i in range(self.size)]
-        factors = Factors(matrix)
-        units = [[float(i == j) for i in range(self.size)] for j in range(self.size)]
-        inverse = [factors.solve(unit) for unit in units]  # its columns
-        place = 0
-        #: rows of T^-1 and columns of T, twice the column of a pair: its half is the real part
-        self.to_modes: list[list[complex]] = []
-        self.from_modes: list[list[complex]] = []
-        for vector, pair in zip(columns, pairs, strict=True):
-            self.to_modes.append([column[place] for column in inverse])
-            self.from_modes.append([2 * x for x in vector] if pair else vector)
-            place += 1 + pair
+        with ctx.workprec(_BITS):
+            nodes = sorted((root.real for root, _ in polynomial.complex_roots()), key=float)
+            self.size = s = len(nodes)
+            # the coefficients of the Lagrange polynomials of the nodes are its columns
+            basis = arb_mat([[c**k for k in range(s)] for c in nodes]).inv()
+            a = arb_mat([[c ** (k + 1) / (k + 1) for k in range(s)] for c in nodes]) * basis
+            weights = arb_mat([[fmpq(1, k + 1) for k in range(s)]]) * basis
+            self.nodes = [float(c) for c in nodes]
+            self.a, self.a_squared = _floats(a), _floats(a * a)
+            self.weights, self.weights_a = _floats(weights)[0], _floats(weights * a)[0]
+            self._basis = _floats(basis.transpose())
+            every, vectors = acb_mat(a).eig(right=True)
+            inverse = vectors.inv()
+            order = sorted(range(s), key=lambda k: (not _is_real(every[k]), float(every[k].real)))
+            kept = [k for k in order if _is_real(every[k]) or float(every[k].imag) > 0]
+            self.eigenvalues = [_complex(every[k]) for k in kept]
+            self.to_modes, self.from_modes = [], []
+            for k in kept:
+                scale = vectors[s - 1, k]
+                twice = 1 if _is_real(every[k]) else 2
+                self.to_modes.append([_complex(inverse[k, j] * scale) for j in range(s)])
+                self.from_modes.append([_complex(twice * vectors[i, k] / scale) for i in range(s)])
 
     def interpolated(self, x: float, values: Sequence[Sequence[float]]) -> list[float]:
         """The polynomial through values at the nodes, at x."""
@@ -106,8 +83,7 @@ class Collocation:
 @cache
 def radau(size: int) -> Collocation:
     """Radau IIA of order 2 s - 1: the last node is the end; L-stable."""
-    one, other = _legendre(size), _legendre(size - 1)
-    return Collocation([a - b for a, b in zip(one, [*other, Fraction(0)], strict=True)])
+    return Collocation(_legendre(size) - _legendre(size - 1))
 
 
 @cache
@@ -116,101 +92,21 @@ def gauss(size: int) -> Collocation:
     return Collocation(_legendre(size))
 
 
-def _legendre(degree: int) -> Polynomial:
+def _legendre(degree: int) -> Any:
     """P(2 x - 1)."""
-    sign = (-1) ** degree
-    return [
-        Fraction(sign * (-1) ** k * comb(degree, k) * comb(degree + k, k))
-        for k in range(degree + 1)
-    ]
+    from flint import fmpz_poly
+
+    places = range(degree + 1)
+    return fmpz_poly([(-1) ** (degree + k) * comb(degree, k) * comb(degree + k, k) for k in places])
 
 
-def _roots(polynomial: Polynomial) -> list[Fraction]:
-    """The roots in (0, 1], in order."""
-    places = [Fraction(k, _GRID) for k in range(_GRID + 1)]
-    found: list[Fraction] = []
-    for low, high in pairwise(places):
-        at_low, at_high = _value(polynomial, low), _value(polynomial, high)
-        if at_high == 0:
-            found.append(high)
-        elif at_low * at_high < 0:
-            for _ in range(_BITS):
-                middle = (low + high) / 2
-                at_middle = _value(polynomial, middle)
-                low, high = (middle, high) if at_low * at_middle > 0 else (low, middle)
-            found.append(low)
-    return found
+def _floats(matrix: Any) -> list[list[float]]:
+    return [[float(x) for x in row] for row in matrix.tolist()]
 
 
-def _value(polynomial: Polynomial, x: Fraction) -> Fraction:
-    value = Fraction(0)
-    for coefficient in reversed(polynomial):
-        value = value * x + coefficient
-    return value
+def _is_real(x: Any) -> bool:
+    return bool(x.imag.contains(0))
 
 
-def _lagrange(nodes: Sequence[Fraction], which: int) -> Polynomial:
-    """1 at one node, 0 at the others."""
-    product = [Fraction(1)]
-    for k, node in enumerate(nodes):
-        if k != which:
-            scale = 1 / (nodes[which] - node)
-            shifted = [Fraction(0), *product]
-            product = [
-                (a - node * b) * scale
-                for a, b in zip(shifted, [*product, Fraction(0)], strict=True)
-            ]
-    return [_rounded(x) for x in product]
-
-
-def _integral(polynomial: Polynomial, end: Fraction) -> Fraction:
-    """From 0 to the end."""
-    return _rounded(
-        sum((c * end ** (k + 1) / (k + 1) for k, c in enumerate(polynomial)), Fraction(0))
-    )
-
-
-def _rounded(x: Fraction) -> Fraction:
-    return Fraction(round(x * 2**_BITS), 2**_BITS)
-
-
-def _eigenvalues(matrix: list[list[Fraction]]) -> list[complex]:
-    """The roots of the characteristic polynomial (Faddeev-LeVerrier, then Durand-Kerner)."""
-    s = len(matrix)
-    coefficients = [Fraction(1)]
-    power = [[Fraction(0)] * s for _ in range(s)]
-    for k in range(1, s + 1):
-        for i in range(s):
-            power[i][i] += coefficients[-1]
-        power = [
-            [sum((matrix[i][m] * power[m][j] for m in range(s)), Fraction(0)) for j in range(s)]
-            for i in range(s)
-        ]
-        coefficients.append(-sum((power[i][i] for i in range(s)), Fraction(0)) / k)
-    leading = [float(c) for c in coefficients]
-    roots = [0.3 * (0.4 + 0.9j) ** k for k in range(s)]
-    for _ in range(_SWEEPS):
-        for i, x in enumerate(roots):
-            value: complex = 0
-            for c in leading:
-                value = value * x + c
-            for j, other in enumerate(roots):
-                if j != i:
-                    value /= x - other
-            roots[i] = x - value
-    return roots
-
-
-def _eigenvector(matrix: list[list[float]], eigenvalue: complex) -> list[complex]:
-    """By inverse iteration, of length about 1."""
-    s = len(matrix)
-    shift = eigenvalue * (1 + 1e-10)
-    factors = Factors(
-        [[matrix[i][j] - (shift if i == j else 0) for j in range(s)] for i in range(s)]
-    )
-    vector: list[Any] = [1.0] * s
-    for _ in range(4):
-        vector = factors.solve(vector)
-        size = max(map(abs, vector))
-        vector = [x / size for x in vector]
-    return [x.real + 0j if not eigenvalue.imag else complex(x) for x in map(complex, vector)]
+def _complex(x: Any) -> complex:
+    return complex(float(x.real), 0.0 if _is_real(x) else float(x.imag))
