@@ -22,8 +22,9 @@ $(READY): pyproject.toml
 	@test -n "$(PYTHON)" || { echo "lagcli needs Python >= 3.11: make setup PYTHON=/path/to/python3" >&2; exit 1; }
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV) || { \
 		rm -rf $(VENV); echo "no venv: on Debian, apt-get install python3-venv" >&2; exit 1; }
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev,fast]'
-	@$(BIN)/python -m compileall -q lagcli # Python may not be allowed to keep bytecode (PYTHONDONTWRITEBYTECODE)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --editable '.[dev,fast]'
+	@# on all cores, without the packages' own tests; Python itself may not be allowed to keep bytecode
+	@$(BIN)/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib lagcli || true
 	@touch $@
 
 .PHONY: solve
@@ -31,10 +32,11 @@ solve: $(READY) ## the main job: make solve FILE=problems/hoop.yaml
 	@$(BIN)/lagcli solve $(FILE)
 
 .PHONY: check
-check: lint types layers test library ## what one runs before a commit; a few minutes
+check: $(READY) ## what one runs before a commit; a few minutes
+	@$(MAKE) --no-print-directory -j 2 --output-sync=line test lint types layers
 
 .PHONY: check-all
-check-all: long certificate ## all the rest: long runs, the whole library, mutants, certificates
+check-all: long certificate ## all the rest: long runs, every problem of the library, mutants, certificates
 
 .PHONY: lint
 lint: $(READY) ## format and style (ruff)
