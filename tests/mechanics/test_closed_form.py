@@ -163,6 +163,7 @@ def test_linkages_have_their_accelerations_and_multipliers(text):
     assert all(m.value is not None for m in found.sections["multipliers"].multipliers.values())
 
 
+@pytest.mark.long
 def test_a_letter_of_the_file_is_not_taken():
     """A length u1, an angle y and a mass a2 keep their names."""
     text = chain(4).replace("l1", "u1").replace("m2", "a2").replace("m4", "k1")

@@ -42,6 +42,7 @@ def test_kepler_keeps_its_runge_lenz_vector(name):
 
 
 @pytest.mark.parametrize("name", ["parabolic", "logarithmic"])
+@pytest.mark.long
 def test_its_charges_stay_on_an_independent_motion(name):
     coordinates, rates, inverse = PLANES[name]
     digits = kept(problem(f"m*({rates})/2 + k*{inverse}", coordinates, "m a k"), name)
@@ -81,6 +82,7 @@ SPHERE = {
 
 
 @pytest.mark.parametrize("name", ["sl(2,R) + R", "so(3) + R"])
+@pytest.mark.long
 def test_surfaces_of_constant_curvature_have_three_isometries(name):
     for L, coordinates in (HYPERBOLIC if "sl" in name else SPHERE).items():
         found = summary(derive(problem(L, coordinates, "m R a")).discovery)
@@ -95,6 +97,7 @@ def test_surfaces_of_constant_curvature_have_three_isometries(name):
         ("m*(x'^2 + cosh(x)^2*(y'^2 + cosh(y)^2*z'^2))/2", "so(3,1) + R"),
     ],
 )
+@pytest.mark.long
 def test_spaces_of_constant_curvature_have_six(L, name):
     coordinates = [q for q in "theta phi psi r x y z".split() if f"{q}'" in L]
     found = summary(derive(problem(L, f"[{', '.join(coordinates)}]", "m A")).discovery)

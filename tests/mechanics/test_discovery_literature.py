@@ -52,6 +52,7 @@ PARABOLIC = (
 
 
 @pytest.mark.parametrize("L", PARABOLIC)
+@pytest.mark.long
 def test_a_root_of_r_and_x_leaves_two_integrals_of_second_degree(L):
     text = problem(L, parameters="m k b c")
     found = summary(derive(text).discovery)
@@ -81,6 +82,7 @@ def test_a_cone_over_the_plane_is_a_direct_sum():
 
 
 @pytest.mark.parametrize("V", ["k/sqrt((x1-x2)^2 + (y1-y2)^2)", "k*((x1-x2)^2 + (y1-y2)^2)/2"])
+@pytest.mark.long
 def test_two_like_charges_in_a_magnetic_field_are_integrable(V):
     free = "m*(x1'^2 + y1'^2 + x2'^2 + y2'^2)/2 + B*(x1*y1' - y1*x1' + x2*y2' - y2*x2')/2"
     found = summary(derive(problem(f"{free} - {V}", "[x1, y1, x2, y2]", "m k B")).discovery)
@@ -99,6 +101,7 @@ SPACE = "sqrt(x^2 + y^2 + z^2)"
 MONOPOLE = f"m*(x'^2 + y'^2 + z'^2)/2 + g*z*(x*y' - y*x')/({SPACE}*(x^2 + y^2))"
 
 
+@pytest.mark.long
 def test_keplers_problem_of_a_monopole_has_its_runge_lenz_vector():
     """McIntosh, Cisneros, J. Math. Phys. 11 (1970) 896; Zwanziger, Phys. Rev. 176 (1968) 1480."""
     V = f"g^2/(2*m*{SPACE}^2) - k/{SPACE}"
