@@ -226,12 +226,12 @@ class Graph:
         if number == 0:
             return self.zero
         nested = [
-            (base, int(exponent))
+            base
             for base, exponent in exponents.items()
             if isinstance(base, Product) and exponent.denominator == 1
         ]
-        for base, exponent in nested:
-            assert isinstance(base, Product)
+        for base in nested:
+            exponent = exponents[base]  # another product may have brought more of it
             if exponent != 1 or any(inner in exponents for inner, _ in base.factors):
                 del exponents[base]
                 for inside, power in base.factors:

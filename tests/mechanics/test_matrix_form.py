@@ -9,6 +9,7 @@ import math
 import random
 import subprocess
 import sys
+from fractions import Fraction
 
 import pytest
 import sympy
@@ -23,6 +24,8 @@ from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.extent import large_form
 from lagcli.mechanics.large_statements import LargeStatements
 from lagcli.mechanics.matrix_form import MatrixForm
+from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.pipeline import Request, derive, state
 from lagcli.reader import parse_text, read_problem
 
@@ -279,3 +282,25 @@ def test_a_sign_moves_out_of_a_difference_within_a_difference():
     turned = graph.scaled(graph.difference(b, a), -1)
     assert graph.call("sin", (turned,)) is graph.call("sin", (graph.difference(a, b),))
     assert graph.call("cos", (turned,)) is graph.call("cos", (graph.difference(b, a),))
+
+
+def test_products_of_products_keep_every_factor():
+    """Random products, one in another: their value is the product of the values.
+
+    A product that is taken apart may bring more of another one that stands beside it.
+    """
+    choose = random.Random(16)
+    for _ in range(60):
+        graph = Graph()
+        symbols = [graph.symbol(name) for name in "abc"]
+        values = {node: 1.0 + choose.random() for node in symbols}
+        for _ in range(8):
+            pairs = [
+                (choose.choice(list(values)), Fraction(choose.choice([-2, -1, 1, 2])))
+                for _ in range(choose.randint(1, 4))
+            ]
+            node = graph.monomial(pairs)
+            expected = math.prod(values[base] ** float(power) for base, power in pairs)
+            found = straight_line(symbols, [node], {}, Doubles())(*(values[s] for s in symbols))
+            assert found[0] == pytest.approx(expected, rel=1e-9)
+            values[node] = expected

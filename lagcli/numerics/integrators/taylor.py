@@ -148,7 +148,7 @@ class Taylor:
         for j, c in enumerate(series):
             place, rate = (allowed + math.log2(tolerance.scales[k]) for k in (j, n + j))
             for k in range(len(c) - _LOOKED_AT, len(c)):
-                size = _log2(c[k])
+                size = log2_size(c[k])
                 exponent = min(exponent, (place - size) / k, (rate - size - math.log2(k)) / (k - 1))
         return _SAFETY * math.exp2(min(exponent, _LONGEST))
 
@@ -180,7 +180,7 @@ class Taylor:
         return q, v, a
 
 
-def _log2(x: Any) -> float:
+def log2_size(x: Any) -> float:
     """The logarithm of the size, which may be no double; -inf for 0."""
     mantissa, exponent = x.mid().man_exp()
     return math.log2(abs(int(mantissa))) + int(exponent) if mantissa else -math.inf

@@ -36,6 +36,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from lagcli.numerics.integrators.taylor import log2_size
 from lagcli.numerics.rigorous.field import Field, convolved
 from lagcli.numerics.rigorous.sets import LohnerSet
 from lagcli.record import record
@@ -50,10 +51,12 @@ _FLOW_ORDER = 8
 _ROOM, _LEAST_ROOM = 1e3, 1e-12
 _TUBES = 4
 _LEAST_SCALE = 1e-6
-_SHORTER, _LONGER, _LEAST_PART, _HALVINGS = 0.85, 1.02, 0.3, 80
+_SHORTER, _LONGER, _LEAST_PART, _HALVINGS = 0.85, 1.02, 0.05, 80
 #: A step that is a smaller part of the span comes to a singularity, or to a set grown too wide.
 _SHORTEST = 1e-7
-_LARGEST = 1e30
+_LARGEST = 1e15
+#: As an exponent of 2.
+_LONGEST = 50.0
 
 
 class NotEnclosed(Exception):
@@ -188,10 +191,9 @@ class Enclosures:
         exponent = math.inf
         for each, scale in zip(centre, self.scales, strict=True):
             for k in (self.order, self.order - 1):
-                last = abs(float(each[k]))
-                if last > 0.0:
-                    exponent = min(exponent, math.log(self.target * scale / last) / k)
-        return math.exp(min(exponent, 50.0))
+                allowed = math.log2(self.target) + math.log2(scale)
+                exponent = min(exponent, (allowed - log2_size(each[k])) / k)
+        return math.exp2(min(exponent, _LONGEST))
 
     def _wide(
         self, t: Any, end: Any, centre: Sequence[Sequence[Any]], start: LohnerSet
@@ -234,7 +236,7 @@ class Enclosures:
             if matrices is None:
                 return None
             bound = _sum_of_sizes(matrices, h)
-            if not all(x < 12 for x in (bound * h).entries()):
+            if not all(x < _LARGEST for x in (bound * h).entries()):
                 return None
             grown = (bound * h).exp()
             errors = (grown * column).entries()

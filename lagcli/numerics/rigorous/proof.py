@@ -300,6 +300,9 @@ class Attempt:
             self.events.append(ProvedEvent(tau, watched.name, what))
         self._rows_within(after, tau, state, restart.state(tau, state))
         leaves = {each: order for each in after.watched if (order := _order(each, watched))}
+        for each in after.watched:
+            if each not in leaves and not each.at(t, start.box) > 0:
+                raise NotEnclosed(f"what {each.name} does at t = {float(t):.6g} is not decided")
         return t, start, after, leaves
 
     def _rows_within(
