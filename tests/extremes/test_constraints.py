@@ -2,6 +2,7 @@
 
 import json
 import math
+from random import Random
 
 import mpmath
 import pytest
@@ -99,6 +100,53 @@ def test_a_slider_crank_with_equal_arms_stays_on_its_branch(simulate, rate, opti
     for row in rows:
         assert row["b"] == pytest.approx(row["a"], abs=1e-8)
         assert row["x"] == pytest.approx(2 * math.cos(row["a"]), abs=1e-8)
+
+
+CRANK = """
+coordinates: [a, b, x]
+T: {J}*a'^2/2 + {K}*b'^2/2 + {m}*x'^2/2
+V: {g}*(sin(a) + sin(b)/2)
+constraints: {{c1: x = {r}*cos(a) + {r}*cos(b), c2: "{r}*sin(a) = {r}*sin(b)"}}
+initial: {{a: {a}, b: {a}, x: 2*{r}*cos({a}), a': {w}, b': {w}, x': -2*{r}*sin({a})*{w}}}
+"""
+RHOMBUS = """
+coordinates: [a, b]
+T: {J}*a'^2/2 + {K}*b'^2/2
+V: {g}*sin(a)
+constraints: {{bar: "(1 + cos(b) - cos(a))^2 + (sin(b) - sin(a))^2 = 1"}}
+initial: {{a: {a}, b: {a}, a': {w}, b': {w}}}
+"""
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("text", [CRANK, RHOMBUS])
+def test_rows_are_on_the_branch_along_which_the_velocity_is_continuous(simulate, text, seed):
+    """Equal angles stay equal through every flat position, however few rows are asked for."""
+    random = Random(seed)
+    given = {name: round(random.uniform(0.3, 2), 3) for name in "JKmgrw"}
+    given |= {"a": round(random.uniform(-1.4, 1.4), 3), "g": round(random.uniform(0, 0.3), 3)}
+    accuracy, until = random.choice((1e-3, 1e-6, 1e-9)), 8 / given["w"]
+    run = simulate(text.format(**given), until, accuracy=accuracy, samples=random.choice((2, 5)))
+    for row in run.rows:
+        assert row["a"] == pytest.approx(row["b"], abs=10 * accuracy)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(3))
+def test_where_branches_touch_the_rows_end(simulate, seed):
+    """Of two parabolas through 0 with one tangent neither is distinguished there."""
+    k = round(Random(seed).uniform(0.5, 2), 3)
+    text = f"""
+coordinates: [x, y]
+T: x'^2/2 + y'^2/2
+constraints: {{c: "(y - {k}*x^2)*(y + x^2) = 0"}}
+initial: {{x: -1, y: {k}, x': 1, y': {-2 * k}}}
+"""
+    run = simulate(text, 6, accuracy=1e-6, samples=61)
+    assert run.status == 1
+    assert run.held["holds_until"] < 1
+    assert run.last["x"] < 1e-6
 
 
 @pytest.mark.long

@@ -33,9 +33,10 @@ from typing import Any
 
 from lagcli.numerics.certified.drift import changes
 from lagcli.numerics.certified.partners import Partners
+from lagcli.numerics.certified.rank import Place, places
 from lagcli.numerics.certified.scales import Scales, relative
 from lagcli.numerics.hybrid.run import Run
-from lagcli.numerics.integrators.steps import SINGULAR_MASS, component_scales
+from lagcli.numerics.integrators.steps import DEPENDENT, SINGULAR_MASS, CannotGoOn, component_scales
 from lagcli.record import record, replace
 
 #: The runs' tolerances lie this far apart.
@@ -59,6 +60,8 @@ _NEXT = 10.0
 #: Runs at rounding that differ by more than this part of what those before them differed by, whose
 #: tolerances were a hundred times coarser, gain nothing more; so far above A it is out of reach.
 _NO_GAIN, _FAR = 0.5, 5.0
+#: Runs that begin at less have all digits that help where constraints become dependent.
+_SHARP = 1e-16
 #: Where the longest step binds both runs their steps must still differ, or so would nothing.
 _FINER_STEPS = 1.37
 
@@ -147,6 +150,8 @@ class Controller:
                 missed = self._missed(fine, fine_rows)
                 if not missed:
                     return found
+                if met := places(fine, fine.marks):
+                    return ended(found, met[0])
                 if level + 1 < len(self._longest):  # something narrow: look again with short steps
                     level += 1
                     self._finer, self._level, apart = 0, level, math.inf
@@ -160,6 +165,8 @@ class Controller:
             before, apart = apart, bound / self.factor(finer, fine)
             gains = finer > self.rounded or apart <= _NO_GAIN * before
             if not gains and _FAR * self.accuracy < bound <= SATURATED:
+                return found
+            if self.first < _SHARP and places(fine, fine.marks):  # two branches, by chance
                 return found
             tolerance = self._tightened(tolerance, finer, bound)
             if tolerance == finer:
@@ -308,8 +315,8 @@ class Controller:
         for j in range(self.charges):
             column = len(rows[0]) - self.charges + j
             values = [row[column] for row in rows]
-            for places, found, scale in changes(fine, j, values):
-                drift, worst = max((abs(x), place) for place, x in zip(places, found, strict=True))
+            for where, found, scale in changes(fine, j, values):
+                drift, worst = max((abs(x), place) for place, x in zip(where, found, strict=True))
                 bound = _CHARGES * self.accuracy * scale
                 if drift > bound:
                     felt = self._felt(fine, worst, column, float(values[worst]))
@@ -335,6 +342,17 @@ class Controller:
         return total
 
 
+def ended(outcome: Outcome, place: Place) -> Outcome:
+    """What is left before a place at which constraints become dependent."""
+    run, good = outcome.run, outcome.good_rows
+    good = max(1, sum(mark.t <= place.begin for mark in run.marks[:good]))
+    if good == outcome.good_rows:
+        return outcome
+    at, last = (place.begin + place.end) / 2, run.marks[good - 1]
+    run.stop = CannotGoOn(at, last.q, last.v, DEPENDENT)
+    return replace(outcome, reached=False, good_rows=good, reason=DEPENDENT)
+
+
 def _both_stop(coarse: Run, fine: Run, good: int, accuracy: float) -> bool:
     """Whether the motion itself ends, at a time that both runs know."""
     if fine.steps >= fine.step_limit:
@@ -342,7 +360,7 @@ def _both_stop(coarse: Run, fine: Run, good: int, accuracy: float) -> bool:
     if coarse.stop is None or fine.stop is None:
         return False
     together = abs(coarse.stop.t - fine.stop.t) <= accuracy * fine.stop.t
-    together = together or coarse.stop.reason == fine.stop.reason == SINGULAR_MASS
+    together = together or coarse.stop.reason == fine.stop.reason in (DEPENDENT, SINGULAR_MASS)
     return together and good >= min(len(coarse.marks), len(fine.marks))
 
 

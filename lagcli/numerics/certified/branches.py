@@ -1,40 +1,45 @@
 """Where constraints become dependent on the way, two branches of the motion may meet.
 
-A linkage that is flat can go on in two ways.  The equations know which one only beyond the
-place: next to it, rounding may turn the velocity from one branch to the other, and two runs
-in the same numbers turn alike.  A length that differs by 1e-15 turns it, too, in a bend so sharp
-that steps of a usual tolerance pass over it.  So a run that has passed such a place must agree
-with one of more digits and finer steps; where it does not, that one is taken, and without one
-the rows end before it.
+A linkage that is flat can go on in two ways.  Of these the motion takes the one along which its
+velocity is continuous: a force that is finite changes no velocity at once.  Rounding may turn it
+to the other one all the same, in all runs alike.  So a run that has passed such a place is made
+again with many rows about it.  Where the velocity jumps between two of them the run has left its
+branch; where branches touch, or the motion rests, none is distinguished.  Then more digits are
+taken, and where these do not help the rows end before the place.
 
-The pivots of A M^-1 A^T vanish there as the square of the distance: between two rows where
-their root, drawn on as a straight line, meets 0.
-
-References
-----------
-Golub, Van Loan, *Matrix Computations*, 4th ed., section 4.2 (pivots of L D L^T).
+A linkage that is nearly flat turns in a sharp bend: rows that are closer and closer show it, as
+long as the roots of the pivots are more than rounding makes of 0.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from contextlib import suppress
+from itertools import pairwise
 
-from lagcli.numerics.certified.accuracy import Outcome
+from lagcli.numerics.certified.accuracy import Outcome, ended
 from lagcli.numerics.certified.attempts import attempt
-from lagcli.numerics.certified.methods import METHODS, MORE_DIGITS, SHARP, SHARPER
-from lagcli.numerics.certified.prepared import Precision, one_run
-from lagcli.numerics.equations.straight_line import PIVOT_TOLERANCE
+from lagcli.numerics.certified.escalation import BITS, TIMES
+from lagcli.numerics.certified.methods import SHARP, SHARPER
+from lagcli.numerics.certified.prepared import Precision
+from lagcli.numerics.certified.rank import Place, places, varies
 from lagcli.numerics.hybrid.mark import Mark
-from lagcli.numerics.hybrid.modes import Mode, Modes
+from lagcli.numerics.hybrid.modes import Modes
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.hybrid.setup import Setup
-from lagcli.numerics.integrators.steps import NotPossible, component_scales
-from lagcli.record import replace
+from lagcli.numerics.integrators.steps import component_scales
 
 #: Rows after those that are good which are looked at: there the accuracy may have been lost.
 _BEYOND = 2
+#: Rows about a place; in a step at least, and of one run at most.
+_ROWS, _IN_STEP, _MOST = 64, 2, 20_000
+#: A change of the velocity that is so many times those on both sides of it is a jump, unless it
+#: is as small as this.
+_JUMP, _SMALL = 4.0, 1e-6
+#: Roots at 16 and at 4 rows from the place: 4 where branches cross, 16 where they touch.
+_STRAIGHT = 8.0
+#: Roots larger than so many times what rounding makes of 0 are known.
+_KNOWN, _CLOSER = 1e3, 10
 
 
 def on_one_branch(
@@ -49,105 +54,119 @@ def on_one_branch(
     outcome, digits
         What a method gave, and its precision.
     """
-    if _is_sharp(outcome):
-        return outcome, digits
-    with digits():
-        place = meeting(outcome)
-    if place is None:
-        return outcome, digits
-    if _is_confirmed(simulation, modes, outcome):
-        return outcome, digits
-    found, with_digits = attempt(simulation, SHARPER, modes, SHARP)
-    if found is not None and found.good_rows > min(place + 1, outcome.good_rows):
-        return found, with_digits
-    if place + 1 >= outcome.good_rows:
-        return outcome, digits
-    reason = (
-        f"the constraints become dependent after t = {outcome.run.marks[place].t:.6g}, and on "
-        "which branch it goes on is within rounding"
-    )
-    return replace(outcome, reached=False, good_rows=place + 1, reason=reason), digits
-
-
-def through_meeting(
-    simulation: Setup, modes: Modes, outcome: Outcome, digits: Precision
-) -> tuple[Outcome, Precision]:
-    """More digits where what is lost is lost at such a place, if they hold for longer.
-
-    Parameters
-    ----------
-    simulation, modes, outcome, digits
-        As for `on_one_branch`.
-    """
-    if _is_sharp(outcome, (MORE_DIGITS,)) or simulation.asked.method != "auto":
-        return outcome, digits
-    with digits():
-        place = meeting(outcome)
-    if place is not None:
+    met, left = _left_at(simulation, outcome, digits)
+    if met and simulation.asked.method == "auto" and not is_sharp(outcome):
+        simulation.most_steps = TIMES * outcome.run.steps
         found, with_digits = attempt(simulation, SHARPER, modes, SHARP)
-        if found is not None and found.good_rows > outcome.good_rows:
-            return found, with_digits
-    return outcome, digits
+        if found is not None:  # steps of a usual tolerance pass over a bend
+            outcome, digits = found, with_digits
+            met, left = _left_at(simulation, found, with_digits)
+    return (outcome if left is None else ended(outcome, left)), digits
 
 
-def _is_sharp(outcome: Outcome, names: Sequence[str] = SHARPER) -> bool:
-    return outcome.run.method_name in names and outcome.tolerances[0] <= SHARP
+def is_sharp(outcome: Outcome) -> bool:
+    """Whether it has more digits than are needed at such a place."""
+    return outcome.run.method_name in SHARPER and outcome.tolerances[0] <= SHARP
 
 
-def meeting(outcome: Outcome) -> int | None:
-    """The row before the first place at which the constraints become dependent."""
-    run = outcome.run
-    marks = run.marks[: outcome.good_rows + _BEYOND]
-    for number, phase in enumerate(run.phases):
-        places = [k for k, mark in enumerate(marks) if mark.phase == number]
-        if phase.surface is None or len(places) < 3:
-            continue
-        roots = _roots(phase.mode, [marks[k] for k in places])
-        for j in range(1, len(roots) - 1):
-            before, here, after = roots[j - 1 : j + 2]
-            if here <= before and here <= after and here <= max(before - here, after - here):
-                return places[j - 1]
-    return None
+def is_met(outcome: Outcome) -> bool:
+    """Whether the constraints become dependent before the motion is lost."""
+    met = places(outcome.run, outcome.run.marks)
+    return bool(met) and met[0].begin <= outcome.lost_at
 
 
-def _roots(mode: Mode, marks: Sequence[Mark]) -> list[float]:
-    """The root of the smallest pivot at each row, beside the largest that it is."""
-    eliminated = mode.equations.eliminated
-    if eliminated is None:
-        return []
-    pivots = eliminated.schur.pivots
-    at = mode.motion.function([node for pair in pivots for node in pair])
+def _left_at(simulation: Setup, outcome: Outcome, digits: Precision) -> tuple[bool, Place | None]:
+    """Whether there are such places, and the first at which the run may have left its branch."""
+    with digits():
+        run, marks = outcome.run, outcome.run.marks[: outcome.good_rows + _BEYOND]
+        few = not is_sharp(outcome) and len(run.marks) < _IN_STEP * run.steps
+        if few and varies(run, marks):
+            count, until = min(_IN_STEP * run.steps, _MOST), marks[-1].t
+            run = _again(simulation, outcome, [until * k / count for k in range(1, count + 1)])
+            marks = run.marks
+        met = places(run, marks)
+        if not met:
+            return False, None
+        times = [_about(place.begin, place.end) for place in met]
+        run = _again(simulation, outcome, [t for each in times for t in each])
+        left = (
+            place
+            for place, each in zip(met, times, strict=True)
+            if not _is_passed(simulation, outcome, place, run, each)
+        )
+        return True, next(left, None)
+
+
+def _about(begin: float, end: float) -> list[float]:
+    return [begin + (end - begin) * k / _ROWS for k in range(_ROWS + 1)]
+
+
+def _again(simulation: Setup, outcome: Outcome, times: Sequence[float]) -> Run:
+    """The same run with more rows, up to the last of these."""
+    usual, end = simulation.times, max(times)
+    simulation.times = sorted({*(t for t in usual if t < end), *times})
     try:
-        values = [[abs(float(x)) for x in at(mark.t, *mark.q, *mark.v)] for mark in marks]
-    except (ArithmeticError, ValueError):
-        return []
-    whole = [max(column) for column in zip(*values, strict=True)]
-    # a constraint that follows from others all the way has no branches
-    kept = [k for k in range(0, len(whole), 2) if whole[k] > PIVOT_TOLERANCE * whole[k + 1]]
-    if not kept:
-        return []
-    return [math.sqrt(min(row[k] / whole[k] for k in kept)) for row in values]
+        return outcome.run.again()
+    finally:
+        simulation.times = usual
 
 
-def _is_confirmed(simulation: Setup, modes: Modes, outcome: Outcome) -> bool:
-    """Whether a run of more digits and finer steps agrees: the first that is possible tells."""
-    for name in SHARPER:
-        made = METHODS[name].prepare(simulation, modes)
-        if not isinstance(made, str):
-            with suppress(NotPossible):
-                return _agree(outcome, one_run(simulation, made, SHARP))
+def _is_passed(
+    simulation: Setup, outcome: Outcome, place: Place, run: Run, times: Sequence[float]
+) -> bool:
+    """Whether a run passes a place on its branch."""
+    least = _KNOWN * math.sqrt(2.0 ** -BITS.get(run.method_name, 53))
+    for _ in range(_CLOSER):
+        marks = _between(run, place.phase, times[0], times[-1])
+        roots = place.roots(marks)
+        if len(roots) < 3:
+            return False
+        k = roots.index(min(roots))
+        smooth = _is_smooth(outcome, marks)
+        if smooth and _is_straight(roots, k):
+            return True
+        if roots[k] <= least:
+            return False
+        if smooth and max(roots[max(0, k - 4) : k + 5]) <= 2 * roots[k]:
+            return True
+        times = _about(marks[max(0, k - 2)].t, marks[min(len(marks) - 1, k + 2)].t)
+        run = _again(simulation, outcome, times)
     return False
 
 
-def _agree(outcome: Outcome, run: Run) -> bool:
-    """Whether two runs have the same states, as far as they are claimed."""
-    if len(run.marks) < outcome.good_rows:
-        return False
-    pairs = list(zip(outcome.run.marks, run.marks, strict=False))[: outcome.good_rows]
-    accuracy = outcome.controller.accuracy
-    scales = component_scales(outcome.run.peaks, outcome.controller.span)
+def _between(run: Run, phase: int, begin: float, end: float) -> list[Mark]:
+    """The rows of a phase from one time to another, evenly spread."""
+    least = 0.5 * (end - begin) / _ROWS
+    found: list[Mark] = []
+    for mark in run.marks:
+        apart = mark.t - found[-1].t if found else least
+        if mark.phase == phase and begin <= mark.t <= end and apart >= least:
+            found.append(mark)
+    return found
+
+
+def _is_smooth(outcome: Outcome, marks: Sequence[Mark]) -> bool:
+    """Whether the velocity does not jump between two of the rows."""
+    n = len(marks[0].v)
+    scales = component_scales(outcome.run.peaks, outcome.controller.span)[n:]
+    rates = []
+    for a, b in pairwise(marks):
+        changes = zip(a.v, b.v, scales, strict=True)
+        rates.append(max(abs(float(y - x)) / s for x, y, s in changes) / (b.t - a.t))
+    spacing = (marks[-1].t - marks[0].t) / len(rates)
+    small = max(_SMALL, 0.1 * outcome.controller.accuracy) / spacing
     return all(
-        abs(float(x) - float(y)) <= accuracy * scale
-        for one, other in pairs
-        for x, y, scale in zip((*one.q, *one.v), (*other.q, *other.v), scales, strict=True)
+        rate
+        <= _JUMP * max(*rates[max(0, k - 3) : max(0, k - 1)], *rates[k + 2 : k + 4], 0.0, 0.0)
+        + small
+        for k, rate in enumerate(rates)
+    )
+
+
+def _is_straight(roots: Sequence[float], k: int) -> bool:
+    """Whether branches cross at a place, and do not touch."""
+    return all(
+        roots[k + 16 * side] <= _STRAIGHT * roots[k + 4 * side]
+        for side in (-1, 1)
+        if 0 <= k + 16 * side < len(roots)
     )

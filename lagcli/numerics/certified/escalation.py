@@ -15,7 +15,7 @@ from lagcli.numerics.certified.accuracy import SATURATED, USUAL, Outcome
 
 _DOUBLES = 53
 #: The bits that a method carries when nobody asks for more.
-_BITS = {"taylor80": 64, "taylor128": 113, "taylor": 133}
+BITS = {"taylor80": 64, "taylor128": 113, "taylor": 133}
 #: In machine code: a growth that is extrapolated is not known better, and a run is short.
 _LARGEST, _AT_ONCE = "taylor128", 1000
 _SLACK = 1.3
@@ -55,7 +55,7 @@ def within_reach(outcome: Outcome, group: Sequence[str]) -> list[str]:
     for name in group:
         if name != "taylor80" and steps > _MOST:  # it would not come to the end
             continue
-        bits = _BITS[name] + (0.0 if is_guessed else _UNSURE)
+        bits = BITS[name] + (0.0 if is_guessed else _UNSURE)
         if name == _LARGEST and is_guessed:
             bits = math.inf if steps <= _AT_ONCE else _SLACK * bits
         if needed <= bits and not (name == "taylor" and is_guessed and steps > _IN_PYTHON):
@@ -71,7 +71,7 @@ def horizon_of(outcome: Outcome) -> float:
     span, stop = outcome.controller.span, outcome.run.stop
     if stop is not None:
         return float(stop.t) or span
-    left = max(_BITS[_LARGEST] + math.log2(outcome.controller.accuracy), 1.0)
+    left = max(BITS[_LARGEST] + math.log2(outcome.controller.accuracy), 1.0)
     return min(span, span * left / lost_bits(outcome)) or span
 
 

@@ -127,16 +127,20 @@ def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1
 
     def runner(tolerance: float, longest: float, peaks: Sequence[float] | None, every: int) -> Run:
         n = len(simulation.equations.q)
-        bound = Tolerance(tolerance, n, asked.until, longest, peaks, made.floor)
         nonlocal count
-        bound.moved = count % 2 == 0
-        done = simulation.finished
+        moved, done = count % 2 == 0, simulation.finished
 
         def told(part: float) -> None:
             if simulation.progress is not None:
                 simulation.progress((done + part) / max(total, done + 1))
 
-        run = made.run(bound, every, told, moved=bound.moved)
+        def again() -> Run:
+            bound = Tolerance(tolerance, n, asked.until, longest, peaks, made.floor)
+            bound.moved = moved
+            return made.run(bound, every, told, moved=moved)
+
+        run = again()
+        run.again = again
         count += 1
         simulation.finished += 1
         return run
@@ -164,11 +168,3 @@ def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1
             count = 0
             return found()
     return outcome
-
-
-def one_run(simulation: Setup, made: Prepared, tolerance: float) -> Run:
-    """One run of a method, compared with nothing."""
-    n, until = len(simulation.equations.q), simulation.asked.until
-    bound = Tolerance(tolerance, n, until, until / made.longest[0], None, made.floor)
-    with made.precision():
-        return made.run(bound, 0, None, moved=False)

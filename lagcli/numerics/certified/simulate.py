@@ -8,10 +8,10 @@ from contextlib import nullcontext, suppress
 
 from lagcli.numerics.certified.accuracy import Outcome
 from lagcli.numerics.certified.attempts import attempt, groups
-from lagcli.numerics.certified.branches import on_one_branch, through_meeting
+from lagcli.numerics.certified.branches import is_met, is_sharp, on_one_branch
 from lagcli.numerics.certified.certificate import result_of, rows_asked_for
 from lagcli.numerics.certified.escalation import TIMES, first_tolerance, is_better, within_reach
-from lagcli.numerics.certified.methods import STIFF
+from lagcli.numerics.certified.methods import SHARP, SHARPER, STIFF
 from lagcli.numerics.certified.prepared import Precision
 from lagcli.numerics.certified.reduced_run import cut_simulation
 from lagcli.numerics.certified.stiffness import STIFF as STIFFNESS
@@ -125,8 +125,6 @@ class Simulation(Setup):
             raise Refusal(f"no method for this problem{self.remark}", mistake=False)
         self.whole_span = rows_asked_for(self, outcome)
         if not outcome.reached:
-            outcome, digits = through_meeting(self, modes, outcome, digits)
-        if not outcome.reached:
             with digits(), suppress(NotPossible):
                 outcome = outcome.controller.refined(outcome, self.look_between)
         return on_one_branch(self, modes, outcome, digits)[0]
@@ -152,6 +150,10 @@ class Simulation(Setup):
         if self.asked.digits is not None:
             return group, 1.0
         self.most_steps = TIMES * outcome.run.steps
+        if is_sharp(outcome):
+            return (), 1.0
+        if is_met(outcome):
+            return SHARPER, SHARP
         return within_reach(outcome, group), first_tolerance(outcome)
 
     def _keep_conserved(self, modes: Modes) -> None:

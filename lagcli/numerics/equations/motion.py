@@ -179,18 +179,12 @@ class Motion:
         )
 
     @cached_property
-    def least_pivot(self) -> Callable[..., float]:
-        """The smallest pivot of the mass matrix beside its entry; 1 where nothing is eliminated."""
-        factored = self.equations.factored
-        pairs = [] if factored is None else [p for p in factored.pivots if p[0] is not p[1]]
-        at = self.function([node for pair in pairs for node in pair])
-
-        def least(*state: float) -> float:
-            values = at(*state)
-            ratios = zip(values[::2], values[1::2], strict=True)
-            return min((abs(pivot / entry) if entry else 0.0 for pivot, entry in ratios), default=1)
-
-        return least
+    def pivots(self) -> tuple[Function, Function]:
+        """Each pivot of M and what it is left of; each of A M^-1 A^T and what it is left of."""
+        parts = (self.equations.factored, getattr(self.equations.eliminated, "schur", None))
+        pairs = [[*part.pivots] if part is not None else [] for part in parts]
+        mass, held = (self.function([node for pair in each for node in pair]) for each in pairs)
+        return mass, held
 
     @cached_property
     def kink_arguments(self) -> Function:

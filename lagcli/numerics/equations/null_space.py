@@ -57,8 +57,7 @@ def held_motion(mass: Matrix, forcing: Vector, rows: Matrix, bias: Vector) -> He
         When the accelerations are not determined.
     """
     n = len(forcing)
-    scales = [1 / math.sqrt(abs(mass[j][j])) if mass[j][j] else 1.0 for j in range(n)]
-    lengths = [math.hypot(*(x * s for x, s in zip(row, scales, strict=True))) for row in rows]
+    scales, lengths = _scaled([mass[j][j] for j in range(n)], rows)
     work = [
         [*(x * s / (length or 1.0) for x, s in zip(row, scales, strict=True)), -c / (length or 1.0)]
         for row, length, c in zip(rows, lengths, bias, strict=True)
@@ -102,6 +101,34 @@ def held_motion(mass: Matrix, forcing: Vector, rows: Matrix, bias: Vector) -> He
         tuple(sorted(used)),
         _determined(unit, block, used, columns),
     )
+
+
+def _scaled(masses: Sequence[float], rows: Matrix) -> tuple[Vector, Vector]:
+    """What makes the columns of A alike in the metric of M, and the lengths of its rows then."""
+    scales = [1 / math.sqrt(abs(mass)) if mass else 1.0 for mass in masses]
+    return scales, [math.hypot(*map(mul, row, scales)) for row in rows]
+
+
+def pivots_of(masses: Sequence[float], rows: Matrix) -> Vector:
+    """The distance of each row of A from those before it, the farthest first; 1 of the first."""
+    scales, lengths = _scaled(masses, rows)
+    left = [
+        [x * s / (length or 1.0) for x, s in zip(row, scales, strict=True)]
+        for row, length in zip(rows, lengths, strict=True)
+    ]
+    found: Vector = []
+    while left:
+        squares = [_dot(row, row) for row in left]
+        square = max(squares)
+        found.append(math.sqrt(square))
+        top = left.pop(squares.index(square))
+        if square:
+            parts = [_dot(row, top) / square for row in left]
+            left = [
+                [x - part * y for x, y in zip(row, top, strict=True)]
+                for row, part in zip(left, parts, strict=True)
+            ]
+    return found
 
 
 def _reduced(work: list[Vector], n: int) -> list[tuple[int, int]]:

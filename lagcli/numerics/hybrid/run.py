@@ -82,6 +82,8 @@ class Run:
         self.events: list[tuple[int, Event]] = []
         self.event: Event | None = None
         self.stop: CannotGoOn | None = None
+        #: makes the same run once more
+        self.again: Callable[[], Run] = lambda: self
         self.steps = 0
         self.defect = 0.0
         #: steps that would have passed over something narrow

@@ -24,6 +24,7 @@ from lagcli.numerics.equations.refusal import told
 from lagcli.numerics.equations.straight_line import run_generated
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.steps import (
+    DEPENDENT,
     SINGULAR_MASS,
     CannotGoOn,
     Method,
@@ -35,6 +36,7 @@ from lagcli.numerics.integrators.switching import Kinks
 from lagcli.numerics.integrators.tableau_853 import DENSE, ERROR_3, ERROR_5, NODES, STAGES, Row
 
 ORDER = 8
+State = tuple[float, list[float], list[float]]
 _END = 13  # the stage at the end of the step
 _LAST = 16
 _SAFETY, _SHRINK, _GROW = 0.9, 0.2, 6.0
@@ -96,12 +98,12 @@ class Dop853:
         h = tolerance.first_step(q, v, rate, _FIRST, until - begin)
         lost = [0.0] * (2 * n)  # what rounding takes from the sums (Kahan)
         grow = _GROW
-        attempts, since = 0, t
+        attempts, since, start_of_all = 0, t, (t, q, v)
         while t < until:
             attempts += 1
             if attempts % _CRAWLS == 0:
-                if t - since < _NOWHERE * until and motion.least_pivot(t, *q, *v) < _SINGULAR:
-                    raise CannotGoOn(t, q, v, SINGULAR_MASS)
+                if t - since < _NOWHERE * until:
+                    self._look_at_pivots(start_of_all, (t, q, v))
                 since = t
             last = t + 1.01 * h >= until
             h = until - t if last else h
@@ -155,6 +157,16 @@ class Dop853:
             factor = _SAFETY * error ** (-1 / ORDER) if error else _GROW
             h = min(h * min(grow, max(_SHRINK, factor)), tolerance.longest)
             grow = _GROW
+
+    def _look_at_pivots(self, first: State, here: State) -> None:
+        """End where a pivot has vanished, beside which steps are those of rounding."""
+        (mass, held), (t, q, v), (t_0, q_0, v_0) = self.motion.pivots, here, first
+        whole = mass(t, *q, *v)
+        if any(abs(x) < _SINGULAR * abs(y) for x, y in zip(whole[::2], whole[1::2], strict=True)):
+            raise CannotGoOn(*here, SINGULAR_MASS)
+        both = zip(held(t, *q, *v)[::2], held(t_0, *q_0, *v_0)[::2], strict=True)
+        if any(abs(x) < _SINGULAR * abs(y) for x, y in both):
+            raise CannotGoOn(*here, DEPENDENT)
 
     def _rate(self, t: float, q: Sequence[float], v: Sequence[float]) -> tuple[float, ...]:
         self.evaluations += 1

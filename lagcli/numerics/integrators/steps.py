@@ -23,6 +23,8 @@ SINGULAR_MASS = (
     "it comes to where the mass matrix is singular, as with Euler angles upright: "
     "take other coordinates there"
 )
+#: Why they do where a linkage is flat.
+DEPENDENT = "it comes to where the constraints become dependent and branches of the motion may meet"
 
 
 class Step(NamedTuple):
