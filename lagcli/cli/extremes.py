@@ -47,7 +47,7 @@ def extremes(
 
     The cases follow from the problem: ratios of its parameters, angles near 0, pi/2 and pi,
     zeros of the mass matrix, the energy of an unstable equilibrium, the speed of light, zero
-    masses and forces, a long span.  Each is told with the digits that the printed formulas
+    masses and forces, a long span.  Each is reported with the digits that the printed formulas
     lose in doubles, before and after they are rewritten, the condition of the mass matrix, and
     the outcome of a certified run, confirmed with more digits.
 

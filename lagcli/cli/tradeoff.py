@@ -45,7 +45,7 @@ CostOption = Annotated[
 ]
 Repeat = Annotated[
     int,
-    typer.Option("--repeat", metavar="N", min=1, help="Make each run so often; the best counts."),
+    typer.Option("--repeat", metavar="N", min=1, help="Make each run N times; the best counts."),
 ]
 Limit = Annotated[
     float,
