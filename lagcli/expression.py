@@ -65,6 +65,17 @@ class Negative(Expression):
 
 
 @record
+class PlusMinus(Expression):
+    """`±operand`: two formulas in one, the upper sign with the upper one of every other.
+
+    Only pages have it; `minus_above` says that it is ∓.
+    """
+
+    operand: Expression
+    minus_above: bool = False
+
+
+@record
 class Sum(Expression):
     """Two or more terms; a subtracted term is a `Negative`."""
 
@@ -143,7 +154,7 @@ ONE = Number(Fraction(1))
 def children(node: Expression) -> tuple[Expression, ...]:
     """The direct parts of a node."""
     match node:
-        case Negative(operand=operand) | Rate(operand=operand):
+        case Negative(operand=operand) | PlusMinus(operand=operand) | Rate(operand=operand):
             return (operand,)
         case Sum(terms=parts) | Product(factors=parts):
             return parts

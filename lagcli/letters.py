@@ -23,7 +23,6 @@ _OWN = "&"
 _INDEX = "sys"
 #: What a sentence says where a letter is the file's; the first that fits counts.
 _WORDS = (
-    ("dQ/dt = 0 on the motion", "Q", "its rate is 0 on the motion"),
     ("T + V", "TV", "the sum of the kinetic and the potential energy"),
     (r"\bL\b", "L", "the Lagrangian"),
     (r"\bH\b", "H", "the Hamiltonian"),

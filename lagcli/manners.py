@@ -10,9 +10,8 @@ minus goes and whether a number comes first does not change a value, and follows
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
-from typing import TypeAlias
 
 from lagcli.expression import (
     ONE,
@@ -28,55 +27,15 @@ from lagcli.expression import (
     Sum,
     walk,
 )
+from lagcli.given_formulas import expressions, given, order_of_names
+from lagcli.given_sums import GivenSums, arranged
+from lagcli.likeness import EVEN, ODD, Key, parity, signed_key
+from lagcli.ordering import Ordering
 from lagcli.problem_data import Problem
 from lagcli.rewriting import rebuilt
 from lagcli.signs_of_sums import sign_at_random
 
-Key: TypeAlias = tuple[object, ...]
-
-_ODD = frozenset(("sin", "tan", "sinh", "tanh", "asin", "atan", "asinh", "atanh", "sign"))
-_EVEN = frozenset(("cos", "cosh", "abs", "sec"))
 _INVERSE = {"tan": "cot", "cot": "tan"}
-_PARTS = (
-    "definitions", "points", "kinetic", "potential", "lagrangian", "hamiltonian", "forces",
-    "dissipation", "symmetries", "observables", "initial", "find",
-)  # fmt: skip
-
-
-def signed_key(node: Expression) -> tuple[int, Key]:
-    """(sign, key): equal keys for what is equal up to its sign and the order of terms and factors.
-
-    The sign says which of the two it is, so that a − b and b − a have one key and two signs.
-    """
-    match node:
-        case Negative(operand=operand):
-            sign, key = signed_key(operand)
-            return -sign, key
-        case Sum(terms=terms):
-            pairs = sorted(((k, s) for s, k in map(signed_key, terms)), key=repr)
-            lead = pairs[0][1]
-            return lead, ("+", *((s * lead, k) for k, s in pairs))
-        case Product(factors=factors):
-            signed = [signed_key(each) for each in factors]
-            minus = sum(s < 0 for s, _ in signed) % 2
-            return -1 if minus else 1, ("*", *sorted((k for _, k in signed), key=repr))
-        case Quotient(numerator=above, denominator=below):
-            (a, one), (b, other) = signed_key(above), signed_key(below)
-            return a * b, ("/", one, other)
-        case Power(base=base, exponent=exponent):
-            sign, key = signed_key(base)
-            return (1 if _parity(exponent) == 0 else sign), ("^", key, signed_key(exponent))
-        case Call(function=function, arguments=arguments, primes=primes):
-            inner = [signed_key(each) for each in arguments]
-            if function in _EVEN:
-                return 1, (function, inner[0][1])
-            if function in _ODD:
-                return inner[0][0], (function, inner[0][1])
-            return 1, (function, primes, *inner)
-        case PartialCall(function=function, indices=indices, arguments=arguments):
-            return 1, (function, indices, *map(signed_key, arguments))
-        case _:
-            return 1, (str(node),)
 
 
 class Manner:
@@ -92,6 +51,7 @@ class Manner:
         self._signs: dict[Key, int] = {}  # of a sum: that of the file, 0 where it has both
         self._known: dict[tuple[Expression, bool], Expression] = {}
         self._below: dict[Key, int] = {}  # of a denominator: its sign when it was first written
+        self._within: dict[Key, int] = {}  # of a bracket in a denominator: the same
         quantities = (*problem.parameters, *problem.coordinates)
         self._positive = frozenset(q.name for q in quantities if q.assume == "positive")
         for node in given(problem):
@@ -99,6 +59,8 @@ class Manner:
                 if isinstance(part, Sum):
                     sign, key = signed_key(part)
                     self._signs[key] = sign if self._signs.get(key, sign) == sign else 0
+        self._ordering = Ordering(order_of_names(problem))
+        self._sums = GivenSums(given(problem), _energies(problem), self._ordering)
 
     def __call__(self, node: Expression) -> Expression:
         """The formula as the file would write it; its value stays."""
@@ -125,7 +87,7 @@ class Manner:
                 return self._signed(_with_whole_powers(node), inside=inside)
             case Power():
                 return self._power(node)
-            case Call(function=function, arguments=(Sum() as inner,)) if function in _ODD | _EVEN:
+            case Call(function=function, arguments=(Sum() as inner,)) if function in ODD | EVEN:
                 return self._function(node, inner)
             case Negative(operand=Negative(operand=inner)):
                 return inner
@@ -136,12 +98,31 @@ class Manner:
             case Sum(terms=(one, other)) if angle := _difference_of_angles(one, other):
                 return angle
             case Sum():
-                return _ordered(node)
+                like = self._sums.like(node)
+                return self._sum(node) if like is None or like[0] != 1 else like[1]
             case Call(function="sqrt", arguments=(Quotient(numerator=above) as inner,)):
                 # sqrt(1/x) = 1/sqrt(x)
                 return node if above != ONE else Quotient(ONE, Call("sqrt", (inner.denominator,)))
             case _:
                 return node
+
+    def _sum(self, node: Sum) -> Expression:
+        """The sum, its brackets as in the denominator above: a - b (u - v), not a + b (v - u)."""
+        first, *rest = _with_versines(_ordered(node).terms)
+        return Sum((first, *map(self._as_within, rest))) if rest else first
+
+    def _as_within(self, term: Expression) -> Expression:
+        minus, above, below = _parts(term)
+        for place, factor in enumerate(above):
+            base, odd = _odd_base(factor)
+            if base is None or not odd or self._wrong(base) is not None:
+                continue
+            sign, key = signed_key(base)
+            if self._within.get(key, sign) != sign:
+                above[place] = _with_base(factor, negative_of(base))
+                minus = not minus
+        whole = _quotient(above, below)
+        return Negative(whole) if minus else whole
 
     def _wrong(self, node: Sum, *, below: bool = False) -> bool | None:
         """Whether the other sign is the better one; None where neither is.
@@ -164,11 +145,14 @@ class Manner:
         if not self._wrong(inner) or _constant(inner):
             return node
         turned = Call(node.function, (negative_of(inner),), node.primes)
-        return turned if node.function in _EVEN else Negative(turned)
+        return turned if node.function in EVEN else Negative(turned)
 
     def _power(self, node: Power) -> Expression:
         base = node.base
-        if isinstance(base, Sum) and _parity(node.exponent) == 0:
+        if isinstance(base, Sum) and parity(node.exponent) == 0:
+            like = self._sums.like(base)
+            if like is not None and abs(like[0]) == 1:
+                return Power(like[1], node.exponent)
             wrong = self._wrong(base)
             if wrong or (wrong is None and _begins_better(base)):
                 return Power(negative_of(base), node.exponent)
@@ -176,7 +160,7 @@ class Manner:
 
     def _signed(self, node: Expression, *, inside: bool) -> Expression:
         """A product or quotient with every sum in its right sign, the sign of all before it."""
-        minus, above, below = _parts(node)
+        minus, above, below = self._with_given_sums(*_parts(node))
         free: list[tuple[list[Expression], int]] = []  # sums that may stand either way
         for factors in (above, below):
             for place, factor in enumerate(factors):
@@ -185,7 +169,8 @@ class Manner:
                     continue
                 wrong = self._wrong(base, below=factors is below and not inside)
                 if wrong:
-                    factors[place] = _with_base(factor, negative_of(base))
+                    turned = self._in_manner(negative_of(base), inside=inside)
+                    factors[place] = _with_base(factor, turned)
                     minus = not minus
                 elif wrong is None:
                     free.append((factors, place))
@@ -201,17 +186,47 @@ class Manner:
             if base is not None:
                 sign, key = signed_key(base)
                 self._below.setdefault(key, sign)
+                self._within.update(
+                    {k: s for s, k in map(signed_key, _brackets(base)) if k not in self._within}
+                )
+        if any(_odd_base(factor)[0] is not None for factor in above):
+            above = [*arranged(above, self._ordering)]
         whole = _quotient(above, below)
         return Negative(whole) if minus else whole
 
+    def _with_given_sums(
+        self, minus: bool, above: list[Expression], below: list[Expression]
+    ) -> tuple[bool, list[Expression], list[Expression]]:
+        """The sign and the factors, with the sums of the file for their multiples."""
+        number = Fraction(1)
+        for factors, sign in (above, 1), (below, -1):
+            for place, factor in enumerate(factors):
+                base, exponent = _whole_power(factor)
+                like = self._sums.like(base) if isinstance(base, Sum) else None
+                if like is not None and like[0] != 1:
+                    number *= like[0] ** (sign * exponent)
+                    factors[place] = _with_base(factor, like[1])
+        if number == 1:
+            return minus, above, below
+        for factors, sign in (above, 1), (below, -1):
+            numbers = [f for f in factors if isinstance(f, Number)]
+            factors[:] = [f for f in factors if not isinstance(f, Number)]
+            for each in numbers:
+                number *= each.value**sign
+        if number.denominator != 1:
+            below.insert(0, Number(Fraction(number.denominator)))
+        if abs(number.numerator) != 1 or not above:
+            above.insert(0, Number(Fraction(abs(number.numerator))))
+        return minus ^ (number < 0), above, below
 
-def given(problem: Problem) -> Iterator[Expression]:
-    """The formulas of the file that say what the system is."""
-    for name in _PARTS:
-        yield from _expressions(getattr(problem, name))
-    for constraint in problem.constraints:
-        left, right = constraint.equation.left, constraint.equation.right
-        yield from (left, right)
+
+def _energies(problem: Problem) -> Iterator[Sum]:
+    """T - V and T + V, as sums of the terms of the file."""
+    if problem.kinetic is None or problem.potential is None:
+        return
+    T, V = (e.terms if isinstance(e, Sum) else (e,) for e in (problem.kinetic, problem.potential))
+    yield Sum((*T, *V))
+    yield Sum((*T, *(t.operand if isinstance(t, Negative) else Negative(t) for t in V)))
 
 
 _DECIMAL = re.compile(r"(?<![\w.])(\d+\.\d*|\.\d+)(?![\w.])")
@@ -221,7 +236,7 @@ def decimals_of(problem: Problem, settings: Iterable[str] = ()) -> list[Fraction
     """The values that the formulas of the file, or settings, write with a decimal point."""
     lines = problem.source.text.splitlines()
     found = []
-    state = set(map(id, _expressions(problem.initial)))
+    state = set(map(id, expressions(problem.initial)))
     for node in given(problem):
         for part in walk(node):
             if id(node) in state:
@@ -235,20 +250,6 @@ def decimals_of(problem: Problem, settings: Iterable[str] = ()) -> list[Fraction
         value = setting.partition("=")[2]
         found += [Fraction(text) for text in _DECIMAL.findall(value)]
     return [value for value in found if value.denominator != 1]
-
-
-def _expressions(value: object) -> Iterator[Expression]:
-    if isinstance(value, Expression):
-        yield value
-    elif isinstance(value, Mapping):
-        for part in value.values():
-            yield from _expressions(part)
-    elif isinstance(value, tuple):
-        for part in value:
-            yield from _expressions(part)
-    elif hasattr(value, "__match_args__") or hasattr(type(value), "__dataclass_fields__"):
-        for name in getattr(type(value), "__dataclass_fields__", ()):
-            yield from _expressions(getattr(value, name))
 
 
 def negative_of(node: Sum) -> Sum:
@@ -271,6 +272,33 @@ def _ordered(node: Sum) -> Sum:
         place = next((k for k, t in enumerate(terms) if not isinstance(t, Negative)), 0)
         terms.insert(0, terms.pop(place))
     return node if tuple(terms) == node.terms else Sum(tuple(terms))
+
+
+def _brackets(node: Sum) -> Iterator[Sum]:
+    """The sums among the factors of the terms."""
+    for term in node.terms:
+        for factor in _parts(term)[1]:
+            base, _ = _odd_base(factor)
+            if base is not None:
+                yield base
+
+
+def _with_versines(terms: Sequence[Expression]) -> list[Expression]:
+    """a (1 - cos x) for a - a cos x among other terms."""
+    found = list(terms)
+    for term in terms:
+        minus, above, below = _parts(term)
+        cosines = [f for f in above if isinstance(f, Call) and f.function == "cos"]
+        if len(cosines) != 1 or len(above) == 1:
+            continue
+        rest = _quotient([f for f in above if f is not cosines[0]], below)
+        other = rest if minus else Negative(rest)
+        if other in found and len(found) > 2:
+            versine = Sum((ONE, Negative(cosines[0])))
+            joined = _quotient([*(f for f in above if f is not cosines[0]), versine], below)
+            found[found.index(other)] = joined if minus else Negative(joined)
+            found.remove(term)
+    return found
 
 
 def _difference_of_angles(one: Expression, other: Expression) -> Expression | None:
@@ -345,21 +373,21 @@ def _odd_base(node: Expression) -> tuple[Sum | None, bool]:
     if isinstance(node, Sum):
         return node, True
     if isinstance(node, Power) and isinstance(node.base, Sum):
-        return node.base, _parity(node.exponent) == 1
+        return node.base, parity(node.exponent) == 1
     return None, False
 
 
-def _with_base(node: Expression, base: Sum) -> Expression:
+def _whole_power(node: Expression) -> tuple[Expression, int]:
+    """Base and exponent, which is a whole number."""
+    if isinstance(node, Power) and parity(node.exponent) is not None:
+        exponent = node.exponent
+        assert isinstance(exponent, Number)
+        return node.base, int(exponent.value)
+    return node, 1
+
+
+def _with_base(node: Expression, base: Expression) -> Expression:
     return Power(base, node.exponent) if isinstance(node, Power) else base
-
-
-def _parity(exponent: Expression) -> int | None:
-    """0 or 1 of a whole number, None of anything else."""
-    match exponent:
-        case Number(value=value) | Negative(operand=Number(value=value)):
-            return value.numerator % 2 if value.denominator == 1 else None
-        case _:
-            return None
 
 
 def _sums(node: Expression) -> bool:

@@ -34,8 +34,8 @@ def manner():
     [
         # differences as the file has them, in products, squares, functions and sums
         ("g/(a - R)", "-g/(R - a)"),
-        ("(a - R)^2*m", "(R - a)^2*m"),
-        ("m*(a - R)*(r - m)", "m*(R - a)*(m - r)"),
+        ("(a - R)^2*m", "m*(R - a)^2"),
+        ("m*(a - R)*(r - m)", "m*(m - r)*(R - a)"),
         ("g + m*(a - R)", "g - m*(R - a)"),
         ("cos(phi - theta)", "cos(theta - phi)"),
         ("m*sin(phi - theta)", "-m*sin(theta - phi)"),

@@ -67,11 +67,15 @@ def terms(
     except ZeroDivisionError:
         return Translator(writer).tree(expression)
     split = _Splitter(field, Shaper(field, writer), leading).split(element)
-    if split is None:
+    if split is None and not as_given:
         return shape(expression, order)
-    if not as_given:
+    given = Translator(writer).tree(expression) if as_given else None
+    if split is None:
+        assert given is not None
+        result = shape(expression, order)
+        return given if operation_count(given) <= _GIVEN * operation_count(result) else result
+    if given is None:
         return writer.sum([*split.moving, *split.static])
-    given = Translator(writer).tree(expression)
     at_rest = _given_at_rest(expression, leading, writer)
     static = writer.sum(split.static)
     if at_rest is not None and operation_count(at_rest) <= _GIVEN * operation_count(static):
@@ -201,32 +205,57 @@ class _Splitter:
 
     def _without_leading(self, static: list[Term], whole: Element) -> list[Expression]:
         """The terms by their functions; those of the shortest sum where that is much shorter."""
-        apart = self._bracketed(self._by_function(static), whole)
-        if len(apart) > 1:
-            together = self._shape(static, whole)
-            count = sum(map(operation_count, apart)) + len(apart) - 1
-            if _has_one_minus(together) and operation_count(together) < count:
-                return [together]
-            if isinstance(together, Sum) and operation_count(together) <= _WORTH_A_BRACKET * count:
-                return list(together.terms)
-        return [part for each in apart for part in self._halved(each)]
+        apart = [self._shape(group, whole) for group in self._by_function(static)]
+        if len(apart) < 2:
+            return [part for each in apart for part in self._flat(each, nested=True)]
+        together = self._shape(static, whole)
+        count = _operations(apart)
+        if _has_one_minus(together) and operation_count(together) < count:
+            return [together]
+        flat = self._flat(together, nested=False)
+        if _operations(flat) < count:
+            return flat
+        return [part for each in apart for part in self._flat(each, nested=True)]
 
-    def _halved(self, node: Expression) -> list[Expression]:
-        """k (r - l)²/2 - m w² r²/2, not (k (r - l)² - m w² r²)/2: the terms of the file."""
+    def _flat(self, node: Expression, *, nested: bool) -> list[Expression]:
+        """The terms of the bracket in a product, m g l sin x - m a l cos x; or of nested ones only.
+
+        So k (r - l)²/2 - m w² r²/2, not (k (r - l)² - m w² r²)/2: the terms of the file.
+        """
+        writer, one = self.shaper.writer, Fraction(1)
         match node:
             case Negative(operand=inner):
-                return list(map(self.shaper.writer.negative, self._halved(inner)))
-            case Quotient(numerator=Sum(terms=parts), denominator=Number(value=value)) if any(
-                isinstance(each, Sum) for each in walk(Product(parts))
+                return list(map(writer.negative, self._flat(inner, nested=nested)))
+            case Quotient(numerator=above, denominator=below):
+                parts = self._flat(above, nested=nested)
+                if len(parts) < 2:
+                    return [node]
+                return [writer.product(one, [(part, one), (below, -one)]) for part in parts]
+            case Sum(terms=parts) if not nested or _brackets(parts):
+                return list(parts)
+            case Product(factors=factors) if len(sums := _sums(factors)) == 1 and (
+                not nested or _brackets(sums[0].terms)
             ):
-                product = self.shaper.writer.product
-                return [product(1 / value, [(part, Fraction(1))]) for part in parts]
+                rest = [(factor, one) for factor in factors if factor is not sums[0]]
+                return [writer.product(one, [*rest, (part, one)]) for part in sums[0].terms]
             case _:
                 return [node]
 
     def _shape(self, group: Iterable[Term], whole: Element) -> Expression:
         numerator = self.field.ring.build(group)
         return self.shaper.shape(self.field.element(numerator, whole.denominator))
+
+
+def _sums(nodes: Iterable[Expression]) -> list[Sum]:
+    return [node for node in nodes if isinstance(node, Sum)]
+
+
+def _brackets(nodes: Iterable[Expression]) -> bool:
+    return any(isinstance(part, Sum) for node in nodes for part in walk(node))
+
+
+def _operations(terms: Sequence[Expression]) -> int:
+    return sum(map(operation_count, terms)) + len(terms) - 1
 
 
 def _has_one_minus(node: Expression) -> bool:

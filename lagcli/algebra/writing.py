@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
-from lagcli.algebra.ordering import Ordering
 from lagcli.expression import (
     ONE,
     ZERO,
@@ -20,8 +19,7 @@ from lagcli.expression import (
     Sum,
     operation_count,
 )
-
-Factor = tuple[Expression, Fraction]  # base and exponent
+from lagcli.ordering import Factor, Ordering
 
 
 class Writer:
@@ -46,7 +44,7 @@ class Writer:
             return ZERO
         coefficient, pairs = _flattened(coefficient, factors)
         coefficient, pairs = _single_angles(coefficient, _merged(pairs))
-        pairs = self._joined_exponentials(_tangents(pairs))
+        pairs = self._joined_exponentials(self._into_exponentials(_tangents(pairs)))
         pairs = self._into_roots(_without_moduli(pairs))
         coefficient, pairs = self._joined_roots(coefficient, pairs)
         if coefficient < 0:
@@ -62,6 +60,20 @@ class Writer:
         if below:
             result = Quotient(result, _product(below))
         return Negative(result) if coefficient < 0 else result
+
+    def _into_exponentials(self, pairs: list[Factor]) -> list[Factor]:
+        """exp(-2 x) - exp(-x) for (1 - exp(x)) exp(-2 x)."""
+        outside = [pair for pair in pairs if _is_exponential(pair[0])]
+        for place, (base, exponent) in enumerate(pairs if outside else ()):
+            if exponent != 1 or not isinstance(base, Sum) or not any(map(_grows, base.terms)):
+                continue
+            inside = self.sum(
+                self.product(Fraction(1), [(term, Fraction(1)), *outside]) for term in base.terms
+            )
+            if operation_count(inside) <= operation_count(base) + 3:
+                rest = [p for p in (*pairs[:place], *pairs[place + 1 :]) if p not in outside]
+                return [*rest, (inside, Fraction(1))]
+        return pairs
 
     def _joined_exponentials(self, pairs: list[Factor]) -> list[Factor]:
         """exp(a)^k exp(b) = exp(k a + b), x^n x^k = x^(n + k)."""
@@ -90,8 +102,7 @@ class Writer:
 
     def _factors(self, pairs: list[Factor], sign: int) -> list[Expression]:
         chosen = [(base, exponent * sign) for base, exponent in pairs if exponent * sign > 0]
-        chosen.sort(key=lambda pair: self.ordering.rank(pair[0]))
-        return [self.power(base, exponent) for base, exponent in chosen]
+        return [self.power(base, exponent) for base, exponent in self.ordering.arranged(chosen)]
 
     def _into_roots(self, pairs: list[Factor]) -> list[Factor]:
         """sqrt(r² a + b) |r|/r² as sqrt(a + b/r²)."""
@@ -202,6 +213,21 @@ class Writer:
     def negative_sum(self, node: Sum) -> Expression:
         """The sum of the terms with their signs changed."""
         return self.sum([t.operand if isinstance(t, Negative) else Negative(t) for t in node.terms])
+
+
+def _is_exponential(node: Expression) -> bool:
+    return isinstance(node, Call) and node.function == "exp"
+
+
+def _grows(node: Expression) -> bool:
+    """Whether an exponential is among the factors of a term."""
+    match node:
+        case Negative(operand=inner) | Quotient(numerator=inner) | Power(base=inner):
+            return _grows(inner)
+        case Product(factors=factors):
+            return any(map(_grows, factors))
+        case _:
+            return _is_exponential(node)
 
 
 def _product(factors: list[Expression]) -> Expression:

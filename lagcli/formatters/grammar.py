@@ -13,6 +13,7 @@ from lagcli.expression import (
     Negative,
     Number,
     PartialCall,
+    PlusMinus,
     Power,
     Product,
     Quotient,
@@ -60,6 +61,7 @@ class GrammarPrinter(Printer[Layout]):
     """The notation of the problem format: `M*x'' - M*g*sin(alpha)`."""
 
     minus = "-"
+    either = ("+/-", "-/+")
 
     def spelled(self, name: str, primes: int) -> str:
         """Spell a name as it is written here."""
@@ -84,16 +86,17 @@ class GrammarPrinter(Printer[Layout]):
     def name(self, node: Name) -> Layout:
         return text(self.spelled(node.name, node.primes))
 
-    def negative(self, node: Negative) -> Layout:
-        return (TextPiece(self.minus, 1), *self.at(node.operand, Level.QUOTIENT))
+    def negative(self, node: Negative | PlusMinus) -> Layout:
+        return (*text(self.sign(node)), *self.at(node.operand, Level.QUOTIENT))
 
     def sum(self, node: Sum) -> Layout:
-        (minus, first), *others = self.terms(node)
-        pieces = [TextPiece(self.minus, 1), *first] if minus else [*first]
-        for minus, term in others:
-            sign = self.minus if minus else "+"
+        (sign, first), *others = self.terms(node)
+        pieces = [*text(sign), *first] if sign else [*first]
+        for sign, term in others:
+            width = len(sign) + 1
+            broken = f"{sign} "
             pieces += [
-                TextPiece(f" {sign} ", 3, rank=SUM, broken=f"{sign} ", broken_width=2),
+                TextPiece(f" {sign} ", width + 1, rank=SUM, broken=broken, broken_width=width),
                 *term,
             ]
         return tuple(pieces)

@@ -16,6 +16,7 @@ from lagcli.expression import (
     Negative,
     Number,
     PartialCall,
+    PlusMinus,
     Power,
     Product,
     Quotient,
@@ -132,17 +133,20 @@ class LatexPrinter(Printer[Box]):
         shown = self.names.name(node.name, node.primes)
         return Box((TextPiece(shown, self.names.width(node.name, node.primes)),))
 
-    def negative(self, node: Negative) -> Box:
+    minus = "-"
+    either = (r"\pm ", r"\mp ")
+
+    def negative(self, node: Negative | PlusMinus) -> Box:
         operand = self.at(node.operand, Level.QUOTIENT)
-        return Box((TextPiece("-", 8), *operand.pieces), Level.SUM, operand.height)
+        return Box((TextPiece(self.sign(node), 8), *operand.pieces), Level.SUM, operand.height)
 
     def sum(self, node: Sum) -> Box:
-        (minus, first), *others = self.terms(node)
-        pieces = [TextPiece("-", 8), *first.pieces] if minus else [*first.pieces]
+        (sign, first), *others = self.terms(node)
+        pieces = [TextPiece(sign, 8), *first.pieces] if sign else [*first.pieces]
         height = first.height
-        for minus, term in others:
-            sign = "-" if minus else "+"
-            pieces.append(_breakable(f" {sign} ", BINARY, SUM, f"{sign} ", BINARY))
+        for sign, term in others:
+            spaced = f"{sign.strip()} "
+            pieces.append(_breakable(f" {spaced}", BINARY, SUM, spaced, BINARY))
             pieces += term.pieces
             height = max(height, term.height)
         return Box(tuple(pieces), Level.SUM, height)

@@ -14,6 +14,7 @@ from lagcli.expression import (
     Negative,
     Number,
     PartialCall,
+    PlusMinus,
     Power,
     Product,
     Quotient,
@@ -88,19 +89,15 @@ class MathmlPrinter(Printer[str]):
     def name(self, node: Name) -> str:
         return mathml_name(node.name, node.primes)
 
-    def negative(self, node: Negative) -> str:
-        return f"<mrow><mo>−</mo>{self.at(node.operand, Level.QUOTIENT)}</mrow>"
+    def negative(self, node: Negative | PlusMinus) -> str:
+        return f"<mrow><mo>{self.sign(node)}</mo>{self.at(node.operand, Level.QUOTIENT)}</mrow>"
 
     def sum(self, node: Sum) -> str:
         return f"<mrow>{''.join(self.signed_terms(node))}</mrow>"
 
     def signed_terms(self, node: Sum) -> list[str]:
         """Show the terms, each with the sign before it."""
-        shown: list[str] = []
-        for minus, term in self.terms(node):
-            sign = "−" if minus else "+" if shown else ""
-            shown.append(f"<mo>{sign}</mo>{term}" if sign else term)
-        return shown
+        return [f"<mo>{sign}</mo>{term}" if sign else term for sign, term in self.terms(node)]
 
     def product(self, node: Product) -> str:
         first, *others = self.factors(node)

@@ -20,6 +20,7 @@ from lagcli.expression import (
     Negative,
     Number,
     PartialCall,
+    PlusMinus,
     Power,
     Product,
     Quotient,
@@ -50,6 +51,8 @@ class Printer(ABC, Generic[Shown]):
 
     #: What the first factor of a product needs: 1/2*x is (1/2)*x in the grammar.
     leading_factor = Level.QUOTIENT
+    minus = "−"
+    either = ("±", "∓")
 
     def __init__(self) -> None:
         self._ready: dict[int, Shown] = {}
@@ -76,7 +79,7 @@ class Printer(ABC, Generic[Shown]):
     def level(self, node: Expression) -> Level:
         """How tightly this node binds as it is shown."""
         match node:
-            case Sum() | Negative():
+            case Sum() | Negative() | PlusMinus():
                 return Level.SUM
             case Quotient():
                 return Level.QUOTIENT
@@ -89,14 +92,21 @@ class Printer(ABC, Generic[Shown]):
             case _:
                 return Level.ATOM
 
-    def terms(self, node: Sum) -> list[tuple[bool, Shown]]:
-        """Set the terms of a sum, each with whether it is subtracted."""
-        signed = []
-        for term in node.terms:
-            minus = isinstance(term, Negative)
-            size = term.operand if isinstance(term, Negative) else term
-            signed.append((minus, self.at(size, Level.QUOTIENT)))
+    def terms(self, node: Sum) -> list[tuple[str, Shown]]:
+        """Set the terms of a sum, each with its sign; none before a first that is added."""
+        signed: list[tuple[str, Shown]] = []
+        for place, term in enumerate(node.terms):
+            if isinstance(term, (Negative, PlusMinus)):
+                signed.append((self.sign(term), self.at(term.operand, Level.QUOTIENT)))
+            else:
+                signed.append(("+" if place else "", self.at(term, Level.QUOTIENT)))
         return signed
+
+    def sign(self, node: Negative | PlusMinus) -> str:
+        """Spell the sign in this notation."""
+        if isinstance(node, Negative):
+            return self.minus
+        return self.either[node.minus_above]
 
     def factors(self, node: Product) -> list[Shown]:
         """Set the factors of a product: a product that is itself a factor keeps its brackets."""
@@ -109,7 +119,7 @@ class Printer(ABC, Generic[Shown]):
                 return self.number(node)
             case Name():
                 return self.name(node)
-            case Negative():
+            case Negative() | PlusMinus():
                 return self.negative(node)
             case Sum():
                 return self.sum(node)
@@ -137,7 +147,7 @@ class Printer(ABC, Generic[Shown]):
     @abstractmethod
     def name(self, node: Name) -> Shown: ...
     @abstractmethod
-    def negative(self, node: Negative) -> Shown: ...
+    def negative(self, node: Negative | PlusMinus) -> Shown: ...
     @abstractmethod
     def sum(self, node: Sum) -> Shown: ...
     @abstractmethod

@@ -49,6 +49,7 @@ class UnicodePrinter(GrammarPrinter):
     """The notation for reading: factors side by side, dots for d/dt, Greek letters."""
 
     minus = "−"
+    either = ("±", "∓")
     leading_factor = Level.PRODUCT
 
     def spelled(self, name: str, primes: int) -> str:

@@ -30,6 +30,7 @@ from functools import cached_property
 from itertools import combinations_with_replacement
 
 from lagcli.expression import Expression
+from lagcli.given_formulas import order_of_parameters
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node, Symbol
 from lagcli.graph.sharing import operations
@@ -96,8 +97,8 @@ class ClosedForm:
         self._given_matrix, self._given_forcing = matrix, forcing
         self.graph = form.graph
         self.taken = frozenset(taken)
-        names = (*form.problem.parameters, *form.problem.coordinates)
-        self.order = tuple(quantity.name for quantity in names)
+        coordinates = (coordinate.name for coordinate in form.problem.coordinates)
+        self.order = (*order_of_parameters(form.problem), *coordinates)
         self._wide = len(form.q) + len(form.constraints) > 9
         self._labels: PartLabels | None = None
 

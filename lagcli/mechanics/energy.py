@@ -126,11 +126,19 @@ class EnergyFunction:
 
     @property
     def readable_function(self) -> Expr:
-        """h, as T + V where it is that."""
+        """h as T + V where it is that, and by the terms of L: (n - 1) times one of degree n."""
         system = self.dynamics.system
         if self.is_total_energy and system.T is not None and system.V is not None:
             return system.T + system.V
-        return self.function
+        return sympy.Add(*map(self._from_term, sympy.Add.make_args(system.L)))
+
+    def _from_term(self, term: Expr) -> Expr:
+        """sum v dA/dv - A of a term A of L."""
+        if free_of(term, self.dynamics.system.qdot):
+            return -term
+        rate = sympy.Add(*(v * term.diff(v) for v in self.dynamics.system.qdot))
+        degree = next((n for n in (1, 2) if is_zero(rate - n * term) is True), None)
+        return rate - term if degree is None else (degree - 1) * term
 
     @cached_property
     def quadratic(self) -> bool:

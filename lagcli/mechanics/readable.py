@@ -6,8 +6,11 @@ from sympy import Expr
 
 from lagcli.algebra import shape, terms
 from lagcli.algebra.terms import is_flat
-from lagcli.expression import Expression, operation_count
+from lagcli.expression import Expression, Name, Power, Product, operation_count
 from lagcli.mechanics.dynamics import Dynamics
+
+#: How many times as long as the shortest shape the terms one by one may be.
+_BY_TERMS = 1.25
 
 
 class Readable:
@@ -27,14 +30,24 @@ class Readable:
         """Term by term in velocities, accelerations, multipliers, as L and h are read."""
         return terms(expression, self.system.order, self._leading, as_given=as_given)
 
-    def momentum(self, expression: Expr) -> Expression:
-        """Term by term, or with the factor that all terms share before a bracket."""
+    def linear(self, expression: Expr) -> Expression:
+        """Term by term, or with the parameters that all terms share before a bracket."""
         by_terms, short = self.by_terms(expression), self.as_written(expression)
-        return (
-            short
-            if is_flat(short) and operation_count(short) < operation_count(by_terms)
-            else by_terms
-        )
+        shorter = is_flat(short) and operation_count(short) < operation_count(by_terms)
+        return short if shorter and not self._has_coordinate_before(short) else by_terms
+
+    def _has_coordinate_before(self, node: Expression) -> bool:
+        """Whether a coordinate stands before a bracket with terms: r² (m φ' + q B/2)."""
+        factors = node.factors if isinstance(node, Product) else ()
+        bases = (f.base if isinstance(f, Power) else f for f in factors)
+        return any(isinstance(b, Name) and str(b) in self.system.names for b in bases)
+
+    def rate(self, expression: Expr) -> Expression:
+        """-dH/dq in the shortest shape, or term by term in the momenta where that is not long."""
+        by_terms = terms(expression, self.system.order, {p.name for p in self.system.momenta})
+        short = self.as_written(expression)
+        longer = operation_count(by_terms) > _BY_TERMS * operation_count(short)
+        return short if longer else by_terms
 
     def on_surface(self, expression: Expr) -> Expression:
         """The shortest shape, with the constraints used."""

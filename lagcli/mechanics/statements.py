@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 from sympy import Expr
 
-from lagcli.expression import Expression
+from lagcli.expression import Expression, operation_count
 from lagcli.manners import Manner
 from lagcli.mechanics.branches import of_another_rank, sentence
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.dynamics import SolvedMotion
 from lagcli.mechanics.hamiltonian import GivenHamiltonian
 from lagcli.mechanics.hamiltonian_form import hamiltonian_form
 from lagcli.mechanics.readable import Readable
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
     from lagcli.mechanics.closed_form import ClosedForm
 
 NUMERIC_CHECK = "50 digits"
+#: Operations that a printed acceleration may have where the elimination has half of them.
+_READABLE = 150
 
 
 def answers(problem: Problem, sections: Sequence[str] | None = None) -> Answers:
@@ -121,6 +124,18 @@ class Statements(Stating):
             name: self.on_surface(value)
             for name, value in zip(self.system.names, values, strict=True)
         }
+
+    @cached_property
+    def motion(self) -> SolvedMotion | None:
+        """The solved motion; None where it is long beyond reading, and an elimination is not."""
+        motion = self.dynamics.motion
+        rows = () if motion is None else map(self.on_surface, motion.accelerations)
+        counts = [operation_count(row) for row in rows]
+        if max(counts, default=0) <= _READABLE:
+            return motion
+        found = self._closed_form.motion
+        steps = () if found is None else (*found.where.values(), *found.accelerations)
+        return None if 0 < 2 * sum(map(operation_count, steps)) < sum(counts) else motion
 
     # -- what is missing --------------------------------------------------------------------
 

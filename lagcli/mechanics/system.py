@@ -5,7 +5,6 @@ This is where the file's words become the field's quantities.  Nothing is derive
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
 
 import sympy
@@ -15,6 +14,7 @@ from lagcli.algebra.build import TIME, Builder, symbol, without_jumps
 from lagcli.algebra.jumps import is_continuous
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.expression import Call, Expression
+from lagcli.given_formulas import order_of_names
 from lagcli.problem_data import Point, Problem
 from lagcli.record import record
 
@@ -99,17 +99,8 @@ class System:
 
     @cached_property
     def order(self) -> tuple[str, ...]:
-        """The names in the order in which a product shows them: parameters, t, q, q', …"""
-        groups: Sequence[Sequence[Symbol]] = (
-            self.parameters,
-            (self.t,),
-            self.q,
-            self.momenta,
-            self.qdot,
-            self.qddot,
-            self.multipliers,
-        )
-        return tuple(s.name for group in groups for s in group)
+        """The names in the order in which a product shows them."""
+        return order_of_names(self.problem)
 
     # -- what the file gives --------------------------------------------------------
 

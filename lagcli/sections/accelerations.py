@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 def derive(statements: Statements) -> AccelerationsSection:
     """The solved motion, by elimination with abbreviations where it grew too long."""
-    dynamics, motion = statements.dynamics, statements.dynamics.motion
+    dynamics, motion = statements.dynamics, statements.motion
     if motion is not None:
         statements.note_check("the accelerations", motion.verified)
         return AccelerationsSection(

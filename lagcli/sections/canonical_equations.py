@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Row
@@ -30,7 +30,7 @@ def derive(statements: Statements) -> CanonicalSection:
     pairs = hamiltonian.canonical_equations
     if pairs is None:
         return _none(statements, hamiltonian.reason, fold_of(statements))
-    return _stated(statements, statements.system.names, pairs)
+    return _stated(statements, statements.system.names, pairs, statements.readable.rate)
 
 
 def large(statements: LargeStatements) -> CanonicalSection:
@@ -41,18 +41,19 @@ def large(statements: LargeStatements) -> CanonicalSection:
 def phase_space(statements: PhaseSpaceStatements) -> CanonicalSection:
     """From the H of the file."""
     names = [coordinate.name for coordinate in statements.problem.coordinates]
-    return _stated(statements, names, statements.hamiltonian.canonical_equations)
+    pairs = statements.hamiltonian.canonical_equations
+    return _stated(statements, names, pairs, statements.as_written)
 
 
 def _stated(
     statements: Statements | PhaseSpaceStatements,
     names: Sequence[str],
     pairs: Sequence[tuple[Expr, Expr]],
+    rate: Callable[[Expr], Expression],
 ) -> CanonicalSection:
-    write = statements.as_written
     return CanonicalSection(
         equations={
-            name: CanonicalPair(q=write(q), p=write(p))
+            name: CanonicalPair(q=statements.as_written(q), p=rate(p))
             for name, (q, p) in zip(names, pairs, strict=True)
         }
     )

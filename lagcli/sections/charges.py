@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row
-from lagcli.expression import ZERO, Expression
+from lagcli.expression import ZERO, Expression, Name
 from lagcli.formatters.json_values import (
     FORMULA,
     OR_NULL,
@@ -22,9 +22,9 @@ from lagcli.problem_data import NOT_CONSERVED
 from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.schema_parts import FORMULAS
 from lagcli.reader.scope import ANSWER
-from lagcli.statements.answers import Answers, Charge, ChargesSection
+from lagcli.statements.answers import Answers, Charge, ChargesSection, EnergySection
 from lagcli.statements.declaration import Declaration, Expected, always
-from lagcli.statements.wording import conditions
+from lagcli.statements.wording import conditions, listed
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_charges import LargeCharge
@@ -42,6 +42,7 @@ _SOURCES = {
     "momentum equation": "momentum equation",
 }
 
+_CONSTRAINT = "the constraint"
 _CHECKED = {
     "exact": ", checked exactly",
     "50 digits": ", checked at random states to 50 digits",
@@ -68,8 +69,6 @@ def stated_charge(statements: Statements, charge: NoetherCharge) -> Charge:
     statements.note_check(f"the rate of '{charge.name}'", charge.verified)
     system, change = statements.system, charge.transformation
     named = dict(zip(system.names, change.changes, strict=True)) | {"t": change.time}
-    timed = charge.source == "time"
-    function = statements.derivation.energy.readable_function if timed else charge.charge
     return Charge(
         name=charge.name,
         source=charge.source,
@@ -78,7 +77,7 @@ def stated_charge(statements: Statements, charge: NoetherCharge) -> Charge:
         },
         gauge=None if charge.gauge is None else statements.as_written(charge.gauge),
         conserved=charge.conserved,
-        charge=statements.by_terms(function, as_given=timed) if charge.complete else None,
+        charge=_function(statements, charge) if charge.complete else None,
         rate=None if charge.rate is None else statements.on_surface(charge.rate),
         verified=charge.verified,
         broken_by=charge.broken_by,
@@ -86,6 +85,16 @@ def stated_charge(statements: Statements, charge: NoetherCharge) -> Charge:
         if charge.conserved
         else "",
     )
+
+
+def _function(statements: Statements, charge: NoetherCharge) -> Expression:
+    """The charge, the energy and a momentum as they are written in their own sections."""
+    if charge.source == "time":
+        function = statements.derivation.energy.readable_function
+        return statements.by_terms(function, as_given=True)
+    if charge.source == "cyclic":
+        return statements.readable.linear(charge.charge)
+    return statements.by_terms(charge.charge)
 
 
 def large(statements: LargeStatements) -> ChargesSection:
@@ -116,41 +125,60 @@ def _large_charge(statements: LargeStatements, charge: LargeCharge) -> Charge:
     )
 
 
-def blocks(section: ChargesSection, _: Answers) -> Iterator[Block]:
+def blocks(section: ChargesSection, answers: Answers) -> Iterator[Block]:
     """Say what each symmetry changes, its gauge, its charge, and whether that is conserved."""
     if not section.charges:
         yield Paragraph(("None." if section.sought else "Not found.",))
-    for charge in section.charges:
-        yield Heading(f"{charge.name} ({_SOURCES[charge.source]})", 2)
-        rows = [
-            Row(Label(name, change=True), change) for name, change in charge.transformation.items()
-        ]
-        if charge.gauge is not None and charge.gauge != ZERO:
-            rows.append(Row(Label("G"), charge.gauge, "gauge"))
-        if charge.charge is not None:
-            rows.append(Row(Label("Q"), charge.charge))
-        if charge.rate is not None and not charge.conserved:
-            rows.append(Row(own("Q", 1), charge.rate))
+    energy = answers.sections.get("energy")
+    shown = energy.function if isinstance(energy, EnergySection) else None
+    broken = [c for c in section.charges if c.source == "cyclic" and _CONSTRAINT in c.broken_by]
+    for cause in dict.fromkeys(charge.broken_by for charge in broken):
+        names = listed(charge.name for charge in broken if charge.broken_by == cause)
+        yield Paragraph(("Not conserved, because of ", f"{cause}: ", *names, "."))
+    for charge in (each for each in section.charges if each not in broken):
+        yield _heading(charge)
+        rows = tuple(_rows(charge, shown))
         if rows:
-            yield Equations(tuple(rows))
-        yield Paragraph((_verdict(charge),))
+            yield Equations(rows)
+        yield Paragraph(tuple(_verdict(charge)))
         if charge.where:
             rest = "; elsewhere its real and its imaginary part are conserved."
             yield Paragraph(("Real where ", *conditions(charge.where), rest))
 
 
-def _verdict(charge: Charge) -> str:
+def _heading(charge: Charge) -> Heading:
+    if charge.source == "cyclic":
+        return Heading("momentum", 2, Name(charge.name))
+    return Heading(f"{charge.name} ({_SOURCES[charge.source]})", 2)
+
+
+def _rows(charge: Charge, energy: Expression | None) -> Iterator[Row]:
+    """The transformation, the gauge, the charge; h where that is printed above."""
+    for name, change in charge.transformation.items():
+        yield Row(Label(name, change=True), change)
+    if charge.gauge is not None and charge.gauge != ZERO:
+        yield Row(Label("G"), charge.gauge, "gauge")
+    if charge.charge is not None:
+        yield Row(Label("Q"), own("h") if charge.charge == energy else charge.charge)
+    if charge.rate is not None and not charge.conserved:
+        yield Row(own("Q", 1), charge.rate)
+
+
+def _verdict(charge: Charge) -> Iterator[str | Expression]:
     checked = _CHECKED[charge.verified]
     if charge.conserved:
-        when = f" {charge.when}" if charge.when else ""
-        return f"Conserved{when}: dQ/dt = 0 on the motion{checked}."
+        yield f"Conserved{' ' + charge.when if charge.when else ''}: "
+        yield own("Q", 1)
+        yield f" = 0 on the motion{checked}."
+        return
     if charge.conserved is None:
         words = "Whether it is conserved is undecided"
-        return f"{words}: {charge.broken_by}." if charge.broken_by else f"{words}."
-    if charge.source == "momentum equation":
-        return f"Not conserved: its rate is the momentum equation{checked}."
-    words = f"Not conserved{checked}"
-    return f"{words}, because of {charge.broken_by}." if charge.broken_by else f"{words}."
+    elif charge.source == "momentum equation":
+        words = f"Not conserved: its rate is the momentum equation{checked}"
+    else:
+        words = f"Not conserved{checked}"
+    joint = ": " if charge.conserved is None else ", because of "
+    yield f"{words}{joint + charge.broken_by if charge.broken_by else ''}."
 
 
 def charges_json(section: ChargesSection) -> list[Object] | None:

@@ -32,7 +32,7 @@ def derive(statements: Statements) -> ConstraintForcesSection:
 
     dynamics = statements.dynamics
     equations = dynamics.constraints.equations
-    if dynamics.motion is None and equations:
+    if statements.motion is None and equations:
         found = _abbreviated(statements)
         if found is not None:
             if dynamics.system.particles:

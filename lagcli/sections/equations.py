@@ -35,18 +35,22 @@ def derive(statements: Statements) -> EquationsSection:
         LagrangeEquation(
             coordinate=name,
             left=statements.by_terms(left),
-            right=statements.by_terms(Add(force, *(e.multiplier * e.row[j] for e in constraints))),
+            right=statements.by_terms(Add(force, *(e.multiplier * e.row[j] for e in constraints)))
+            if constraints
+            else statements.readable.linear(force),
         )
         for j, (name, left, force) in enumerate(sides)
     )
     return EquationsSection(
         equations=equations,
-        constraints={e.name: (_as_given(statements, e), ZERO) for e in constraints},
+        constraints={e.name: _as_given(statements, e) for e in constraints},
     )
 
 
-def _as_given(statements: Statements, constraint: ConstraintEquation) -> Expression:
-    """The left side less the right side of the file, unless there is a shorter way to write it."""
+def _as_given(
+    statements: Statements, constraint: ConstraintEquation
+) -> tuple[Expression, Expression]:
+    """The equation of the file, unless there is a shorter way to write its function."""
     from lagcli.algebra.writing import Writer
 
     short = statements.as_written(constraint.f)
@@ -54,13 +58,13 @@ def _as_given(statements: Statements, constraint: ConstraintEquation) -> Express
     for each in statements.problem.constraints:
         if each.name != constraint.name:
             continue
-        sides = [each.equation.left, writer.negative(each.equation.right)]
-        given = writer.sum([side for side in sides if side != ZERO])
+        left, right = (writer.sum([side]) for side in (each.equation.left, each.equation.right))
+        given = writer.sum([left, writer.negative(right)])
         if operation_count(given) <= operation_count(short) + 1 and _is_of(
             constraint, given, statements
         ):
-            return given
-    return short
+            return left, right
+    return short, ZERO
 
 
 def _is_of(constraint: ConstraintEquation, given: Expression, statements: Statements) -> bool:

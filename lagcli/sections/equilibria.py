@@ -14,6 +14,7 @@ from lagcli.reader.expected_reduction import read_equilibria
 from lagcli.reader.schema_parts import FORMULAS, STABLE, list_of, record_of, ref
 from lagcli.statements.answers import Answers, EquilibriaSection, Equilibrium
 from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.plus_minus import once
 from lagcli.statements.wording import (
     at_the_limit,
     conditions,
@@ -59,7 +60,7 @@ def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
     elif not section.equilibria:
         complete, edge = section.complete, section.edge
         yield none_found("equilibrium", section.unless, complete=complete, edge=edge)
-    for equilibrium in section.equilibria or ():
+    for equilibrium in once(section.equilibria or ()):
         yield from state_blocks(equilibrium.at, on=equilibrium.on)
         yield Paragraph(_stability(equilibrium))
     if section.equilibria and not section.complete:

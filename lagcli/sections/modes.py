@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Label, Paragraph, Row
@@ -13,8 +14,10 @@ from lagcli.letters import own
 from lagcli.problem_data import Expect
 from lagcli.reader.schema_parts import FORMULA, list_of
 from lagcli.reader.scope import CONSTANTS
+from lagcli.record import replace
 from lagcli.statements.answers import Answers, ModesOfFrequency, ModesSection
 from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.plus_minus import is_pair, pairs
 from lagcli.statements.wording import state_blocks
 
 if TYPE_CHECKING:
@@ -48,17 +51,23 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
         yield Paragraph((f"Not found: {section.reason}.",))
     elif not section.modes:
         yield Paragraph((f"There is none: {section.reason}.",))
-    about: object = None
-    for mode in section.modes or ():
-        if (mode.at, mode.on) != about:
-            about = (mode.at, mode.on)
-            place = "equilibrium" if mode.on is None else "equilibria"
-            before = f"Angular frequencies and shapes about the {place} "
-            yield from state_blocks(mode.at, before, mode.on)
-        yield Equations(tuple(_mode(mode)))
-        for other in mode.more_shapes:
-            yield Paragraph(("Also of this frequency, as is every combination:",))
-            yield Equations(tuple(_shape(other)))
+    for at, modes in pairs(_by_state(section.modes or ())):
+        on = modes[0].on
+        place = "equilibrium" if on is None and not is_pair(at) else "equilibria"
+        yield from state_blocks(at, f"Angular frequencies and shapes about the {place} ", on)
+        for mode in modes:
+            yield Equations(tuple(_mode(mode)))
+            for other in mode.more_shapes:
+                yield Paragraph(("Also of this frequency, as is every combination:",))
+                yield Equations(tuple(_shape(other)))
+
+
+def _by_state(
+    modes: Sequence[ModesOfFrequency],
+) -> Iterator[tuple[Mapping[str, Expression], list[ModesOfFrequency]]]:
+    """The modes about each equilibrium, without its state."""
+    for (at, _), group in groupby(modes, key=lambda mode: (mode.at, mode.on)):
+        yield at, [replace(mode, at={}) for mode in group]
 
 
 _NO_OSCILLATION = {True: "negative: no oscillation", False: "an oscillation where this is positive"}

@@ -26,7 +26,7 @@ def derive(statements: Statements) -> MomentaSection:
     names, momenta = statements.system.names, statements.dynamics.lagrange.momenta
     return MomentaSection(
         momenta={
-            name: statements.readable.momentum(p) for name, p in zip(names, momenta, strict=True)
+            name: statements.readable.linear(p) for name, p in zip(names, momenta, strict=True)
         },
         cyclic=tuple(names[j] for j in statements.derivation.noether.cyclic),
     )

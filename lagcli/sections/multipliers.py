@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 def derive(statements: Statements) -> MultipliersSection:
     """Those of the solved motion; None for one that redundancy leaves undetermined."""
     dynamics = statements.dynamics
-    motion, kinds = dynamics.motion, dynamics.constraints.kinds
+    motion, kinds = statements.motion, dynamics.constraints.kinds
     equations = dynamics.constraints.equations
     if motion is None:
         solved = _abbreviated(statements, [kinds[e.name] for e in equations])

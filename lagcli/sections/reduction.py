@@ -32,6 +32,7 @@ from lagcli.sections.equations import equation_json
 from lagcli.statements.answers import Answers, ReductionSection
 from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.statements.motions import OneFreedom, PeriodSeries
+from lagcli.statements.plus_minus import once, single
 from lagcli.statements.wording import (
     POTENTIAL,
     conditions,
@@ -120,7 +121,7 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
     elif motion.turning_points:
         real = "real and positive" if motion.positive else "real"
         yield Paragraph((f"Turning points, where these are {real}:",))
-        yield Equations(tuple(Row(q, value) for value in motion.turning_points))
+        yield Equations(tuple(Row(q, value) for value in single(motion.turning_points)))
         for lower, upper in motion.turning_energies:
             yield Paragraph(("They are real for ", lower, " ≤ ", constant, " ≤ ", upper, "."))
         yield from turning_contacts(motion)
@@ -133,7 +134,7 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
             Row(Label("T"), Integral(motion.rate, motion.coordinate, times=2)),
         )
     )
-    for period in motion.periods:
+    for period in once(motion.periods):
         yield from _period(period, motion.coordinate)
     if motion.reason:
         yield Paragraph((f"{motion.reason[0].upper()}{motion.reason[1:]}.",))

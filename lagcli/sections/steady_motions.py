@@ -26,6 +26,7 @@ from lagcli.reader.schema_parts import FORMULA, FORMULAS, STABLE, list_of, recor
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.statements.motions import SteadyMotion, SteadySection
+from lagcli.statements.plus_minus import once, single
 from lagcli.statements.wording import (
     conditions,
     none_found,
@@ -67,7 +68,7 @@ def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
         return
     if not section.motions:
         yield none_found("steady motion", section.unless, complete=section.complete)
-    for number, motion in enumerate(section.motions, 1):
+    for number, motion in enumerate(once(section.motions), 1):
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(motion)
     if section.motions and not section.complete:
@@ -95,7 +96,7 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
     if parts:
         yield Paragraph(tuple(parts))
     yield Paragraph(tuple(steady_stability(motion)))
-    squares = dict.fromkeys(motion.frequencies_squared)
+    squares = single(dict.fromkeys(motion.frequencies_squared))
     if squares:
         squared = Power(own("omega"), Number(Fraction(2)))
         yield Equations(tuple(Row(squared, square) for square in squares))

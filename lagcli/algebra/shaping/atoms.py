@@ -18,7 +18,6 @@ from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.integral import written_arguments
 from lagcli.algebra.leaves import Translator
-from lagcli.algebra.ordering import Flat
 from lagcli.algebra.ring import Monomial, Poly
 from lagcli.algebra.writing import Writer
 from lagcli.expression import (
@@ -34,6 +33,7 @@ from lagcli.expression import (
     Sum,
     operation_count,
 )
+from lagcli.ordering import Flat
 
 Exponent: TypeAlias = int | Fraction
 Term: TypeAlias = tuple[tuple[int, Exponent], ...]  # (atom, exponent), ascending
@@ -174,6 +174,15 @@ class Atoms:
             expression = getattr(sympy, function)(argument)
             known = self._trigonometric[key] = self.add(tree, expression)
         return known
+
+    def has_double_angle(self, terms: Terms) -> bool:
+        """Whether sin or cos of an even multiple of an angle occurs."""
+        even = {
+            atom
+            for (_, angles), atom in self._trigonometric.items()
+            if all(k % 2 == 0 for _, k in angles)
+        }
+        return any(atom in even for term in terms for atom, _ in term)
 
     def term(self, monomial: Monomial) -> Term:
         """The product of atoms for a monomial of the ring."""

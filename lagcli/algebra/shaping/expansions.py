@@ -24,8 +24,11 @@ class Expansions:
         self.atoms = atoms
         self.trigonometry = Trigonometry(field, atoms)
 
-    def of(self, poly: Poly) -> list[Terms]:
-        """Equal sums of products of atoms, which differ in the trigonometric functions."""
+    def of(self, poly: Poly, *, below: bool = False) -> list[Terms]:
+        """Equal sums of products of atoms, which differ in the trigonometric functions.
+
+        Below a fraction there is one with sin² x for cos 2x among them.
+        """
         generators = self.field.generators
         used = self.field.ring.used(poly)
         plain = self.atoms.terms(poly)
@@ -39,7 +42,7 @@ class Expansions:
             forms = [self.atoms.terms(self.field.ring.build(inner))]
             swapped = self._swapped(self.field.ring.build(inner))
             forms.append(self.atoms.terms(swapped))
-            rewritten = self.trigonometry.rewritten(inner)
+            rewritten = self.trigonometry.rewritten(inner, squared=below)
             forms.extend(rewritten or [forms[0], forms[0]])
             forms.append(min(forms, key=self._weight))
             outer = self.atoms.term(rest)

@@ -51,17 +51,22 @@ class Trigonometry:
     def __init__(self, field: Field, atoms: Atoms) -> None:
         self.field = field
         self.atoms = atoms
-        self._rewritten: dict[tuple[tuple[Monomial, int], ...], list[Terms]] = {}
+        self._rewritten: dict[tuple[tuple[tuple[Monomial, int], ...], bool], list[Terms]] = {}
 
-    def rewritten(self, terms: Iterable[tuple[Monomial, int]]) -> list[Terms]:
-        """Equal sums of products of atoms: in multiple angles, and as products."""
-        key = tuple(terms)
+    def rewritten(
+        self, terms: Iterable[tuple[Monomial, int]], *, squared: bool = False
+    ) -> list[Terms]:
+        """Equal sums of products of atoms: in multiple angles, and as products.
+
+        Squared: with sin² x for cos 2x, too.
+        """
+        key = tuple(terms), squared
         known = self._rewritten.get(key)
         if known is None:
-            known = self._rewritten[key] = list(self._forms(key))
+            known = self._rewritten[key] = list(self._forms(*key))
         return known
 
-    def _forms(self, terms: tuple[tuple[Monomial, int], ...]) -> Iterator[Terms]:
+    def _forms(self, terms: tuple[tuple[Monomial, int], ...], squared: bool) -> Iterator[Terms]:
         generators = self.field.generators
         cosines = sorted(
             {g if generators[g].kind == "cos" else generators[g].partner
@@ -74,6 +79,8 @@ class Trigonometry:
         if fourier is None:
             return
         yield self._sum(fourier, cosines)
+        if squared:
+            yield self._sum(fourier, cosines, squared=True)
         products: Terms = {}
         for part in (0, 1):
             half = {n: v for n, v in fourier.items() if v[part]}
@@ -117,10 +124,19 @@ class Trigonometry:
             sign = -1 if function == "sin" else 1
         return sign, ((self.atoms.circular(function, angles), 1),)
 
-    def _sum(self, fourier: Fourier, cosines: list[int]) -> Terms:
-        """sum A_n cos(n.a) + B_n sin(n.a): both n and -n give half of each."""
+    def _sum(self, fourier: Fourier, cosines: list[int], *, squared: bool = False) -> Terms:
+        """sum A_n cos(n.a) + B_n sin(n.a): both n and -n give half of each.
+
+        Squared: 1 - 2 sin²(n.a/2) for the cosine of a multiple that is even.
+        """
         result: Terms = {}
         for n, (real, imaginary) in fourier.items():
+            if squared and real and any(n) and all(k % 2 == 0 for k in n):
+                _, ((sine, _),) = self._atom("sin", tuple(k // 2 for k in n), cosines)
+                result[()] = result.get((), 0) + real
+                square = ((sine, 2),)
+                result[square] = result.get(square, 0) - 2 * real
+                real = 0
             for function, value in (("cos", real), ("sin", -imaginary)):
                 if value:
                     sign, term = self._atom(function, n, cosines)

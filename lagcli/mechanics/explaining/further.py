@@ -16,6 +16,7 @@ from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.mechanics.statements import Statements
 from lagcli.statements.answers import EquilibriaSection, Section
 from lagcli.statements.explanation import ExplanationStep
+from lagcli.statements.plus_minus import once
 from lagcli.statements.registry import find_section
 from lagcli.statements.wording import at_the_limit, holding, place_rows, stability, unless
 from lagcli.statements.wording import conditions as inequalities
@@ -84,7 +85,7 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
         return
     if not found:
         yield says(*_none(rest, states))
-    for number, each in enumerate(found, 1):
+    for number, each in enumerate(once(found), 1):
         yield Heading(f"Equilibrium {number}", 2)
         yield _state(each.at, each.on)
         if each.free:

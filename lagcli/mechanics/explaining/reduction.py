@@ -15,6 +15,7 @@ from lagcli.mechanics.reduction.minimal import minimal
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import ReductionSection, Section
 from lagcli.statements.motions import OneFreedom, PeriodSeries
+from lagcli.statements.plus_minus import once, single
 from lagcli.statements.wording import (
     POTENTIAL,
     conditions,
@@ -121,14 +122,14 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
         real = "real and positive" if motion.positive else "real"
         yield says("Its turning points are the roots of ", POTENTIAL, " = ", E,
                    f" that are {real}:")  # fmt: skip
-        yield Equations(tuple(Row(q, root) for root in motion.turning_points))
+        yield Equations(tuple(Row(q, root) for root in single(motion.turning_points)))
         for lower, upper in motion.turning_energies:
             yield says("They exist for ", lower, " ≤ ", E, " ≤ ", upper, ".")
             yield says("For larger ", E, ", ", q, " does not turn back.")
         yield from turning_contacts(motion)
     else:
         yield says("It has no turning point.")
-    for each in motion.periods:
+    for each in once(motion.periods):
         yield from _period(each)
 
 

@@ -21,6 +21,7 @@ from lagcli.mechanics.explaining.words import Part, listed, names, says, shows
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import Section
 from lagcli.statements.motions import SteadyMotion, SteadySection
+from lagcli.statements.plus_minus import once
 from lagcli.statements.wording import (
     POTENTIAL,
     conditions,
@@ -98,7 +99,7 @@ def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
         return
     if not found.motions:
         yield says(_none(teller, found))
-    for number, motion in enumerate(found.motions, 1):
+    for number, motion in enumerate(once(found.motions), 1):
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(teller, motion)
     if found.motions and not found.complete:

@@ -12,6 +12,7 @@ from typing import cast
 import sympy
 from sympy import Expr, Symbol
 
+from lagcli.abbreviations import written_out
 from lagcli.mechanics.derivation import Derivation
 from lagcli.statements.answers import (
     AccelerationsSection,
@@ -34,7 +35,7 @@ class Laws:
     def __init__(self, derivation: Derivation, answers: Answers) -> None:
         self.system = derivation.system
         self.dynamics = derivation.dynamics
-        self.answers = answers
+        self.answers = written_out(answers)
 
     def __iter__(self) -> Iterator[Finding | None]:
         """The findings: the equations, the constraints, then the charges."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import TypeAlias
 
@@ -26,6 +26,7 @@ _AFTER_NUMBERS = 10**6
 _RANK = {"sin": "co", "sinh": "co"}
 
 Key: TypeAlias = tuple[object, ...]
+Factor: TypeAlias = tuple[Expression, Fraction]  # base and exponent
 Flat: TypeAlias = tuple[tuple[int, int | Fraction, str], ...]  # a key whose entries compare
 
 
@@ -41,6 +42,8 @@ class Ordering:
 
     def __init__(self, names: Sequence[str] = ()) -> None:
         self._index = {name: position for position, name in enumerate(names)}
+        fast = (i for i, name in enumerate(names) if name.startswith("p_") or name.endswith("'"))
+        self._first_fast = next(fast, len(self._index))
         self._first_variable = self._index.get("t", len(self._index))
         self._memo: dict[Expression, Key] = {}
 
@@ -63,9 +66,8 @@ class Ordering:
                 return (*self._factor(base), *self._factor(exponent))
             case Call(function="sqrt"):
                 return (2, *self._parts(node))
-            case Sum() if self._is_plain(node):  # (m1 + m2) g l, m g (R + h), g (a sin b - c)
-                first = min((self._place(n) for n in walk(node) if isinstance(n, Name)), default=0)
-                return (1, 0, first, "~", *self._parts(node))
+            case Sum() if self._is_plain(node):
+                return (1, 0, self._first(node), "~", *self._parts(node))
             case Sum():
                 return (3, *self._parts(node))
             case Call(function=function, primes=primes):
@@ -78,6 +80,10 @@ class Ordering:
     def _place(self, node: Name) -> int:
         return self._index.get(node.name, len(self._index))
 
+    def _first(self, node: Expression) -> int:
+        """The place of the first of its letters."""
+        return min((self._place(n) for n in walk(node) if isinstance(n, Name)), default=0)
+
     def _parts(self, node: Expression) -> Key:
         flat: list[object] = []
         for part in children(node):
@@ -85,8 +91,38 @@ class Ordering:
         return tuple(map(str, flat))
 
     def rank(self, node: Expression) -> Flat:
-        """Where a factor stands in a product."""
-        return _flat(self._term(node))
+        """Where a factor stands in a product: brackets at rest before the velocities.
+
+        (J + m r²) φ'²/2, m g (R + h) cos θ, m l (x' cos θ + l θ').
+        """
+        base = node.base if isinstance(node, Power) else node
+        if isinstance(base, Call) and base.function == "sqrt":
+            (base,) = base.arguments
+        key = self._term(base if isinstance(base, Sum) else node)
+        if isinstance(base, Sum) and not any(self._is_fast(part) for part in walk(base)):
+            key = (1, 0, _AFTER_NUMBERS, self._first(base), *self._parts(base))
+        elif isinstance(base, Name) and not base.primes and self._is_fast(base):
+            key = (1, 1, *key[2:])
+        return _flat(key)
+
+    def arranged(self, factors: Iterable[Factor]) -> Iterator[Factor]:
+        """The factors of a product, (base, exponent), as they follow each other."""
+        ranked = sorted(factors, key=lambda pair: self.rank(pair[0]))
+        letters = [self._place(base) for base, _ in ranked if isinstance(base, Name)]
+        first = min(letters, default=_AFTER_NUMBERS)
+        # (m1 + m2) g l, but m g (R + h)
+        leading = [
+            pair for pair in ranked if self._is_plain(pair[0]) and self._first(pair[0]) < first
+        ]
+        yield from (pair for pair in ranked if isinstance(pair[0], Number))
+        yield from leading
+        yield from (p for p in ranked if p not in leading and not isinstance(p[0], Number))
+
+    def _is_fast(self, node: Expression) -> bool:
+        """Whether it is a velocity, an acceleration, a momentum or a multiplier."""
+        return isinstance(node, Name) and (
+            node.primes > 0 or self._first_fast <= self._index.get(node.name, -1)
+        )
 
     def term(self, node: Expression) -> tuple[int, int, int, tuple[int, ...], Flat]:
         """Accelerations, a number, falling degree in the velocities, then by coordinate.
@@ -125,10 +161,12 @@ class Ordering:
             if isinstance(part, Name)
         )
 
-    def _is_plain(self, node: Sum) -> bool:
-        """Whether only parameters occur, and no functions of them."""
-        return self._is_constant(node) and not any(
-            isinstance(part, (Call, PartialCall)) for part in walk(node)
+    def _is_plain(self, node: Expression) -> bool:
+        """Whether it is a sum of parameters, without functions of them."""
+        return (
+            isinstance(node, Sum)
+            and self._is_constant(node)
+            and not any(isinstance(part, (Call, PartialCall)) for part in walk(node))
         )
 
     def _letters(self, node: Expression) -> Key:

@@ -1,0 +1,126 @@
+"""Sums of a file, found again in its answers: R² + 2 R z where the algebra has R (R + 2 z).
+
+Two sums are the same where they are when multiplied out, with functions, roots and denominators
+that are no single terms as letters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from math import gcd
+from typing import cast
+
+from lagcli.expression import (
+    Expression,
+    Name,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    children,
+    operation_count,
+    walk,
+)
+from lagcli.likeness import Polynomial, multiplied_out
+from lagcli.ordering import Ordering
+from lagcli.rewriting import rebuilt
+
+#: How many times as long as the answer's the file's own sum may be.
+_LONGER = 1.4
+
+
+class GivenSums:
+    """The sums among formulas, by what they are when multiplied out.
+
+    Parameters
+    ----------
+    energies
+        Whole formulas, which may have a letter in all of their terms.
+    ordering
+        Of the factors of a product.
+    """
+
+    def __init__(
+        self, formulas: Iterable[Expression], energies: Iterable[Sum], ordering: Ordering
+    ) -> None:
+        self._found: dict[frozenset[Expression], list[tuple[Polynomial, Sum]]] = {}
+        self._ordering = ordering
+        for whole in energies:
+            self._keep(whole, multiplied_out(whole))
+        for part in (part for node in formulas for part in walk(node)):
+            value = multiplied_out(part) if isinstance(part, Sum) else None
+            if value and not set.intersection(*({x for x, _ in term} for term in value)):
+                self._keep(cast(Sum, part), value)
+
+    def _keep(self, node: Sum, value: Polynomial | None) -> None:
+        if value and is_tidy(node):
+            shown = cast(Sum, _arranged(node, self._ordering))
+            self._found.setdefault(_leaves(node), []).append((value, shown))
+
+    def like(self, node: Sum) -> tuple[Fraction, Sum] | None:
+        """(c, S), c = ±1/n: the node is c S with a sum S of the file that is not much longer."""
+        found = self._found.get(_leaves(node))
+        value = multiplied_out(node) if found else None
+        for other, given in found or () if value else ():
+            assert value is not None
+            first = next(iter(other))
+            ratio = value.get(first, Fraction(0)) / other[first]
+            alike = abs(ratio.numerator) == 1 and value == {
+                term: ratio * c for term, c in other.items()
+            }
+            if alike and operation_count(given) <= _LONGER * operation_count(node) + 1:
+                return ratio, given
+        return None
+
+
+def _leaves(node: Expression) -> frozenset[Expression]:
+    return frozenset(part for part in walk(node) if isinstance(part, Name))
+
+
+def _arranged(node: Expression, ordering: Ordering) -> Expression:
+    """The formula with the factors of each product in their order."""
+    node = rebuilt(node, lambda part: _arranged(part, ordering))
+    return Product(arranged(node.factors, ordering)) if isinstance(node, Product) else node
+
+
+def arranged(factors: Sequence[Expression], ordering: Ordering) -> tuple[Expression, ...]:
+    """The factors, of different bases, in their order."""
+    whole = {_base(factor): factor for factor in factors}
+    ranked = ordering.arranged([(base, Fraction(1)) for base in whole])
+    return tuple(whole[base] for base, _ in ranked) if len(whole) == len(factors) else (*factors,)
+
+
+def is_tidy(node: Expression) -> bool:
+    """Whether it can be printed as it stands: numbers whole and first, no bracket for nothing."""
+    match node:
+        case Number(value=value):
+            return value.denominator == 1
+        case Product(factors=(first, *rest)):
+            bad = any(isinstance(f, (Number, Negative, Quotient, Product)) for f in rest)
+            bad = bad or isinstance(first, (Negative, Quotient, Product))
+            bad = bad or (isinstance(first, Number) and first.value <= 1)
+            bad = bad or len(set(map(_base, node.factors))) < len(node.factors)
+        case Sum(terms=terms):
+            bad = any(isinstance(term, Sum) for term in terms) or isinstance(terms[0], Negative)
+            bad = bad or sum(not _leaves(term) for term in terms) > 1
+        case Negative(operand=inner):
+            bad = isinstance(inner, (Negative, Sum))
+        case Quotient(numerator=above, denominator=below):
+            bad = isinstance(above, (Negative, Quotient)) or isinstance(below, Quotient)
+            bad = bad or gcd(_number(above), _number(below)) > 1
+        case _:
+            bad = False
+    return not bad and all(map(is_tidy, children(node)))
+
+
+def _number(node: Expression) -> int:
+    """The whole number that a product begins with."""
+    first = node.factors[0] if isinstance(node, Product) else node
+    return first.value.numerator if isinstance(first, Number) else 1
+
+
+def _base(node: Expression) -> Expression:
+    return node.base if isinstance(node, Power) else node

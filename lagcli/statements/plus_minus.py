@@ -1,0 +1,128 @@
+"""Mirror images and pairs of roots once: x = ±a, y = ∓b, and (a ± sqrt(b))/c."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Protocol, TypeVar
+
+from lagcli.expression import (
+    Call,
+    Expression,
+    Negative,
+    PlusMinus,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    children,
+    walk,
+)
+from lagcli.likeness import signed_key
+from lagcli.record import replace
+from lagcli.rewriting import rebuilt
+
+Rest = TypeVar("Rest")
+State = Mapping[str, Expression]
+
+
+class _At(Protocol):
+    @property
+    def at(self) -> State: ...
+
+
+Item = TypeVar("Item", bound=_At)
+
+
+def pairs(states: Iterable[tuple[State, Rest]]) -> list[tuple[State, Rest]]:
+    """The states, those that differ in a sign and have the same rest as one."""
+    found: list[tuple[State, Rest]] = []
+    for at, rest in states:
+        for place, (other, its_rest) in enumerate(found):
+            both = joined(tuple(other.values()), tuple(at.values()))
+            if both is not None and its_rest == rest and other.keys() == at.keys():
+                found[place] = (dict(zip(at, both, strict=True)), rest)
+                break
+        else:
+            found.append((at, rest))
+    return found
+
+
+def once(items: Iterable[Item]) -> list[Item]:
+    """The items, those that differ in the sign of what they are `at` as one."""
+    found = pairs((item.at, replace(item, at={})) for item in items)
+    return [replace(item, at=at) for at, item in found]
+
+
+def single(values: Iterable[Expression]) -> list[Expression]:
+    """The values, two that differ in a sign as one."""
+    return [at["x"] for at, _ in pairs(({"x": value}, None) for value in values)]
+
+
+def is_pair(at: State) -> bool:
+    """Whether two states are shown as one."""
+    return any(map(_has_both, at.values()))
+
+
+def _has_both(node: Expression) -> bool:
+    return any(isinstance(part, PlusMinus) for part in walk(node))
+
+
+def joined(one: Sequence[Expression], other: Sequence[Expression]) -> list[Expression] | None:
+    """Both rows of formulas as one; None where they differ in more than one sign each."""
+    if any(map(_has_both, one)) or one == other:
+        return None
+    both = [_both(a, b) for a, b in zip(one, other, strict=True)]
+    whole = [each for each in both if each is not None]
+    if len(whole) < len(both):
+        return None
+    first = next(p for node in whole for p in walk(node) if isinstance(p, PlusMinus))
+    return [_turned(node) for node in whole] if first.minus_above else whole
+
+
+def _both(a: Expression, b: Expression) -> Expression | None:
+    """One formula for two that differ in a sign; a's sign is the upper one."""
+    if a == b:
+        return a
+    (sign, key), (its_sign, its_key) = signed_key(a), signed_key(b)
+    if key == its_key and sign == -its_sign:
+        minus = isinstance(a, Negative)
+        return PlusMinus(b if minus else a, minus_above=minus)
+    if key == its_key:
+        return a
+    match a, b:
+        case Sum(terms=one), Sum(terms=other) if len(one) == len(other):
+            return _sum(one, other)
+        case (Product() | Quotient() | Power() | Negative() | Call(), _) if _alike(a, b):
+            parts = [_both(x, y) for x, y in zip(children(a), children(b), strict=True)]
+            if sum(x != y for x, y in zip(children(a), children(b), strict=True)) != 1:
+                return None
+            different = iter(parts)
+            return None if None in parts else rebuilt(a, lambda _: next(different) or a)
+        case _:
+            return None
+
+
+def _alike(a: Expression, b: Expression) -> bool:
+    same = type(a) is type(b) and len(children(a)) == len(children(b))
+    return same and getattr(a, "function", "") == getattr(b, "function", "")
+
+
+def _sum(one: Sequence[Expression], other: Sequence[Expression]) -> Expression | None:
+    """a + b and a - b, in whatever order the terms stand."""
+    left = [term for term in other if term not in one]
+    differ = [place for place, term in enumerate(one) if term not in other]
+    if len(left) != 1 or len(differ) != 1:
+        return None
+    (place,) = differ
+    both = _both(one[place], left[0])
+    if both is None:
+        return None
+    terms = [*one[:place], *one[place + 1 :]]
+    terms.insert(place or isinstance(both, PlusMinus), both)
+    return Sum(tuple(terms))
+
+
+def _turned(node: Expression) -> Expression:
+    if isinstance(node, PlusMinus):
+        return PlusMinus(node.operand, minus_above=not node.minus_above)
+    return rebuilt(node, _turned)
