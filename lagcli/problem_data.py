@@ -265,6 +265,7 @@ class Trajectory:
     events: tuple[KnownRow, ...] = ()  # the first ones, in their order
     until: Expression | None = None  # the end; that of `simulation` otherwise
     tolerance: Expression | None = None  # of every number; 1e-9 otherwise
+    rigorous: bool = False  # whether the run is to be proved
 
 
 @record(kw_only=True)

@@ -130,6 +130,7 @@ _TRAJECTORY: Schema = {
     "properties": {
         "until": FORMULA,
         "tolerance": FORMULA,
+        "rigorous": YES_OR_NO,
         "at": list_of(ref("row")),
         "events": list_of(
             {

@@ -59,6 +59,17 @@ def test_a_changed_number_is_wrong_at_its_place(right, wrong, subject, line):
     assert outcomes(BALL.replace(right, wrong)) == [(CheckOutcome.WRONG, subject, line)]
 
 
+def test_a_known_motion_is_proved_where_the_file_says_so():
+    text = BALL.replace("    x: t\n", "    rigorous: yes\n    x: t\n")
+    report = check_problem("b.yaml", text.encode())
+    assert report.passed, report.findings
+    assert outcomes(text.replace("y': -10", "y': -10.000001")) == [
+        (CheckOutcome.WRONG, "trajectory.events.0", 20)
+    ]
+    report = check_problem("b.yaml", text.replace("rigorous: yes", "rigorous: maybe").encode())
+    assert "'rigorous' is yes or no" in str(report.findings or report)
+
+
 def test_a_run_that_stops_early_is_wrong():
     text = BALL.replace(", restitution: e", "").replace("e^2*h, energy: 1/2 + e^2*g*h", "0")
     found = outcomes(text.replace("what: impact", "what: contact closes"))

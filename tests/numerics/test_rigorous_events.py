@@ -113,6 +113,8 @@ def test_an_event_at_the_beginning_and_one_at_the_end():
     assert row[1].contains(0)
     assert row[2].contains(1)
     assert float(row[1].rad()) < 1e-15
+    row = proof(problem, 8.0, samples=2, show=["x", "x''"]).rows[-1]
+    assert row[2] is None  # the force jumps just then
     still = proof(lagcli.loads("{coordinates: [x], T: x'^2/2, V: abs(x)}"), 1.0, samples=2)
     assert not still.reached
 

@@ -57,7 +57,7 @@ def test_certificates_keep_their_promise_and_auto_is_judged(made):
             assert each["error"] <= each["accuracy"]
     assert [each["accuracy"] for each in document["cheapest"]] == [1e-3, 1e-6, 1e-9, 1e-12]
     assert all(each["auto"] for each in document["cheapest"])
-    assert {trade["name"] for trade in document["trades"]} == {"digits"}
+    assert {trade["name"] for trade in document["trades"]} == {"digits", "proof"}
 
 
 def test_the_plot_shows_the_runs(made):

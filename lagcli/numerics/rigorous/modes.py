@@ -209,7 +209,7 @@ class Mode:
             raise NotEnclosed(
                 f"whether {watched.name} stays closed after the impact is not decided"
             )
-        return mode, restart, "contact closes"
+        return mode, restart, "impact"
 
     def _signs_after(self, t: Any, x: Sequence[Any]) -> list[int]:
         found = []

@@ -12,7 +12,8 @@ from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.arithmetic import Balls
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.events import Event
+from lagcli.numerics.hybrid.request import Asked, Certificate, Result
 from lagcli.numerics.rigorous.crossings import Undecided, Watched, behind, when
 from lagcli.numerics.rigorous.enclosure import NotEnclosed, Piece
 from lagcli.numerics.rigorous.initial import initial_state
@@ -41,7 +42,6 @@ _BEYOND = 1.0625
 _SPARE = 8
 
 _WIDE = "the enclosures are wider than the accuracy {:g}"
-_TORN = "the next row is at the time of an event, before it or after it"
 
 Progress = Callable[[float], None]
 Enclosure = tuple[Any, ...]
@@ -58,6 +58,7 @@ class ProvedEvent:
     t: Any
     name: str
     what: str
+    before: Mapping[str, Any]
 
 
 @record(kw_only=True)
@@ -68,7 +69,7 @@ class Proof:
     ----------
     columns : tuple of str
     rows : tuple of tuples of arb
-        Each ball contains the exact value at that time.
+        Each ball contains the exact value at that time; None where it jumps just then.
     accuracy, reached, holds_until
         As of a certificate; here they are proved.
     bits, order, steps : int
@@ -92,6 +93,35 @@ class Proof:
     assumed: tuple[str, ...]
     events: tuple[ProvedEvent, ...] = ()
     refusal: str = ""
+
+    def as_result(self) -> Result:
+        """The middles of all enclosures, as of a run."""
+        certificate = Certificate(
+            accuracy=self.accuracy,
+            reached=self.reached,
+            holds_until=self.holds_until,
+            global_error={},
+            scales=(),
+            estimated_by="proof",
+            charges={},
+            constraints={},
+        )
+        events = [
+            Event(float(e.t), e.name, e.what, float(e.t.rad()),
+                  before={name: _middle(x) for name, x in e.before.items()})
+            for e in self.events
+        ]  # fmt: skip
+        return Result(
+            columns=self.columns,
+            rows=tuple(tuple(map(_middle, row)) for row in self.rows),
+            certificate=certificate,
+            method="proof",
+            reason="",
+            steps=self.steps,
+            evaluations=0,
+            events=tuple(events),
+            refusal=self.refusal,
+        )
 
 
 def prove(problem: Problem, asked: Asked, progress: Progress | None = None) -> Proof:
@@ -174,8 +204,6 @@ class Attempt:
         #: radius beside the scale of a component, the largest, at the last time
         self.width = 0.0
         self.last = 0.0
-        #: whether the last row is within the enclosure of the time of an event
-        self.is_torn = False
         number = self.arithmetic.number
         self.times = [number(Fraction(t)) for t in _times(setup.asked)]
 
@@ -189,11 +217,10 @@ class Attempt:
             self.refusal = f"the equations are not defined on the enclosure: {reason}"
         asked = self.setup.asked
         good = _good(self.rows, asked.accuracy)
-        self.is_torn = self.is_torn and good == len(self.rows) - 1
         reached = good == len(self.times)
         self.too_wide = good < len(self.rows)
         if self.too_wide:
-            self.refusal = _TORN if self.is_torn else _WIDE.format(asked.accuracy)
+            self.refusal = _WIDE.format(asked.accuracy)
         holds = float(self.times[good - 1]) if good else 0.0
         return Proof(
             columns=tuple(column.name for column in asked.columns),
@@ -212,7 +239,7 @@ class Attempt:
     def bits_needed(self) -> int:
         """For the whole span, by what was lost so far; 0 where more do not help."""
         accuracy, until = self.setup.asked.accuracy, self.setup.asked.until
-        if self.is_torn or not (self.too_wide or self.width > _NARROW * accuracy):
+        if not (self.too_wide or self.width > _NARROW * accuracy):
             return 0
         lost = max(1.0, self.bits + math.log2(max(self.width, 2.0**-self.bits)))
         share = until / max(self.last, until / _FARTHEST)
@@ -290,30 +317,32 @@ class Attempt:
         """What follows an event; None where the motion stops there."""
         state, ends = piece.at(tau), mode.ends(watched)
         if ends:
-            self.events.append(ProvedEvent(tau, watched.name, ends))
+            self._happened(tau, watched.name, ends, mode, state)
             self.times[len(self.rows) :] = [tau]
             self._take(mode, tau, state)
             return None
         after, restart, what = mode.through(watched, tau, state)
         t, start = behind(piece, tau, watched, (mode.field, after.field), restart)
         if watched.kind != "kink":
-            self.events.append(ProvedEvent(tau, watched.name, what))
-        self._rows_within(after, tau, state, restart.state(tau, state))
+            self._happened(tau, watched.name, what, mode, state)
+        self._rows_within(tau, (mode, state), (after, restart.state(tau, state)))
         leaves = {each: order for each in after.watched if (order := _order(each, watched))}
         for each in after.watched:
             if each not in leaves and not each.at(t, start.box) > 0:
                 raise NotEnclosed(f"what {each.name} does at t = {float(t):.6g} is not decided")
         return t, start, after, leaves
 
-    def _rows_within(
-        self, mode: Mode, tau: Any, before: Sequence[Any], after: Sequence[Any]
-    ) -> None:
-        """Rows within the enclosure of the time of an event: the states on both sides."""
+    def _happened(self, t: Any, name: str, what: str, mode: Mode, x: Sequence[Any]) -> None:
+        columns = [column.name for column in self.setup.asked.columns]
+        before = dict(zip(columns, self._values(mode, t, x), strict=True))
+        self.events.append(ProvedEvent(t, name, what, before))
+
+    def _rows_within(self, tau: Any, *sides: tuple[Mode, Sequence[Any]]) -> None:
+        """Rows within the enclosure of the time of an event: None in columns that jump."""
         while len(self.rows) < len(self.times) and self.times[len(self.rows)] <= tau.upper():
-            both = [x.union(y) for x, y in zip(before, after, strict=True)]
-            self._take(mode, self.times[len(self.rows)], both)
-            accuracy, until = self.setup.asked.accuracy, self.setup.asked.until
-            self.is_torn = tau.rad() < accuracy * until
+            t = self.times[len(self.rows)]
+            before, after = (self._values(mode, t, x) for mode, x in sides)
+            self.rows.append(tuple(map(_joined, before, after)))
 
     def _rows_of(self, piece: Piece, mode: Mode, event: Any) -> None:
         until = piece.end if event is None else event.lower()
@@ -324,8 +353,12 @@ class Attempt:
             self._take(mode, t, piece.at(t))
 
     def _take(self, mode: Mode, t: Any, x: Sequence[Any]) -> None:
-        n = mode.motion.n
-        self.rows.append(tuple(mode.values(t, list(x[:n]), list(x[n:]))))
+        self.rows.append(tuple(self._values(mode, t, x)))
+
+    def _values(self, mode: Mode, t: Any, x: Sequence[Any]) -> list[Any]:
+        n, ball = mode.motion.n, self.arithmetic.ball
+        found = mode.values(t, list(x[:n]), list(x[n:]))
+        return [None if value is None else ball(value) for value in found]
 
     def _count(self, piece: Piece, mode: Mode) -> None:
         self.steps += 1
@@ -341,6 +374,17 @@ class Attempt:
             raise NotEnclosed(_WIDE.format(self.setup.asked.accuracy))
         if self.work > self.most:
             raise NotEnclosed(f"the limit of work is reached, after {self.steps} steps")
+
+
+def _joined(before: Any, after: Any) -> Any:
+    """What contains both sides of an event; None where they are apart."""
+    if before is None or after is None or not before.overlaps(after):
+        return None
+    return before.union(after)
+
+
+def _middle(x: Any) -> float | None:
+    return None if x is None else float(x.mid())
 
 
 def _order(each: Watched, crossed: Watched) -> int:

@@ -39,6 +39,7 @@ def to_json(proof: Proof) -> bytes:
                 "enclosure": _ball(event.t),
                 "name": event.name,
                 "what": event.what,
+                "before": {name: _ball(x) for name, x in event.before.items()},
             }
             for event in proof.events
         ],

@@ -11,6 +11,7 @@ from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.equations.parameter_formulas import numbers_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked, Result
+from lagcli.numerics.rigorous import prove
 from lagcli.problem_data import Known, KnownRow, Problem, Trajectory
 from lagcli.studies.check.findings import CheckOutcome, Finding
 
@@ -103,6 +104,8 @@ class TrajectoryCheck:
             columns=tuple(columns.values()),
             furthest=False,
         )
+        if known.rigorous:
+            return prove(self.problem, asked).as_result()
         return simulate(self.problem, asked)
 
     # -- comparisons -----------------------------------------------------------------------------

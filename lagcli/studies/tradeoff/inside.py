@@ -24,7 +24,7 @@ class Trade:
 
 def trades(study: Study) -> list[Trade]:
     """Those that the runs say something of."""
-    found = (_cut(study), _compiled(study), _digits(study))
+    found = (_cut(study), _compiled(study), _digits(study), _proof(study))
     return [trade for trade in found if trade is not None]
 
 
@@ -100,3 +100,21 @@ def _digits(study: Study) -> Trade | None:
         f"{ratio:.3g} times as much to integrate, and goes on to {exact:.1e}",
         numbers={"hardware_error": least, "software_error": exact, "slower": ratio},
     )
+
+
+def _proof(study: Study) -> Trade | None:
+    """What a proof costs beside a certificate and a plain run, each a whole process."""
+    proved = study.proved
+    if proved is None:
+        return None
+    if not proved.reached or proved.total is None or proved.accuracy is None:
+        return Trade(name="proof", told=f"none: {proved.why or 'the accuracy is not reached'}")
+    numbers = {"accuracy": proved.accuracy, "proof": proved.total}
+    told = f"at {proved.accuracy:.0e} a proof takes {proved.total:.2g} s"
+    certified = [p for p in study.certified if p.accuracy == proved.accuracy and p.reached]
+    for name, points in (("certificate", certified), ("plain run", study.points)):
+        best = cheapest(points, proved.accuracy, COSTS["total"])
+        if best is not None and best.total is not None:
+            numbers[name.replace(" ", "_")] = best.total
+            told += f", a {name} {best.total:.2g} s"
+    return Trade(name="proof", told=told, numbers=numbers)

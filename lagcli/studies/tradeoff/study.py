@@ -20,7 +20,7 @@ from lagcli.studies.tradeoff.front import (
     verdict,
 )
 from lagcli.studies.tradeoff.reference import ReferenceMotion, numbers, reference
-from lagcli.studies.tradeoff.trial import Given, asked_of
+from lagcli.studies.tradeoff.trial import PROOF, Given, asked_of
 
 #: Local tolerances; those below the rounding of doubles are for methods with more digits.
 _TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16)
@@ -29,6 +29,8 @@ _FINER = (1e-20, 1e-24)
 _GAIN = 0.5
 #: Errors at which more exact arithmetic, and no smaller step, is what is missing.
 _ROUNDED = 1e-9
+#: Accuracy of the run that is proved.
+_PROVED = 1e-9
 #: Wall time that a process is given for each second of its processor time.
 _PATIENCE = 20.0
 
@@ -52,6 +54,8 @@ class Study:
         Runs with their certificates, those of `auto` among them.
     whole
         Runs of one method without anything cut from the model; none where nothing is.
+    proved
+        A run with enclosures, for the accuracy 1e-9.
     unsuited
         Method -> why it is not for this problem.
     cost
@@ -65,6 +69,7 @@ class Study:
     points: tuple[RunPoint, ...]
     certified: tuple[RunPoint, ...]
     whole: tuple[RunPoint, ...] = ()
+    proved: RunPoint | None = None
     unsuited: Mapping[str, str]
     cost: str
 
@@ -151,6 +156,7 @@ def study(
         points=tuple(points),
         certified=tuple(certified),
         whole=tuple(whole),
+        proved=maker.certified(PROOF, _PROVED),
         unsuited=unsuited,
         cost=cost,
     )
@@ -174,7 +180,7 @@ class _RunMaker:
     ) -> None:
         self.given, self.known, self.repeat, self.progress = given, known, repeat, progress
         self.made = 0
-        self.total = len(methods) * len(_TOLERANCES) + len(ACCURACIES) * (1 + len(methods))
+        self.total = len(methods) * len(_TOLERANCES) + len(ACCURACIES) * (1 + len(methods)) + 1
         self.unsuited = False
         self._too_long: dict[str, float] = {}  # the accuracy that took too long
 

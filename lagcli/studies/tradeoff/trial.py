@@ -26,6 +26,8 @@ _SECONDS, _AGAIN = 0.05, 5
 _PARTS = 10.0
 #: The accuracy of a single run, which claims none, is told as this at least.
 _LEAST = 1e-14
+#: The name of a run that is proved, beside those of the methods.
+PROOF = "proof"
 #: Significant digits of the numbers that are compared.
 _DIGITS = 50
 
@@ -41,7 +43,7 @@ class Given:
     until, samples
         The span, and how often the motion is looked at.
     method
-        Its name; `auto` with an accuracy only.
+        Its name; `auto` and `proof` with an accuracy only.
     tolerance, accuracy
         A single run with this local tolerance, or a run with its certificate.
     limit
@@ -86,6 +88,8 @@ def trial(given: Given) -> dict[str, Any]:
 
     try:
         problem, asked = asked_of(given)
+        if given.method == PROOF:
+            return _proved(problem, asked, ticked)
         if given.tolerance is None:
             return _certified(problem, asked, ticked)
         return _single(problem, asked, given, ticked)
@@ -112,7 +116,7 @@ def asked_of(given: Given) -> tuple[Problem, Asked]:
         samples=given.samples,
         columns=tuple(Column(*column) for column in usual_columns(problem)),
         project=given.project,
-        method=given.method,
+        method="auto" if given.method == PROOF else given.method,
         whole=given.whole,
         furthest=False,
     )
@@ -186,6 +190,23 @@ def _residual(run: Run) -> float | None:
     """The largest residual of a constraint or of its rate, relative to its terms."""
     surfaces = [phase.surface for phase in run.phases if phase.surface is not None]
     return max((x for surface in surfaces for x in surface.residuals), default=None)
+
+
+def _proved(problem: Problem, asked: Asked, ticked: Callable[[float], None]) -> dict[str, Any]:
+    from lagcli.numerics.rigorous import prove
+
+    proof = prove(problem, asked, ticked)
+    return {
+        "total": process_time(),
+        "integration": None,
+        "evaluations": None,
+        "steps": proof.steps,
+        "drift": None,
+        "residual": None,
+        "method": PROOF,
+        "reached": proof.reached,
+        "rows": [[_text(x) for x in row] for row in proof.rows],
+    }
 
 
 def _certified(problem: Problem, asked: Asked, ticked: Callable[[float], None]) -> dict[str, Any]:

@@ -1,0 +1,43 @@
+"""Every certified run of the library lies in the proved enclosure."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import lagcli
+from lagcli.interface.motion import asked_of
+from lagcli.numerics.rigorous import prove
+
+PROBLEMS = Path(__file__).parents[2] / "problems"
+#: Friction that holds, contacts that are closed at the beginning, impacts that accumulate.
+NOT_PROVED = {"block-on-belt", "block-stops-on-incline", "block-on-shaking-table", "bouncing-ball"}
+#: What doubles round on the way to the table.
+ROUNDING = 1e-15
+
+
+def with_runs():
+    """The files that say until when they run."""
+    for path in sorted(PROBLEMS.rglob("*.yaml")):
+        if "\nsimulation:" in path.read_text(encoding="utf-8"):
+            yield pytest.param(path, id=path.stem)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("path", list(with_runs()))
+def test_the_certified_run_lies_in_the_proved_enclosure(path):
+    problem = lagcli.load(path)
+    asked = asked_of(problem, accuracy=1e-9, samples=6)
+    proof = prove(problem, asked)
+    assert proof.reached == (path.stem not in NOT_PROVED), proof.refusal
+    motion = lagcli.simulate(problem, asked.until, accuracy=1e-9, samples=6)
+    scales = [max(abs(x) for x in motion[name]) or 1.0 for name in motion.columns]
+    bounds = [motion.certificate.global_error.get(name, 0.0) for name in motion.columns]
+    for balls, row in zip(proof.rows, motion.rows, strict=False):
+        for ball, x, scale, bound in zip(balls, row, scales, bounds, strict=True):
+            if ball is not None and x is not None:
+                assert float(abs(ball - x).lower()) <= (bound + ROUNDING) * scale
+    if proof.reached:
+        names = [(event.name, event.what) for event in proof.events]
+        assert names == [(event.name, event.what) for event in motion.events]
