@@ -132,3 +132,50 @@ def test_systems_of_liouvilles_form_have_an_integral_of_second_degree(F, G, U, W
     derivation = derive(text)
     assert {c.name for c in derivation.discovery.charges} == {"energy", "charge_1"}
     assert summary(derivation.discovery).in_involution == 2
+
+
+@pytest.mark.parametrize("L", ["x'^4/4", "exp(x')", "x'^6"])
+def test_a_dilation_of_momentum_and_energy_by_different_powers_is_no_poincare_algebra(L):
+    """[D, p] = p, [D, h] = c h: Killing's form is that of iso(1,1), where c = -1."""
+    found = summary(derive(problem(L, "[x]")).discovery)
+    assert (found.dimension, found.name) == (3, None)
+
+
+def test_three_cyclic_charges_beside_rotations_are_no_euclidean_algebra():
+    """so(3) + R^3 has the dimension and Killing's form of e(3)."""
+    sphere = "r^2*(theta'^2 + sin(theta)^2*phi'^2)"
+    found = summary(derive(problem(
+        f"m*(r'^2 + {sphere})/2 + exp(r)*u'^2/2 + r^4*w'^2/2 - 1/r",
+        f"{{r: {POS}, theta: {{}}, phi: {{}}, u: {{}}, w: {{}}}}", "m")).discovery)  # fmt: skip
+    assert (found.dimension, found.name, found.in_involution) == (6, "so(3) + R^3", 5)
+
+
+@pytest.mark.long
+def test_three_bodies_in_a_plane_have_the_six_of_galilei():
+    """Whittaker, *Analytical Dynamics*, section 155: ten in space, six in a plane."""
+    pairs = [("1", "2"), ("2", "3"), ("1", "3")]
+    V = " + ".join(f"k/sqrt((x{a} - x{b})^2 + (y{a} - y{b})^2)" for a, b in pairs)
+    free = " + ".join(f"{m}*(x{a}'^2 + y{a}'^2)/2" for m, a in zip("mbc", "123", strict=True))
+    found = summary(derive(problem(f"{free} + {V}", "[x1, y1, x2, y2, x3, y3]",
+                                   "m b c k")).discovery)  # fmt: skip
+    assert (found.dimension, found.independent, found.integrable) == (6, 6, None)
+    assert found.name == "Galilei in 2 dimensions, modulo constants"
+
+
+@pytest.mark.long
+def test_two_bodies_of_kepler_in_space_have_eleven_independent_charges():
+    """Goldstein, Poole, Safko, 3rd ed., sections 3.1 and 3.9: A of the relative motion is found."""
+    distance = "sqrt((x1 - x2)^2 + (y1 - y2)^2 + (z1 - z2)^2)"
+    free = "m*(x1'^2 + y1'^2 + z1'^2)/2 + b*(x2'^2 + y2'^2 + z2'^2)/2"
+    derivation = derive(problem(f"{free} + k/{distance}", "[x1, y1, z1, x2, y2, z2]", "m b k"))
+    found = summary(derivation.discovery)
+    assert (found.independent, found.in_involution, found.integrable) == (11, 6, True)
+
+
+@pytest.mark.long
+def test_three_separated_isotonic_oscillators_have_their_own_conformal_integrals():
+    """Evans, Phys. Rev. A 41 (1990) 5666: with E_x, E_y and three more of second degree."""
+    V = "k*(x^2 + y^2 + z^2)/2 + a/x^2 + b/y^2 + c/z^2"
+    derivation = derive(problem(f"m*(x'^2 + y'^2 + z'^2)/2 - ({V})", "[x, y, z]", "m k a b c"))
+    assert len(derivation.discovery.charges) == 12
+    assert summary(derivation.discovery).independent == 6

@@ -28,6 +28,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import simplify
+from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
@@ -48,6 +49,9 @@ def ambient_functions(metric: Metric, allowed: Allowance) -> list[Expr]:
     K = metric.curvature
     if K is None:
         return []
+    if metric.n == 1:  # X = int sqrt(g) dx
+        length = antiderivative(simplify(sympy.sqrt(metric.g[0][0])), metric.q[0], rules=False)
+        return [] if length is None else [length]
     factors = [_of_coordinate(x, metric, K) for x in metric.q]
     joint = _joint(metric)
     size = len(joint)

@@ -25,6 +25,9 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
+from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.modular import pivot_columns
+from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.search import SlotUnknown
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 from lagcli.mechanics.discovery.spectrum import (
@@ -51,6 +54,7 @@ class Kinds:
     radii: list[Symbol] = field(default_factory=list)
     cyclic: list[Symbol] = field(default_factory=list)  # among the angles
     latitudes: list[Symbol] = field(default_factory=list)  # angles in the inertia of others
+    alone: list[Symbol] = field(default_factory=list)  # cyclic, in no inertia with a latitude
     curved: bool = False
     exponentials: list[Expr] = field(default_factory=list)  # of lengths, in the inertia
     centre: Mapping[Symbol, Expr] = field(default_factory=dict)  # of rotations, where not at 0
@@ -98,6 +102,9 @@ def kinds(
     )
     found.exponentials = _exponentials(equations)
     found.latitudes = [x for x in found.angles if _in_determinant(x, equations)]
+    found.alone = [
+        x for x in found.cyclic if inertia[x].free_symbols.isdisjoint(found.latitudes)
+    ]  # fmt: skip
     return found
 
 
@@ -174,6 +181,7 @@ class TimeFunctions:
     exponents: tuple[Exponent, ...]
     forced: tuple[Expr, ...] = ()
     changing: bool = False  # with the solutions of a linear equation whose coefficients change
+    pushed: bool = False  # by forces without q and q', which translations alone take up
 
 
 def time_functions(
@@ -197,15 +205,24 @@ def time_functions(
     forced = forced_motion(accelerations, equations.q, equations.v, t)
     translations += [f * T for f in forced for T in (others if f != t else others[3:])]
     changing, stretched = of_changing_coefficients(accelerations, equations.q, equations.v, t)
-    translations += changing
-    others += stretched
+    if changing:
+        translations = _independent([*translations, *changing], t)
+        others = _independent([*others, *stretched], t)
     return TimeFunctions(
         tuple(dict.fromkeys(translations)),
         tuple(dict.fromkeys(others)),
         tuple(found),
         tuple(f for f in forced if f != t),
         bool(changing),
+        bool(forced),
     )
+
+
+def _independent(functions: Sequence[Expr], t: Symbol) -> list[Expr]:
+    """The first of them that span all, over the constants: t/(t + 1) is 1 - 1/(t + 1)."""
+    each = list(dict.fromkeys(functions))
+    rows = Relation([[f] for f in each], [t], Allowance()).rows(len(each) + 4)
+    return [each[k] for k in pivot_columns(rows)]
 
 
 def _functions(found: Iterable[Exponent], t: Symbol) -> list[Expr]:
@@ -216,6 +233,8 @@ def affine(found: Kinds) -> list[Expr]:
     """Functions of the coordinates for point transformations, the simplest first."""
     one = sympy.S.One
     by_angle = [_angle(x, found) for x in found.angles]
+    if found.latitudes and _size(by_angle) > _MOST_FUNCTIONS:
+        by_angle = [_angle(x, found) for x in found.angles if x not in found.alone]
     if _size(by_angle) > _MOST_FUNCTIONS:
         by_angle = [[one, sympy.sin(x), sympy.cos(x)] for x in found.angles]
     if _size(by_angle) > _MOST_FUNCTIONS:
@@ -239,7 +258,7 @@ def quadratic(found: Kinds, most: int) -> list[Expr]:
     inverse = [1 / r for r in found.radii]
     lengths = [
         [one, *x, *squares, *inverse, *(r**-2 for r in found.radii)],
-        [one, *inverse, *found.radii],
+        [one, *x, *inverse],
         [one, *inverse],
     ]
     angles = [

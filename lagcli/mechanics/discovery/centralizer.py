@@ -4,11 +4,13 @@ Two bodies have the rotation of all, the rotation about the centre of mass and t
 difference; the basis with fewest entries has a mixture.  Where a combination with other
 time-independent rotations commutes with all translations, it is taken instead:
 [X, P] = 0 with X = sum xi_j d/dq_j, P = sum c_j d/dq_j is sum_j c_j dxi_i/dq_j = 0.
+Likewise the charges p_i - F_i t of a uniform force have combinations without the time.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import sympy
 from sympy import Expr
@@ -18,7 +20,7 @@ from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import kernel_modulo
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled
-from lagcli.mechanics.noether import Transformation
+from lagcli.mechanics.noether import NoetherCharge, Transformation
 from lagcli.mechanics.system import System
 
 
@@ -64,3 +66,46 @@ def centralized(
             scaled(changes, set(system.parameters)), sympy.S.Zero
         )
     return result
+
+
+def without_time(
+    charges: Sequence[NoetherCharge], system: System, allowed: Allowance
+) -> list[NoetherCharge]:
+    """The same space of charges, with combinations of those of displacements that have no t."""
+    t, result = system.t, list(charges)
+    chosen = [
+        k for k, c in enumerate(result)
+        if c.transformation.time == 0 and t in c.charge.free_symbols
+        and t not in sympy.Tuple(*c.transformation.changes).free_symbols
+    ]  # fmt: skip
+    if len(chosen) < 2:
+        return result
+    rates = [[result[k].charge.diff(t)] for k in chosen]
+    relation = Relation(rates, [t, *system.q, *system.qdot], allowed)
+    exact = ExactSolver(relation.points)
+    for vector in kernel_modulo(relation.rows(len(chosen) + 8), len(chosen))[1]:
+        indices = sorted(vector)
+        values = exact.recognized([vector[i] for i in indices])
+        values = values or exact.solved([rates[i] for i in indices])
+        if values is not None and len(indices) > 1:
+            factors = scaled(values, set(system.parameters))
+            parts = [result[chosen[i]] for i in indices]
+            result[chosen[indices[-1]]] = _combined(parts, factors)
+    return result
+
+
+def _combined(charges: Sequence[NoetherCharge], factors: Sequence[Expr]) -> NoetherCharge:
+    """The sum of multiples of charges of displacements."""
+
+    def total(values: Sequence[Expr | None]) -> Expr:
+        return sympy.expand(
+            sympy.Add(*(c * (x or 0) for c, x in zip(factors, values, strict=True)))
+        )
+
+    columns = zip(*(c.transformation.changes for c in charges), strict=True)
+    return replace(
+        charges[-1],
+        transformation=Transformation(tuple(total(column) for column in columns), sympy.S.Zero),
+        gauge=total([c.gauge for c in charges]),
+        charge=total([c.charge for c in charges]),
+    )

@@ -59,8 +59,11 @@ def tangent(
     return found
 
 
-def rank_on_surface(dynamics: Dynamics, charges: Sequence[Expr]) -> int:
-    """How many of the functions are independent on the surface, at a time: rank of gradients."""
+def rank_on_surface(dynamics: Dynamics, charges: Sequence[Expr]) -> int | None:
+    """How many of the functions are independent on the surface: the rank of their gradients.
+
+    None where no state was found to take it at.
+    """
     system, constraints = dynamics.system, dynamics.constraints
     relations = [*(e.f for e in constraints.equations if e.holonomic), *constraints.velocity_forms]
     variables = (*system.q, *system.qdot)
@@ -74,4 +77,4 @@ def rank_on_surface(dynamics: Dynamics, charges: Sequence[Expr]) -> int:
             width = len(variables)
             rows = [values[k : k + width] for k in range(0, len(values), width)]
             return rank(rows) - rank(rows[: len(relations)])
-    return min(1, len(charges))
+    return None if charges else 0

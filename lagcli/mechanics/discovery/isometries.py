@@ -41,7 +41,7 @@ from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.search import Search, SlotUnknown
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 
-_COORDINATES = (2, 3)
+_COORDINATES = (1, 2, 3)
 
 Vector = tuple[Expr, ...]
 
@@ -121,8 +121,9 @@ class Isometries:
 
     def beyond(self, kinds: Kinds) -> bool:
         """Whether they are there, and not all combinations of the functions of `affine`."""
+        fields = [*self.fields, *([self.dilation] if self.functions and self.flat else [])]
         return bool(self.functions) and not self._within(
-            [x for field in self.fields for x in field], affine(kinds)
+            [x for field in fields for x in field], affine(kinds)
         )
 
     def products_beyond(self, known: Sequence[Expr]) -> bool:

@@ -136,29 +136,40 @@ def _whole(C: list[list[Vector]], n: int, derived: int, *, extended: bool) -> st
     plus, minus = _signature(C)
     if plus + minus == n:
         return _SEMISIMPLE.get((n, plus, minus))
-    if n == 3 and derived == 2 and not extended:
-        return {(0, 1): "e(2)", (1, 0): "Poincaré iso(1,1)"}.get((plus, minus))
+    if not _is_unimodular(C):  # all that follow are
+        return None
+    if n == 3 and derived == 2:
+        if extended:
+            kinds = {(0, 1): "oscillator algebra", (1, 0): "oscillator algebra (hyperbolic)"}
+        else:
+            kinds = {(0, 1): "e(2)", (1, 0): "Poincaré iso(1,1)"}
+        return kinds.get((plus, minus))
+    if n == 8 and (plus, minus, derived) == (3, 1, 7) and extended:
+        return "sl(2,R) + so(1,1) with Heisenberg h(2)"
     for d in range(1, 5):
         turns = d * (d - 1) // 2
-        if n == 3 + turns + 2 * d and (plus, minus) == (2, 1 + turns) and extended:
+        turned = turns if d > 2 else 0  # so(2) is no bracket
+        perfect = derived == n and d > 1 and not extended
+        found = (n, plus, minus, derived)
+        if extended and found == (3 + turns + 2 * d, 2, 1 + turns, 3 + turned + 2 * d):
             rotations = f" + so({d})" if d > 1 else ""
             return f"Schrödinger sch({d}): sl(2,R){rotations} with Heisenberg h({d})"
-        if d == 2 and n == 8 and (plus, minus) == (3, 1) and extended:
-            return "sl(2,R) + so(1,1) with Heisenberg h(2)"
-        # brackets give the momenta; with rotations the boosts too, and those of so(d), d > 2
-        products = 1 if d == 1 else 2 * d + (turns if d > 2 else 0)
-        galilei = n == 1 + turns + 2 * d and derived == products
-        if galilei and (plus, minus) == (0, turns) and extended:
+        # brackets give the momenta; with rotations the boosts too
+        products = 2 * d + turned if d > 1 else 1
+        if extended and found == (1 + turns + 2 * d, 0, turns, products):
             return f"Galilei in {d} dimension{'s' if d > 1 else ''}"
-        if d == 3 and n == 1 + 2 * (turns + d) and (plus, minus) == (0, 2 * turns) and extended:
+        if extended and found == (13, 0, 6, 12):
             return "Galilei in 3 dimensions + so(3)"  # two bodies: L_rel beside L
-        if d > 1 and n == turns + 2 * d + 1 and (plus, minus) == (d, turns) and not extended:
+        if perfect and n == turns + 2 * d + 1 and (plus, minus) == (d, turns):
             return f"Poincaré iso({d},1)"
-        if d > 2 and n == turns + d and (plus, minus) == (0, turns) and not extended:
+        if perfect and d > 2 and n == turns + d and (plus, minus) == (0, turns):
             return f"e({d})"
-    if n == 3 and extended and derived == 2 and plus + minus == 1:
-        return "oscillator algebra" if minus else "oscillator algebra (hyperbolic)"
     return None
+
+
+def _is_unimodular(C: list[list[Vector]]) -> bool:
+    """Whether tr ad_a = sum_b C_ab^b vanishes: iso(1,1) has it, a dilation of p and h has not."""
+    return all(abs(mpmath.fsum(row[b][b] for b in range(len(C)))) < _SMALL for row in C)
 
 
 def _signature(C: list[list[Vector]]) -> tuple[int, int]:

@@ -1,15 +1,88 @@
-"""The order of the charges that are listed, their signs, and the words for those left out."""
+"""The charges that are listed: names, order, signs, and the words for those left out."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 import sympy
 from sympy import Expr
 
 from lagcli.algebra import simplify
+from lagcli.algebra.jumps import is_continuous
+from lagcli.mechanics.constraints import ConstraintEquation
+from lagcli.mechanics.discovery.ansatz import Kinds
+from lagcli.mechanics.discovery.names import Naming, distinct
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
+
+
+class Listing:
+    """Charges with names that differ: of point symmetries, sorted, and the others.
+
+    Those of symmetries of L are sorted anew with each that is added; the others stand as found.
+    """
+
+    def __init__(
+        self, system: System, constraints: Sequence[ConstraintEquation], kinds: Kinds
+    ) -> None:
+        self.points: tuple[NoetherCharge, ...] = ()
+        self.hidden: tuple[NoetherCharge, ...] = ()
+        self.naming = Naming(system.t, system.q, kinds)
+        self._system = system
+        self._constrained = bool(constraints)
+        self._moved = any(e.drift != 0 for e in constraints)  # and so does work
+        self._found: list[tuple[str, NoetherCharge]] = []
+
+    @property
+    def _names(self) -> list[str]:
+        return [c.name for c in (*self.points, *self.hidden)]
+
+    def add(self, charges: Iterable[NoetherCharge]) -> None:
+        """Name charges of point symmetries, and sort all of them anew."""
+        self._found += [self._named(charge) for charge in filter(self._lasts, charges)]
+        self._found.sort(key=lambda pair: rank_of(pair[0]))
+        names = distinct([name for name, _ in self._found])
+        self.points = tuple(
+            replace(times(charge, self.naming.orientation(name, charge)), name=name)
+            for name, (_, charge) in zip(names, self._found, strict=True)
+        )
+
+    def keep_only(self, charges: Sequence[NoetherCharge]) -> None:
+        """Leave out the charges of point symmetries that are not among the given ones."""
+        pairs = zip(self._found, self.points, strict=True)
+        self._found = [pair for pair, charge in pairs if charge in charges]
+        self.add(())
+
+    def rebase(self, change: Callable[[Sequence[NoetherCharge]], list[NoetherCharge]]) -> None:
+        """Take other combinations of the charges of point symmetries, with their own names."""
+        old = [charge for _, charge in self._found]
+        new = change(old)
+        if any(one is not other for one, other in zip(old, new, strict=True)):
+            self._found = []
+            self.add(new)
+
+    def add_hidden(self, named: Iterable[tuple[str, NoetherCharge]]) -> None:
+        """Other charges, with the names that they have, if any, made to differ."""
+        kept = [each for each in named if self._lasts(each[1])]
+        names = distinct([*self._names, *(name for name, _ in kept)])[len(self._names) :]
+        self.hidden += tuple(
+            replace(charge, name=name) for name, (_, charge) in zip(names, kept, strict=True)
+        )
+
+    def _lasts(self, charge: NoetherCharge) -> bool:
+        """Whether it is constant also where the argument of a sign passes 0."""
+        return self._system.is_continuous and is_continuous(charge.charge)
+
+    def _named(self, charge: NoetherCharge) -> tuple[str, NoetherCharge]:
+        given = charge.transformation
+        name = self.naming.of_point(given.changes, given.time)
+        name = name or self.naming.of_relative(charge.charge, given.changes, self._system.qdot)
+        if name == "energy" and self._moved and charge.gauge != 0:
+            name = "moving_energy"
+        if name or not self._constrained:
+            return name, charge
+        return led_momentum(charge, self._system)
 
 
 def rank_of(name: str) -> tuple[int, str]:

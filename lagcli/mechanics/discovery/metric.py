@@ -94,7 +94,9 @@ class Metric:
     def curvature(self) -> Expr | None:
         """K, or None where the curvature is not constant."""
         planes = list(combinations(range(self.n), 2))
-        if not planes or not self._is_constant(planes):
+        if not planes:
+            return sympy.S.Zero
+        if not self._is_constant(planes):
             return None
         i, j = planes[0]
         K = simplify(self.riemann(i, j, i, j) / self._area(i, j, i, j))

@@ -10,6 +10,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.mechanics.discovery.ansatz import Kinds
+from lagcli.mechanics.noether import NoetherCharge
 
 _AXES = {"xy": "z", "yz": "x", "xz": "y"}
 
@@ -134,9 +135,9 @@ class Naming:
             return "L_x"
         return "L_y" if turn in (sympy.cos(phi), -sympy.cos(phi)) else ""
 
-    def orientation(self, name: str, xi: Sequence[Expr]) -> Expr:
+    def orientation(self, name: str, charge: NoetherCharge) -> Expr:
         """The sign that turns a charge into the textbook's: L_y = z p_x - x p_z."""
-        moved = dict(zip(self.q, xi, strict=True))
+        moved = dict(zip(self.q, charge.transformation.changes, strict=True))
         if name.endswith("_relative"):
             one, *_, other = sorted((x for x in moved if moved[x] != 0), key=lambda x: x.name)
             slope = moved[other].diff(one)  # of y_2 by x_1: the other particle's is opposite

@@ -13,7 +13,6 @@ from lagcli.mechanics.discovery.ansatz import (
     TimeFunctions,
     affine,
     point_unknowns,
-    time_functions,
 )
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
@@ -96,8 +95,7 @@ def _exponents(discovery: Discovery) -> tuple[Exponent, ...]:
     )
     if not timed:
         return ()
-    accelerations, canonical = discovery.accelerations, discovery.canonical
-    return time_functions(discovery.equations, accelerations, potential=canonical).exponents
+    return discovery.time_functions.exponents
 
 
 def _at(discovery: Discovery, parameter: Symbol, value: Expr) -> Discovery | None:

@@ -133,8 +133,10 @@ def forced_motion(
             inside = wave.args[0]
             both = [sympy.sin(inside), sympy.cos(inside)]
             found |= dict.fromkeys([wave] if wave.func is sympy.exp else both)
-        if len(waves) < len(free):
-            found[t] = None
+        powers = sympy.Add(*(x for x in free if x.is_polynomial(t)))
+        if powers != 0:  # a motion of the same degree, of two more without a spring
+            degree = int(sympy.degree(powers, t)) if t in powers.free_symbols else -1
+            found |= dict.fromkeys(t**k for k in range(1, max(2, degree + 3)))
     return list(found)
 
 

@@ -14,7 +14,7 @@ from lagcli.mechanics.discovery.brackets import Brackets, NoState, Structure
 from lagcli.mechanics.discovery.constrained import rank_on_surface
 from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.lie_algebra import name_of
-from lagcli.mechanics.discovery.limits import TooMuchWork
+from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
 from lagcli.mechanics.states import Contradiction
 from lagcli.statements.answers import AlgebraSection
 
@@ -85,7 +85,7 @@ def _free(discovery: Discovery) -> Summary:
         number = None if discovery.unsearched else 0
         return Summary(0, None, number, number, None)
     more = [*_squares(discovery), *_of_the_file(discovery)]
-    brackets = Brackets([*charges, *more], discovery.dynamics, discovery.allowed)
+    brackets = Brackets([*charges, *more], discovery.dynamics, Allowance())
     everything = list(range(count))
     if not discovery.canonical:
         # with other forces than those of L the motion is no canonical flow
@@ -147,11 +147,11 @@ def _squares(discovery: Discovery) -> list[Expr]:
     For involution: two bodies in space have L_rel^2, two charges in a magnetic field the
     square of their whole momentum, which commutes with L, as its components do not.
     """
-    linear = [c.charge for c in discovery.charges if c.transformation.time == 0
+    linear = [c.charge for c in discovery.point_charges if c.transformation.time == 0
               and discovery.system.t not in c.charge.free_symbols]  # fmt: skip
     if len(linear) < 3 or len(linear) > _MOST_FOR_SQUARES:
         return []
-    brackets = Brackets(linear, discovery.dynamics, discovery.allowed)
+    brackets = Brackets(linear, discovery.dynamics, Allowance())
     found = []
     for triple in combinations(range(len(linear)), 3):
         structure = brackets.structure(triple)

@@ -78,9 +78,15 @@ def _elementary(I: Expr, t: Symbol) -> list[Expr]:  # noqa: E741
         if I.is_negative:
             return [sympy.exp(sympy.sqrt(-I) * t), sympy.exp(-sympy.sqrt(-I) * t)]
         return [sympy.sin(sympy.sqrt(I) * t), sympy.cos(sympy.sqrt(I) * t)]
-    c = simplify(I * t**2)
-    s = sympy.sqrt(sympy.Rational(1, 4) - c)
-    return [t ** (sympy.S.Half + s), t ** (sympy.S.Half - s)] if s.is_Rational and s != 0 else []
+    inverse = sympy.expand(simplify(1 / I))  # (t + b)^2/c
+    if not inverse.is_polynomial(t) or sympy.degree(inverse, t) != 2:
+        return []
+    square, linear, _ = sympy.Poly(inverse, t).all_coeffs()
+    shifted = t + simplify(linear / (2 * square))
+    s = sympy.sqrt(sympy.Rational(1, 4) - 1 / square)
+    if not s.is_Rational or s == 0 or simplify(square * shifted**2 - inverse) != 0:
+        return []
+    return [shifted ** (sympy.S.Half + s), shifted ** (sympy.S.Half - s)]
 
 
 def _is_plain(function: Expr) -> bool:

@@ -1,7 +1,8 @@
-"""Integrals of third degree in the velocities.
+"""Integrals of third and fourth degree in the velocities.
 
 Hietarinta, Phys. Rep. 147 (1987) 87, section 3 (Holt; Fokas and Lagerstrom); Henon, Phys. Rev. B
-9 (1974) 1921 (Toda); Bogoyavlensky, Commun. Math. Phys. 51 (1976) 201 (open chains).
+9 (1974) 1921 (Toda); Bogoyavlensky, Commun. Math. Phys. 51 (1976) 201 (open chains);
+Ramani, Dorizzi, Grammaticos, Phys. Rev. Lett. 49 (1982) 1539 (fourth degree).
 """
 
 import pytest
@@ -44,7 +45,7 @@ def test_an_integral_of_third_degree_makes_it_integrable(name):
 def test_three_masses_of_toda(chain):
     text = problem(f"{T3} - ({chain})", "[x, y, z]", "m k a b c d")
     derivation = derive(text)
-    assert "third degree" in derivation.discovery.ansatz
+    assert "of degree 3" in derivation.discovery.ansatz
     assert summary(derivation.discovery).integrable is True
 
 
@@ -60,11 +61,44 @@ def test_a_chain_of_another_force_has_none(V):
 @pytest.mark.parametrize("V", [
     "x^2*y^2", "k*(x^2 + y^2)/2 + x^2*y + 5*y^3", "k*(x^2 + 3*y^2)/x^(2/3)",
 ])  # fmt: skip
-def test_what_is_not_integrable_gets_no_third_degree(V):
+def test_what_is_not_integrable_gets_no_third_or_fourth_degree(V):
     found = derive(problem(f"{T2} - {V}", parameters="m k")).discovery
     assert [c.name for c in found.charges] == ["energy"]
 
 
 def test_what_lower_degrees_decide_is_not_searched():
     found = derive(problem(f"{T2} + k/sqrt(x^2 + y^2)", parameters="m k")).discovery
-    assert "third degree" not in found.ansatz
+    assert "of degree 3" not in found.ansatz
+
+
+def henon_heiles(x, y):
+    return f"{T2} - k*({x}^2 + 16*{y}^2)/2 - b*({x}^2*{y} + 16*{y}^3/3)"
+
+
+def quartic(x, y):
+    return f"{T2} - k*({x}^4 + 6*{x}^2*{y}^2 + 8*{y}^4)"
+
+
+FOURTH = {
+    "Henon and Heiles, 1:16": henon_heiles("x", "y"),
+    "1:6:8": quartic("x", "y"),
+    "1:6:8, turned": quartic(*TURNED),
+    "Holt, fourth degree": f"{T2} - k*(9*x^2/2 + y^2 + d)/x^(2/3)",
+}
+
+
+@pytest.mark.parametrize("name", FOURTH)
+def test_an_integral_of_fourth_degree_makes_it_integrable(name):
+    text = problem(FOURTH[name], parameters="m k b d")
+    found = summary(derive(text).discovery)
+    assert (found.independent, found.in_involution, found.integrable) == (2, 2, True)
+    assert min(kept(text, name).values()) > 20
+
+
+@pytest.mark.parametrize("V", [
+    holt("(r*cos(phi))", "(r*sin(phi))"),
+    "k*(exp(2*a*r*sin(phi)) + 2*exp(-a*r*sin(phi))*cosh(sqrt(3)*a*r*cos(phi)))",
+])  # fmt: skip
+def test_third_degree_is_found_in_polar_coordinates(V):
+    text = problem(f"m*(r'^2 + r^2*phi'^2)/2 - {V}", "{r: {assume: positive}, phi: {}}", "m k a d")
+    assert summary(derive(text).discovery).integrable is True

@@ -1,0 +1,92 @@
+"""The search on a constraint surface: in which order, and what it is in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import sympy
+from sympy import Expr
+
+from lagcli.mechanics.discovery.ansatz import TimeFunctions, time_functions
+from lagcli.mechanics.discovery.constrained import rank_on_surface
+from lagcli.mechanics.discovery.listing import more
+from lagcli.mechanics.discovery.momentum_equation import Momenta
+from lagcli.mechanics.discovery.setting import Setting
+from lagcli.mechanics.discovery.under_constraints import UnderConstraints
+from lagcli.mechanics.noether import NoetherCharge, Transformation
+
+_MOST_IN_SPACE = 4
+
+
+def search_on_surface(
+    setting: Setting, of_lagrangian: Sequence[Transformation]
+) -> tuple[NoetherCharge, ...]:
+    """Momenta along admissible displacements, then integrals that hold on the surface.
+
+    Returns the momentum equations, of symmetries of L without a constant charge.
+    """
+    motion, listing = setting.dynamics.motion, setting.listing
+    times = time_functions(
+        setting.equations,
+        None if motion is None else motion.accelerations,
+        potential=setting.canonical,
+    )
+    search = UnderConstraints(setting.noether, setting.coordinate_kinds, times, setting.allowed)
+    integrated = search.integrated()
+    listing.keep_only(search.new([], listing.points))
+    listing.add(integrated)
+    listing.add(search.linear(_values(setting)))
+    momenta = search.momenta(of_lagrangian, listing.points)
+    listing.add(search.new(_values(setting), momenta.conserved))
+    setting.words.append(_sentence(times))
+    freedom = setting.dynamics.degrees_of_freedom
+    if freedom > 1 and rank_on_surface(setting.dynamics, _values(setting)) == 2 * freedom:
+        setting.words.append("all others are functions of these")
+    elif freedom > 1 and setting.system.t not in setting.equations_symbols:
+        found = search.quadratic(listing.points)
+        if _few(setting, [*listing.points, *found]):
+            found += search.of_velocities([*listing.points, *found])
+        listing.add_hidden(("", charge) for charge in found)
+        setting.words.append(
+            "and of second degree without explicit time, with coefficients of second degree"
+        )
+    if search.unsolved:
+        setting.stopped.append(
+            f"{more(search.unsolved, 'integral')} there, whose coefficients were not solved"
+        )
+    return _named(setting, momenta)
+
+
+def _values(setting: Setting) -> list[Expr]:
+    return [c.charge for c in setting.point_charges]
+
+
+def _named(setting: Setting, momenta: Momenta) -> tuple[NoetherCharge, ...]:
+    naming = setting.listing.naming
+    names = (naming.of_point(c.transformation.changes, sympy.S.Zero) for c in momenta.changing)
+    return tuple(
+        replace(c, name=name or f"momentum_{k}", source="momentum equation")
+        for k, (c, name) in enumerate(zip(momenta.changing, names, strict=True), 1)
+    )
+
+
+def _sentence(times: TimeFunctions) -> str:
+    return (
+        "on the constraints, first integrals of first degree in the velocities "
+        "along admissible displacements"
+        + (" with the exponents of the linear part" if times.exponents else "")
+        + ", coefficients of first degree in the coordinates"
+    )
+
+
+def _few(setting: Setting, known: Sequence[NoetherCharge]) -> bool:
+    """Whether fewer than n are known that do not contain the time, on a surface at rest."""
+    constraints = setting.dynamics.constraints
+    still = all(e.drift == 0 for e in constraints.equations)
+    holonomic = all(kind == "holonomic" for kind in constraints.kinds.values())
+    fixed = [c.charge for c in known if setting.system.t not in c.charge.free_symbols]
+    if not (still and holonomic and len(setting.system.q) <= _MOST_IN_SPACE):
+        return False
+    number = rank_on_surface(setting.dynamics, fixed)
+    return number is not None and number < setting.dynamics.degrees_of_freedom

@@ -1,0 +1,191 @@
+"""One system as its searches see it: equations, kinds of coordinates, curvature."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+
+import mpmath
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import free_of
+from lagcli.algebra.numeric import Evaluator
+from lagcli.mechanics.discovery.ansatz import Kinds, TimeFunctions, kinds, time_functions
+from lagcli.mechanics.discovery.brackets import rank
+from lagcli.mechanics.discovery.centre import centre_of
+from lagcli.mechanics.discovery.isometries import Isometries
+from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.listing import Listing
+from lagcli.mechanics.discovery.slots import SlotEquations
+from lagcli.mechanics.noether import Noether, NoetherCharge
+from lagcli.mechanics.states import Contradiction
+
+_MOST_COORDINATES = 9
+_DIGITS = 40
+_FEW_TERMS = 3
+
+
+class Setting:
+    """The system, the work that its searches may do, and what they have found so far.
+
+    Attributes
+    ----------
+    words, stopped : list of str
+        What is searched, and which parts of it were not finished, and why.
+    """
+
+    def __init__(self, noether: Noether) -> None:
+        self.noether = noether
+        self.dynamics = noether.dynamics
+        self.system = noether.system
+        self.allowed = Allowance()
+        self.words: list[str] = []
+        self.stopped: list[str] = []
+
+    @cached_property
+    def listing(self) -> Listing:
+        """The charges that were found, with their names."""
+        return Listing(self.system, self.dynamics.constraints.equations, self.coordinate_kinds)
+
+    @property
+    def point_charges(self) -> tuple[NoetherCharge, ...]:
+        """Of point symmetries."""
+        return self.listing.points
+
+    @property
+    def hidden_charges(self) -> tuple[NoetherCharge, ...]:
+        """Of higher degree in the velocities, beyond them."""
+        return self.listing.hidden
+
+    @property
+    def charges(self) -> tuple[NoetherCharge, ...]:
+        """All of them, the point symmetries first."""
+        return (*self.point_charges, *self.hidden_charges)
+
+    @property
+    def fixed_charges(self) -> list[NoetherCharge]:
+        """Those without explicit time."""
+        return [c for c in self.charges if self.system.t not in c.charge.free_symbols]
+
+    @cached_property
+    def unusable(self) -> str:
+        """Why there is no search, empty where there is one."""
+        if len(self.system.q) > _MOST_COORDINATES:
+            return f"more than {_MOST_COORDINATES} coordinates are not searched"
+        if self.dynamics.constraints.equations:
+            return ""
+        try:
+            return "the Lagrangian is singular" if self._singular else ""
+        except Contradiction:
+            return "no state was found at which the Lagrangian is real"
+
+    @property
+    def _singular(self) -> bool:
+        """Whether M has no inverse, by its rank at a random state."""
+        mass = self.dynamics.lagrange.mass_matrix
+        n = len(mass)
+        evaluate = Evaluator([m for row in mass for m in row], _DIGITS)
+        for state in self.dynamics.states.take(3):
+            try:
+                entries = evaluate(state)
+            except (ArithmeticError, ValueError):
+                continue
+            with mpmath.workdps(_DIGITS):
+                if rank([entries[k * n : (k + 1) * n] for k in range(n)]) == n:
+                    return False
+        return True
+
+    @cached_property
+    def equations(self) -> SlotEquations:
+        """The equations of motion without constraints."""
+        lagrange = self.dynamics.lagrange
+        return SlotEquations(
+            self.system.t,
+            self.system.q,
+            self.system.qdot,
+            tuple(tuple(map(self._short, row)) for row in lagrange.mass_matrix),
+            tuple(map(self._short, lagrange.forcing)),
+        )
+
+    def _short(self, expression: Expr) -> Expr:
+        """Shorter where sines and cosines may cancel; sums of pair forces stay as they are."""
+        self.allowed.check()
+        angular = any(not free_of(f, self.system.q) for f in expression.atoms(sympy.sin, sympy.cos))
+        few = len(sympy.Add.make_args(expression)) <= _FEW_TERMS
+        return simplify(expression) if angular or few else expression
+
+    @cached_property
+    def coordinate_kinds(self) -> Kinds:
+        """Which coordinates are lengths and which are angles."""
+        units = [c.unit for c in self.system.problem.coordinates]
+        rows = [x for e in self.dynamics.constraints.equations for x in (*e.row, e.drift)]
+        return kinds(self.system.L, self.equations, units, rows)
+
+    @property
+    def centred_kinds(self) -> Kinds:
+        """The same, with the centre of the rotations found."""
+        given = [c.transformation for c in self.point_charges]
+        centre = centre_of(given, self.system, self.coordinate_kinds.lengths)
+        return replace(self.coordinate_kinds, centre=centre)
+
+    @cached_property
+    def canonical(self) -> bool:
+        """Whether no forces act beside those of L."""
+        return all(is_zero(f) is True for f in self.system.applied_forces)
+
+    @cached_property
+    def quadratic_mass(self) -> bool:
+        """Whether the mass matrix does not depend on velocities."""
+        v = self.system.qdot
+        return all(free_of(m, v) for row in self.equations.mass for m in row)
+
+    @cached_property
+    def accelerations(self) -> tuple[Expr, ...] | None:
+        """q'' for its linear part; None where there are constraints."""
+        if self.dynamics.constraints.equations:
+            return None
+        mass = self.equations.mass
+        if all(m == 0 for i, row in enumerate(mass) for j, m in enumerate(row) if i != j):
+            forcing = map(self._with_linear_terms, range(len(mass)))
+            return tuple(f / row[i] for i, (f, row) in enumerate(zip(forcing, mass, strict=True)))
+        if any(not free_of(m, self.system.q) for row in mass for m in row):
+            return None  # its inverse times the forcing has no linear terms of use
+        motion = self.dynamics.motion
+        return None if motion is None else motion.accelerations
+
+    @cached_property
+    def time_functions(self) -> TimeFunctions:
+        """Those that the linear part of the forces suggests, in Cartesian coordinates if any."""
+        if self.isometries is not None and self.isometries.flat:
+            return self.isometries.times
+        return time_functions(self.equations, self.accelerations, potential=self.canonical)
+
+    @cached_property
+    def isometries(self) -> Isometries | None:
+        """Those of a kinetic energy of constant curvature that depends on the coordinates."""
+        if self.dynamics.constraints.equations or not (self.canonical and self.quadratic_mass):
+            return None
+        if not Isometries.apply(self.equations):
+            return None
+        found = Isometries(self.equations, self.allowed)
+        return found if found.functions else None
+
+    def _with_linear_terms(self, i: int) -> Expr:
+        """A force in the form that has linear terms: simplified, or as it was derived.
+
+        In one fraction with b/x^3 no term of k x is linear; as derived from points that turn the
+        terms of sin(w t) have not cancelled.
+        """
+        simple = self.equations.forcing[i]
+        plain = free_of(sympy.fraction(simple)[1], self.system.q)
+        return simple if plain else self.dynamics.lagrange.forcing[i]
+
+    @property
+    def equations_symbols(self) -> set[Expr]:
+        """All symbols of M and of the forcing."""
+        return set().union(
+            *(m.free_symbols for row in self.equations.mass for m in row),
+            *(f.free_symbols for f in self.equations.forcing),
+        )
