@@ -70,7 +70,8 @@ def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
         charges += f", {section.in_involution} in involution"
     counts = "" if section.dimension_counts == "charges" else f" of the {section.dimension_counts}"
     yield Paragraph((f"Dimension {section.dimension}{counts}{named}; {charges}.",))
-    yield Paragraph((integrable[section.integrable],))
+    lead = "The Hamilton-Jacobi equation separates: t" if section.separates else "T"
+    yield Paragraph((integrable[section.integrable].replace("T", lead, 1),))
     for case in section.special:
         where = f"{case.parameter} = {to_grammar(case.value)}"
         yield Heading(

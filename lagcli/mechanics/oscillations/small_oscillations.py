@@ -23,7 +23,13 @@ from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import TIMED, RestPoint, at, unless_written
+from lagcli.mechanics.oscillations.equilibria import (
+    TIMED,
+    RestPoint,
+    RestPoints,
+    at,
+    unless_written,
+)
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.held import HeldCombination, held
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
@@ -223,7 +229,7 @@ class SmallOscillations:
 
     def equilibrium(self, place: Place) -> Equilibrium:
         """One equilibrium as a statement."""
-        verdict, potential = place.verdict, potential_of(self.rest)
+        verdict, potential = place.verdict, potential_of(RestPoints(self.dynamics))
         reduced = self._by_routh(place) if verdict.is_open else None
         if reduced is not None:
             verdict, potential = reduced, "U_eff"

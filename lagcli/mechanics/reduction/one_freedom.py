@@ -29,6 +29,7 @@ from lagcli.mechanics.parameter_values import DIGITS, admissible_values
 from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady import SteadyMotions
+from lagcli.mechanics.stability.near import contradictory
 
 _ZERO = mpf(10) ** -(DIGITS - 15)
 _TRIED = 24
@@ -72,12 +73,31 @@ class ReducedFreedom:
         """dt/dq where the coordinate grows: sqrt(M/(2 (E - U_eff)))."""
         return sympy.sqrt(self.mass / (2 * (self.E - self.potential)))
 
-    @cached_property
+    @property
     def turning_points(self) -> tuple[Expr, ...] | None:
         """The roots of U_eff = E, each by substitution; None without a closed form.
 
         Those at which a one-sided contact would have to pull are left out.
         """
+        return None if self._roots is None else tuple(self._reached)
+
+    @property
+    def turning_where(self) -> tuple[tuple[Expr, ...], ...]:
+        """What must be positive for the one-sided contacts to hold at each turning point."""
+        return tuple(self._reached.values())
+
+    @cached_property
+    def _reached(self) -> dict[Expr, tuple[Expr, ...]]:
+        bounds = [x for low, high in self.turning_energies for x in (self.E - low, high - self.E)]
+        pressed = {root: self.contacts.where_pressed({self.q: root}) for root in self._roots or ()}
+        return {
+            root: where
+            for root, where in pressed.items()
+            if where is not None and not (where and contradictory((*where, *bounds)))
+        }
+
+    @cached_property
+    def _roots(self) -> tuple[Expr, ...] | None:
         excess = self.potential - self.E
         if free_of(self.potential, [self.q]):
             return ()
@@ -86,15 +106,7 @@ class ReducedFreedom:
             return None
         roots = [simplify(root) for root in found.values]
         roots = [root for root in roots if not self._excluded(root)]
-        if not all(self._is_root(root, excess) for root in roots):
-            return None
-        return tuple(r for r in roots if self.contacts.where_pressed({self.q: r}) is not None)
-
-    @cached_property
-    def turning_where(self) -> tuple[tuple[Expr, ...], ...]:
-        """What must be positive for the one-sided contacts to hold at each turning point."""
-        roots = self.turning_points or ()
-        return tuple(self.contacts.where_pressed({self.q: root}) or () for root in roots)
+        return tuple(roots) if all(self._is_root(root, excess) for root in roots) else None
 
     @cached_property
     def turning_energies(self) -> tuple[tuple[Expr, Expr], ...]:
@@ -102,7 +114,7 @@ class ReducedFreedom:
 
         -1 <= (E - b)/a <= 1 just for b - |a| <= E <= b + |a|.
         """
-        arguments = {f.args[0] for root in self.turning_points or () for f in root.atoms(*_BOUNDED)}
+        arguments = {f.args[0] for root in self._roots or () for f in root.atoms(*_BOUNDED)}
         ranges: dict[tuple[Expr, Expr], None] = {}
         for argument in arguments:
             slope = simplify(argument.diff(self.E))
