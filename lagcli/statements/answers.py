@@ -225,7 +225,7 @@ class Equilibrium:
 
     With `free` coordinates, or an equation `on`, a family, stable up to displacements along it.
     The contacts `touching` are closed, those in `open` are not; with `sticking` dry friction
-    holds it.
+    holds it; where it is `kinked`, the potential has a minimum across its kinks there.
     The `indeterminate` coordinates have no value there, as the azimuth at a pole.
     """
 
@@ -237,6 +237,7 @@ class Equilibrium:
     touching: tuple[str, ...] = ()
     open: tuple[str, ...] = ()
     sticking: bool = False
+    kinked: bool = False
     indeterminate: tuple[str, ...] = ()
 
 
@@ -265,7 +266,7 @@ class ModesOfFrequency:
 
     `frequency` is None where it is not real, and the square is `negative` or may be positive for
     some values; the displacements of one frequency are the combinations of `shape` and of
-    `more_shapes`.  One-sided contacts in `open` do not act.
+    `more_shapes`.  One-sided contacts in `open` do not act; `kinked`: a kink of V holds the others.
     """
 
     at: Mapping[str, Expression]
@@ -277,6 +278,7 @@ class ModesOfFrequency:
     multiplicity: int = 1
     negative: bool = False
     open: tuple[str, ...] = ()
+    kinked: bool = False
 
 
 @record(kw_only=True)

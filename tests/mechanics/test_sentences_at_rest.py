@@ -259,3 +259,44 @@ def test_static_friction_holds_at_its_limit():
         "V: -a*x, forces: {x: -mu*sign(x')}}"
     )
     assert "At equality it rests" in said(text, "Equilibria", "equilibria")
+
+
+# -- kinks of the potential -----------------------------------------------------------------------
+
+
+def _lowest(V, spread=6.0, steps=40001):
+    points = [-spread + 2 * spread * k / (steps - 1) for k in range(steps)]
+    return min(points, key=V)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_rest_at_a_kink_is_the_minimum_of_a_convex_potential(seed):
+    """c |x - a| + d |x - b| + k x^2/2 + f x has one minimum; it is found, at a kink or between."""
+    source = random.Random(seed)
+    c, d, k = (source.randint(1, 5) for _ in range(3))
+    a, b, f = source.randint(-2, 0), source.randint(1, 2), source.randint(-9, 9)
+    text = (
+        f"{{coordinates: [x], T: x'^2/2, V: '{c}*abs(x - ({a})) + {d}*abs(x - {b}) + "
+        f"{k}*x^2/2 + ({f})*x'}}"
+    )
+    derivation = derive(text)
+    section = equilibria(derivation.dynamics)
+    found = {float(derivation.system.build(each.at["x"])): each for each in section.equilibria}
+    low = _lowest(lambda x: c * abs(x - a) + d * abs(x - b) + k * x * x / 2 + f * x)
+    assert len(found) == 1
+    [(place, each)] = found.items()
+    assert abs(place - low) < 1e-3
+    assert each.verdict.stable is True or "limit" in each.verdict.reason
+
+
+@pytest.mark.parametrize("turn", ["x", "x + y", "2*x - y"])
+def test_a_kink_holds_what_its_force_suffices_for(turn):
+    """Two coordinates: along the kink the motion is free, across it V has a minimum."""
+    text = (
+        "{coordinates: [x, y], parameters: {c: {assume: positive}, F: {}}, T: (x'^2 + y'^2)/2, "
+        f"V: 'c*abs({turn}) + (x^2 + y^2)/2 + F*({turn})'}}"
+    )
+    [each] = [e for e in equilibria(derive(text).dynamics).equilibria if e.kinked]
+    assert {to_grammar(e) for e in each.at.values()} == {"0"}
+    assert each.verdict.stable is True
+    assert len(each.where) == 2

@@ -69,6 +69,8 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
         )
     elif conditions:
         yield Equations(tuple(Row(ZERO, condition) for condition in conditions))
+    if any(each.kinked for each in found or ()):
+        yield says("Where a force jumps, it takes every value between those on the two sides.")
     if teller.system.problem.contacts:
         yield says("Each contact is either closed, and pushes, or open, and there is no force.")
     if states.at_all_times and found:

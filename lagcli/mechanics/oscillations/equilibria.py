@@ -67,8 +67,9 @@ class RestPoints:
         Why none can be given, in a sentence; empty otherwise.
     """
 
-    def __init__(self, dynamics: Dynamics) -> None:
+    def __init__(self, dynamics: Dynamics, *, kinks_apart: bool = False) -> None:
         self.dynamics = dynamics
+        self._kinks_apart = kinks_apart  # rest at kinks is sought by others
         self.system = dynamics.system
         self.reason = ""
         self.complete = True
@@ -85,7 +86,7 @@ class RestPoints:
         found, lost = self._found(equations)
         if lost and self._along_one:
             found, lost = self._found(self._along_one)
-        kinks = not self.depends_on_time and at_kinks(
+        kinks = not (self.depends_on_time or self._kinks_apart) and at_kinks(
             self.forces_at_rest, equations, self.system.q, found
         )
         self.complete &= not lost and not kinks

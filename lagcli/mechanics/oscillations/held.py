@@ -6,16 +6,19 @@ condition on a multiplier (`holds_while`, N >= 0) holds at rest.
 
 Dry friction -f sign(u), u = sum a_j q_j', takes at rest whatever holds it, up to f (Coulomb): the
 rest states are those of the system with u = 0 for a constraint, where its force has |lambda| <= f.
+So does a kink c |u(q)| of the potential, c > 0, with u = 0 for a constraint on the positions and
+|lambda| <= c (Clarke's generalized gradient): V has a minimum across it.
 
 References
 ----------
+Clarke, *Optimization and Nonsmooth Analysis*, section 2.3.
 Pfeiffer, Glocker, *Multibody Dynamics with Unilateral Contacts* (1996), section 2.2 and
 chapter 5.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 
 import sympy
@@ -23,6 +26,7 @@ from sympy import Expr, S
 
 from lagcli.algebra import is_zero, shape, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.signs import sign
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.derivation import Derivation
@@ -39,7 +43,7 @@ _MOST_CONTACTS = 4
 
 @record
 class Friction:
-    """-f sign(u), by the rows of u and f."""
+    """-f sign(u) of dry friction, or of a kink f |u| of the potential."""
 
     u: Expr
     f: Expr
@@ -86,6 +90,7 @@ class HeldCombination:
     touching: tuple[str, ...] = ()
     open: tuple[str, ...] = ()
     sticking: bool = False
+    kinked: bool = False
 
     def points(self) -> tuple[RestPoint, ...] | None:
         """The equilibria that these conditions allow; None where they were not found."""
@@ -129,19 +134,19 @@ class HeldCombination:
 
     @property
     def firmly(self) -> bool:
-        """Whether contacts or friction exclude displacements."""
-        return self.sticking or bool(self.touching)
+        """Whether contacts, friction or kinks exclude displacements."""
+        return self.sticking or self.kinked or bool(self.touching)
 
 
 def held(dynamics: Dynamics) -> list[HeldCombination]:
     """All combinations; the system itself where nothing may open or close and nothing sticks."""
-    contacts, friction = one_sided(dynamics), _friction(dynamics)
-    if not (any(each.may_open for each in contacts) or friction):
+    contacts, friction, kinks = one_sided(dynamics), _friction(dynamics), _kinks(dynamics)
+    if not (any(each.may_open for each in contacts) or friction or kinks):
         demands = tuple(x for each in contacts for x in each.demands)
         return [HeldCombination(RestPoints(dynamics), demands)]
-    names = [each.name for each in contacts if each.may_open][:_MOST_CONTACTS]
+    names = [*kinks, *(each.name for each in contacts if each.may_open)][:_MOST_CONTACTS]
     variants = [
-        _variant(dynamics, contacts, friction, opened)
+        _variant(dynamics, contacts, friction, kinks, opened)
         for size in range(len(names), -1, -1)
         for opened in combinations(names, size)
     ]
@@ -173,6 +178,7 @@ def _variant(
     dynamics: Dynamics,
     contacts: Sequence[OneSidedCondition],
     friction: Sequence[Friction],
+    kinks: Mapping[str, Friction],
     opened: Sequence[str],
 ) -> HeldCombination | None:
     """The system with these contacts open; None where the others cannot be closed together."""
@@ -183,12 +189,15 @@ def _variant(
     for k, each in enumerate(friction):
         forces = [f.xreplace({sympy.sign(each.u): S.Zero}) for f in forces]
         added.append((f"sticks{k}", each.u, f"#lambda{k}"))
+    shut = {name: each for name, each in kinks.items() if name not in opened}
+    added += [(name, each.u, name) for name, each in shut.items()]
+    bent = {f(each.u): S.Zero for each in shut.values() for f in (sympy.Abs, sympy.sign)}
     given = zip(dynamics.constraints.equations, problem.constraints, strict=True)
     rows = [(c.name, e.f, c.multiplier) for e, c in given if c.name not in opened]
     derivation = with_lagrangian(
         Derivation(problem),
         list(range(len(system.q))),
-        system.L,
+        system.L.xreplace(bent),
         forces,
         problem.parameters,
         tuple(
@@ -204,14 +213,35 @@ def _variant(
     demands = [x for each in closed for x in each.demands or (symbol(each.multiplier),)]
     for k, each in enumerate(friction):
         demands += [each.f - symbol(f"#lambda{k}"), each.f + symbol(f"#lambda{k}")]
+    demands += [each.f + s * symbol(name) for name, each in shut.items() for s in (1, -1)]
+    gaps = [x.gap for x in contacts if x.name in opened and x.gap is not None]
     return HeldCombination(
-        RestPoints(derivation.dynamics),
+        RestPoints(derivation.dynamics, kinks_apart=bool(kinks)),
         tuple(demands),
-        tuple(x.gap for x in contacts if x.name in opened and x.gap is not None),
+        (*gaps, *(each.u**2 for name, each in kinks.items() if name in opened)),
         tuple(each.name for each in closed if each.may_open),
-        tuple(opened),
+        tuple(name for name in opened if name not in kinks),
         sticking=bool(friction),
+        kinked=bool(shut),
     )
+
+
+def _kinks(dynamics: Dynamics) -> dict[str, Friction]:
+    """The terms c |u(q)| of the potential with c > 0, by name; empty where other forces jump."""
+    system, found = dynamics.system, {}
+    jumps = {node.args[0] for f in dynamics.lagrange.forcing for node in f.atoms(sympy.sign)}
+    place = sympy.Dummy("place", real=True)
+    for k, u in enumerate(sorted((u for u in jumps if u.free_symbols & {*system.q}), key=str)):
+        slope = -system.L.xreplace({sympy.Abs(u): place}).diff(place)
+        plain = free_of(slope, [place]) and free_of(u, system.qdot)
+        if (
+            not plain
+            or sign(slope) != 1
+            or any(f.has(sympy.sign(u)) for f in system.applied_forces)
+        ):
+            return {}
+        found[f"#kink{k}"] = Friction(u, slope)
+    return found
 
 
 def _friction(dynamics: Dynamics) -> list[Friction]:

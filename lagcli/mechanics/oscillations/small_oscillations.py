@@ -54,7 +54,10 @@ from lagcli.record import replace
 from lagcli.statements.answers import EquilibriaSection, Equilibrium, ModesOfFrequency, ModesSection
 
 _STICKS = "static friction holds it with force to spare"
+_LIMIT = "a force is at its limit there"
+_KINK = "{V} has a strict minimum there, at a kink"
 _PRESSED = "it is pressed against what it touches"
+_HELD = "contacts, static friction or kinks of the potential hold what is at rest"
 _SINGULAR = "the coordinates are singular at the equilibria"
 _NO_LINEAR_PART = "a force has a kink or a jump at the equilibrium, and no linear part"
 _NO_MODES = "the equilibria do not exist for the values of the file"
@@ -95,7 +98,7 @@ def modes(dynamics: Dynamics) -> ModesSection:
     if not found and all(not place.linear.M and not place.held.firmly for place in places):
         return ModesSection(modes=(), reason=EXCLUDED)
     if not found and all(place.held.firmly and not place.linear.M for place in places):
-        return ModesSection(modes=(), reason="contacts or static friction hold what is at rest")
+        return ModesSection(modes=(), reason=_HELD)
     if oscillations.rest.depends_on_time:
         return ModesSection(modes=(), reason=TIMED)
     if not found and all(place.held.grazes(place.point) for place in chosen):
@@ -139,9 +142,11 @@ class Place:
         if self.held.rest.depends_on_time:
             return judge_on_average(self.linear) or undecided(TIMED)
         if self.held.grazes(self.point):
-            return undecided(GRAZES)
+            return undecided(_LIMIT if self.held.kinked else GRAZES)
         if self.held.firmly and not self.linear.M:
-            return Stability(stable=True, reason=_STICKS if self.held.sticking else _PRESSED)
+            held = self.held
+            reason = _STICKS if held.sticking else _KINK if held.kinked else _PRESSED
+            return Stability(stable=True, reason=reason)
         if is_singular(self.linear):
             return judge_on_meridians(OnMeridians(self.linear))
         found = judge(self.linear, self.characteristic)
@@ -251,6 +256,7 @@ class SmallOscillations:
             touching=place.held.touching,
             open=place.held.open,
             sticking=place.held.sticking,
+            kinked=place.held.kinked,
         )
 
     def modes(self, place: Place) -> list[ModesOfFrequency]:
@@ -266,6 +272,7 @@ class SmallOscillations:
                 multiplicity=mode.multiplicity,
                 negative=mode.negative,
                 open=place.held.open,
+                kinked=place.held.kinked,
             )
             for mode in place.modes
         ]

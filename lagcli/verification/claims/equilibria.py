@@ -40,7 +40,7 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
     with ctx.workprec(BITS):
         for each in section.equilibria:
             what = f"the equilibrium {named(each.at, each.on)}"
-            if each.sticking:
+            if each.sticking or each.kinked:
                 x.unchecked.append(what)
                 found.append(each)
                 continue
@@ -70,7 +70,11 @@ def _cyclic(x: Examination) -> int:
 
 def _another(x: Examination, found: list[Equilibrium]) -> str:
     """An equilibrium that none of these is; empty where none was found."""
-    if x.reference.large or x.problem.contacts or any(each.sticking for each in found):
+    if (
+        x.reference.large
+        or x.problem.contacts
+        or any(each.sticking or each.kinked for each in found)
+    ):
         return ""
     places = [RestPlace(x, "the equilibria", each.at, {}, each.on, each.where) for each in found]
     near = next(unlisted(Balance(x), places), None)

@@ -52,7 +52,7 @@ def _all_modes(x: Examination, about: Sequence[ModesOfFrequency]) -> RestPlace |
     what = f"the number of normal modes about {named(first.at, first.on)}"
     x = without_open(x, first.open)
     place = RestPlace(x, what, first.at, {}, first.on, ())
-    if with_closed_contacts(x, place) is not x:
+    if first.kinked or with_closed_contacts(x, place) is not x:
         return place
     count = sum(mode.multiplicity for mode in about)
     for near in place.states():
@@ -84,7 +84,7 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
     what = f"the normal modes about {named(mode.at, mode.on)}"
     x = without_open(x, mode.open)
     place = RestPlace(x, what, mode.at, {}, mode.on, ())
-    if with_closed_contacts(x, place) is not x:
+    if mode.kinked or with_closed_contacts(x, place) is not x:
         x.unchecked.append(what)  # on one side only the motion is that of the equations
         return True
     square = x.places(what, [f for f in (mode.frequency_squared,) if f is not None])
