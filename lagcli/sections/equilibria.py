@@ -108,8 +108,9 @@ def _equilibrium(equilibrium: Equilibrium) -> Object:
     for name in ("free", "touching", "indeterminate"):
         if names := getattr(equilibrium, name):
             result[name] = names
-    if equilibrium.sticking:
-        result["sticking"] = True
+    for name in ("sticking", "kinked"):
+        if getattr(equilibrium, name):
+            result[name] = True
     return result
 
 
