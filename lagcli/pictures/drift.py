@@ -6,7 +6,7 @@ changes the energy; from there on it is compared with its value just after the i
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from lagcli.expression import Name
 from lagcli.numerics.hybrid.request import Asked
@@ -14,6 +14,7 @@ from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,
     Curve,
+    DrawnName,
     Item,
     Panel,
     Picture,
@@ -48,24 +49,39 @@ def drift(
             "nothing is conserved along this motion that the file or its cyclic coordinates name: "
             "there is no drift to draw"
         )
-    items: list[Item] = list(run.over_time())
+    curves = [
+        (words(f"{name}, at most {short(drifts[name])} of its terms"),
+         _changes(run, run.names.index(name)))
+        for name in conserved
+    ]  # fmt: skip
+    rule = Rule(
+        at=asked.accuracy, of="y", role="bound", colour=6, label=words("requested accuracy")
+    )
+    return largest_of_each(run, curves, [rule], "change"), run.result.refusal
+
+
+def largest_of_each(
+    run: PicturedRun,
+    curves: Sequence[tuple[DrawnName, tuple[Piece, ...]]],
+    rules: Sequence[Rule],
+    what: str,
+    notes: Sequence[str] = (),
+) -> Picture:
+    """The largest change or error so far of each column over time, in decades."""
+    items: list[Item] = [*run.over_time()]
     largest = FLOOR
-    for colour, name in enumerate(conserved):
-        pieces = largest_so_far(_changes(run, run.names.index(name)))
+    for colour, (label, each) in enumerate(curves):
+        pieces = largest_so_far(each)
         largest = max([largest, *(y for piece in pieces for _, y in piece)])
-        label = words(f"{name}, at most {short(drifts[name])} of its terms")
         items.append(Curve(pieces=pieces, role="series", colour=colour, label=label))
-    bound = asked.accuracy
-    items.append(Rule(at=bound, of="y", role="bound", colour=6, label=words("requested accuracy")))
     y = Axis(
-        label=words("largest change so far, relative"),
+        label=words(f"largest {what} so far, relative"),
         low=FLOOR,
-        high=_HEADROOM * max(largest, bound),
+        high=_HEADROOM * max(largest, run.asked.accuracy),
         logarithmic=True,
     )
-    panel = Panel(x=run.time_axis(), y=y, items=tuple(items))
-    picture = Picture(title=problem.title, panels=(panel,), notes=run.notes())
-    return picture, run.result.refusal
+    panel = Panel(x=run.time_axis(), y=y, items=(*items, *rules))
+    return Picture(title=run.problem.title, panels=(panel,), notes=(*run.notes(), *notes))
 
 
 def _candidates(problem: Problem) -> list[Shown]:

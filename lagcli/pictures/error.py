@@ -10,24 +10,19 @@ from collections.abc import Callable
 
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import (
-    Axis,
     CannotDraw,
-    Curve,
-    Item,
-    Panel,
     Picture,
     Piece,
     Rule,
     words,
 )
-from lagcli.pictures.drift import FLOOR
-from lagcli.pictures.run import PicturedRun, largest_so_far, short
+from lagcli.pictures.drift import FLOOR, largest_of_each
+from lagcli.pictures.run import PicturedRun, short
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 
 #: So much more exact is the reference, and so many digits it may carry.
 _FINER, _DIGITS = 1e-3, 40
-_HEADROOM = 10.0
 _MOST = 7
 
 
@@ -49,24 +44,14 @@ def error(
     held = run.result.certificate
     if reference.certain_until <= 0:
         raise CannotDraw(f"there is no reference to compare with: {reference.result.refusal}")
-    items: list[Item] = list(run.over_time())
-    largest = FLOOR
-    for place in range(1, min(len(run.names), _MOST + 1)):
-        pieces = largest_so_far(_errors(run, reference, place, held.scales[place] or 1.0))
-        largest = max([largest, *(y for piece in pieces for _, y in piece)])
-        label = run.labels.of(run.columns[place - 1].expression, run.names[place])
-        items.append(Curve(pieces=pieces, role="series", colour=place - 1, label=label))
-    items += _bounds(run)
-    y = Axis(
-        label=words("largest error so far, relative"),
-        low=FLOOR,
-        high=_HEADROOM * max(largest, asked.accuracy),
-        logarithmic=True,
-    )
-    panel = Panel(x=run.time_axis(), y=y, items=tuple(items))
+    curves = [
+        (run.labels.of(run.columns[place - 1].expression, run.names[place]),
+         _errors(run, reference, place, held.scales[place] or 1.0))
+        for place in range(1, min(len(run.names), _MOST + 1))
+    ]  # fmt: skip
     how = f"The reference is a run to {short(finer.accuracy)} by {reference.result.method}"
-    notes = (f"{how}; that of the file is by {run.result.method}.",)
-    picture = Picture(title=problem.title, panels=(panel,), notes=(*run.notes(), *notes))
+    notes = [f"{how}; that of the file is by {run.result.method}."]
+    picture = largest_of_each(run, curves, _bounds(run), "error", notes)
     return picture, run.result.refusal
 
 

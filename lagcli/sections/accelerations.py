@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Paragraph
-from lagcli.expression import Expression
 from lagcli.formatters.json_values import FORMULA, Object, by_name, map_of, unless_none
-from lagcli.reader.schema_parts import FORMULAS
+from lagcli.sections._expected import expected_by_coordinate
 from lagcli.statements.answers import AccelerationsSection, Answers
-from lagcli.statements.declaration import Declaration, Expected, always
+from lagcli.statements.declaration import Declaration, always
 from lagcli.statements.wording import listed, not_found, rows_by_name, substituted
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.mechanics.stating import Stating
-    from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import DocumentNode
-    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> AccelerationsSection:
@@ -77,18 +73,6 @@ def json(section: AccelerationsSection) -> Object:
     return result
 
 
-def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression]:
-    """Formulas by coordinate."""
-    return reader.by_coordinate(node, "accelerations", "the expected acceleration of '{}'")
-
-
-def compare(
-    check: Expectations, section: AccelerationsSection, expected: Mapping[str, Expression]
-) -> Found:
-    """Each is the same on the constraints."""
-    return check.compare_each(["accelerations"], section.accelerations, expected)
-
-
 SECTION = Declaration(
     name="accelerations",
     heading="Accelerations",
@@ -100,5 +84,5 @@ SECTION = Declaration(
     schema=map_of(FORMULA),
     unasked=always,
     abbreviated=True,
-    expected=(Expected(key="accelerations", schema=FORMULAS, read=read, compare=compare),),
+    expected=(expected_by_coordinate("accelerations", "the expected acceleration of '{}'"),),
 )

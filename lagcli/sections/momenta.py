@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Paragraph
-from lagcli.expression import Expression
 from lagcli.formatters.json_values import FORMULA, Object, by_name, map_of, unless_none
-from lagcli.reader.schema_parts import FORMULAS
+from lagcli.sections._expected import expected_by_coordinate
 from lagcli.statements.answers import Answers, MomentaSection
-from lagcli.statements.declaration import Declaration, Expected, always
+from lagcli.statements.declaration import Declaration, always
 from lagcli.statements.wording import listed, not_found, rows_by_name
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
-    from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import DocumentNode
-    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> MomentaSection:
@@ -57,18 +53,6 @@ def json(section: MomentaSection) -> Object:
     return {"momenta": unless_none(section.momenta, by_name)}
 
 
-def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression]:
-    """Formulas by coordinate."""
-    return reader.by_coordinate(node, "momenta", "the expected momentum of '{}'")
-
-
-def compare(
-    check: Expectations, section: MomentaSection, expected: Mapping[str, Expression]
-) -> Found:
-    """Each is the same on the constraints."""
-    return check.compare_each(["momenta"], section.momenta, expected)
-
-
 SECTION = Declaration(
     name="momenta",
     heading="Momenta",
@@ -79,5 +63,5 @@ SECTION = Declaration(
     json=json,
     schema=map_of(FORMULA),
     unasked=always,
-    expected=(Expected(key="momenta", schema=FORMULAS, read=read, compare=compare),),
+    expected=(expected_by_coordinate("momenta", "the expected momentum of '{}'"),),
 )
