@@ -1,23 +1,27 @@
-"""Numbers that the file gives and that cannot be: of parameters, and coefficients of restitution.
+"""Numbers that cannot be: of parameters, masses of points, and coefficients of restitution.
 
 Values are followed exactly where they are rational; others are looked at when they are used.
 """
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lagcli.assumptions import broken
 from lagcli.diagnostics import Diagnostic
-from lagcli.expression import Name, walk
+from lagcli.expression import Name, Sum, walk
 from lagcli.reader.constants import rational_value
 
 if TYPE_CHECKING:
-    from fractions import Fraction
+    from collections.abc import Mapping
 
     from lagcli.expression import Expression
     from lagcli.problem_data import Problem
     from lagcli.reader.sections import Sections
+
+
+_SIGNS = {"positive": Fraction(1), "negative": Fraction(-1)}
 
 
 def without_inertia(problem: Problem) -> list[Diagnostic]:
@@ -47,7 +51,7 @@ def _names(formula: Expression) -> list[Name]:
 
 
 def check_values(sections: Sections, problem: Problem) -> None:
-    """Mistakes where a value breaks an assumption, or restitution is not from 0 to 1."""
+    """Values that break an assumption, negative masses, restitution that is not in 0 to 1."""
     known = _known(problem)
     for parameter in problem.parameters:
         value = known.get(parameter.name)
@@ -56,6 +60,7 @@ def check_values(sections: Sections, problem: Problem) -> None:
         mistake = broken(parameter, value)
         if mistake is not None:
             sections.error(mistake, parameter.value.span)
+    _check_masses(sections, problem, known)
     striking = {one.name: one.restitution for one in problem.constraints}
     striking |= {one.name: one.restitution for one in problem.contacts}
     for name, formula in striking.items():
@@ -64,6 +69,21 @@ def check_values(sections: Sections, problem: Problem) -> None:
             message = f"the restitution of '{name}' lies between 0 and 1, and is {value}"
             hint = "1 loses no energy, after 0 nothing rebounds"
             sections.error(message, formula.span, hint)
+
+
+def _check_masses(sections: Sections, problem: Problem, known: Mapping[str, Fraction]) -> None:
+    """A product has the sign that it has with 1 and -1 for what is positive and negative."""
+    signs = {p.name: _SIGNS[p.assume] for p in problem.parameters if p.assume in _SIGNS}
+    for point in problem.points:
+        mass = point.mass
+        if mass is None:
+            continue
+        value = rational_value(mass, known)
+        if value is None and not any(isinstance(node, Sum) for node in walk(mass)):
+            value = rational_value(mass, {**signs, **known})
+        if value is not None and value < 0:
+            message = f"the mass of '{point.name}' is negative"
+            sections.error(message, mass.span, "write it without its sign")
 
 
 def _known(problem: Problem) -> dict[str, Fraction]:

@@ -1,0 +1,39 @@
+"""A point has no negative mass, be it given by a number, a value or assumptions."""
+
+from __future__ import annotations
+
+import itertools
+from math import prod
+
+import pytest
+
+from lagcli.pipeline import read
+
+SIGNS = {"positive": 1, "negative": -1}
+
+
+def mistakes(mass: str, parameters: str) -> list[str]:
+    text = f"coordinates: [x]\nparameters: {{{parameters}}}\npoints: {{a: {{position: [x], mass: '{mass}'}}}}\n"
+    return [each.message for each in read("p.yaml", text.encode()).diagnostics]
+
+
+@pytest.mark.parametrize("signs", list(itertools.product(SIGNS, repeat=3)))
+@pytest.mark.parametrize(("mass", "powers"), [
+    ("a*b*c", (1, 1, 1)), ("-a*b^2/c", (1, 2, 1)), ("2*a^3*b/(-3*c)", (3, 1, 1)), ("c/(a*b)", (1, 1, 1)),
+])  # fmt: skip
+def test_products_of_what_has_a_sign(
+    mass: str, powers: tuple[int, ...], signs: tuple[str, ...]
+) -> None:
+    parameters = ", ".join(f"{n}: {{assume: {s}}}" for n, s in zip("abc", signs, strict=True))
+    sign = prod(SIGNS[s] ** k for s, k in zip(signs, powers, strict=True))
+    sign *= -1 if "-" in mass else 1
+    expected = ["the mass of 'a' is negative"] if sign < 0 else []
+    assert mistakes(mass, parameters) == expected
+
+
+@pytest.mark.parametrize(("mass", "parameters", "wrong"), [
+    ("-2", "k: {}", True), ("m - M", "m: {assume: positive}, M: {assume: positive}", False),
+    ("m - 3", "m: {value: 2}", True), ("m", "m: {value: -1}", True), ("m", "m: {}", False),
+])  # fmt: skip
+def test_values_and_what_has_none(mass: str, parameters: str, *, wrong: bool) -> None:
+    assert bool(mistakes(mass, parameters)) is wrong
