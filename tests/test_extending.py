@@ -50,10 +50,11 @@ def call(tmp_path):
 
 
 def test_a_diagnostic(call):
-    problem = "coordinates: [x]\npoints:\n  a: {position: [x], mass: 2 - 3}\n"
+    points = "  a: {position: [2*x], mass: 2}\n  b: {position: [2*x], mass: 3}\n"
+    problem = f"coordinates: [x]\npoints:\n{points}"
     done = call("value_checks.py", problem, "solve")
-    assert (done.returncode, "p.yaml:3:28: error" in done.stderr) == (2, True)
-    assert "the mass of the point 'a' is negative" in done.stderr
+    assert (done.returncode, "p.yaml:4:3: error" in done.stderr) == (2, True)
+    assert "the point 'b' is where another one is" in done.stderr
 
 
 def test_a_simplification_rule(call):
