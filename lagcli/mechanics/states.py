@@ -170,7 +170,7 @@ class RandomStates:
                 failed = self._project(state)
                 good = failed is None and self._is_regular(state)
             if good and self._last is not None and self.elimination in {None, self._last}:
-                attempts = 0
+                attempts = min(attempts // _AS_DRAWN, 1) * _AS_DRAWN  # adapted, too, if this was
                 yield surface, self._last, state
                 continue
             if failed is not None:

@@ -147,6 +147,10 @@ def _state(reference: Reference, random: Random, number: int, attempt: int) -> S
     negative = 0.4 if number % 2 and attempt < _ATTEMPTS // 2 else 0.0
     near = number % 4 == 3 or attempt % 3 == 2
     environment = _anywhere(reference.problem, random, negative, wide=number % 3 == 2)
+    if attempt > _ATTEMPTS // 2:  # lengths of another order: x = 4 a on x^2 + y^2 = l^2
+        for parameter in reference.problem.parameters:
+            if not parameter.integer:
+                environment[parameter.name, 0] *= arb(2) ** random.randint(-3, 3)
     if near:
         environment |= _near_the_file(reference, random)
     if reference.rows and not _onto_constraints(reference, environment):

@@ -26,7 +26,7 @@ from lagcli.verification.sweeps import column
 def charges(x: Examination, section: ChargesSection) -> ChargesSection:
     """Each charge of a section."""
     checked = tuple(_charge(x, charge) for charge in section.charges)
-    if not any(charge.source == "discovered" for charge in checked):
+    if section.sought and not any(charge.source == "discovered" for charge in checked):
         _evident_are_listed(x, checked)
     return section if checked == section.charges else replace(section, charges=checked)
 
