@@ -185,19 +185,24 @@ class EliminationRun:
     # -- remainders ----------------------------------------------------------------------------
 
     def _divide(self) -> None:
-        """Reduce the expression modulo the relations that are left."""
-        for _ in range(_PASSES):
-            present = self._present(self.expression)
-            if not present or self._work.over:
-                return
-            before = self.expression
-            for symbol in self.remove:
-                if symbol in present:
-                    self._divide_by(symbol)
-            if self.expression == before:
-                return
+        """Reduce the expression modulo the relations that are left.
 
-    def _divide_by(self, symbol: Symbol) -> None:
+        To fewer symbols or lower degrees; then in the order of the symbols, as x'^2 = f(x, z)
+        is a step on the way to z alone.
+        """
+        for measure in (_of_all, tuple):
+            for _ in range(_PASSES):
+                present = self._present(self.expression)
+                if not present or self._work.over:
+                    return
+                before = self.expression
+                for symbol in self.remove:
+                    if symbol in present:
+                        self._divide_by(symbol, measure)
+                if self.expression == before:
+                    break
+
+    def _divide_by(self, symbol: Symbol, measure: Callable[[list[int]], tuple[int, ...]]) -> None:
         field = Field([self.expression, *self.relations])
         try:
             element = field(self.expression)
@@ -218,23 +223,24 @@ class EliminationRun:
             if below.is_zero():
                 continue
             shorter = above / below
-            if self._better(field, shorter, element):
+            if measure(self._degrees(field, shorter)) < measure(self._degrees(field, element)):
                 element = shorter
         self.expression = field.to_sympy(element)
 
-    def _better(self, field: Field, new: Element, old: Element) -> bool:
-        """Fewer symbols that are to go, or a lower degree in them."""
-        return self._degrees(field, new) < self._degrees(field, old)
-
-    def _degrees(self, field: Field, element: Element) -> tuple[int, int]:
+    def _degrees(self, field: Field, element: Element) -> list[int]:
+        """In each symbol that is to go."""
         ring = field.ring
         degrees = []
         for symbol in self.remove:
             number = field.number_of(symbol)
-            if number is not None:
-                above, below = ring.lift(element.numerator), ring.lift(element.denominator)
-                degrees.append(max(ring.degree(above, number), ring.degree(below, number)))
-        return sum(d > 0 for d in degrees), sum(degrees)
+            above, below = ring.lift(element.numerator), ring.lift(element.denominator)
+            both = (0,) if number is None else (ring.degree(p, number) for p in (above, below))
+            degrees.append(max(both))
+        return degrees
+
+
+def _of_all(degrees: list[int]) -> tuple[int, ...]:
+    return sum(d > 0 for d in degrees), sum(degrees)
 
 
 def remainder(field: Field, poly: Poly, divisor: Poly, generator: int) -> Element:
