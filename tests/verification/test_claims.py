@@ -6,6 +6,7 @@ import json
 
 import pytest
 
+from lagcli.expression import Product
 from lagcli.formatters.built_in.json import to_object
 from lagcli.formatters.options import Options
 from lagcli.pipeline import Request, derive, render, state
@@ -15,7 +16,7 @@ from lagcli.statements.answers import Answers, Charge, ChargesSection
 from lagcli.statements.motions import Verdict
 from lagcli.verification import verified
 
-from .sheets import derived, each_spoiled
+from .sheets import derived, each_spoiled, number
 
 SECTIONS = {
     "hoop": (
@@ -104,6 +105,36 @@ def test_the_formulas_of_a_reduced_system_are_examined(name: str) -> None:
     assert verified(problem, answers) is answers
     noticed = [not verified(problem, wrong).complete for _, wrong in each_spoiled(answers, section)]
     assert sum(noticed) >= 0.6 * len(noticed)
+
+
+RANGES = {
+    "contact/car-in-loop": ("kept", "loop"),
+    "contact/particle-inside-sphere": ("kept",),
+    "contact/stone-on-string-released": ("taut",),
+    "pendulums/pendulum-over-the-top": ("horizontal", "top"),
+}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", RANGES)
+def test_ranges_that_hold_too_much_are_withheld(name: str) -> None:
+    problem, answers = derived(name, ("find",))
+    assert verified(problem, answers) is answers
+    section = answers.sections["find"]
+    for question in RANGES[name]:
+        answer = section.answers[question]
+        for k, each in enumerate(answer.ranges):
+            for side, factor in (("lower", (4, 5)), ("upper", (5, 4))):
+                if getattr(each, side) is None:
+                    continue
+                wider = Product((number(*factor), getattr(each, side)))
+                ranges = list(answer.ranges)
+                ranges[k] = replace(each, **{side: wider})
+                wrong = {**section.answers, question: replace(answer, ranges=tuple(ranges))}
+                sheet = replace(answers, sections={"find": replace(section, answers=wrong)})
+                found = verified(problem, sheet)
+                assert found.sections["find"].answers[question].ranges is None, (k, side)
+                assert not found.complete
 
 
 def text_of(

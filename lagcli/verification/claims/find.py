@@ -12,10 +12,11 @@ from random import Random
 from flint import arb
 
 from lagcli.expression import Expression
-from lagcli.problem_data import Rewrite, Where
+from lagcli.problem_data import Lasting, Reaching, Rewrite, Where
 from lagcli.record import replace
 from lagcli.statements.answers import Charge, ChargesSection
-from lagcli.statements.questions import Answer, FindSection, Rewritten, Solutions
+from lagcli.statements.questions import Answer, FindSection, Ranges, Rewritten, Solutions
+from lagcli.verification.claims.ranges import holds_in_ranges
 from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, least_step, rank, size
@@ -61,6 +62,9 @@ def _answer(x: Examination, name: str, answer: Answer, charges: Sequence[Charge]
         if places is not None and all(_is_root(x, what, question, p, reached) for p in places):
             return answer
         return replace(answer, solutions=None, note=_NOTE)
+    if isinstance(answer, Ranges) and isinstance(question, Lasting | Reaching):
+        sound = answer.ranges is None or holds_in_ranges(x, what, answer, question, reached)
+        return answer if sound else replace(answer, ranges=None, note=_NOTE)
     return answer
 
 

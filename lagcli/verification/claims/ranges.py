@@ -1,0 +1,167 @@
+"""Values of a parameter with which a condition lasts or a place is reached: motions beside bounds.
+
+Beside each printed bound the motion is integrated from the initial state, by the rule of Runge
+and Kutta of fourth order.  A condition that fails within a range, or a place that is reached
+outside of it, refutes the answer; so does, for one degree of freedom and no time in L, what does
+not come to pass until a coordinate has turned twice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from flint import arb
+
+from lagcli.problem_data import Inequality, Lasting, Reaching
+from lagcli.statements.questions import Ranges
+from lagcli.verification.examination import Examination
+from lagcli.verification.linear import Unclear, size
+from lagcli.verification.states import Environment, State
+
+if TYPE_CHECKING:
+    from lagcli.verification.claims.find import Reached
+
+_STEP, _STEPS = arb(1) / 10, 150
+#: Relative distance from a bound; the rule is right to some 1e-4 on the way.
+_BESIDE = 0.05
+#: Slower is rounding on the constraints.
+_MOVES = 1e-6
+
+
+def holds_in_ranges(
+    x: Examination, what: str, answer: Ranges, question: Lasting | Reaching, reached: Reached
+) -> bool:
+    """Whether motions with parameters beside the bounds do what the ranges say."""
+    trees = [b for each in answer.ranges or () for _, b in each.bounds]
+    places = x.places(what, trees)
+    if places is None:
+        return False
+    bounds = dict(zip(map(id, trees), places, strict=True))
+    tried = 0
+    for base in x.states(1):
+        at = x.reference.values(base.environment)
+        intervals = [
+            tuple(
+                sign * float("inf") if b is None else float(at(bounds[id(b)]).mid())
+                for sign, b in ((-1, each.lower), (1, each.upper))
+            )
+            for each in answer.ranges or ()
+        ]
+        for value in _beside(intervals):
+            if not _allowed(x, question.unknown.name, value):
+                continue
+            known = {k: v for k, v in base.environment.items() if k not in reached.everything}
+            start = reached.initial({**known, (question.unknown.name, 0): arb(value)})
+            claimed = any(low < value < high for low, high in intervals)
+            try:
+                comes = None if start is None else PassingMotion(x, start, question).outcome()
+            except Unclear:
+                continue
+            tried += start is not None
+            if comes not in {None, claimed}:
+                said = "it does not hold" if claimed else "it holds"
+                x.refute(what, f"{said} where {question.unknown.name} = {value:.6g}")
+                return False
+    if not tried:
+        x.unchecked.append(what)
+    return True
+
+
+def _beside(intervals: Sequence[tuple[float, ...]]) -> Iterator[float]:
+    """Numbers on both sides of each bound; some where there is none."""
+    ends = {e for each in intervals for e in each if abs(e) < float("inf")}
+    for end in sorted(ends):
+        yield from (end + side * _BESIDE * max(abs(end), 0.2) for side in (-1, 1))
+    if not ends:
+        yield from (0.3, 2.5)
+
+
+def _allowed(x: Examination, name: str, value: float) -> bool:
+    signs = {p.name: p.assume for p in x.problem.parameters}
+    return not (
+        (signs[name] in {"positive", "nonnegative"} and value <= 0)
+        or (signs[name] == "negative" and value >= 0)
+    )
+
+
+class PassingMotion:
+    """The motion from one state, until the question is decided."""
+
+    def __init__(self, x: Examination, start: Environment, question: Lasting | Reaching) -> None:
+        self.x, self.environment, self.question = x, dict(start), question
+        reference, program = x.reference, x.reference.program
+        self.names = reference.names
+        held = [c.holds_while for c in x.problem.constraints if c.holds_while is not None]
+        if isinstance(question, Reaching):
+            self.u = question.coordinate.name
+            far = program.negative(reference.place(question.value))
+            self.sought = program.sum(program.symbol(self.u), far)
+        else:
+            self.u = ""
+            held = [each for each in held if each != question.condition]
+            self.sought = self._margin(question.condition)
+        self.ends = [self._margin(each) for each in held]
+        still = program.derivative(reference.lagrangian, {reference.time: program.one})
+        freedom = len(self.names) - len(reference.rows)
+        self.periodic = freedom == 1 and still == program.zero and not x.problem.dissipation
+
+    def _margin(self, condition: Inequality) -> int:
+        """What is positive while a condition holds."""
+        program = self.x.reference.program
+        left, right = map(self.x.reference.place, (condition.left, condition.right))
+        a, b = (left, right) if condition.comparison[0] == ">" else (right, left)
+        return program.sum(a, program.negative(b))
+
+    def outcome(self) -> bool | None:
+        """Whether the condition holds all the time, or the place is reached.
+
+        None where that is undecided.
+
+        Raises
+        ------
+        Unclear
+            Where nothing has a value, or nothing moves.
+        """
+        lasting, turns = isinstance(self.question, Lasting), [0] * len(self.names)
+        before: list[float] = []
+        for number in range(_STEPS):
+            state = State(self.x.reference, dict(self.environment))
+            rates = self._rates(state)
+            values = [float(state.at(p).mid()) for p in (self.sought, *self.ends)]
+            if number == 0 and all(size(r) < _MOVES for r in rates):
+                raise Unclear  # at rest where it starts
+            if lasting and values[0] < -1e-4:
+                return False
+            if not lasting and before and before[0] * values[0] <= 0 and before[0] != values[0]:
+                return True
+            if any(v < -1e-4 for v in values[1:]):
+                return lasting
+            speeds = [float(self.environment[n, 1].mid()) for n in self.names]
+            for k, (a, b) in enumerate(zip(before[1:], speeds, strict=False)):
+                turns[k] += a * b < 0 and min(abs(a), abs(b)) > _MOVES
+            if self.periodic and max(turns) > 1:
+                return lasting
+            before = [values[0], *speeds]
+            self._advance(rates)
+        return None
+
+    def _rates(self, state: State) -> list[arb]:
+        """q' and q''."""
+        return [*state.laws.velocities, *state.laws.accelerations]
+
+    def _advance(self, first: list[arb]) -> None:
+        """One step."""
+        keys = [(n, primes) for primes in (0, 1) for n in self.names]
+        slopes = [first]
+        for part in (arb("0.5"), arb("0.5"), arb(1)):
+            there = dict(self.environment)
+            for key, rate in zip(keys, slopes[-1], strict=True):
+                there[key] = (there[key] + part * _STEP * rate).mid()
+            there["t", 0] = there["t", 0] + part * _STEP
+            slopes.append(self._rates(State(self.x.reference, there)))
+        for key, (a, b, c, d) in zip(keys, zip(*slopes, strict=True), strict=True):
+            self.environment[key] = (
+                self.environment[key] + (a + 2 * b + 2 * c + d) * _STEP / 6
+            ).mid()
+        self.environment["t", 0] = self.environment["t", 0] + _STEP
