@@ -38,8 +38,10 @@ def pairs(states: Iterable[tuple[State, Rest]]) -> list[tuple[State, Rest]]:
     found: list[tuple[State, Rest]] = []
     for at, rest in states:
         for place, (other, its_rest) in enumerate(found):
+            if its_rest != rest or list(other) != list(at):
+                continue
             both = joined(tuple(other.values()), tuple(at.values()))
-            if both is not None and its_rest == rest and other.keys() == at.keys():
+            if both is not None:
                 found[place] = (dict(zip(at, both, strict=True)), rest)
                 break
         else:
