@@ -29,6 +29,7 @@ def on(surface, V=""):
 
 
 @pytest.mark.parametrize("surface", QUADRICS)
+@pytest.mark.long
 def test_geodesics_of_a_quadric_have_jacobis_integral(surface):
     derivation = derive(on(surface, QUADRICS[surface]))
     charges = derivation.discovery.charges
@@ -39,6 +40,7 @@ def test_geodesics_of_a_quadric_have_jacobis_integral(surface):
 
 
 @pytest.mark.parametrize("surface", ["x^2/a^2 + y^2/b^2 + z^2/c^2 = 1", "a*z = x^2 - y^2"])
+@pytest.mark.long
 def test_it_stays_on_an_independent_motion(surface):
     digits = kept(on(surface, QUADRICS[surface]), surface)
     assert len(digits) == 2

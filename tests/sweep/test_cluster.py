@@ -126,6 +126,7 @@ def test_a_cluster_without_workers(tmp_path, capsys):
     assert f"has no workers: dask worker {address}" in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_whoever_is_killed_the_next_call_ends_with_the_same_bytes(whole, tmp_path):
     """The client, a worker or the scheduler, at random moments."""
     draw, path = random.Random(int(os.environ.get("LAGCLI_SEED", "5"))), tmp_path / "out.csv"

@@ -50,6 +50,7 @@ def test_errors_are_against_the_exact_solution(made):
     assert errors[-1] < 1e-20
 
 
+@pytest.mark.long
 def test_certificates_keep_their_promise_and_auto_is_judged(made):
     document, _ = made
     for each in document["certified"]:
