@@ -11,7 +11,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 FILE ?= problems/hoop.yaml
 # Of jobs side by side each prints whole lines, where this make can do that.
-LINES := $(if $(filter output-sync,$(.FEATURES)),--output-sync=line)
+WHOLE_LINES := $(if $(filter output-sync,$(.FEATURES)),--output-sync=line)
 
 .PHONY: help
 help: ## list the targets
@@ -35,7 +35,7 @@ solve: $(READY) ## the main job: make solve FILE=problems/hoop.yaml
 
 .PHONY: check
 check: $(READY) ## what one runs before a commit; a few minutes
-	@$(MAKE) --no-print-directory -j 2 $(LINES) test lint types layers
+	@$(MAKE) --no-print-directory -j 2 $(WHOLE_LINES) test lint types layers
 
 .PHONY: check-all
 check-all: long certificate ## all the rest: long runs, every problem of the library, mutants, certificates
