@@ -19,7 +19,7 @@ Class = TypeVar("Class")
 Value = TypeVar("Value")
 
 
-class _Part(NamedTuple):
+class _RecordField(NamedTuple):
     """One field of a record."""
 
     name: str
@@ -77,18 +77,20 @@ def _made(cls: type, kw_only: bool, order: bool) -> type:
     return made
 
 
-def _part(name: str, given: Any, kw_only: bool) -> _Part:
+def _part(name: str, given: Any, kw_only: bool) -> _RecordField:
     if not isinstance(given, Field):
-        return _Part(name, given, MISSING, compare=True, show=True, kw_only=kw_only)
+        return _RecordField(name, given, MISSING, compare=True, show=True, kw_only=kw_only)
     by_name = kw_only if given.kw_only is MISSING else given.kw_only
-    return _Part(name, given.default, given.default_factory, given.compare, given.repr, by_name)
+    return _RecordField(
+        name, given.default, given.default_factory, given.compare, given.repr, by_name
+    )
 
 
 def _getter(names: list[str]) -> staticmethod[[Any], Any]:
     return staticmethod(attrgetter(*names) if names else lambda _: ())
 
 
-def _initializer(cls: type, parts: tuple[_Part, ...]) -> Callable[..., None]:
+def _initializer(cls: type, parts: tuple[_RecordField, ...]) -> Callable[..., None]:
     """The `__init__` of a class: no text is compiled, so none could be taken over."""
     setters = tuple(getattr(cls, part.name).__set__ for part in parts)
     places = tuple((part, put) for part, put in zip(parts, setters, strict=True))
@@ -123,7 +125,7 @@ def _initializer(cls: type, parts: tuple[_Part, ...]) -> Callable[..., None]:
     return __init__
 
 
-def _defaults(places: tuple[tuple[_Part, Any], ...]) -> tuple[tuple[Any, Any], ...] | None:
+def _defaults(places: tuple[tuple[_RecordField, Any], ...]) -> tuple[tuple[Any, Any], ...] | None:
     """The settings and their defaults, None where one has none or makes it anew."""
     if any(part.default is MISSING for part, _ in places):
         return None
@@ -132,7 +134,7 @@ def _defaults(places: tuple[tuple[_Part, Any], ...]) -> tuple[tuple[Any, Any], .
 
 def replace(value: Value, /, **changes: Any) -> Value:
     """The same record with other values of some fields."""
-    parts: tuple[_Part, ...] = value._parts  # type: ignore[attr-defined] # noqa: SLF001
+    parts: tuple[_RecordField, ...] = value._parts  # type: ignore[attr-defined] # noqa: SLF001
     kept = {part.name: getattr(value, part.name) for part in parts if part.name not in changes}
     return type(value)(**kept, **changes)
 
@@ -194,7 +196,7 @@ class _DataclassFields:
         return made
 
 
-def _described(parts: tuple[_Part, ...]) -> Iterator[tuple[str, Any, Any]]:
+def _described(parts: tuple[_RecordField, ...]) -> Iterator[tuple[str, Any, Any]]:
     for name, default, factory, compare, show, kw_only in parts:
         given = {"default": default} if factory is MISSING else {"default_factory": factory}
         yield name, Any, field(**given, compare=compare, repr=show, kw_only=kw_only)

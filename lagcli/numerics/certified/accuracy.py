@@ -33,7 +33,7 @@ from typing import Any
 
 from lagcli.numerics.certified.drift import changes
 from lagcli.numerics.certified.partners import Partners
-from lagcli.numerics.certified.rank import Place, places
+from lagcli.numerics.certified.rank import RankPlace, places
 from lagcli.numerics.certified.scales import Scales, relative
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.integrators.steps import DEPENDENT, SINGULAR_MASS, CannotGoOn, component_scales
@@ -342,7 +342,7 @@ class Controller:
         return total
 
 
-def ended(outcome: Outcome, place: Place) -> Outcome:
+def ended(outcome: Outcome, place: RankPlace) -> Outcome:
     """What is left before a place at which constraints become dependent."""
     run, good = outcome.run, outcome.good_rows
     good = max(1, sum(mark.t <= place.begin for mark in run.marks[:good]))

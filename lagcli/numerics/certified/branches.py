@@ -22,7 +22,7 @@ from lagcli.numerics.certified.attempts import attempt
 from lagcli.numerics.certified.escalation import BITS, TIMES
 from lagcli.numerics.certified.methods import SHARP, SHARPER
 from lagcli.numerics.certified.prepared import Precision
-from lagcli.numerics.certified.rank import Place, places, varies
+from lagcli.numerics.certified.rank import RankPlace, places, varies
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.modes import Modes
 from lagcli.numerics.hybrid.run import Run
@@ -75,7 +75,9 @@ def is_met(outcome: Outcome) -> bool:
     return bool(met) and met[0].begin <= outcome.lost_at
 
 
-def _left_at(simulation: Setup, outcome: Outcome, digits: Precision) -> tuple[bool, Place | None]:
+def _left_at(
+    simulation: Setup, outcome: Outcome, digits: Precision
+) -> tuple[bool, RankPlace | None]:
     """Whether there are such places, and the first at which the run may have left its branch."""
     with digits():
         run, marks = outcome.run, outcome.run.marks[: outcome.good_rows + _BEYOND]
@@ -112,7 +114,7 @@ def _again(simulation: Setup, outcome: Outcome, times: Sequence[float]) -> Run:
 
 
 def _is_passed(
-    simulation: Setup, outcome: Outcome, place: Place, run: Run, times: Sequence[float]
+    simulation: Setup, outcome: Outcome, place: RankPlace, run: Run, times: Sequence[float]
 ) -> bool:
     """Whether a run passes a place on its branch."""
     least = _KNOWN * math.sqrt(2.0 ** -BITS.get(run.method_name, 53))

@@ -27,7 +27,7 @@ Pivots = Callable[[Mark], list[float]]
 Roots = Callable[[Sequence[Mark]], list[float]]
 
 
-class Place(NamedTuple):
+class RankPlace(NamedTuple):
     """Between two times of a phase a pivot vanishes; `roots` are those of the pivots."""
 
     phase: int
@@ -41,7 +41,7 @@ def varies(run: Run, marks: Sequence[Mark]) -> bool:
     return any(min(roots(some)) < _CONSTANT for _, some, roots in _by_phase(run, marks))
 
 
-def places(run: Run, marks: Sequence[Mark]) -> list[Place]:
+def places(run: Run, marks: Sequence[Mark]) -> list[RankPlace]:
     """Where the root of a pivot, drawn on as a straight line, meets 0 between two of some rows."""
     found = []
     for number, some, roots_at in _by_phase(run, marks):
@@ -50,7 +50,7 @@ def places(run: Run, marks: Sequence[Mark]) -> list[Place]:
             beside = roots[max(0, j - 1) : j] + roots[j + 1 : j + 2]
             if here <= min(beside) and here <= max(beside) - here:
                 begin, end = some[max(0, j - 1)].t, some[min(last, j + 1)].t
-                found.append(Place(number, begin, end, roots_at))
+                found.append(RankPlace(number, begin, end, roots_at))
     return found
 
 

@@ -27,7 +27,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from lagcli.numerics.rigorous.enclosure import NotEnclosed, Piece
-from lagcli.numerics.rigorous.field import Field
+from lagcli.numerics.rigorous.field import VectorField
 from lagcli.numerics.rigorous.sets import LohnerSet
 from lagcli.record import record
 
@@ -66,19 +66,19 @@ class Watched:
         """sign * g."""
         return self.sign * self.value(t, *x)[0]
 
-    def rate(self, field: Field, t: Any, x: Sequence[Any]) -> Any:
+    def rate(self, field: VectorField, t: Any, x: Sequence[Any]) -> Any:
         """The rate of sign * g along the motion."""
         _, explicit, *gradient = self.value(t, *x)
         along = sum((a * b for a, b in zip(gradient, field.rate(t, x), strict=True)), explicit)
         return self.sign * along
 
-    def term(self, field: Field, t: Any, x: Sequence[Any], order: int) -> Any:
+    def term(self, field: VectorField, t: Any, x: Sequence[Any], order: int) -> Any:
         """The Taylor coefficient of sign * g along the motion."""
         series = field.coefficients(t, x, order)
         return self.sign * field.evaluated(self.value, [t, 1], series, order + 1)[0][order]
 
 
-class Undecided(NotEnclosed):
+class UndecidedCrossing(NotEnclosed):
     """Whether something becomes 0 at a time is not decided."""
 
     def __init__(self, watched: Watched, t: Any) -> None:
@@ -98,7 +98,7 @@ class Restart:
     slope: Callable[[Any, Sequence[Any]], Any]
 
 
-def when(piece: Piece, field: Field, watched: Watched, begun: int = 0) -> Any:
+def when(piece: Piece, field: VectorField, watched: Watched, begun: int = 0) -> Any:
     """The time of the first zero within a step, enclosed; None where there is none.
 
     Parameters
@@ -108,7 +108,7 @@ def when(piece: Piece, field: Field, watched: Watched, begun: int = 0) -> Any:
 
     Raises
     ------
-    Undecided
+    UndecidedCrossing
         Where it is open whether there is one.
     """
     pending = [(piece.begin, piece.end, begun)]
@@ -129,13 +129,13 @@ def when(piece: Piece, field: Field, watched: Watched, begun: int = 0) -> Any:
             if last < 0:
                 return _newton(piece, field, watched, whole)
         if not b - a > shortest:
-            raise Undecided(watched, b)
+            raise UndecidedCrossing(watched, b)
         middle = (a + _PART * (b - a)).mid()
         pending += [(middle, b, 0), (a, middle, leaves)]
     return None
 
 
-def _newton(piece: Piece, field: Field, watched: Watched, bracket: Any) -> Any:
+def _newton(piece: Piece, field: VectorField, watched: Watched, bracket: Any) -> Any:
     """The only zero within a bracket."""
     for _ in range(_NEWTON):
         t = bracket.mid()
@@ -150,7 +150,11 @@ def _newton(piece: Piece, field: Field, watched: Watched, bracket: Any) -> Any:
 
 
 def behind(
-    piece: Piece, tau: Any, watched: Watched, fields: tuple[Field, Field], restart: Restart
+    piece: Piece,
+    tau: Any,
+    watched: Watched,
+    fields: tuple[VectorField, VectorField],
+    restart: Restart,
 ) -> tuple[Any, LohnerSet]:
     """A time near a crossing, and the set from which the new equations go on there."""
     old, new = fields
@@ -175,7 +179,7 @@ def behind(
     return s, before.moved(ends.entries(), derivative)
 
 
-def _moved(field: Field, times: Any, box: Sequence[Any], late: Any) -> tuple[list[Any], Any]:
+def _moved(field: VectorField, times: Any, box: Sequence[Any], late: Any) -> tuple[list[Any], Any]:
     """Where solutions from a box are over a short time, and the derivative of their flow."""
     room = list(box)
     for _ in range(_WIDENED):

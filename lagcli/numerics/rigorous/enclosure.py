@@ -37,7 +37,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from lagcli.numerics.integrators.taylor import log2_size
-from lagcli.numerics.rigorous.field import Field, convolved
+from lagcli.numerics.rigorous.field import VectorField, convolved
 from lagcli.numerics.rigorous.sets import LohnerSet
 from lagcli.record import record
 
@@ -64,7 +64,7 @@ class NotEnclosed(Exception):
 
 
 @record
-class Flow:
+class StepFlow:
     """P and what bounds the rest.
 
     Attributes
@@ -92,7 +92,7 @@ class Piece:
         The times, exact.
     centre : list of list of arb
         c_0 .. c_K of each component.
-    flow : Flow
+    flow : StepFlow
     start : LohnerSet
         The set at the beginning.
     """
@@ -100,7 +100,7 @@ class Piece:
     begin: Any
     end: Any
     centre: list[list[Any]]
-    flow: Flow
+    flow: StepFlow
     start: LohnerSet
 
     def middle(self, t: Any) -> list[Any]:
@@ -132,7 +132,7 @@ class Enclosures:
 
     Parameters
     ----------
-    field : Field
+    field : VectorField
         f and J.
     order : int
         K.
@@ -142,7 +142,7 @@ class Enclosures:
         These values, which the proof goes on with.
     """
 
-    def __init__(self, field: Field, order: int, target: float, peaks: list[float]) -> None:
+    def __init__(self, field: VectorField, order: int, target: float, peaks: list[float]) -> None:
         from flint import arb, arb_mat, ctx
 
         self.field, self.order, self.target = field, order, target
@@ -197,7 +197,7 @@ class Enclosures:
 
     def _wide(
         self, t: Any, end: Any, centre: Sequence[Sequence[Any]], start: LohnerSet
-    ) -> Flow | None:
+    ) -> StepFlow | None:
         """What bounds the errors over a step; None where it is too long."""
         context = self._context
         usual, context.prec = context.prec, _WIDE_BITS
@@ -224,7 +224,7 @@ class Enclosures:
         over: tuple[Any, Sequence[Any]],
         start: LohnerSet,
         defect: Sequence[Any],
-    ) -> Flow | None:
+    ) -> StepFlow | None:
         """The flow, where a tube E is found in which the errors stay."""
         whole = [x + d for x, d in zip(start.spread, defect, strict=True)]
         column = self._matrix(len(whole), 1, whole)
@@ -259,7 +259,9 @@ class Enclosures:
         found += self.field.jacobian([times, 1], anywhere, _FLOW_ORDER + 1)[_FLOW_ORDER:]
         return found if all(x.is_finite() for m in found for x in m.entries()) else None
 
-    def _bounded(self, matrices: Sequence[Any], grown: Any, h: Any, defect: Sequence[Any]) -> Flow:
+    def _bounded(
+        self, matrices: Sequence[Any], grown: Any, h: Any, defect: Sequence[Any]
+    ) -> StepFlow:
         """P from the middles of J_k; D from the defect A P - P'."""
         middles = [m.mid() for m in matrices]
         size = len(defect)
@@ -274,7 +276,7 @@ class Enclosures:
         ]
         error = grown * _sum_of_sizes(rest, h) * h
         moved = grown * self._matrix(size, 1, list(defect))
-        return Flow(found, self._around_zero(error), self._around_zero(moved))
+        return StepFlow(found, self._around_zero(error), self._around_zero(moved))
 
     def _around_zero(self, bound: Any) -> Any:
         """A matrix of balls around 0."""

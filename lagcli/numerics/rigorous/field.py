@@ -15,7 +15,7 @@ from lagcli.numerics.equations.refusal import Refusal
 _BASE = 7
 
 
-class Field:
+class VectorField:
     """f and J = df/dx of a motion in balls.
 
     Parameters

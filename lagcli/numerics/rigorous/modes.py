@@ -16,12 +16,12 @@ from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.rigorous.crossings import Restart, Watched
 from lagcli.numerics.rigorous.enclosure import Enclosures, NotEnclosed
-from lagcli.numerics.rigorous.field import Field, solved
+from lagcli.numerics.rigorous.field import VectorField, solved
 
 Key = tuple[frozenset[int], tuple[int, ...]]
 
 
-class Modes:
+class ProofModes:
     """The equations of each mode, made when it is met.
 
     Parameters
@@ -49,16 +49,16 @@ class Modes:
         #: of what `--stop-when` compares with 0, at the beginning
         self.stop_sign = 0
         self.peaks = [0.0] * (2 * len(setup.equations.q))
-        self._known: dict[Key, Mode] = {}
+        self._known: dict[Key, ProofMode] = {}
 
-    def __call__(self, held: frozenset[int], signs: Sequence[int]) -> Mode:
+    def __call__(self, held: frozenset[int], signs: Sequence[int]) -> ProofMode:
         """The mode in which these constraints act, and the switching functions have these signs."""
         key = held, tuple(signs)
         if key not in self._known:
-            self._known[key] = Mode(self, *key)
+            self._known[key] = ProofMode(self, *key)
         return self._known[key]
 
-    def at_first(self, t: Any, x: Sequence[Any]) -> tuple[Mode, dict[Watched, int]]:
+    def at_first(self, t: Any, x: Sequence[Any]) -> tuple[ProofMode, dict[Watched, int]]:
         """The mode of the initial state, and what is 0 there and leaves it at once.
 
         Raises
@@ -92,17 +92,17 @@ class Modes:
         raise NotEnclosed("a switching function is 0 at the beginning, and its rate may be 0, too")
 
 
-class Mode:
+class ProofMode:
     """The motion while some constraints act and the switching functions keep their signs."""
 
-    def __init__(self, modes: Modes, held: frozenset[int], signs: tuple[int, ...]) -> None:
+    def __init__(self, modes: ProofModes, held: frozenset[int], signs: tuple[int, ...]) -> None:
         self.modes, self.held, self.signs = modes, held, signs
         setup = modes.setup
         self.equations = _without(setup.equations.holding(held), modes.implied)
         self.motion = Motion(
             self.equations, modes.constants, modes.arithmetic, [float(sign) for sign in signs]
         )
-        self.field = Field(self.motion)
+        self.field = VectorField(self.motion)
         self.enclosures = Enclosures(self.field, modes.order, modes.target, modes.peaks)
         self.values = Values(self.motion, setup.reading, setup.nodes)
 
@@ -165,7 +165,7 @@ class Mode:
                 return "contact lost" if setup.whole.constraints[k].on_loss == "stop" else ""
         return ""
 
-    def through(self, watched: Watched, t: Any, x: Sequence[Any]) -> tuple[Mode, Restart, str]:
+    def through(self, watched: Watched, t: Any, x: Sequence[Any]) -> tuple[ProofMode, Restart, str]:
         """What follows when a watched function becomes 0: mode, state, and what it is called.
 
         Raises
@@ -184,7 +184,7 @@ class Mode:
             raise NotEnclosed(f"near t = {float(t):.6g} the motion stays where {watched.name} is 0")
         return after, same, "switch"
 
-    def _struck(self, watched: Watched, t: Any, x: Sequence[Any]) -> tuple[Mode, Restart, str]:
+    def _struck(self, watched: Watched, t: Any, x: Sequence[Any]) -> tuple[ProofMode, Restart, str]:
         """An impact by Newton's law: M (v+ - v) = A^T Lambda, g'+ = -e g'."""
         k, setup = watched.index, self.modes.setup
         contact = setup.contacts[k]

@@ -14,10 +14,10 @@ from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.events import Event
 from lagcli.numerics.hybrid.request import Asked, Certificate, Result
-from lagcli.numerics.rigorous.crossings import Undecided, Watched, behind, when
+from lagcli.numerics.rigorous.crossings import UndecidedCrossing, Watched, behind, when
 from lagcli.numerics.rigorous.enclosure import NotEnclosed, Piece
 from lagcli.numerics.rigorous.initial import initial_state
-from lagcli.numerics.rigorous.modes import Mode, Modes
+from lagcli.numerics.rigorous.modes import ProofMode, ProofModes
 from lagcli.numerics.rigorous.sets import LohnerSet, around
 from lagcli.problem_data import Problem
 from lagcli.record import record
@@ -48,7 +48,7 @@ Enclosure = tuple[Any, ...]
 
 
 #: Time, set, mode, and the orders of what is 0 there.
-Following = tuple[Any, LohnerSet, Mode, Mapping[Watched, int]]
+Following = tuple[Any, LohnerSet, ProofMode, Mapping[Watched, int]]
 
 
 @record
@@ -249,7 +249,9 @@ class Attempt:
     def _go(self) -> None:
         setup, ball = self.setup, self.arithmetic.ball
         constants = constants_of(setup.equations, setup.all_nodes, self.arithmetic)
-        modes = Modes(setup, constants, self.arithmetic, self.implied, self.order, 2.0**-self.bits)
+        modes = ProofModes(
+            setup, constants, self.arithmetic, self.implied, self.order, 2.0**-self.bits
+        )
         first = modes(setup.given, [1] * len(setup.equations.kinks))
         state, assumed = initial_state(first.motion, setup.start)
         self.assumed += assumed
@@ -272,7 +274,7 @@ class Attempt:
         self.assumed.append(f"the other constraints imply {', '.join(names)}")
 
     def _through_mode(
-        self, t: Any, start: LohnerSet, mode: Mode, leaving: Mapping[Watched, int]
+        self, t: Any, start: LohnerSet, mode: ProofMode, leaving: Mapping[Watched, int]
     ) -> Following | None:
         """Rows until the mode ends or the span does; what follows."""
         while len(self.rows) < len(self.times):
@@ -285,21 +287,21 @@ class Attempt:
         return None
 
     def _step(
-        self, mode: Mode, t: Any, start: LohnerSet, leaving: Mapping[Watched, int]
+        self, mode: ProofMode, t: Any, start: LohnerSet, leaving: Mapping[Watched, int]
     ) -> tuple[Piece, tuple[Watched, Any] | None]:
         """A step and what ends it; a shorter one where its end is at an event."""
         last = self.times[-1]
         piece = mode.enclosures.step(t, start, last * _BEYOND if mode.watched else last)
         try:
             return piece, self._crossing(piece, mode, leaving)
-        except Undecided as reason:
+        except UndecidedCrossing as reason:
             if not reason.t >= piece.end:
                 raise
             piece = piece.first_part(_SHORTER)
             return piece, self._crossing(piece, mode, leaving)
 
     def _crossing(
-        self, piece: Piece, mode: Mode, leaving: Mapping[Watched, int]
+        self, piece: Piece, mode: ProofMode, leaving: Mapping[Watched, int]
     ) -> tuple[Watched, Any] | None:
         """What becomes 0 first in a step, and when."""
         found = []
@@ -313,7 +315,7 @@ class Attempt:
             raise NotEnclosed(f"two events come together near t = {at:.6g}: their order is open")
         return found[0] if found else None
 
-    def _cross(self, piece: Piece, mode: Mode, watched: Watched, tau: Any) -> Following | None:
+    def _cross(self, piece: Piece, mode: ProofMode, watched: Watched, tau: Any) -> Following | None:
         """What follows an event; None where the motion stops there."""
         state, ends = piece.at(tau), mode.ends(watched)
         if ends:
@@ -332,19 +334,19 @@ class Attempt:
                 raise NotEnclosed(f"what {each.name} does at t = {float(t):.6g} is not decided")
         return t, start, after, leaves
 
-    def _happened(self, t: Any, name: str, what: str, mode: Mode, x: Sequence[Any]) -> None:
+    def _happened(self, t: Any, name: str, what: str, mode: ProofMode, x: Sequence[Any]) -> None:
         columns = [column.name for column in self.setup.asked.columns]
         before = dict(zip(columns, self._values(mode, t, x), strict=True))
         self.events.append(ProvedEvent(t, name, what, before))
 
-    def _rows_within(self, tau: Any, *sides: tuple[Mode, Sequence[Any]]) -> None:
+    def _rows_within(self, tau: Any, *sides: tuple[ProofMode, Sequence[Any]]) -> None:
         """Rows within the enclosure of the time of an event: None in columns that jump."""
         while len(self.rows) < len(self.times) and self.times[len(self.rows)] <= tau.upper():
             t = self.times[len(self.rows)]
             before, after = (self._values(mode, t, x) for mode, x in sides)
             self.rows.append(tuple(map(_joined, before, after)))
 
-    def _rows_of(self, piece: Piece, mode: Mode, event: Any) -> None:
+    def _rows_of(self, piece: Piece, mode: ProofMode, event: Any) -> None:
         until = piece.end if event is None else event.lower()
         while len(self.rows) < len(self.times):
             t = self.times[len(self.rows)]
@@ -352,15 +354,15 @@ class Attempt:
                 return
             self._take(mode, t, piece.at(t))
 
-    def _take(self, mode: Mode, t: Any, x: Sequence[Any]) -> None:
+    def _take(self, mode: ProofMode, t: Any, x: Sequence[Any]) -> None:
         self.rows.append(tuple(self._values(mode, t, x)))
 
-    def _values(self, mode: Mode, t: Any, x: Sequence[Any]) -> list[Any]:
+    def _values(self, mode: ProofMode, t: Any, x: Sequence[Any]) -> list[Any]:
         n, ball = mode.motion.n, self.arithmetic.ball
         found = mode.values(t, list(x[:n]), list(x[n:]))
         return [None if value is None else ball(value) for value in found]
 
-    def _count(self, piece: Piece, mode: Mode) -> None:
+    def _count(self, piece: Piece, mode: ProofMode) -> None:
         self.steps += 1
         self.last = float(piece.end)
         self.work += mode.field.cost * (self.order / 28) ** 2
