@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ctypes
+import math
+import operator
 import random
 import shutil
 import subprocess
@@ -277,6 +279,52 @@ def test_mathematica_is_read_back_by_sympys_parser(problem, tmp_path, capsysbina
         values[name] = value(parse_mathematica(formula))
     got = [value(each) for each in parse_mathematica(result)]
     assert got == pytest.approx(list(code["rhs"](t, y, p)), rel=1e-10)
+
+
+OPERATORS = {
+    "+": operator.add, "-": lambda *x: x[0] - x[1] if len(x) > 1 else -x[0], "*": operator.mul,
+    "/": operator.truediv, "^": operator.pow, "abs": abs, "sign": lambda x: (x > 0) - (x < 0),
+}  # fmt: skip
+
+
+class Model:
+    """A Modelica model as pymoca reads it, at a state: names stand for numbers or equations."""
+
+    def __init__(self, text, values):
+        from pymoca.parser import parse
+
+        *_, self.model = parse(text).classes.values()
+        self.values = dict(values)
+        self.equations = {str(each.left): each.right for each in self.model.equations}
+
+    def __call__(self, node):
+        if hasattr(node, "operator"):
+            name = str(node.operator)
+            function = OPERATORS.get(name) or getattr(math, name)
+            return function(*map(self, node.operands))
+        if hasattr(node, "value"):
+            return node.value
+        name = str(node)
+        if name not in self.values:
+            self.values[name] = self(self.equations[name])
+        return self.values[name]
+
+    def rates(self):
+        derivatives = (e for e in self.model.equations if hasattr(e.left, "operator"))
+        return {str(each.left.operands[0]): self(each.right) for each in derivatives}
+
+
+@pytest.mark.long
+def test_modelica_gives_what_python_gives(problem, tmp_path, capsysbinary):
+    """Read by a compiler of Modelica, evaluated equation by equation."""
+    code = module_of(exported(problem, "python", tmp_path, capsysbinary))
+    text = exported(problem, "modelica", tmp_path, capsysbinary).read_text()
+    t, y, p = random_arguments(len(code["STATE"]), len(code["PARAMETERS"]))
+    values = dict(zip([*code["STATE"], *code["PARAMETERS"], "time"], [*y, *p, t], strict=True))
+    rates = Model(text, values).rates()
+    assert [rates[name] for name in code["STATE"]] == pytest.approx(
+        list(code["rhs"](t, y, p)), rel=1e-11
+    )
 
 
 @pytest.mark.long
