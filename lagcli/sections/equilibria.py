@@ -15,12 +15,10 @@ from lagcli.reader.schema_parts import FORMULAS, STABLE, list_of, record_of, ref
 from lagcli.statements.answers import Answers, EquilibriaSection, Equilibrium
 from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.statements.plus_minus import once
+from lagcli.statements.stability import at_the_limit, holding, stability
 from lagcli.statements.wording import (
-    at_the_limit,
     conditions,
-    holding,
     none_found,
-    stability,
     state_blocks,
 )
 

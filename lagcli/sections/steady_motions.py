@@ -27,11 +27,11 @@ from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Expected, Told
 from lagcli.statements.motions import SteadyMotion, SteadySection
 from lagcli.statements.plus_minus import once, single
+from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     conditions,
     none_found,
     place_rows,
-    steady_stability,
     there_may_be_others,
 )
 

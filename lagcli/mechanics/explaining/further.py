@@ -18,8 +18,9 @@ from lagcli.statements.answers import EquilibriaSection, Section
 from lagcli.statements.explanation import ExplanationStep
 from lagcli.statements.plus_minus import once
 from lagcli.statements.registry import find_section
-from lagcli.statements.wording import at_the_limit, holding, place_rows, stability, unless
+from lagcli.statements.stability import at_the_limit, holding, stability
 from lagcli.statements.wording import conditions as inequalities
+from lagcli.statements.wording import place_rows, unless
 
 if TYPE_CHECKING:
     from lagcli.mechanics.oscillations.equilibria import RestPoints

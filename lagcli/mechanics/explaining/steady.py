@@ -22,11 +22,11 @@ from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import Section
 from lagcli.statements.motions import SteadyMotion, SteadySection
 from lagcli.statements.plus_minus import once
+from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     POTENTIAL,
     conditions,
     place_rows,
-    steady_stability,
     there_may_be_others,
     unless,
 )
@@ -62,6 +62,9 @@ def steady(teller: Teller, section: Section) -> Iterator[Block]:
         return
     if found.motions is None and found.reason == NONE_LEFT:
         yield says("The constraints leave no coordinate: they prescribe the motion.")
+        return
+    if found.motions is None and not found.conditions:
+        yield says(f"They were not found: {found.reason}.")
         return
     if not found.momenta and (found.conditions or found.motions):
         lead = _steady_without_momenta(teller, found)

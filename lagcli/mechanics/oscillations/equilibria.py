@@ -22,14 +22,13 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import Field, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
-from lagcli.algebra.equations import is_decimal, rounded, written
-from lagcli.algebra.factors import factors_of
+from lagcli.algebra.equations import is_decimal, rounded
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.numeric import vanishes_at_random
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
-from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.family import Family, exists_where, family
 from lagcli.mechanics.oscillations.kinks import at_kinks
 from lagcli.record import record
@@ -39,7 +38,6 @@ _NO_CLOSED_SOLUTION = "the conditions of equilibrium have no closed solution"
 #: Why nothing is solved for that is constant.
 TIMED = "the equations depend explicitly on the time"
 _AT_A_KINK = "a force jumps where its sign changes, and rest at such a kink is not decided"
-_MOST_CONDITIONS = 4  # of which each is left out in turn
 _LONGEST = 60  # operations of conditions that are quoted
 _LAST_DIGITS = sympy.Float("1e-13")
 _PERIODIC = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
@@ -361,56 +359,3 @@ def _vanishes(expression: Expr) -> bool:
         return vanishes_at_random(expression)
     value = expression.evalf(50)
     return value is not sympy.nan and bool(abs(value) < sympy.Float("1e-40"))
-
-
-def without_unknowns(
-    conditions: Sequence[Expr], unknowns: Sequence[Symbol]
-) -> tuple[Expr, ...] | None:
-    """What no choice of the unknowns makes 0, but perhaps one of parameters.
-
-    None where all conditions may hold for special values of parameters that are not known.
-    """
-    found = _factors_without(conditions, unknowns)
-    if found or any(sign(e) in (1, -1) for e in conditions):
-        return found
-    return None if _may_hold_for_special_values(conditions, unknowns) else ()
-
-
-def _may_hold_for_special_values(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> bool:
-    """Whether all conditions but one have a solution at which that one has only parameters."""
-    if len(conditions) > _MOST_CONDITIONS:
-        return False
-    for k, left in enumerate(conditions):
-        others = [e for j, e in enumerate(conditions) if j != k]
-        solutions = solve_system(others, unknowns).solutions if others else ()
-        for each in solutions:
-            rest = simplify(left.xreplace(dict(each.values)))
-            if rest.free_symbols and free_of(rest, unknowns) and sign(rest) not in (1, -1):
-                return True
-    return False
-
-
-def unless_written(
-    vanishing: Sequence[Expr] | None, order: Sequence[str]
-) -> tuple[Expression, ...] | None:
-    """`unless` as it is read."""
-    return None if vanishing is None else tuple(written(e, order) for e in vanishing)
-
-
-def _factors_without(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[Expr, ...]:
-    open_ = [simplify(e) for e in conditions if free_of(e, unknowns)]
-    if open_:
-        deciding = [_perhaps_zero(e, unknowns) for e in open_]
-        return tuple({sympy.Mul(*each): None for each in deciding}) if all(deciding) else ()
-    factors = [_perhaps_zero(e, unknowns) for e in conditions]
-    common = [f for f in factors[0] if all(f in other for other in factors)] if factors else []
-    return (sympy.Mul(*common),) if common else ()
-
-
-def _perhaps_zero(condition: Expr, unknowns: Sequence[Symbol]) -> list[Expr]:
-    """The factors without unknowns that can vanish."""
-    return [
-        f
-        for f, k in factors_of(condition)
-        if k > 0 and free_of(f, unknowns) and sign(f) not in (1, -1)
-    ]

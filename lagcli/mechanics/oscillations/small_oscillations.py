@@ -28,8 +28,8 @@ from lagcli.mechanics.oscillations.equilibria import (
     RestPoint,
     RestPoints,
     at,
-    unless_written,
 )
+from lagcli.mechanics.oscillations.exceptions import unless_written
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.held import HeldCombination, held
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix

@@ -29,7 +29,8 @@ from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.characteristic import determinant, determinant_in
-from lagcli.mechanics.oscillations.equilibria import at, without_unknowns
+from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.reduction.minimal import minimal
 from lagcli.mechanics.stability.judge import Stability, by_polynomial, undecided
 from lagcli.record import record

@@ -6,7 +6,7 @@ from sympy import Expr
 
 from lagcli.algebra.equations import written
 from lagcli.expression import Expression
-from lagcli.mechanics.oscillations.equilibria import unless_written
+from lagcli.mechanics.oscillations.exceptions import unless_written
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.rolling import RollingMotion, RollingMotions
 from lagcli.mechanics.stability.statement import stated

@@ -28,7 +28,8 @@ from lagcli.algebra.factors import factors_of
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.oscillations.characteristic import determinant
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at, without_unknowns
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.held import held, one_sided
 from lagcli.mechanics.reduction.readable import deciding, weak_sign

@@ -13,7 +13,8 @@ from lagcli.algebra.equations import rounded, written
 from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import at, unless_written
+from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.exceptions import unless_written
 from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix

@@ -1,0 +1,170 @@
+"""Sentences on stability: a verdict with its reason, or the conditions that decide."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lagcli.document import Label
+from lagcli.expression import Expression, Name, operation_count
+from lagcli.statements.motions import Above, SteadyMotion, Verdict
+from lagcli.statements.wording import Part, conditions, joined
+
+#: A condition of more operations is not written beside the frequency that it says of.
+_LONG = 24
+_BOUNDED = ", since the equations of motion are linear and all their solutions are then bounded"
+_THEOREM = "(Kelvin, Tait and Chetaev)"
+
+
+def stability(
+    verdict: Verdict,
+    free: Sequence[str] = (),
+    on: tuple[Expression, Expression] | None = None,
+) -> list[Part]:
+    """Whether an equilibrium or a steady motion is stable, and by which conditions, in sentences.
+
+    It is one of a family where coordinates are `free` or tied by the equation `on`.
+    """
+    if verdict.rapid is not None:
+        return _on_average(verdict, verdict.rapid)
+    stable = "Asymptotically stable" if verdict.asymptotic else "Stable"
+    reason = _with_potential(verdict.reason, verdict.potential)
+    if verdict.stable is not None:
+        words: list[Part] = [stable if verdict.stable else "Unstable"]
+        if verdict.stable:
+            words += _up_to(free, on) if free or on is not None else _along(verdict)
+        return [*words, *([": ", *reason] if reason else []), "."]
+    parts = [*_by_minimum(verdict, stable), *_by_roots(verdict, stable)]
+    if not parts and verdict.unstable:
+        parts = ["Unstable where ", *joined(verdict.unstable, " or "), ". "]
+    if not parts:
+        return ["Stability undecided", *([": ", *reason] if reason else []), "."]
+    if reason:
+        first = reason[0]
+        lead = f"{first[0].upper()}{first[1:]}" if isinstance(first, str) else first
+        parts += [lead, *reason[1:], "."]
+    return _trimmed(parts)
+
+
+def _on_average(verdict: Verdict, frequency: Expression) -> list[Part]:
+    """Of the motion averaged over a rapid drive."""
+    V = Label("V", ("eff",))
+    parts: list[Part] = ["For ", frequency, " large against the frequencies without the drive "]
+    parts += ["and a small amplitude of the drive: "]
+    if verdict.minimum is None:
+        parts += ["unstable, since ", V, " has no minimum there "]
+    elif not verdict.minimum:
+        parts += ["stable, since ", V, " has a minimum there "]
+    else:
+        parts += ["stable where ", *conditions(verdict.minimum), ", a minimum of ", V]
+        parts += ["; unstable where ", *joined(verdict.unstable, " or "), " "]
+    return [*parts, "(Landau and Lifshitz, section 30)."]
+
+
+def _potential(name: str) -> Part:
+    """`V`, `V_eff` or `U_eff` as it is set, in words where other forces act."""
+    letter, _, index = name.partition("_")
+    return Label(letter, (index,) if index else ()) if name else "the potential of all forces"
+
+
+def at_the_limit(where: Sequence[Above], *, sticking: bool) -> str:
+    """What holds where a condition for static friction is an equality."""
+    return " At equality it rests, too, with no force to spare." if where and sticking else ""
+
+
+def holding(touching: Sequence[str], *, sticking: bool) -> str:
+    """What holds it at rest beside smooth forces."""
+    closed = f"In contact: {', '.join(touching)}. " if touching else ""
+    return closed + ("Static friction holds it. " if sticking else "")
+
+
+def _with_potential(reason: str, name: str) -> list[Part]:
+    before, found, after = reason.partition("{V}")
+    parts: list[Part] = [before, _potential(name), after] if found else [reason]
+    return [part for part in parts if part != ""]
+
+
+def _by_minimum(verdict: Verdict, stable: str) -> list[Part]:
+    if not verdict.minimum:
+        return []
+    alone = verdict.hurwitz is None and verdict.spectrum is None
+    potential = _potential(verdict.potential)
+    name = f" ({verdict.theorem})" if alone and verdict.theorem else ""
+    parts: list[Part] = [f"{stable} where ", *conditions(verdict.minimum)]
+    parts += [", a minimum of ", potential, name]
+    return [*parts, *(_opposite(verdict.unstable) if alone else [". "]), *_critical(verdict)]
+
+
+def _critical(verdict: Verdict) -> list[Part]:
+    """What holds at equality in the one condition."""
+    if verdict.critical is None or verdict.minimum is None or len(verdict.minimum) != 1:
+        return []
+    [condition], potential = verdict.minimum, _potential(verdict.potential)
+    equality: list[Part] = ["For ", condition.left, " = ", condition.right, " it is "]
+    if verdict.critical == 0:
+        return [*equality, "unstable: ", potential, " has no minimum then. "]
+    return [*equality, "stable: ", potential, f" then has a minimum of order {verdict.critical}. "]
+
+
+def _by_roots(verdict: Verdict, stable: str) -> list[Part]:
+    if verdict.hurwitz:
+        lead: list[Part] = [stable, " up to displacements along the family" * verdict.across]
+        parts = [*lead, " where ", *conditions(verdict.hurwitz), f" ({verdict.theorem})"]
+        return [*parts, *_opposite(verdict.unstable)]
+    spectrum = verdict.spectrum
+    if spectrum is None:
+        return []
+    if verdict.exact:
+        parts = [*(["Stable where ", *conditions(spectrum)] if spectrum else ["Stable"]), _BOUNDED]
+    else:
+        parts = ["Stable to first order, all frequencies being real and distinct"]
+        parts += [", where ", *conditions(spectrum)] if spectrum else []
+    parts += _opposite(verdict.unstable if spectrum else ())
+    if verdict.gyroscopic:
+        potential = _potential(verdict.potential)
+        parts += ["Where ", potential, " has no minimum, damping of all motions destroys this "]
+        parts += [f"{_THEOREM}. "]
+    return parts
+
+
+def _along(verdict: Verdict) -> list[Part]:
+    return [" up to displacements along the family"] if verdict.across else []
+
+
+def _up_to(free: Sequence[str], on: tuple[Expression, Expression] | None) -> list[Part]:
+    """The displacements along a family, which nothing restores."""
+    if on is not None:
+        return [" up to displacements along the family"]
+    parts: list[Part] = []
+    for position, name in enumerate(free):
+        parts += [", " if position else " up to displacements of ", Name(name)]
+    return parts
+
+
+def _is_long(condition: Above) -> bool:
+    return operation_count(condition.left) + operation_count(condition.right) > _LONG
+
+
+def _opposite(where: Sequence[Above]) -> list[Part]:
+    """Where it is unstable: one of the opposite inequalities, written out."""
+    if not where:
+        return [". "]
+    return ["; unstable where ", *joined(where, " or "), ". "]
+
+
+def steady_stability(motion: SteadyMotion) -> list[Part]:
+    """Whether a steady motion is stable, and by which conditions, in sentences."""
+    verdict = motion.verdict
+    if motion.rolling and verdict.spectrum is not None:
+        parts: list[Part] = ["Stable to first order"]
+        where = verdict.spectrum
+        if len(motion.frequencies_squared) == 1 and any(map(_is_long, where)):
+            return [*parts, " where this is positive, unstable where it is negative:"]
+        rest = [" where ", *conditions(where), *_opposite(verdict.unstable)] if where else ["."]
+        return _trimmed([*parts, *rest])
+    return stability(verdict)
+
+
+def _trimmed(parts: list[Part]) -> list[Part]:
+    if isinstance(parts[-1], str):
+        parts[-1] = parts[-1].rstrip()
+    return parts
