@@ -25,7 +25,6 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import is_decimal, rounded
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.numeric import vanishes_at_random
-from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
@@ -225,14 +224,13 @@ class RestPoints:
 
     @property
     def edge(self) -> tuple[str, ...]:
-        """Coordinates assumed positive at whose value 0 there may be an equilibrium."""
+        """Coordinates assumed positive at whose value 0 all conditions hold."""
 
-        def excluded(q: Symbol) -> bool:
+        def holds(q: Symbol) -> bool:
             there = [e.xreplace({q: S.Zero}) for e in self.equations]
-            infinite = (S.NaN, S.ComplexInfinity, S.Infinity, S.NegativeInfinity)
-            return any(e.has(*infinite) or sign(e) in (1, -1) for e in there)
+            return not any(e.has(S.NaN, S.ComplexInfinity) or is_zero(e) is not True for e in there)
 
-        return tuple(q.name for q in self.system.q if q.is_positive and not excluded(q))
+        return tuple(q.name for q in self.system.q if q.is_positive and holds(q))
 
     @property
     def _along_one(self) -> list[Expr]:
