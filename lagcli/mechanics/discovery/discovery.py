@@ -17,13 +17,7 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero
 from lagcli.mechanics.discovery import point
-from lagcli.mechanics.discovery.ansatz import (
-    Kinds,
-    TimeFunctions,
-    affine,
-    point_unknowns,
-    quadratic,
-)
+from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, point_unknowns, quadratic
 from lagcli.mechanics.discovery.centralizer import centralized, without_time
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.constrained import tangent
@@ -34,6 +28,7 @@ from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, is_gyroscopic
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
 from lagcli.mechanics.discovery.higher_degree import DEGREES, HigherIntegrals, KillingFrame
 from lagcli.mechanics.discovery.killing import KillingIntegrals
+from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Allowance, TooMuchWork
 from lagcli.mechanics.discovery.listing import more, times
 from lagcli.mechanics.discovery.modular import NoPoint

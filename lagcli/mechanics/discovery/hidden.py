@@ -22,7 +22,8 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.build import free_of
-from lagcli.mechanics.discovery.ansatz import Kinds, ordered, quadratic, quadratic_unknowns
+from lagcli.mechanics.discovery.ansatz import ordered, quadratic, quadratic_unknowns
+from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, pivot_columns
 from lagcli.mechanics.discovery.relation import Relation

@@ -14,7 +14,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
-from lagcli.mechanics.discovery.ansatz import Kinds
+from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System

@@ -27,13 +27,8 @@ from sympy import Expr
 from lagcli.algebra import simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.ambient import ambient_functions
-from lagcli.mechanics.discovery.ansatz import (
-    Kinds,
-    TimeFunctions,
-    affine,
-    ordered,
-    time_functions,
-)
+from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, ordered, time_functions
+from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.modular import NoPoint, pivot_columns
@@ -155,10 +150,8 @@ class Isometries:
         """What is searched."""
         if self.flat:
             named = ", ".join(str(X).replace("**", "^") for X in self.functions)
-            return (
-                f"point transformations affine in {named}, which are Cartesian coordinates of "
-                "the flat kinetic energy"
-            )
+            which = "are Cartesian coordinates" if self.metric.n > 1 else "is the arc length"
+            return f"point transformations affine in {named}, which {which} of the kinetic energy"
         return "point transformations that are isometries of the kinetic energy"
 
     # -- point symmetries -------------------------------------------------------------------

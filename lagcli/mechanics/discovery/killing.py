@@ -22,10 +22,10 @@ from itertools import combinations, combinations_with_replacement
 import sympy
 from sympy import Expr
 
-from lagcli.mechanics.discovery.ansatz import Kinds
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, expanded
 from lagcli.mechanics.discovery.isometries import Isometries, Vector
+from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.modular import PRIME, kernel_modulo, pivot_columns
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled

@@ -11,7 +11,7 @@ from sympy import Expr
 from lagcli.algebra import simplify
 from lagcli.algebra.jumps import is_continuous
 from lagcli.mechanics.constraints import ConstraintEquation
-from lagcli.mechanics.discovery.ansatz import Kinds
+from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.names import Naming, distinct
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System

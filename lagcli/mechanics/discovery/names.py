@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.mechanics.discovery.ansatz import Kinds
+from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.noether import NoetherCharge
 
 _AXES = {"xy": "z", "yz": "x", "xz": "y"}

@@ -9,11 +9,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.diagnostics import ProblemError
-from lagcli.mechanics.discovery.ansatz import (
-    TimeFunctions,
-    affine,
-    point_unknowns,
-)
+from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, point_unknowns
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
 from lagcli.mechanics.discovery.modular import NoPoint

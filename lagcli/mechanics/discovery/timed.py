@@ -19,9 +19,10 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import simplify
-from lagcli.mechanics.discovery.ansatz import Kinds, TimeFunctions, quadratic
+from lagcli.mechanics.discovery.ansatz import TimeFunctions, quadratic
 from lagcli.mechanics.discovery.boundary import gauge_of
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots
+from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import Relation

@@ -12,7 +12,8 @@ from sympy import Expr
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.admissible import Vector, admissible_fields
-from lagcli.mechanics.discovery.ansatz import Kinds, TimeFunctions, affine, quadratic
+from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, quadratic
+from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.momentum_equation import Momenta, MomentumEquations
 from lagcli.mechanics.discovery.scaling import scaled

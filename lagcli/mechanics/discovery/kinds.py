@@ -1,0 +1,153 @@
+"""Which coordinates are lengths, and which are angles.
+
+A coordinate is taken for an angle where it occurs in L only inside circular functions, or not at
+all while its own inertia, or that with another coordinate, depends on a third one.  What has the
+unit of a length is none; an angle of which only the constraints know takes part in both ways,
+and so does what is cyclic with an inertia that no circle has (the half plane, x'^2/y^2).  Two
+cyclic coordinates of one inertia are lengths.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import isqrt
+
+import mpmath
+import sympy
+from mpmath import mpf
+from sympy import Expr, Symbol
+
+from lagcli.algebra.build import free_of
+from lagcli.algebra.numeric import Evaluator
+from lagcli.mechanics.discovery.slots import SlotEquations
+
+_CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
+
+
+@dataclass(slots=True)
+class Kinds:
+    """The coordinates by what they look like: lengths, angles, radii among the lengths."""
+
+    lengths: list[Symbol] = field(default_factory=list)
+    angles: list[Symbol] = field(default_factory=list)
+    radii: list[Symbol] = field(default_factory=list)
+    cyclic: list[Symbol] = field(default_factory=list)  # among the angles
+    latitudes: list[Symbol] = field(default_factory=list)  # angles in the inertia of others
+    alone: list[Symbol] = field(default_factory=list)  # cyclic, in no inertia with a latitude
+    curved: bool = False
+    exponentials: list[Expr] = field(default_factory=list)  # of lengths, in the inertia
+    centre: Mapping[Symbol, Expr] = field(default_factory=dict)  # of rotations, where not at 0
+
+
+def kinds(
+    L: Expr,
+    equations: SlotEquations,
+    units: Sequence[str | None] = (),
+    constraints: Sequence[Expr] = (),
+) -> Kinds:
+    """Tell lengths from angles."""
+    found = Kinds()
+    inertia = {x: sympy.Tuple(*row) for x, row in zip(equations.q, equations.mass, strict=True)}
+    inside = {s for f in L.atoms(*_CIRCULAR) for s in f.free_symbols}
+    turning = {s for e in constraints for f in e.atoms(*_CIRCULAR) for s in f.free_symbols}
+    for x, unit in zip(equations.q, units or [None] * len(equations.q), strict=True):
+        cyclic = free_of(L, [x])
+        turned = any(
+            m.free_symbols & (set(equations.q) - {x, y})
+            for y, m in zip(equations.q, inertia[x], strict=True)
+        ) or inertia[x][equations.q.index(x)].free_symbols & (set(equations.q) - {x})
+        angle = bool(cyclic and turned) or (x in inside and not _outside(L, x))
+        if cyclic and (unit == "m" or _has_twin(x, equations, L)):
+            angle = False
+        (found.angles if angle else found.lengths).append(x)
+        if angle and cyclic:
+            found.cyclic.append(x)
+        elif cyclic and x in turning:
+            found.angles.append(x)
+        if (
+            angle
+            and cyclic
+            and unit is None
+            and _is_of_no_circle(inertia[x][equations.q.index(x)], equations.q)
+        ):
+            found.lengths.append(x)
+    found.radii = [
+        x for x in found.lengths
+        if any(x in inertia[y].free_symbols for y in found.angles)
+    ]  # fmt: skip
+    in_inertia = {s for row in equations.mass for m in row for s in m.free_symbols}
+    found.curved = set(found.angles) <= set(found.lengths) and not in_inertia.isdisjoint(
+        found.lengths
+    )
+    found.exponentials = _exponentials(equations)
+    found.latitudes = [x for x in found.angles if _in_determinant(x, equations)]
+    found.alone = [
+        x for x in found.cyclic if inertia[x].free_symbols.isdisjoint(found.latitudes)
+    ]  # fmt: skip
+    return found
+
+
+def _has_twin(x: Symbol, equations: SlotEquations, L: Expr) -> bool:
+    """Whether another cyclic coordinate has its inertia, as x and y in z^2 (x'^2 + 4 y'^2).
+
+    The two turn into each other, so they are lengths of a plane and no angles.
+    """
+    i = equations.q.index(x)
+    own = equations.mass[i]
+    return any(
+        own[k] == 0 and free_of(L, [y]) and free_of(sympy.cancel(equations.mass[k][k] / own[i]), q)
+        for q in [equations.q]
+        for k, y in enumerate(q)
+        if k != i
+    )
+
+
+def _is_of_no_circle(inertia: Expr, q: Sequence[Symbol]) -> bool:
+    """Whether it is no square of a radius: where a circle shrinks to a point it falls as r^2."""
+    above, below = sympy.fraction(sympy.together(inertia))
+    if not free_of(below, q) or any(not free_of(e, q) for e in inertia.atoms(sympy.exp)):
+        return True
+    inside = [x for x in q if x in above.free_symbols]
+    if not above.is_polynomial(*inside):
+        return False
+    return all(sympy.degree(above, x) != 2 for x in inside)
+
+
+def _exponentials(equations: SlotEquations) -> list[Expr]:
+    """Of the inertia: exp(x), its root and their inverses, as isometries have them."""
+    atoms = {e for row in equations.mass for m in row for e in m.atoms(sympy.exp)}
+    inside = [e.args[0] for e in sorted(atoms, key=sympy.default_sort_key)
+              if not free_of(e, equations.q) and free_of(e, [equations.t])]  # fmt: skip
+    powers = [sympy.Rational(k, 2) for k in (-2, -1, 1, 2)]
+    return list(dict.fromkeys(sympy.exp(k * x) for x in inside for k in powers))
+
+
+def _in_determinant(x: Symbol, equations: SlotEquations) -> bool:
+    """Whether det M changes with the angle: there its chart has poles, as at theta = 0."""
+    if not any(x in m.free_symbols for row in equations.mass for m in row):
+        return False
+    entries = Evaluator([m for row in equations.mass for m in row], 20)
+    symbols = {s for row in equations.mass for m in row for s in m.free_symbols}
+    source = random.Random("lagcli determinant")
+    point = {s: mpf(source.randint(3000, 13000)) / 10007 for s in symbols}
+    with mpmath.workdps(20):
+        values = []
+        for at in (mpf(2) / 7, mpf(11) / 9):
+            try:
+                values.append(mpmath.det(_square(entries({**point, x: at}))))
+            except (ArithmeticError, ValueError):
+                return True
+        return bool(abs(values[0] - values[1]) > mpf(10) ** -12 * (1 + abs(values[0])))
+
+
+def _square(entries: Sequence[mpf]) -> mpmath.matrix:
+    n = isqrt(len(entries))
+    return mpmath.matrix([list(entries[k * n : (k + 1) * n]) for k in range(n)])
+
+
+def _outside(L: Expr, x: Symbol) -> bool:
+    """Whether x occurs anywhere but inside circular functions."""
+    marks = {f: sympy.Dummy() for f in L.atoms(*_CIRCULAR) if x in f.free_symbols}
+    return x in L.xreplace(marks).free_symbols
