@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import sympy
 from sympy import Expr, Symbol
 
+from lagcli.algebra.build import free_of
 from lagcli.diagnostics import ProblemError
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, point_unknowns
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
@@ -18,6 +19,7 @@ from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.slots import point_slots
 from lagcli.mechanics.discovery.special import (
     SpecialCase,
+    Value,
     candidates,
     linear_powers,
     new_charges,
@@ -32,7 +34,7 @@ _MOST_COORDINATES = 4
 _UNITS = 40_000_000  # nine values for three frequencies take 34 million
 _FOR_PIVOTS = 0.4  # of these
 _MOST_UNKNOWNS = 150
-_MOST_VALUES = 12
+_MOST_VALUES = 16
 _MOST_OPERATIONS = 20
 _NOT_TRIED = "not all special values of the parameters were tried"
 _NOT_ALL = "not all special values of the parameters were sought"
@@ -47,6 +49,7 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
     if discovery.dynamics.constraints.equations or not few or not system.parameters:
         return ()
     allowed = Allowance(_UNITS)
+    variables = (system.t, *system.q, *system.qdot)
     found: list[SpecialCase] = []
     try:
         factors = [*_factors(discovery, allowed), *linear_powers(discovery.equations)]
@@ -63,15 +66,20 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
                 continue
             known = [
                 part for c in discovery.charges
-                for part in _real_parts(c.charge.xreplace({parameter: value}))
+                for part in _real_parts(_at_value(c.charge, (parameter, value), variables))
             ]  # fmt: skip
-            variables = (system.t, *system.q, *system.qdot)
             charges = new_charges(known, there.charges, variables, allowed)
             if charges:
                 found.append(SpecialCase(parameter, value, len(there.charges), charges))
     except TooMuchWork:
         discovery.words.append(_NOT_TRIED)
     return tuple(found)
+
+
+def _at_value(charge: Expr, value: Value, moving: Sequence[Symbol]) -> Expr:
+    """With either sign of a frequency: sqrt(c) is |sqrt(a) - sqrt(b)| at its square."""
+    there = charge.xreplace(dict([value]))
+    return there.xreplace({x: x.args[0] for x in there.atoms(sympy.Abs) if free_of(x, moving)})
 
 
 def _real_parts(charge: Expr) -> list[Expr]:
