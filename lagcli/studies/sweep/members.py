@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import groupby
+from math import ulp
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import ProblemError
@@ -76,7 +77,8 @@ def _of_one_system(
 
 def _rows(member: Member, found: Result, *, along: bool, given: bool) -> Iterator[Row]:
     held = found.certificate
-    late = [event.error / held.scales[0] for event in found.events if event.what == "stopped"]
+    stops = [event for event in found.events if event.what == "stopped"]
+    late = [(event.error + ulp(event.t)) / held.scales[0] for event in stops]
     error = max([*held.global_error.values(), *late], default=0.0)
     rows = found.rows[given:] if along else found.rows[-1:]  # times that are given follow 0
     for row in rows or [(None,) * len(found.columns)]:
