@@ -132,3 +132,33 @@ def test_a_format_without_enclosures_is_a_mistake(capsysbinary, tmp_path):
     out = str(tmp_path / "x.npz")
     assert run(["simulate", "kepler", "--rigorous", "--until", "1", "-o", out]) == 2
     assert b"--rigorous has no format npz" in capsysbinary.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("constraint", "given", "exact"),
+    [
+        ("y = 3*x", "y: 1", "1/3"),  # linear: solved for y, unless x follows from it
+        ("x^3 + x = y", "y: 2, x': 1", "1"),
+        ("cos(x) = x*y", "y: 1", "0.73908513321516064165531208767387340401341175890076"),
+    ],
+)
+def test_what_a_constraint_determines_is_no_double(constraint, given, exact):
+    problem = lagcli.loads(
+        f"{{coordinates: [x, y], T: (x'^2 + y'^2)/2, constraints: {{c: {constraint}}}, "
+        f"initial: {{{given}}}}}"
+    )
+    row = proof(problem, 1.0, samples=2, show=["x", "y"]).rows[0]
+    with mpmath.workdps(50):
+        value = mpmath.mpf(1) / 3 if exact == "1/3" else mpmath.mpf(exact)
+        assert contains(row[1], value)
+        assert float(row[1].rad()) < 1e-20
+
+
+def test_the_cut_of_an_angle_is_passed():
+    """atan2(sin t, cos t) is t up to pi, and t - 2 pi from there on."""
+    problem = lagcli.loads(
+        "{coordinates: [x], T: x'^2/2, forces: {x: 'atan2(sin(t), cos(t))'}, initial: {x: 0}}"
+    )
+    row = proof(problem, 4.0, samples=2).rows[-1]
+    with mpmath.workdps(40):
+        assert contains(row[1], mpmath.mpf(64) / 6 - mpmath.pi * (4 - mpmath.pi) ** 2)

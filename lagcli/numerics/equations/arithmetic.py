@@ -129,6 +129,8 @@ class Balls:
     def _atan2(self, y: Any, x: Any) -> Any:
         """atan(y/x) on the branch of the point, by the quotient that is no larger than 1."""
         above, below = self._constant(y), self._constant(x)
+        if not (below > 0 or above > 0 or above < 0 or above.is_zero()):
+            return self.ball.nan()  # the cut is in the ball
         angle = self.ball.atan2(above, below)
         if not (isinstance(y, self.series) or isinstance(x, self.series)):
             return angle

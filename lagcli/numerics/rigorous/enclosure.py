@@ -5,7 +5,7 @@ point, B a matrix of points, r a box.
 
 1. p(s) = sum_{k<=K} c_k s^k is the Taylor polynomial of the solution from m, its coefficients
    enclosed.  Its defect p' - f(p) vanishes to the order s^(K-1), so |p' - f(p)| <= |F_K| s^K, where
-   F_K encloses the K-th Taylor coefficient of f(p(s)) at every s of the step: one evaluation.
+   F_K encloses the K-th Taylor coefficient of the defect at every s of the step: one evaluation.
 2. The error e = x - p of any solution from the set obeys e' = A(s) e - (p' - f(p)), where A(s) is a
    mean of J = df/dx on the segment from p to x.  With E the box in which e is supposed to stay,
 
@@ -50,8 +50,10 @@ _FLOW_ORDER = 8
 #: E beside the error at the beginning, and beside the largest values so far.
 _ROOM, _LEAST_ROOM = 1e3, 1e-12
 _TUBES = 4
+#: What D may be of P, on the errors at hand: 1000 steps widen them by a percent.
+_LOST = 1e-5
 _LEAST_SCALE = 1e-6
-_SHORTER, _LONGER, _LEAST_PART, _HALVINGS = 0.85, 1.02, 0.05, 80
+_SHORTER, _LONGER, _LEAST_PART, _HALVINGS = 0.85, 1.02, 0.01, 80
 #: A step that is a smaller part of the span comes to a singularity, or to a set grown too wide.
 _SHORTEST = 1e-7
 _LARGEST = 1e15
@@ -203,8 +205,9 @@ class Enclosures:
         usual, context.prec = context.prec, _WIDE_BITS
         try:
             h = (end - t).abs_upper()
-            times, along = self.field.shifted(t, h, centre)
-            last = self.field.highest(times, along)
+            forces = self.field.forces(t, centre)
+            times, along = self.field.shifted(t, h, [*centre, *forces])
+            last = self.field.defect(times, along)
             power = h ** (self.order + 1) / (self.order + 1)
             defect = [x.abs_upper() * power for x in last]
             small = all(
@@ -241,7 +244,7 @@ class Enclosures:
             grown = (bound * h).exp()
             errors = (grown * column).entries()
             if all(x < e for x, e in zip(errors, tube, strict=True)):
-                return self._bounded(matrices, grown, h, defect)
+                return self._bounded(matrices, grown, h, defect, column)
             tube = [2 * x.abs_upper() for x in errors]
             if not all(x < _LARGEST for x in tube):
                 return None
@@ -254,15 +257,18 @@ class Enclosures:
         room = [self._ball(0, e) for e in tube]
         at_start = [[c[0] + e, *c[1:_FLOW_ORDER]] for c, e in zip(centre, room, strict=True)]
         times, along = over
-        anywhere = [[c[0] + e, *c[1 : _FLOW_ORDER + 1]] for c, e in zip(along, room, strict=True)]
+        anywhere = [
+            [c[0] + e, *c[1 : _FLOW_ORDER + 1]]
+            for c, e in zip(along[: len(room)], room, strict=True)
+        ]
         found = self.field.jacobian([t, 1], at_start, _FLOW_ORDER)
         found += self.field.jacobian([times, 1], anywhere, _FLOW_ORDER + 1)[_FLOW_ORDER:]
         return found if all(x.is_finite() for m in found for x in m.entries()) else None
 
     def _bounded(
-        self, matrices: Sequence[Any], grown: Any, h: Any, defect: Sequence[Any]
-    ) -> StepFlow:
-        """P from the middles of J_k; D from the defect A P - P'."""
+        self, matrices: Sequence[Any], grown: Any, h: Any, defect: Sequence[Any], whole: Any
+    ) -> StepFlow | None:
+        """P from the middles of J_k; D from the defect A P - P'; None where D is no small part."""
         middles = [m.mid() for m in matrices]
         size = len(defect)
         found = [self._matrix(size, size, [int(i == j) for i in range(size) for j in range(size)])]
@@ -275,6 +281,11 @@ class Enclosures:
             for k in range(2 * _FLOW_ORDER + 1)
         ]
         error = grown * _sum_of_sizes(rest, h) * h
+        lost, kept = (error * whole).entries(), (_sum_of_sizes(found, h) * whole).entries()
+        n, least = self.field.n, self.target * max(self.scales)
+        kinds = (slice(0, n), slice(n, None))
+        if not all(_largest(lost[k]) <= _LOST * _largest(kept[k]) + least for k in kinds):
+            return None
         moved = grown * self._matrix(size, 1, list(defect))
         return StepFlow(found, self._around_zero(error), self._around_zero(moved))
 
@@ -282,6 +293,13 @@ class Enclosures:
         """A matrix of balls around 0."""
         entries = [self._ball(0, x.abs_upper()) for x in bound.entries()]
         return self._matrix(bound.nrows(), bound.ncols(), entries)
+
+
+def _largest(bounds: Sequence[Any]) -> Any:
+    found = bounds[0]
+    for x in bounds[1:]:
+        found = found.max(x)
+    return found
 
 
 def _sum_of_sizes(matrices: Sequence[Any], h: Any) -> Any:

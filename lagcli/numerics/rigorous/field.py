@@ -37,7 +37,10 @@ class VectorField:
         self.n = motion.n
         equations = motion.equations
         symbols = (*equations.q, *equations.qdot)
-        roots, columns = solved(equations, equations.forcing, equations.bias, symbols)
+        roots, columns, forces = solved(equations, equations.forcing, equations.bias, symbols)
+        self.m = motion.m
+        self._matrices = motion.matrices
+        self._multipliers = motion.function(forces, frozen=True)
         self._accelerations = motion.function(roots, frozen=True)
         entries = [entry for row in zip(*columns, strict=True) for entry in row]
         self._slopes = motion.function(entries, frozen=True)
@@ -120,11 +123,55 @@ class VectorField:
             found.append(moved + [self._ball(0)] * (count - len(moved)))
         return t + half + self._ball(0, half), found
 
-    def highest(self, times: Any, along: Sequence[Sequence[Any]]) -> list[Any]:
-        """The last Taylor coefficient of f along polynomials x of degree K: the K-th."""
+    def forces(self, t: Any, x: Sequence[Sequence[Any]]) -> list[list[Any]]:
+        """The Taylor coefficients of the multipliers along the solution x."""
+        length = len(x[0]) - 1
+        found = self.evaluated(self._multipliers, [t, 1], x, length)
+        return [[each[k] for k in range(length)] for each in found]
+
+    def defect(self, times: Any, along: Sequence[Sequence[Any]]) -> list[Any]:
+        """Bounds of the K-th Taylor coefficient of x' - f(x) along polynomials of degree K.
+
+        With a = v' and lambda polynomials, too, what they leave of the equations of motion,
+
+            M a - A^T lambda - F    and    A a + c,
+
+        is divided by the matrix of these equations over the whole step: no elimination is done
+        with wide balls.
+
+        Parameters
+        ----------
+        times : arb
+        along : sequence of sequences of arb
+            q, v and lambda about every time of the step.
+        """
+        n, m, series, context = self.n, self.m, self._series, self._context
         order = len(along[0]) - 1
-        found = self.evaluated(self._accelerations, [times, 1], along, order + 1)
-        return [*(c[order] for c in along[self.n :]), *(a[order] for a in found)]
+        usual, context.cap = context.cap, order + 1
+        try:
+            values = self._matrices(series([times, 1]), *(series(c) for c in along[: 2 * n]))
+            mass = [values[i * n : (i + 1) * n] for i in range(n)]
+            rest = values[n * n + n :]
+            rows = [rest[k * n : (k + 1) * n] for k in range(m)]
+            a = [series([k * c[k] for k in range(1, order + 1)]) for c in along[n : 2 * n]]
+            held = [series(c) for c in along[2 * n :]]
+            columns = list(zip(*rows, strict=True)) if rows else [()] * n
+            left = [_dot(mass[i], a) - _dot(columns[i], held) - values[n * n + i] for i in range(n)]
+            left += [_dot(row, a) + c for row, c in zip(rows, rest[m * n :], strict=True)]
+        finally:
+            context.cap = usual
+        over = [*(row for row in zip(mass, columns, strict=True))]
+        whole = [[*map(self._first_of, row), *(-self._first_of(x) for x in held)]
+                 for row, held in over]  # fmt: skip
+        whole += [[*map(self._first_of, row), *([0] * m)] for row in rows]
+        size = n + m
+        inverse = self._matrix(size, size, [x for row in whole for x in row]).inv()
+        last = self._matrix(size, 1, [x[order] if isinstance(x, series) else 0 for x in left])
+        found = (inverse * last).entries()
+        return [*(c[order] for c in along[n : 2 * n]), *found[:n]]
+
+    def _first_of(self, x: Any) -> Any:
+        return x[0] if isinstance(x, self._series) else x
 
     def jacobian(self, time: Sequence[Any], x: Sequence[Sequence[Any]], length: int) -> list[Any]:
         """The first Taylor coefficients of J along power series x."""
@@ -148,13 +195,13 @@ class VectorField:
             context.cap = usual
 
 
-Solution = tuple[list[Node], list[list[Node]]]
+Solution = tuple[list[Node], list[list[Node]], list[Node]]
 
 
 def solved(
     equations: Equations, forcing: Sequence[Node], bias: Sequence[Node], symbols: Sequence[Symbol]
 ) -> Solution:
-    """a of M a - A^T lambda = F, A a = -c, and the columns of its derivatives.
+    """a of M a - A^T lambda = F, A a = -c, the columns of its derivatives, and lambda.
 
     These obey the same equations:
 
@@ -173,7 +220,7 @@ def solved(
     for symbol in symbols:
         right = _differentiated(equations, symbol, forcing, bias, (a, multipliers))
         columns.append(eliminated.motion(*right)[0])
-    return a, columns
+    return a, columns, multipliers
 
 
 def _differentiated(
@@ -209,4 +256,13 @@ def convolved(left: Sequence[Any], right: Sequence[Any], k: int) -> Any:
     total = pairs[0][0] * pairs[0][1]
     for a, b in pairs[1:]:
         total += a * b
+    return total
+
+
+def _dot(left: Sequence[Any], right: Sequence[Any]) -> Any:
+    """sum_j left_j right_j, without the zeros of the structure."""
+    total: Any = 0
+    for a, b in zip(left, right, strict=True):
+        if not (hasattr(a, "is_zero") and a.is_zero()):
+            total += a * b
     return total

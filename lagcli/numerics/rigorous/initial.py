@@ -90,7 +90,7 @@ def _solve(
     """Put the roots in for the unknowns that rows determine; which rows."""
     from flint import arb, arb_mat
 
-    if not unknown or not rows:
+    if not unknown:
         return set()
     zero = motion.arithmetic.number(Fraction(0))
     slopes = [partial(motion.equations.graph, s)(row) for row in rows for s in unknown]
@@ -145,7 +145,7 @@ def _pivots(matrix: list[list[float]], preferred: Sequence[bool]) -> list[tuple[
     """Rows and columns of an elimination with full pivoting; columns of zeros come last."""
     rest = [list(row) for row in matrix]
     largest = max((abs(x) for row in rest for x in row), default=0.0)
-    rows, columns, found = set(range(len(rest))), set(range(len(rest[0]))), []
+    rows, columns, found = set(range(len(rest))), set(range(len(preferred))), []
     while rows and columns:
         _, i, j = max(
             (abs(rest[i][j]) * (1.0 if preferred[j] else _NO_PIVOT ** 0.5), i, j)

@@ -195,7 +195,7 @@ class ProofMode:
         own = equations.place[k]
         jump = graph.product(graph.sum([graph.one, e]), equations.rates[own])
         bias = [jump if row == own else zero for row in range(len(equations.rows))]
-        change, columns = solved(equations, [zero] * self.motion.n, bias, equations.state)
+        change, columns, _ = solved(equations, [zero] * self.motion.n, bias, equations.state)
         restart = self._impulse(change, columns)
         ratio = self.motion.function([e])(t, *x)[0]
         after = restart.state(t, x)

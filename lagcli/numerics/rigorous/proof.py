@@ -20,7 +20,7 @@ from lagcli.numerics.rigorous.initial import initial_state
 from lagcli.numerics.rigorous.modes import ProofMode, ProofModes
 from lagcli.numerics.rigorous.sets import LohnerSet, around
 from lagcli.problem_data import Problem
-from lagcli.record import record
+from lagcli.record import record, replace
 
 #: Bits of the first attempt and of the last; the order in proportion, from a scan of costs.
 _BITS, _MOST_BITS, _ORDER = 80, 640, 0.36
@@ -165,6 +165,12 @@ def prove(problem: Problem, asked: Asked, progress: Progress | None = None) -> P
 def _setup(problem: Problem, asked: Asked) -> tuple[Simulation, frozenset[int]]:
     """What is integrated, and the constraints that the others imply at the beginning."""
     setup, modes = Simulation(problem, asked).ready()
+    symbols = (*setup.equations.q, *setup.equations.qdot)
+    given = {(name.name, name.primes) for name in problem.initial}
+    values = zip(symbols, (*setup.start[0], *setup.start[1]), strict=True)
+    if any(x and (s.name, s.primes) not in given for s, x in values):
+        # what a constraint gives is enclosed with that constraint
+        setup, modes = Simulation(problem, replace(asked, whole=True)).ready()
     implied: frozenset[int] = frozenset()
     if setup.equations.rows:
         first = modes.first
@@ -174,8 +180,8 @@ def _setup(problem: Problem, asked: Asked) -> tuple[Simulation, frozenset[int]]:
             implied = frozenset(
                 k for k, place in first.equations.place.items() if place not in kept
             )
-    symbols = setup.reading.multipliers
-    if implied and any(node.mask & s.mask for node in setup.nodes for s in symbols):
+    multipliers = setup.reading.multipliers
+    if implied and any(node.mask & s.mask for node in setup.nodes for s in multipliers):
         message = "with constraints that others imply the multipliers are not determined"
         raise Refusal(message, mistake=False)
     return setup, implied
@@ -413,7 +419,7 @@ def _good(rows: Sequence[Enclosure], accuracy: float) -> int:
     """
     scales: list[float] = []
     for good, row in enumerate(rows):
-        sizes = [0.0 if x is None else float(abs(x).lower()) for x in row]
+        sizes = [0.0 if x is None else float(x.abs_lower()) for x in row]
         scales = [max(pair) for pair in zip(sizes, scales or sizes, strict=True)]
         largest = max(scales[1:], default=0.0) or 1.0
         for x, scale in zip(row[1:], scales[1:], strict=True):
