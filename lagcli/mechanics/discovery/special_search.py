@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from lagcli.mechanics.discovery.discovery import Discovery
 
 _MOST_COORDINATES = 4
-_UNITS = 40_000_000  # nine values for three frequencies take 34 million
-_FOR_PIVOTS = 0.4  # of these
+_UNITS = 56_000_000  # three frequencies: 11 values take 45 million
+_FOR_PIVOTS = 0.3  # of these
 _MOST_UNKNOWNS = 150
 _MOST_VALUES = 16
 _MOST_OPERATIONS = 20
