@@ -74,6 +74,22 @@ MENDED = {
         constraints={"c1": "exp(x - y) = 1"},
         symmetries={"r": {"x": "-y", "y": "x"}},
     ),
+    "y = z and y' = z z' leave nothing of y' + z', and its charge is 0": System(
+        coordinates=dict.fromkeys("xyzu"),
+        parameters=M,
+        T="m*(x'^2 + y'^2 + z'^2 + u'^2)/2 + m*y^2*z'^2/2",
+        V="k*y^2 + g*sin(y) + k*x*cos(t)",
+        constraints={"c0": "(y - z)*(1 + y^2) = 0", "c1": "y' = z*z'"},
+        symmetries={"s": {"y": "-2", "z": "-2"}, "r": {"y": "-z", "z": "y"}},
+    ),
+    "x^2 + y^2 = l^2 and y (x - a y) = 0 leave no motion of x and y": System(
+        coordinates=dict.fromkeys("xyz"),
+        parameters={**M, "l": "positive", "a": None},
+        T="m*(x'^2 + y'^2 + z'^2)/2",
+        V="k*(x^2 + 2*y^2)/2 + g*x",
+        constraints={"c0": "x^2 + y^2 - l^2 = 0", "c1": "y*(x - a*y) = 0"},
+        symmetries={"r": {"x": "-y", "y": "x"}, "s": {"x": "1", "y": "3"}},
+    ),
     "a gauge with sqrt(1 + x^2 + y^2) is sought with an end": System(
         coordinates=dict.fromkeys("xy"),
         parameters=M,
