@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from dataclasses import field as default
+from itertools import combinations
 
 import sympy
 from sympy import Expr, Symbol
@@ -305,11 +306,12 @@ class _Solver:
     ) -> None:
         plain = {s: simplify(v) for s, v in values.items()}
         ordered = {u: plain[u] for u in self.unknowns if u in plain}
-        if any(
-            other.values == ordered and other.relation == relation for other in self.found.solutions
-        ):
-            return
-        conditions = []
+        same = [
+            other
+            for other in self.found.solutions
+            if other.values == ordered and other.relation == relation
+        ]
+        conditions: list[Expr] = []
         for each in positive:
             there = simplify(each.subs(list(plain.items()), simultaneous=True))
             known = sign(there) if self._in(each) else None
@@ -317,9 +319,11 @@ class _Solver:
                 return
             if known is None:
                 conditions.append(there)
-        self.found.solutions.append(
-            SystemSolution(ordered, tuple(dict.fromkeys(conditions)), relation)
-        )
+        if any(sign(simplify(a + b)) in (0, -1) for a, b in combinations(conditions, 2)):
+            return  # x - a > 0 and -x - a > 0
+        if not any({*other.positive} <= {*conditions} for other in same):
+            kept = SystemSolution(ordered, tuple(dict.fromkeys(conditions)), relation)
+            self.found.solutions.append(kept)
 
 
 def _pairs(

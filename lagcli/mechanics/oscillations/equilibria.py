@@ -109,7 +109,7 @@ class RestPoints:
             point = self._point(solution)
             if any(not free_of(x, [self.system.t]) for x in solution.values.values()):
                 lost |= len(solution.values) < len(self.system.q)
-            elif point is not None and self.balanced(point.values):
+            elif point is not None and self.balanced(point.values, solution.positive):
                 found.append(point)
             elif len(solution.values) < len(self.system.q) and self._may_be_real(solution):
                 lost = True
@@ -246,23 +246,23 @@ class RestPoints:
         minors = [simplify(a[i] * F[j] - a[j] * F[i]) for i, j in pairs]
         return [constraints[0].f, *(x for x in minors if is_zero(x) is not True)]
 
-    def balanced(self, values: Mapping[Symbol, Expr]) -> bool:
-        """Whether a state of rest is an equilibrium, by substitution.
+    def balanced(self, values: Mapping[Symbol, Expr], positive: Sequence[Expr] = ()) -> bool:
+        """Whether a state of rest is an equilibrium, by substitution where these are positive.
 
         It is none where the equations have no value.
         """
         try:
-            return self._balanced(values)
+            return self._balanced(values, positive)
         except ZeroDivisionError:
             return False
 
-    def _balanced(self, values: Mapping[Symbol, Expr]) -> bool:
+    def _balanced(self, values: Mapping[Symbol, Expr], positive: Sequence[Expr]) -> bool:
         rounded = [q for q, value in values.items() if is_decimal(value)]
         if rounded and not self.dynamics.constraints.equations:
             return all(_nearly_vanishes(f, values, rounded) for f in self.forces_at_rest)
-        return all(
-            is_zero(residual) is True or _vanishes(residual) for residual in self._residuals(values)
-        )
+        signs = {sympy.sign(u * s): sympy.Integer(s) for u in positive for s in (1, -1)}
+        residuals = (each.xreplace(signs) for each in self._residuals(values))
+        return all(is_zero(each) is True or _vanishes(each) for each in residuals)
 
     def _residuals(self, values: Mapping[Symbol, Expr]) -> list[Expr]:
         constraints = self.dynamics.constraints
