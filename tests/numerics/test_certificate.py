@@ -1,5 +1,8 @@
 """The certificate holds: the true error is at most what was asked for, or it is refused."""
 
+from random import Random
+
+import mpmath
 import pytest
 
 from lagcli.diagnostics import ProblemError
@@ -130,3 +133,26 @@ def test_a_bound_at_the_rounding_of_doubles_holds(method, accuracy, until, text)
         pairs = zip(found.rows, true.rows, strict=False)
         errors = [abs(a[j] - b[j]) for a, b in pairs if abs(a[0] - b[0]) < 1e-12]
         assert max(errors) <= (held[name] + 2.0**-53) * scale
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_rounding_of_the_time_in_a_fast_drive_is_in_the_bound(seed):
+    """x'' = A sin(w t): x' = A (1 - cos(w t))/w, x = A (t - sin(w t)/w)/w."""
+    random = Random(seed)
+    a, w = round(random.uniform(0.1, 5), 3), round(random.uniform(500, 5000), 2)
+    text = f"{{coordinates: [x], T: x'^2/2, forces: {{x: {a}*sin({w}*t)}}, initial: {{x: 0}}}}"
+    found = simulated(text, 10, 1e-9, samples=21)
+    held, scales = found.certificate.global_error, found.certificate.scales
+    mpmath.mp.dps = 30
+    a, w = mpmath.mpf(str(a)), mpmath.mpf(str(w))
+    for t, x, v in found.rows:
+        true = a * (t - mpmath.sin(w * t) / w) / w, a * (1 - mpmath.cos(w * t)) / w
+        assert abs(x - true[0]) <= (held["x"] + 2.0**-53) * scales[1]
+        assert abs(v - true[1]) <= (held["x'"] + 2.0**-53) * scales[2]
+
+
+def test_what_stands_in_abs_may_be_negative_at_first():
+    """x'' = log(2 - t) from rest at 0: x(1) = 1/4, by parts."""
+    text = "{coordinates: [x], T: x'^2/2, forces: {x: log(abs(t - 2))}, initial: {x: 0}}"
+    [row] = simulated(text, 1, 1e-9).rows[1:]
+    assert row[1] == pytest.approx(0.25, abs=1e-9)

@@ -23,7 +23,7 @@ def tolerances(error):
         rows = [[0.0], [1.0 + error(tolerance)]]
         marks = [Mark(float(k), row, [0.0], 0, k) for k, row in enumerate(rows)]
         return SimpleNamespace(
-            rows=lambda: rows, marks=marks, phases=[0], scales=[1.0, 1.0], peaks=[1.0, 1.0], events=[], event=None,
+            rows=lambda: rows, marks=marks, phases=[], scales=[1.0, 1.0], peaks=[1.0, 1.0], events=[], event=None,
             stop=None, steps=100, step_limit=1000, evaluations=100, defect=0.0, shortened=0,
         )  # fmt: skip
 

@@ -28,9 +28,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from operator import gt
+from operator import add, gt
 from typing import Any
 
+from lagcli.numerics.certified.clock import clock_errors, column_changes
 from lagcli.numerics.certified.drift import changes
 from lagcli.numerics.certified.partners import Partners
 from lagcli.numerics.certified.rank import RankPlace, places
@@ -212,7 +213,7 @@ class Controller:
         count = len(fine_rows[0]) - self.charges
         factor = self.factor(tolerances[1], fine)
         differences: list[list[float]] = []
-        partner = Partners(coarse, fine)
+        partner, clock = Partners(coarse, fine), clock_errors(fine, self.span)
         for mark, fine_row in zip(fine.marks, fine_rows, strict=True):
             other = partner(mark)
             if other is None:
@@ -224,6 +225,8 @@ class Controller:
                 0.0 if a is None or b is None else factor * abs(float(a - b))
                 for a, b in zip(rows[other][:count], fine_row[:count], strict=True)
             ]
+            if clock:
+                now = [*map(add, now, column_changes(fine, mark, clock))]
             differences.append([*now, late])
         bounds = [max(column) for column in zip(*differences, strict=True)][:-1]
         bounds = bounds or [math.inf] * count
@@ -319,27 +322,15 @@ class Controller:
                 drift, worst = max((abs(x), place) for place, x in zip(where, found, strict=True))
                 bound = _CHARGES * self.accuracy * scale
                 if drift > bound:
-                    felt = self._felt(fine, worst, column, float(values[worst]))
+                    errors = component_scales(fine.peaks, self.span)
+                    errors = [self.accuracy * peak for peak in errors]
+                    felt = column_changes(fine, fine.marks[worst], errors)[column]
                     if drift > _CHARGES * felt:
                         return "a conserved charge drifts"
         return ""
 
     def _stepped_over(self, fine: Run) -> bool:
         return fine.defect > _DEFECT * self.accuracy
-
-    def _felt(self, fine: Run, place: int, column: int, value: float) -> float:
-        """How much a charge changes when each component errs by what is allowed."""
-        mark = fine.marks[place]
-        tabulate = fine.phases[mark.phase].mode.tabulate
-        state, n, total = [*mark.q, *mark.v], len(mark.q), 0.0
-        for k, peak in enumerate(component_scales(fine.peaks, self.span)):
-            moved = list(state)
-            moved[k] += self.accuracy * peak
-            other = tabulate(mark.t, moved[:n], moved[n:])[column]
-            if other is None:
-                return float("inf")
-            total += abs(float(other) - value)
-        return total
 
 
 def ended(outcome: Outcome, place: RankPlace) -> Outcome:

@@ -19,7 +19,8 @@ from itertools import pairwise
 
 from lagcli.numerics.certified.accuracy import Outcome, ended
 from lagcli.numerics.certified.attempts import attempt
-from lagcli.numerics.certified.escalation import BITS, TIMES
+from lagcli.numerics.certified.clock import BITS, DOUBLES
+from lagcli.numerics.certified.escalation import TIMES
 from lagcli.numerics.certified.methods import SHARP, SHARPER
 from lagcli.numerics.certified.prepared import Precision
 from lagcli.numerics.certified.rank import RankPlace, places, varies
@@ -117,7 +118,7 @@ def _is_passed(
     simulation: Setup, outcome: Outcome, place: RankPlace, run: Run, times: Sequence[float]
 ) -> bool:
     """Whether a run passes a place on its branch."""
-    least = _KNOWN * math.sqrt(2.0 ** -BITS.get(run.method_name, 53))
+    least = _KNOWN * math.sqrt(2.0 ** -BITS.get(run.method_name, DOUBLES))
     for _ in range(_CLOSER):
         marks = _between(run, place.phase, times[0], times[-1])
         roots = place.roots(marks)

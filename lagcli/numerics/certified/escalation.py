@@ -12,10 +12,8 @@ import math
 from collections.abc import Sequence
 
 from lagcli.numerics.certified.accuracy import SATURATED, USUAL, Outcome
+from lagcli.numerics.certified.clock import BITS, DOUBLES
 
-_DOUBLES = 53
-#: The bits that a method carries when nobody asks for more.
-BITS = {"taylor80": 64, "taylor128": 113, "taylor": 133}
 #: In machine code: a growth that is extrapolated is not known better, and a run is short.
 _LARGEST, _AT_ONCE = "taylor128", 1000
 _SLACK = 1.3
@@ -37,10 +35,10 @@ def lost_bits(outcome: Outcome) -> float:
     if outcome.lost_at < span:
         if not outcome.lost_at:
             return math.inf
-        return (math.log2(SATURATED) + _DOUBLES) * span / outcome.lost_at
+        return (math.log2(SATURATED) + DOUBLES) * span / outcome.lost_at
     # at rounding the bound is so much larger for chance, which more digits do not meet
     chance = outcome.controller.factor(outcome.tolerances[1], outcome.run) / USUAL
-    return math.log2(max(max(outcome.errors) / chance, 2.0**-_DOUBLES)) + _DOUBLES
+    return math.log2(max(max(outcome.errors) / chance, 2.0**-DOUBLES)) + DOUBLES
 
 
 def within_reach(outcome: Outcome, group: Sequence[str]) -> list[str]:

@@ -175,6 +175,7 @@ class Simulation(Setup):
     def _check_start(self, motion: Motion, q: list[float], v: list[float]) -> None:
         """Whether anything moves at all: the accelerations at t = 0."""
         try:
+            motion.set_signs(0.0, q, v)
             found = motion.accelerations(0.0, *q, *v)
             if all(math.isfinite(a) for a in found):
                 return
