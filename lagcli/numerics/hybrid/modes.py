@@ -40,7 +40,7 @@ class Mode:
         self.motion = (
             StuckMotion(*arguments, modes.signs, stuck)
             if stuck
-            else Motion(*arguments, modes.signs)
+            else Motion(*arguments, modes.signs or None)
         )
         self.motion.looked_at = self._looked_at()
         #: what a method has generated for this mode
