@@ -11,8 +11,9 @@ _PARTS = re.compile(r"(\D*)(\d*)")
 
 def modules_in(folder: Path) -> list[str]:
     """The names of the public modules of a folder, in the order of their letters and numbers."""
-    names = (entry.name.removesuffix(".py") for entry in scandir(folder))
-    return sorted((name for name in names if not name.startswith("_")), key=_order)
+    names = (entry.name for entry in scandir(folder) if entry.name.endswith(".py"))
+    public = (name.removesuffix(".py") for name in names if name[0] not in "._")
+    return sorted(public, key=_order)
 
 
 def _order(name: str) -> tuple[str, int, str]:
