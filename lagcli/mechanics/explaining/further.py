@@ -80,7 +80,7 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
     still = teller.system.L.xreplace(dict.fromkeys(teller.system.qdot, S.Zero))
     named = any(each.verdict.potential == "V_eff" for each in found or ())
     if named and still != 0 and not states.at_all_times:
-        yield says("V_eff stands for the terms of ", teller.letters.L,
+        yield says(Label("V", ("eff",)), " stands for the terms of ", teller.letters.L,
                    " without velocities, with the opposite sign:")  # fmt: skip
         yield shows(Label("V", ("eff",)), teller.readable.as_written(-still))
     if found is None:
