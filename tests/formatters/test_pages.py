@@ -10,7 +10,7 @@ from hypothesis import given, settings
 
 from lagcli.document import Document, Paragraph
 from lagcli.expression import Call, Name, Negative, Power, Quotient
-from lagcli.formatters import html, markdown
+from lagcli.formatters.built_in import html, markdown
 from lagcli.formatters.mathml import MathmlPrinter, mathml_name
 from lagcli.formatters.options import Options
 from lagcli.record import replace
