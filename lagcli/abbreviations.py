@@ -42,7 +42,7 @@ _MOST_NAMES = 12
 
 
 def abbreviated(answers: Answers, taken: Collection[str]) -> Answers:
-    """The answers with names for what recurs in long accelerations, multipliers, Hamiltonians."""
+    """The answers with names for what recurs in long formulas of motion, H and charges."""
     given = [each.name for each in in_order(answers.sections) if each.abbreviated]
     trees = [tree for name in given for tree in _trees(answers.sections[name])]
     if answers.where or not any(operation_count(tree) > LONG for tree in trees):

@@ -30,6 +30,7 @@ _WORDS = (
     (r"\bT\b", "T", "the kinetic energy"),
     (r"\bU_eff\b", "U_eff", "the effective potential"),
     (r"^S = ", "S", "S_sys = "),
+    (r"\bthe derivative of S\b", "S", "the derivative of the action"),
 )
 _LETTERS = re.compile(r"(?<![\w'])(T \+ V|[LH]|t(?= explicitly))(?![\w'])")
 

@@ -96,6 +96,7 @@ def tell(teller: Teller, section: CanonicalSection) -> Iterator[Block]:
 
 SECTION = Declaration(
     name="canonical_equations",
+    abbreviated=True,
     heading="Canonical equations",
     order=110,
     derive=derive,

@@ -69,6 +69,7 @@ def compare(
 
 SECTION = Declaration(
     name="discovered",
+    abbreviated=True,
     heading="Discovered symmetries",
     order=150,
     derive=derive,
