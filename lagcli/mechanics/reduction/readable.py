@@ -32,9 +32,9 @@ def effective_potential(
     What has no momenta is left as `given_V`, the potential of the file, has it.
     """
     static = expression.xreplace(dict.fromkeys(momenta, S.Zero))
+    given = terms(static, order, ())
     if given_V is not None and is_zero(given_V - static) is True:
-        static = given_V
-    given = _as_given(static, order)
+        given = _as_given(given_V, order)
     if not momenta:
         return given
     plain = terms(expression, order, {p.name for p in momenta})

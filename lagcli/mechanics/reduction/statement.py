@@ -119,7 +119,7 @@ class _Statement:
             lines, reduced.system.q, reduced.dynamics.lagrange.left_sides, strict=True
         ):
             slope = potential.diff(q)
-            parts = [terms(left - slope, self.order, self.fast), self._shape(slope)]
+            parts = [terms(left - slope, self.order, self.fast), terms(slope, self.order, ())]
             made.append(
                 LagrangeEquation(
                     coordinate=line.coordinate,
