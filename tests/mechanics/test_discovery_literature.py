@@ -151,15 +151,18 @@ def test_three_cyclic_charges_beside_rotations_are_no_euclidean_algebra():
 
 
 @pytest.mark.long
-def test_three_bodies_in_a_plane_have_the_six_of_galilei():
-    """Whittaker, *Analytical Dynamics*, section 155: ten in space, six in a plane."""
+def test_three_bodies_in_a_plane_have_six_independent_charges():
+    """Whittaker, *Analytical Dynamics*, section 155: those of Galilei.
+
+    The angular momentum about the centre of mass is a charge of its own, and a function of them.
+    """
     pairs = [("1", "2"), ("2", "3"), ("1", "3")]
     V = " + ".join(f"k/sqrt((x{a} - x{b})^2 + (y{a} - y{b})^2)" for a, b in pairs)
     free = " + ".join(f"{m}*(x{a}'^2 + y{a}'^2)/2" for m, a in zip("mbc", "123", strict=True))
     found = summary(derive(problem(f"{free} + {V}", "[x1, y1, x2, y2, x3, y3]",
                                    "m b c k")).discovery)  # fmt: skip
-    assert (found.dimension, found.independent, found.integrable) == (6, 6, None)
-    assert found.name == "Galilei in 2 dimensions, modulo constants"
+    assert (found.dimension, found.independent, found.integrable) == (7, 6, None)
+    assert found.name == "Galilei in 2 dimensions + R, modulo constants"
 
 
 @pytest.mark.long
@@ -179,3 +182,12 @@ def test_three_separated_isotonic_oscillators_have_their_own_conformal_integrals
     derivation = derive(problem(f"m*(x'^2 + y'^2 + z'^2)/2 - ({V})", "[x, y, z]", "m k a b c"))
     assert len(derivation.discovery.charges) == 12
     assert summary(derivation.discovery).independent == 6
+
+
+@pytest.mark.long
+def test_three_frequencies_are_special_where_one_is_the_sum_or_the_difference_of_two():
+    """Jauch and Hill, Phys. Rev. 57 (1940) 641: commensurate frequencies have integrals of their own."""
+    V = "(a*x^2 + b*y^2 + c*z^2)/2"
+    derivation = derive(problem(f"m*(x'^2 + y'^2 + z'^2)/2 - {V}", "[x, y, z]", "m a b c"))
+    cases = {str(c.value): len(c.charges) for c in derivation.discovery.special}
+    assert cases["(sqrt(a) - sqrt(b))**2"] == cases["(sqrt(a) + sqrt(b))**2"] == 1
