@@ -82,6 +82,8 @@ def _places(judge, each):
 
 def _examine(judge, each, q):
     motion = judge.motion
+    if each.get("kinked"):
+        return  # the force jumps there, and takes every value between the two sides
     try:
         if not forces_vanish(motion, q):
             judge.say("wrong", "equilibria", f"{each['at']} is none: {needs(motion, q)}")
