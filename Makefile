@@ -35,7 +35,7 @@ solve: $(READY) ## the main job: make solve FILE=problems/hoop.yaml
 
 .PHONY: check
 check: $(READY) ## what one runs before a commit; a few minutes
-	@$(MAKE) --no-print-directory -j 2 $(WHOLE_LINES) test lint types layers
+	@$(MAKE) --no-print-directory -j 2 $(WHOLE_LINES) test library lint types layers
 
 .PHONY: check-all
 check-all: long certificate ## all the rest: long runs, every problem of the library, mutants, certificates
