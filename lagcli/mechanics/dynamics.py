@@ -11,6 +11,7 @@ that vanishes has a part in it.
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import mpmath
 import sympy
@@ -23,14 +24,15 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.euler_lagrange import EulerLagrange
-from lagcli.mechanics.motion_at_states import MotionAtStates
-from lagcli.mechanics.partly_determined import determined_unknowns
 from lagcli.mechanics.row_rank import independent_rows
 from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates
 from lagcli.mechanics.system import System
 from lagcli.mechanics.verify import Verifier, ZeroVerdict
 from lagcli.record import record
 from lagcli.statements.answers import Verification
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.motion_at_states import MotionAtStates
 
 #: Beyond this many unknowns a symbolic solution is no longer readable: matrix form only.
 READABLE_UNKNOWNS = 12
@@ -221,6 +223,8 @@ class Dynamics:
         matrix, right = self._bordered
         if len(right) > READABLE_UNKNOWNS or self.redundant or not self.undetermined:
             return nothing
+        from lagcli.mechanics.partly_determined import determined_unknowns
+
         state = self.states.take(1)[0]
         found = determined_unknowns(matrix, right, state, self.verifier, self.shapes)
         if found is None:
@@ -315,6 +319,8 @@ class Dynamics:
         """The motion in numbers; None where the equations do not determine it."""
         if self.undetermined:
             return None
+        from lagcli.mechanics.motion_at_states import MotionAtStates
+
         rows = [self.constraints.equations[k] for k in self.independent_constraints]
         return MotionAtStates(self.lagrange, rows)
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from lagcli.graph.sharing import operations
-from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
+from typing import TYPE_CHECKING
+
 from lagcli.problem_data import Problem
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.matrix_form import MatrixForm
 
 #: Up to so many unknowns q'' and lambda a system is small, whatever its entries.
 SMALL_UNKNOWNS = 3
@@ -23,6 +26,9 @@ def large_form(problem: Problem) -> MatrixForm | None:
     unknowns = len(problem.coordinates) + len(problem.constraints)
     if unknowns <= SMALL_UNKNOWNS:
         return None
+    from lagcli.graph.sharing import operations
+    from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
+
     form = MatrixForm(problem)
     try:
         if unknowns > LARGE_UNKNOWNS or operations(form.entries) > READABLE_OPERATIONS:

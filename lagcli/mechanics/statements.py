@@ -13,8 +13,6 @@ from lagcli.manners import Manner
 from lagcli.mechanics.branches import of_another_rank, sentence
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import SolvedMotion
-from lagcli.mechanics.hamiltonian import GivenHamiltonian
-from lagcli.mechanics.hamiltonian_form import hamiltonian_form
 from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
 from lagcli.problem_data import Problem
@@ -109,6 +107,9 @@ class Statements(Stating):
 
     def hamiltonian(self) -> Expression | None:
         """H with its energies apart; None where it was not found."""
+        from lagcli.mechanics.hamiltonian import GivenHamiltonian
+        from lagcli.mechanics.hamiltonian_form import hamiltonian_form
+
         found = self.derivation.hamiltonian
         if isinstance(found, GivenHamiltonian):
             return self.as_written(found.function)

@@ -59,12 +59,13 @@ def derive(statements: Statements) -> ChargesSection:
 def stated_charge(statements: Statements, charge: NoetherCharge) -> Charge:
     """One symmetry with its conserved quantity, in the shape in which it is read."""
     from lagcli.mechanics.impacts import between_impacts
-    from lagcli.mechanics.real_forces import UNSOLVED
 
     if charge.conserved is None:
         why = charge.broken_by or "its rate needs the solved motion"
         statements.lacks(f"whether '{charge.name}' is conserved", why)
     elif charge.conserved is False and charge.rate is None:
+        from lagcli.mechanics.real_forces import UNSOLVED
+
         statements.warnings.append(f"the rate of '{charge.name}' has no formula: {UNSOLVED}")
     statements.note_check(f"the rate of '{charge.name}'", charge.verified)
     system, change = statements.system, charge.transformation

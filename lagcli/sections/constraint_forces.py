@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 def derive(statements: Statements) -> ConstraintForcesSection:
     """Those of the solved motion, also where redundancy leaves single ones undetermined."""
     from lagcli.mechanics.constraint_force import forces_on_points
-    from lagcli.mechanics.real_forces import UNSOLVED
 
     dynamics = statements.dynamics
     equations = dynamics.constraints.equations
@@ -36,6 +35,8 @@ def derive(statements: Statements) -> ConstraintForcesSection:
         found = _abbreviated(statements)
         if found is not None:
             if dynamics.system.particles:
+                from lagcli.mechanics.real_forces import UNSOLVED
+
                 statements.warnings.append(f"the forces on the points have no formulas: {UNSOLVED}")
             return found
         statements.unsolved()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib import import_module
 from typing import Any
 
 from flint import ctx
@@ -34,51 +35,36 @@ from lagcli.statements.forces import ForcesSection
 from lagcli.statements.motions import HamiltonJacobiSection, SteadySection
 from lagcli.statements.phase_space import BracketsSection, TransformationsSection
 from lagcli.statements.questions import FindSection
-from lagcli.verification.claims import (
-    algebra,
-    charges,
-    energies,
-    equilibria,
-    find,
-    forces,
-    modes,
-    motion,
-    phase_space,
-    reduction,
-    separation,
-    units,
-)
-from lagcli.verification.claims.given_hamiltonian import legendre_transform
-from lagcli.verification.claims.unlisted_symmetries import symmetries_are_listed
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear
 from lagcli.verification.sweeps import Unknown
 
 Examine = Callable[[Examination, Any], Section]
 
-#: What examines each kind of section; a kind that is not here is not verified in numbers.
-_CLAIMS: dict[type, Examine] = {
-    LagrangianSection: motion.lagrangian,
-    EquationsSection: motion.equations,
-    MatrixFormSection: motion.matrix_form,
-    AccelerationsSection: motion.accelerations,
-    MultipliersSection: motion.multipliers,
-    ConstraintForcesSection: forces.constraint_forces,
-    ForcesSection: forces.forces,
-    MomentaSection: energies.momenta,
-    EnergySection: energies.energy,
-    HamiltonianSection: energies.hamiltonian,
-    CanonicalSection: energies.canonical_equations,
-    BracketsSection: phase_space.brackets,
-    TransformationsSection: phase_space.transformations,
-    ChargesSection: charges.charges,
-    EquilibriaSection: equilibria.equilibria,
-    ModesSection: modes.modes,
-    ReductionSection: reduction.reduction,
-    ModelSection: reduction.model,
-    SteadySection: equilibria.steady_motions,
-    HamiltonJacobiSection: separation.hamilton_jacobi,
-    DimensionsSection: units.dimensions,
+#: The module of `claims` and its function that examine each kind of section; a kind that is
+#: not here is not verified in numbers.
+_CLAIMS: dict[type, str] = {
+    LagrangianSection: "motion.lagrangian",
+    EquationsSection: "motion.equations",
+    MatrixFormSection: "motion.matrix_form",
+    AccelerationsSection: "motion.accelerations",
+    MultipliersSection: "motion.multipliers",
+    ConstraintForcesSection: "forces.constraint_forces",
+    ForcesSection: "forces.forces",
+    MomentaSection: "energies.momenta",
+    EnergySection: "energies.energy",
+    HamiltonianSection: "energies.hamiltonian",
+    CanonicalSection: "energies.canonical_equations",
+    BracketsSection: "phase_space.brackets",
+    TransformationsSection: "phase_space.transformations",
+    ChargesSection: "charges.charges",
+    EquilibriaSection: "equilibria.equilibria",
+    ModesSection: "modes.modes",
+    ReductionSection: "reduction.reduction",
+    ModelSection: "reduction.model",
+    SteadySection: "equilibria.steady_motions",
+    HamiltonJacobiSection: "separation.hamilton_jacobi",
+    DimensionsSection: "units.dimensions",
 }
 
 
@@ -97,21 +83,26 @@ def verified(problem: Problem, answers: Answers) -> Answers:
     with ctx.workprec(PRECISIONS[0]):
         examination.define("the abbreviations", answers.where)
         given = answers.sections
-        if (
-            problem.lagrangian is not None
-            and problem.hamiltonian is not None
-            and not legendre_transform(examination)
-        ):
-            given = {}  # nothing of it describes the motion of H
+        if problem.lagrangian is not None and problem.hamiltonian is not None:
+            from lagcli.verification.claims.given_hamiltonian import legendre_transform
+
+            if not legendre_transform(examination):
+                given = {}  # nothing of it describes the motion of H
         sections = {name: _examined(examination, name, each) for name, each in given.items()}
         if isinstance(asked := sections.get("find"), FindSection):
+            from lagcli.verification.claims import find
+
             known = find.printed_charges(sections.get("charges"))
             sections["find"] = _tried(
                 examination, "find", asked, lambda x, s: find.find(x, s, known)
             )
         if isinstance(listed := sections.get("discovered"), ChargesSection):
+            from lagcli.verification.claims.unlisted_symmetries import symmetries_are_listed
+
             every = not listed.sought or symmetries_are_listed(examination, listed)
             if isinstance(counted := sections.get("algebra"), AlgebraSection):
+                from lagcli.verification.claims import algebra
+
                 sections["algebra"] = every and _tried(
                     examination, "algebra", counted, lambda x, s: algebra.algebra(x, s, listed)
                 )
@@ -128,8 +119,12 @@ def verified(problem: Problem, answers: Answers) -> Answers:
 
 
 def _examined(examination: Examination, name: str, section: Section) -> Section:
-    examine = _CLAIMS.get(type(section))
-    return section if examine is None else _tried(examination, name, section, examine)
+    claim = _CLAIMS.get(type(section))
+    if claim is None:
+        return section
+    module, _, function = claim.partition(".")
+    examine = getattr(import_module(f"lagcli.verification.claims.{module}"), function)
+    return _tried(examination, name, section, examine)
 
 
 def _tried(examination: Examination, name: str, section: Section, examine: Examine) -> Section:

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from sympy import Expr, Symbol, sqrt
 
 from lagcli.algebra import simplify
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.finding.along_the_motion import UNITS, AlongTheMotion
-from lagcli.mechanics.finding.lasting import LastingAnswer
-from lagcli.mechanics.finding.passing import Passing
-from lagcli.mechanics.finding.where import WhereSearch
 from lagcli.mechanics.noether import Noether
 from lagcli.platform.effort import Work
 from lagcli.problem_data import Lasting, Reaching, Rewrite
 from lagcli.statements.questions import Answer, FindSection, Rewritten
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.finding.passing import Passing
 
 
 def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:
@@ -34,8 +35,12 @@ def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:
         if isinstance(question, Rewrite):
             answers[question.name] = _rewritten(along, question)
         elif isinstance(question, Lasting | Reaching):
+            from lagcli.mechanics.finding.lasting import LastingAnswer
+
             answers[question.name] = LastingAnswer(along, question, known).answer()
         else:
+            from lagcli.mechanics.finding.where import WhereSearch
+
             answers[question.name] = WhereSearch(along, question, known).solutions()
     return FindSection(answers=answers)
 

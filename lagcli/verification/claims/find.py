@@ -16,7 +16,6 @@ from lagcli.problem_data import Lasting, Reaching, Rewrite, Where
 from lagcli.record import replace
 from lagcli.statements.answers import Charge, ChargesSection
 from lagcli.statements.questions import Answer, FindSection, Ranges, Rewritten, Solutions
-from lagcli.verification.claims.ranges import holds_in_ranges
 from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, least_step, rank, size
@@ -63,6 +62,8 @@ def _answer(x: Examination, name: str, answer: Answer, charges: Sequence[Charge]
             return answer
         return replace(answer, solutions=None, note=_NOTE)
     if isinstance(answer, Ranges) and isinstance(question, Lasting | Reaching):
+        from lagcli.verification.claims.ranges import holds_in_ranges
+
         sound = answer.ranges is None or holds_in_ranges(x, what, answer, question, reached)
         return answer if sound else replace(answer, ranges=None, note=_NOTE)
     return answer
