@@ -12,10 +12,12 @@ from itertools import count
 from lagcli.document import Formula, Label
 from lagcli.expression import Name
 from lagcli.formatters.greek import romanized
-from lagcli.formatters.latex_display import Display, Set, lines_of
+from lagcli.formatters.latex_display import Display, Set
 from lagcli.formatters.options import LatexOptions
 
 _NUMBER = re.compile(r"^\d+\. ")
+#: An equation of more lines than this, a third of a page, may go on on the next page.
+_TOGETHER = 12
 _OTHER = re.compile(r"[^A-Za-z0-9_]+")
 
 
@@ -43,10 +45,9 @@ class Environments:
         """Display equations that may go on on the next page."""
         labelled = bool(self.options.labels)
         name = "align" if labelled else "align*"
-        lines = [line for each in display for line in self._numbered(each)]
         yield r"{\allowdisplaybreaks"
         yield rf"\begin{{{name}}}"
-        yield " \\\\\n".join(lines if labelled else lines_of(display))
+        yield " \\\\\n".join(_on_one_page(self._numbered(each)) for each in display)
         yield rf"\end{{{name}}}}}%"
 
     def _numbered(self, each: Set) -> list[str]:
@@ -75,6 +76,11 @@ class Environments:
             label = next(n for n in (f"{label}:{k}" for k in count(1)) if n not in self._taken)
         self._taken.add(label)
         return rf"\label{{{label}}}"
+
+
+def _on_one_page(lines: list[str]) -> str:
+    """The lines of one equation, which no page break divides unless it is very long."""
+    return (" \\\\*\n" if len(lines) <= _TOGETHER else " \\\\\n").join(lines)
 
 
 def _named(left: Formula) -> str:

@@ -16,11 +16,12 @@ import lagcli
 from lagcli.document import Equations, Row
 from lagcli.expression import Call, Diff, Name, Negative, PartialCall, Power, Quotient, Rate
 from lagcli.formatters.built_in.latex import render
-from lagcli.formatters.latex_display import LatexDisplay, lines_of
+from lagcli.formatters.latex_display import LatexDisplay, Set, lines_of
+from lagcli.formatters.latex_environments import Environments
 from lagcli.formatters.latex_math import WIDEST, LatexPrinter
 from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.latex_text import latex_text
-from lagcli.formatters.options import Options
+from lagcli.formatters.options import LatexOptions, Options
 from lagcli.statements.answers import Answers, LagrangianSection
 
 from .examples import (
@@ -221,6 +222,16 @@ class TestPdflatex:
             for formula in formulas
         ]
         compiled(render(answers, Options(standalone=True)), tmp_path)
+
+
+def test_no_page_break_divides_an_equation_that_is_not_very_long():
+    environments = Environments(LatexOptions())
+    lines = ["L &= x", *("& + x",) * 3]
+    text = "\n".join(environments.set([Set(x, lines), Set(g, ["g &= x"])]))
+    assert text.count(r" \\*") == 3
+    assert "& + x \\\\\ng &= x" in text
+    long = "\n".join(environments.set([Set(x, ["L &= x", *("& + x",) * 80])]))
+    assert r"\\*" not in long
 
 
 def test_left_sides_are_broken_too():

@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 import pytest
 from hypothesis import given, settings
 
-from lagcli.document import Document, Paragraph
+from lagcli.document import Document, Equations, Paragraph, Row
 from lagcli.expression import Call, Name, Negative, Power, Quotient
 from lagcli.formatters.built_in import html, markdown
 from lagcli.formatters.mathml import MathmlPrinter, mathml_name
@@ -23,7 +23,7 @@ from lagcli.statements.answers import (
 )
 from lagcli.statements.motions import Verdict
 
-from .examples import HOOP, HOSTILE, g, number, plus, sin, square, times, x
+from .examples import HOOP, HOSTILE, g, long_sum, number, plus, sin, square, times, x
 from .strategies import expressions
 from .test_grammar import ONE_OF_EACH
 
@@ -161,6 +161,14 @@ def test_no_line_of_a_page_ends_before_a_full_stop_or_a_sign():
     page = html.pages([Document("Page", (Paragraph((*parts, ".")),))], Options())
     kept = re.findall(r'<span style="white-space: nowrap">(.*?)</span>', page)
     assert [re.sub("<[^>]*>", "", text) for text in kept] == ["T + V,", "L."]
+
+
+def test_a_sign_at_the_start_of_a_row_keeps_its_distance():
+    row = Row(x, plus(*long_sum.terms, Negative(g)))
+    page = "".join(html.pages([Document("Page", (Equations((row,)),))], Options()).split())
+    begun = re.findall(r"<mspacewidth='1em'/><mrow>(<mo[^>]*>[+−]?)", page)
+    assert begun
+    assert set(begun) <= {"<moform='infix'>+", "<moform='infix'>−"}
 
 
 def test_keys_are_code():

@@ -186,7 +186,9 @@ def _lines(formula: Formula, printer: MathmlPrinter) -> list[str]:
             room = _LONG
         lines[-1] += shown
         room -= size
-    return [f"<mrow>{line}</mrow>" for line in lines]
+    first, *others = (f"<mrow>{line}</mrow>" for line in lines)
+    # a sign at the start of a row would be set close to its term, as in -x
+    return [first, *(line.replace("<mo>", "<mo form='infix'>", 1) for line in others)]
 
 
 def _cells(left: str, middle: str, right: str, above: str = _NEXT) -> str:

@@ -97,5 +97,5 @@ def _sentence(parts: Sequence[str | Formula], display: LatexDisplay) -> str:
 def _words(part: str) -> str:
     """Escaped words, with the spaces at their ends."""
     before = " " if part[:1] == " " else ""
-    after = " " if part[-1:] == " " else ""
+    after = ("~" if part.endswith("= ") else " ") if part[-1:] == " " else ""
     return before + latex_text(part) + after
