@@ -32,7 +32,9 @@ _WORDS = (
     (r"^S = ", "S", "S_sys = "),
     (r"\bthe derivative of S\b", "S", "the derivative of the action"),
 )
-_LETTERS = re.compile(r"(?<![\w'])(T \+ V|[LH]|t(?= explicitly))(?![\w'])")
+_LETTERS = re.compile(
+    r"(?<![\w'])(T \+ V|[LH]|T(?= is | plus )|V(?= depends | without )|t(?= explicitly))(?![\w'])"
+)
 
 
 def own(letter: str, primes: int = 0) -> Name:
@@ -109,7 +111,7 @@ def _said(parts: tuple[Any, ...], taken: frozenset[str]) -> tuple[Any, ...]:
 
 
 def _typeset(text: str) -> list[Any]:
-    """The sentence with its letters as formulas: L, H, T + V, and t where L depends on it."""
+    """The sentence with its letters as formulas: L, H, T, V, and t where L depends on it."""
     found: list[Any] = []
     for position, piece in enumerate(_LETTERS.split(text)):
         if position % 2 == 0:
