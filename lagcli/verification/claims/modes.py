@@ -117,11 +117,12 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
 
 
 def _expected(near: LinearMotion, W: arb, mode: ModesOfFrequency) -> int:
-    """How many independent shapes a frequency has: of the root 0 those that nothing moves."""
-    if abs(float(W.mid())) > NOTHING:
+    """How many independent shapes a frequency has: the solutions of (dq''/dq + omega^2) a = 0."""
+    if not near.still:
         return mode.multiplicity
     by_q, _ = near.slopes
-    rows = [[e if abs(float(e.mid())) > NOTHING else arb(0) for e in row] for row in by_q]
+    sums = [[e + (W if i == j else 0) for j, e in enumerate(row)] for i, row in enumerate(by_q)]
+    rows = [[e if abs(float(e.mid())) > NOTHING else arb(0) for e in row] for row in sums]
     try:
         return min(mode.multiplicity, near.size - rank([*rows, *near.laws.jacobian], near.size))
     except Unclear:
