@@ -124,6 +124,36 @@ forces: {x: -mu*m*g*sign(x')}
     assert len(rest.where) == 2
 
 
+@pytest.mark.parametrize(
+    "drag",
+    [
+        "dissipation: c*abs(x')^3/3",
+        "forces: {x: -c*x'^2*sign(x')}",
+        "forces: {x: -c*x'*abs(x')}",
+    ],
+)
+def test_quadratic_drag_holds_nothing_at_rest(drag):
+    """Its force is 0 at rest, however it is written: rest is where the spring is not stretched."""
+    [rest] = found(
+        "coordinates: [x]\nparameters: {m: POSITIVE, k: POSITIVE, c: POSITIVE}\n"
+        f"T: m*x'^2/2\nV: k*x^2/2\n{drag}\n"
+    )
+    assert (to_grammar(rest.at["x"]), rest.sticking, rest.where) == ("0", False, ())
+    assert rest.verdict.stable is True
+
+
+def test_friction_beside_quadratic_drag_holds_as_it_does_without():
+    [rest] = found(
+        "coordinates: [x]\nparameters: {k: POSITIVE, c: POSITIVE, f: POSITIVE}\n"
+        "T: x'^2/2\nV: k*x^2/2\nforces: {x: -(f + c*x'^2)*sign(x')}\n"
+    )
+    assert rest.sticking
+    for x in (-2.0, -0.5, 0.0, 0.9, 3.0):
+        at = {"x": x, "k": 2.0, "f": 1.5}
+        inside = all(number(each.left, at) > number(each.right, at) for each in rest.where)
+        assert inside == (2.0 * abs(x) < 1.5)
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_friction_in_one_of_two_coordinates(seed):
     """One block sticks, the other hangs on a spring between: it rests where its spring balances."""

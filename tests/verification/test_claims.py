@@ -246,3 +246,16 @@ def test_the_momentum_of_a_coordinate_that_rolls_is_that_of_the_reduced_lagrangi
             wrong = replace(section, momenta=momenta)
             found = verified(problem, replace(answers, sections={"reduction": wrong}))
             assert found.sections["reduction"].routhian is None
+
+
+def test_a_defective_frequency_has_one_shape() -> None:
+    """x'' = -k x + c y, y'' = -k y: both frequencies are sqrt(k), and only x moves alone."""
+    text = (
+        "coordinates: [x, y]\nparameters: {k: {assume: positive}, c: {assume: positive}}\n"
+        "T: (x'^2 + y'^2)/2\nV: k*(x^2 + y^2)/2\nforces: {x: c*y}\n"
+    )
+    derivation = derive(read_problem("test.yaml", text.encode()).checked())
+    answers = state(derivation, Request(sections=("modes",)))
+    assert answers.complete
+    [mode] = answers.sections["modes"].modes
+    assert (mode.multiplicity, mode.shape["y"]) == (2, parse_text("0"))

@@ -259,6 +259,8 @@ def _friction(dynamics: Dynamics) -> list[Friction]:
                 or is_zero(u.xreplace(still)) is not True
             ):
                 continue
-            part = simplify(force.xreplace({node: S.One}) - force.xreplace({node: S.Zero}))
-            found.setdefault(u, Friction(u, simplify(-part / slope)))
+            part = force.xreplace({node: S.One}) - force.xreplace({node: S.Zero})
+            largest = simplify(simplify(-part / slope).xreplace(still))
+            if is_zero(largest) is not True:  # quadratic drag -c |u| u holds nothing
+                found.setdefault(u, Friction(u, largest))
     return list(found.values())
