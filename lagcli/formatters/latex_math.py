@@ -2,11 +2,13 @@ r"""Expressions in LaTeX, as pieces that may be broken over lines.
 
 Brackets are sized by hand (\bigl, \bigr), since \left and \right cannot stand on two
 lines.  A fraction, root or exponent that would be too wide for any line is set in a form
-that can be broken: \frac{1}{D} ( ... ), ( ... )^{1/2}.
+that can be broken: \frac{3 r}{D} ( ... ), ( ... )^{1/2}.
 """
 # ruff: noqa: D102 - what a method shows is its name: `sum`, `product`, `power`
 
 from __future__ import annotations
+
+from itertools import accumulate
 
 from lagcli.expression import (
     Call,
@@ -173,7 +175,21 @@ class LatexPrinter(Printer[Box]):
             if content.width > WIDEST:
                 inverse = self.bracketed(content, after="^{-1/2}")
                 return self._over(self.show(node.numerator), inverse)
-        return self._fraction(self.show(node.numerator), self.show(below))
+        above, under = self.show(node.numerator), self.show(below)
+        if above.width > WIDEST >= under.width and isinstance(node.numerator, Product):
+            parted = self._parted(node.numerator.factors, below)
+            if parted is not None:
+                return self.product(parted)
+        return self._fraction(above, under)
+
+    def _parted(self, above: tuple[Expression, ...], below: Expression) -> Product | None:
+        """The product with those factors over `below` that fit into a fraction: 3 r / D ( ... )."""
+        widths = accumulate(self.show(factor).width + THIN_SPACE for factor in above)
+        count = sum(width <= WIDEST for width in widths)
+        if not 0 < count < len(above):
+            return None
+        front = Product(above[:count]) if count > 1 else above[0]
+        return Product((Quotient(front, below), *above[count:]))
 
     def _fraction(self, above: Box, below: Box) -> Box:
         if below.width > WIDEST:

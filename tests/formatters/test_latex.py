@@ -146,6 +146,17 @@ def test_nothing_unbreakable_is_too_wide():
     assert max(piece.width for piece in pieces) <= WIDEST + 10
 
 
+def test_what_fits_into_a_fraction_stands_before_a_long_bracket():
+    """3 r ( ... ) / (l M) is 3 r / (l M) times the bracket, not 1 / (l M) times all of it."""
+    wide = rf"\bigl({latex(long_sum)}\bigr)"
+    ratio = r"\frac{3 R}{g M}"
+    assert latex(Quotient(times(number(3), R, long_sum), times(g, M))) == rf"{ratio} \, {wide}"
+    behind = Quotient(times(number(3), R, long_sum, x), times(g, M))
+    assert latex(behind) == rf"{ratio} \, {wide} x"
+    first = Quotient(times(long_sum, R), times(g, M))
+    assert latex(first) == rf"\frac{{1}}{{g M}} \, {wide} R"
+
+
 @pytest.mark.parametrize(
     "text", ["\\input{x}", "$x$", "a_b^c", "50% #1 & ~", "é Ÿ ñ θ ж 中", '--`<>|"']
 )
