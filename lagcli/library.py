@@ -104,6 +104,21 @@ def find_problem(name: str) -> Path:
     raise NotInLibrary(name, _near(wanted, every))
 
 
+def files_named(name: str) -> list[str]:
+    """The files of a folder of the library (`problems/rigid`), or of one problem of it.
+
+    Raises
+    ------
+    NotInLibrary
+        When there is neither.
+    """
+    top, *below = Path(name).parts or ("",)
+    place = folder()
+    if place and top == "problems" and (within := place.joinpath(*below)).is_dir():
+        return files_in(within)
+    return [str(find_problem(name))]
+
+
 def _near(wanted: str, every: tuple[LibraryEntry, ...]) -> str:
     from difflib import get_close_matches
 

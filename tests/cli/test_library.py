@@ -9,7 +9,7 @@ import sys
 import pytest
 
 from lagcli.cli.run import run
-from lagcli.library import NotInLibrary, entries, find_problem
+from lagcli.library import NotInLibrary, entries, files_named, find_problem
 from lagcli.pipeline import read
 from lagcli.templates import TEMPLATES, template
 
@@ -30,6 +30,13 @@ def shown(capsysbinary, tmp_path, monkeypatch):
 def test_every_problem_is_found_by_its_folder_and_name():
     assert all(find_problem(entry.name) == entry.path for entry in entries())
     assert len(entries()) >= 251
+
+
+def test_the_folders_of_the_library_are_found_as_in_the_repository(shown):
+    assert files_named("problems/") == [str(entry.path) for entry in entries()]
+    status, out, _ = shown("check", "problems/benchmarks")
+    assert (status, out.splitlines()[-1].split(",")[0]) == (0, "1 problem")
+    assert shown("check", "problems/none")[0] == 2
 
 
 def test_a_problem_is_found_by_its_name_alone_unless_two_have_it():

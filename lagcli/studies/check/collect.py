@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from lagcli.library import files_in, find_problem
+from lagcli.library import files_in, files_named
 
 STANDARD = "-"  # standard input
 
@@ -44,4 +44,4 @@ def _files_of(name: str) -> list[str]:
         return files_in(path)
     if name == STANDARD or path.exists():
         return [name]
-    return [str(find_problem(name))]
+    return files_named(name)
