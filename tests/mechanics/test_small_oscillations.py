@@ -318,3 +318,14 @@ V: -k/sqrt(x^2 + y^2)
 """
     found = equilibria(dynamics(kepler)).equilibria
     assert not found
+
+
+def test_a_mass_on_a_spring_also_rests_above_it_where_the_spring_is_strong():
+    """k (y - l) = -m g above the point of suspension, k (|y| - l) = m g below it."""
+    states = rest_states("""
+coordinates: [x, y]
+parameters: {m: POSITIVE, k: POSITIVE, l: POSITIVE, g: POSITIVE}
+T: m*(x'^2 + y'^2)/2
+V: k*(sqrt(x^2 + y^2) - l)^2/2 + m*g*y
+""")
+    assert sorted(states.values()) == [False, True]

@@ -25,6 +25,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import is_decimal, rounded
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.numeric import vanishes_at_random
+from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
@@ -260,8 +261,7 @@ class RestPoints:
         rounded = [q for q, value in values.items() if is_decimal(value)]
         if rounded and not self.dynamics.constraints.equations:
             return all(_nearly_vanishes(f, values, rounded) for f in self.forces_at_rest)
-        signs = {sympy.sign(u * s): sympy.Integer(s) for u in positive for s in (1, -1)}
-        residuals = (each.xreplace(signs) for each in self._residuals(values))
+        residuals = (where_positive(each, positive) for each in self._residuals(values))
         return all(is_zero(each) is True or _vanishes(each) for each in residuals)
 
     def _residuals(self, values: Mapping[Symbol, Expr]) -> list[Expr]:
@@ -321,6 +321,16 @@ def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
     with suppress(ZeroDivisionError):
         expression = field.to_sympy(field(expression))
     return rounded(simplify(expression.xreplace(present)))
+
+
+def where_positive(expression: Expr, positive: Sequence[Expr]) -> Expr:
+    """The same where these are positive: sign and modulus of what is in proportion to them."""
+    known: dict[Expr, Expr] = {}
+    for node in expression.atoms(sympy.Abs, sympy.sign):
+        for side in (sign(simplify(node.args[0] / u)) for u in positive):
+            if side in (1, -1):
+                known[node] = S(side) if node.func is sympy.sign else side * node.args[0]
+    return expression.xreplace(known)
 
 
 def _divides_by_root(power: sympy.Pow) -> bool:

@@ -24,7 +24,7 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import is_zero, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at, where_positive
 
 Matrix = list[list[Expr]]
 
@@ -134,7 +134,7 @@ class Linearization:
         """B^T matrix B at the equilibrium, with q' = 0."""
         still = dict.fromkeys(self.system.qdot, S.Zero)
         values = [
-            [at(entry.xreplace(still), self.point.values) if entry else S.Zero for entry in row]
+            [self._here(entry.xreplace(still)) if entry else S.Zero for entry in row]
             for row in matrix
         ]
         return [
@@ -155,6 +155,9 @@ class Linearization:
         ]
 
     # -- its kind --------------------------------------------------------------------------------
+
+    def _here(self, entry: Expr) -> Expr:
+        return where_positive(at(entry, self.point.values), self.point.positive)
 
     @property
     def damping(self) -> Matrix:
