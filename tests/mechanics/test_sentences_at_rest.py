@@ -300,3 +300,40 @@ def test_a_kink_holds_what_its_force_suffices_for(turn):
     assert {to_grammar(e) for e in each.at.values()} == {"0"}
     assert each.verdict.stable is True
     assert len(each.where) == 2
+
+
+# -- forces that are 0/0 at rest ------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "system",
+    [
+        "coordinates: [x, y], T: m*(x'^2 + y'^2)/2, V: x^2 + y^2, dissipation: c*sqrt(x'^2 + y'^2)",
+        "coordinates: [r, u], T: m*(r'^2 + r^2*u'^2)/2, dissipation: c*sqrt(r'^2 + r^2*u'^2)",
+        (
+            "coordinates: [x, y], T: m*(x'^2 + y'^2)/2, constraints: {line: 'y = 2*x'}, "
+            "forces: {x: -c*x'/sqrt(x'^2 + y'^2), y: -c*y'/sqrt(x'^2 + y'^2)}"
+        ),
+    ],
+    ids=["plane", "polar", "line"],
+)
+def test_nothing_is_concluded_from_a_force_without_a_value_at_rest(system):
+    """Dry friction in a plane: -c v/|v| is 0/0 at rest, where it takes whatever is needed."""
+    parameters = "parameters: {m: {assume: positive}, c: {assume: positive}}"
+    text = f"{{{parameters}, {system}}}"
+    assert equilibria(derive(text).dynamics).equilibria is None
+    for also in ("equilibria", "steady_motions"):
+        steps = explain(derive(text), [also]).steps
+        assert "no value at rest" in str(steps[-1])
+
+
+@pytest.mark.parametrize(("a", "b"), [(1, 1), (2, 3), (3, 1)])
+def test_modes_are_missing_where_no_square_of_a_frequency_is_real(a, b):
+    """T = m (a x'^2 - b y'^2)/2 and V = x y: m^2 a b W^2 + 1 = 0, at every value of m."""
+    text = (
+        "{coordinates: [x, y], parameters: {m: {assume: positive}}, "
+        f"T: m*({a}*x'^2 - {b}*y'^2)/2, V: x*y}}"
+    )
+    section = modes(derive(text).dynamics)
+    assert not section.modes
+    assert "is real" in section.reason

@@ -55,8 +55,15 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
     rest = RestPoints(teller.dynamics)
     constrained = bool(teller.dynamics.constraints.equations)
     sticking = any(each.sticking for each in found or ())
-    conditions = [teller.readable.as_written(e) for e in rest.equations]
-    end = "." if sticking else ":" if conditions else ", which they do everywhere."
+    solved = () if rest.has_no_value else rest.equations
+    conditions = [teller.readable.as_written(e) for e in solved]
+    end = (
+        "."
+        if sticking or rest.has_no_value
+        else ":"
+        if conditions
+        else ", which they do everywhere."
+    )
     yield says(
         "At an equilibrium all velocities and accelerations are 0. Lagrange's equations then "
         "require that the generalized forces vanish"

@@ -34,6 +34,8 @@ from lagcli.mechanics.oscillations.kinks import at_kinks
 from lagcli.record import record
 
 _MAX_EVIDENT = 64
+#: Why nothing is solved for where the forces at rest are 0/0.
+NO_VALUE_AT_REST = "a force has no value at rest, as v/|v| has none"
 _NO_CLOSED_SOLUTION = "the conditions of equilibrium have no closed solution"
 #: Why nothing is solved for that is constant.
 TIMED = "the equations depend explicitly on the time"
@@ -80,6 +82,9 @@ class RestPoints:
 
         `complete` tells afterwards whether there can be no other.
         """
+        if self.has_no_value:
+            self.reason, self.complete = NO_VALUE_AT_REST, False
+            return None
         equations = self._at_all_times
         found, lost = self._found(equations)
         if lost and self._along_one:
@@ -183,6 +188,11 @@ class RestPoints:
         """forcing(q, q' = 0)."""
         at_rest = dict.fromkeys(self.system.qdot, S.Zero)
         return tuple(f.xreplace(at_rest) for f in self.dynamics.lagrange.forcing)
+
+    @property
+    def has_no_value(self) -> bool:
+        """Whether a force is 0/0 or infinite in every state of rest."""
+        return any(f.has(S.NaN, S.ComplexInfinity) for f in self.forces_at_rest)
 
     @cached_property
     def equations(self) -> list[Expr]:

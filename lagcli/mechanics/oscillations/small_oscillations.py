@@ -61,6 +61,7 @@ _HELD = "contacts, static friction or kinks of the potential hold what is at res
 _SINGULAR = "the coordinates are singular at the equilibria"
 _NO_LINEAR_PART = "a force has a kink or a jump at the equilibrium, and no linear part"
 _NO_MODES = "the equilibria do not exist for the values of the file"
+_NO_REAL_SQUARE = "no root ω² of the characteristic polynomial is real"
 
 
 def equilibria(dynamics: Dynamics) -> EquilibriaSection:
@@ -113,7 +114,12 @@ def _why_none(places: Sequence[Place]) -> str:
         return DRIFTS
     if all(place.at_singular_coordinates for place in places):
         return _SINGULAR
-    return _NO_LINEAR_PART if any(place.linear.has_kink for place in places) else _NO_MODES
+    if any(place.linear.has_kink for place in places):
+        return _NO_LINEAR_PART
+    squares = [each for place in places for each in place.characteristic.squares or ()]
+    if squares and all(roots == [] for roots, *_ in squares):
+        return _NO_REAL_SQUARE
+    return _NO_MODES
 
 
 class Place:

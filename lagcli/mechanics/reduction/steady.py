@@ -28,7 +28,7 @@ from lagcli.algebra.factors import factors_of
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.oscillations.characteristic import determinant
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.equilibria import NO_VALUE_AT_REST, RestPoint, RestPoints, at
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.held import held, one_sided
@@ -105,6 +105,9 @@ class SteadyMotions:
         if self._sticks:
             self.reason = "static friction holds the body at rest where it can (see the equilibria)"
             return None
+        if self.rest.has_no_value:
+            self.reason = NO_VALUE_AT_REST
+            return None
         given = self._given()
         if self.routh.cyclic and self._free:
             found = [*self._families(), *self._at_singular_places()]
@@ -143,7 +146,7 @@ class SteadyMotions:
     @property
     def balance(self) -> list[Expr]:
         """What vanishes, with all that acts: dU_eff/dq less the forces, along the constraints."""
-        if self.rest.depends_on_time or self._sticks:
+        if self.rest.depends_on_time or self._sticks or self.rest.has_no_value:
             return []
         if self._free:
             return list(self.conditions)
