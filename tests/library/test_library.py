@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import pytest
 
+from lagcli.abbreviations import written_out
 from lagcli.formatters import explaining
 from lagcli.formatters.built_in.json import to_object
 from lagcli.formatters.built_in.latex import render
@@ -105,7 +106,7 @@ def test_the_answers_are_those_that_are_expected(library):
 
 def test_every_printed_claim_holds(library):
     for each in library:
-        sheet = to_object(each.with_sections(examined(each.problem)))
+        sheet = to_object(written_out(each.with_sections(examined(each.problem))))
         found = examine(each.problem, json.loads(json.dumps(sheet)), count=2)
         assert (each.name, [str(finding) for finding in found]) == (each.name, [])
 

@@ -6,7 +6,7 @@ from mpmath import mp
 
 from . import linear
 from .grammar import Undefined, read
-from .rest_linear import CLEAR, NEAR, about, symmetric
+from .rest_linear import CLEAR, KINK, NEAR, about, symmetric
 
 
 def modes(judge, printed):
@@ -50,6 +50,7 @@ def _frequencies(judge, some, linear_):
         return
     squares = _squares(judge, some)
     roots = sorted(mp.re(-s * s) for s in linear_.spectrum)[::2]
+    roots = [each for each in roots if each < KINK]  # a force that jumps holds its coordinate
     if squares is not None and (
         len(squares) != len(roots)
         or any(abs(a - b) > CLEAR * max(1, abs(b)) for a, b in zip(squares, roots, strict=True))

@@ -8,6 +8,7 @@ from .comparison import short
 from .grammar import Undefined, Unreadable, read
 from .rest_linear import (
     CLEAR,
+    KINK,
     NEAR,
     about,
     at_rest,
@@ -17,8 +18,6 @@ from .rest_linear import (
     symmetric,
 )
 from .rest_search import is_there, to_be_found
-
-KINK = mpf(10) ** 6  # a difference over a kink of V is no second derivative
 
 
 def equilibria(judge, printed):

@@ -11,6 +11,7 @@ from .motion import Motion, State
 
 NEAR = mpf(10) ** -8
 CLEAR = mpf(10) ** -6
+KINK = mpf(10) ** 6  # a difference over a kink of V is no second derivative
 
 
 def at_rest(motion, q):
