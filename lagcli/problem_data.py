@@ -77,6 +77,12 @@ class Inequality:
     right: Expression
     span: Span = field(default=NOWHERE, compare=False)
 
+    @property
+    def larger_first(self) -> tuple[Expression, Expression]:
+        """The side that is to be the larger one, and the other."""
+        rises = self.comparison[0] == ">"
+        return (self.left, self.right) if rises else (self.right, self.left)
+
 
 @record(kw_only=True)
 class Constraint:

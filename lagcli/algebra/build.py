@@ -33,6 +33,9 @@ from lagcli.expression import (
 
 TIME = Symbol("t", real=True)
 
+#: The functions that return after a turn.
+CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
+
 _SYMPY_FUNCTIONS: dict[str, Callable[..., Expr]] = {
     "sqrt": sympy.sqrt,
     "exp": sympy.exp,

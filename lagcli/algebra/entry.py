@@ -8,13 +8,13 @@ from fractions import Fraction
 import sympy
 from sympy import Add, Expr, Mul, Pow, Rational, Symbol
 
+from lagcli.algebra.build import CIRCULAR
 from lagcli.algebra.field import Element, FractionField, Generator
 from lagcli.algebra.integral import DefiniteIntegral
 from lagcli.algebra.multiples import Multiples
 from lagcli.algebra.ring import Poly
 from lagcli.algebra.roots import absolute, make_radical, rational_power, sign
 
-_CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 _MAX_EXPONENT = 200
 
@@ -61,7 +61,7 @@ class Field(FractionField):
                     found.append(node)
                 stack.extend(node.args)
         for node in reversed(found):
-            if isinstance(node, _CIRCULAR):
+            if isinstance(node, CIRCULAR):
                 self.circular.prepare(node.args[0])
             elif isinstance(node, _HYPERBOLIC):
                 self.hyperbolic.prepare(node.args[0])
@@ -140,7 +140,7 @@ class Field(FractionField):
 
     def _function(self, node: Expr) -> Element:
         argument = node.args[0]
-        if isinstance(node, _CIRCULAR):
+        if isinstance(node, CIRCULAR):
             cosine, sine = self.circular.pair(argument)
             if isinstance(node, sympy.sin):
                 return sine

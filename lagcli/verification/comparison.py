@@ -37,12 +37,3 @@ def compare(a: arb, b: arb) -> ComparisonVerdict:
         return ComparisonVerdict.DIFFERENT
     wide = difference.abs_upper() > largest * _THIN + _NOTHING
     return ComparisonVerdict.UNDECIDED if wide else ComparisonVerdict.EQUAL
-
-
-def compare_all(pairs: list[tuple[arb, arb]]) -> ComparisonVerdict:
-    """Whether all are equal: the first that is not says why."""
-    for a, b in pairs:
-        verdict = compare(a, b)
-        if verdict is not ComparisonVerdict.EQUAL:
-            return verdict
-    return ComparisonVerdict.EQUAL

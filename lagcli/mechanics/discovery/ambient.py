@@ -29,7 +29,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import simplify
 from lagcli.algebra.antiderivative import antiderivative
-from lagcli.algebra.build import free_of
+from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric
@@ -39,7 +39,6 @@ from lagcli.mechanics.discovery.tree import Memo, Tree
 
 _MOST = 260
 _BAD_POINTS = 50
-_CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 _Jet = tuple[int, int, int]  # value, first and second derivative
 
@@ -76,7 +75,7 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
         return [one, *_along(x, metric, K)]
     alone = [e for e in _parts(metric) if e.free_symbols & set(metric.q) == {x}]
     found: dict[Expr, None] = {one: None}
-    for a in _arguments(alone, _CIRCULAR):
+    for a in _arguments(alone, CIRCULAR):
         found |= dict.fromkeys(f(a / k) for k in (1, 2) for f in (sympy.sin, sympy.cos))
     for a in _arguments(alone, _HYPERBOLIC):
         found |= dict.fromkeys(f(a / k) for k in (1, 2) for f in (sympy.sinh, sympy.cosh))
@@ -147,7 +146,7 @@ def _below(expressions: Iterable[Expr]) -> list[Expr]:
 
 
 def _without_functions(expression: Expr) -> Expr:
-    functions = expression.atoms(*_CIRCULAR, *_HYPERBOLIC, sympy.exp)
+    functions = expression.atoms(*CIRCULAR, *_HYPERBOLIC, sympy.exp)
     return expression.xreplace({f: sympy.Dummy() for f in functions})
 
 

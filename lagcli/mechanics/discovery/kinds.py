@@ -19,11 +19,9 @@ import sympy
 from mpmath import mpf
 from sympy import Expr, Symbol
 
-from lagcli.algebra.build import free_of
+from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery.slots import SlotEquations
-
-_CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 
 
 @dataclass(slots=True)
@@ -50,8 +48,8 @@ def kinds(
     """Tell lengths from angles."""
     found = Kinds()
     inertia = {x: sympy.Tuple(*row) for x, row in zip(equations.q, equations.mass, strict=True)}
-    inside = {s for f in L.atoms(*_CIRCULAR) for s in f.free_symbols}
-    turning = {s for e in constraints for f in e.atoms(*_CIRCULAR) for s in f.free_symbols}
+    inside = {s for f in L.atoms(*CIRCULAR) for s in f.free_symbols}
+    turning = {s for e in constraints for f in e.atoms(*CIRCULAR) for s in f.free_symbols}
     for x, unit in zip(equations.q, units or [None] * len(equations.q), strict=True):
         cyclic = free_of(L, [x])
         turned = any(
@@ -149,5 +147,5 @@ def _square(entries: Sequence[mpf]) -> mpmath.matrix:
 
 def _outside(L: Expr, x: Symbol) -> bool:
     """Whether x occurs anywhere but inside circular functions."""
-    marks = {f: sympy.Dummy() for f in L.atoms(*_CIRCULAR) if x in f.free_symbols}
+    marks = {f: sympy.Dummy() for f in L.atoms(*CIRCULAR) if x in f.free_symbols}
     return x in L.xreplace(marks).free_symbols

@@ -257,5 +257,5 @@ class LastingAnswer:
 
 def margin_of(condition: Inequality, build: Builder) -> Expr:
     """What is >= 0, or > 0, where the condition holds."""
-    margin = build(condition.left) - build(condition.right)
-    return margin if condition.comparison[0] == ">" else -margin
+    larger, smaller = map(build, condition.larger_first)
+    return larger - smaller

@@ -63,9 +63,8 @@ class Passing:
         for constraint in self.system.problem.constraints:
             if (condition := constraint.holds_while) is None:
                 continue
-            margin = build(condition.left) - build(condition.right)
-            margin = margin if condition.comparison in (">", ">=") else -margin
-            formula = self.along.rewritten(margin, [self.u])
+            larger, smaller = map(build, condition.larger_first)
+            formula = self.along.rewritten(larger - smaller, [self.u])
             if formula is None:
                 self.undecided.append(f"whether contact '{constraint.name}' lasts was not decided")
             else:

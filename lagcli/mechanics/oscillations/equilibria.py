@@ -21,7 +21,7 @@ import sympy
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra import Field, is_zero, nullspace, simplify
-from lagcli.algebra.build import free_of
+from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.equations import is_decimal, rounded
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.numeric import vanishes_at_random
@@ -42,7 +42,6 @@ TIMED = "the equations depend explicitly on the time"
 _AT_A_KINK = "a force jumps where its sign changes, and rest at such a kink is not decided"
 _LONGEST = 60  # operations of conditions that are quoted
 _LAST_DIGITS = sympy.Float("1e-13")
-_PERIODIC = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 
 
 @record
@@ -319,7 +318,7 @@ def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
     present = {s: v for s, v in values.items() if s in expression.free_symbols}
     if not present:
         return expression
-    if not expression.has(*_PERIODIC):
+    if not expression.has(*CIRCULAR):
         # one fraction of sums of roots would be long, and is needed where parts are infinite only
         there = expression.xreplace(present)
         if not there.has(S.NaN, S.ComplexInfinity, S.Infinity, S.NegativeInfinity):

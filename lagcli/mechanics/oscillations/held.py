@@ -163,11 +163,12 @@ def one_sided(dynamics: Dynamics) -> list[OneSidedCondition]:
         if given.holds_while is None:
             continue
         condition = given.holds_while
-        difference = system.build(condition.left) - system.build(condition.right)
-        demand = difference if condition.comparison[0] == ">" else -difference
+        larger, smaller = map(system.build, condition.larger_first)
         side = pushing_sign(given.multiplier, condition) if given.on_loss == "release" else None
         gap = None if side is None else side * equation.f
-        found.append(OneSidedCondition(given.name, given.multiplier, (demand,), gap, given=True))
+        found.append(
+            OneSidedCondition(given.name, given.multiplier, (larger - smaller,), gap, given=True)
+        )
     for each in problem.contacts:
         gap = system.build(each.equation.left) - system.build(each.equation.right)
         found.append(OneSidedCondition(each.name, each.multiplier, (), gap, given=False))

@@ -28,7 +28,13 @@ from lagcli.algebra.factors import factors_of
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.oscillations.characteristic import determinant
-from lagcli.mechanics.oscillations.equilibria import NO_VALUE_AT_REST, RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.equilibria import (
+    NO_VALUE_AT_REST,
+    TIMED,
+    RestPoint,
+    RestPoints,
+    at,
+)
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.held import held, one_sided
@@ -100,7 +106,7 @@ class SteadyMotions:
     def motions(self) -> tuple[Steady, ...] | None:
         """All that were found, each by substitution; None with a reason."""
         if self.rest.depends_on_time:
-            self.reason = "the equations depend explicitly on the time"
+            self.reason = TIMED
             return None
         if self._sticks:
             self.reason = "static friction holds the body at rest where it can (see the equilibria)"
@@ -193,7 +199,7 @@ class SteadyMotions:
 
     @property
     def singular_where(self) -> tuple[Expr, ...]:
-        """What vanishes where the coordinates are singular, as far as det M shows it."""
+        """What vanishes where the coordinates are singular: factors of det M."""
         full = self.routh.full
         still = dict.fromkeys(self.full.qdot, S.Zero)
         rows = [[x.xreplace(still) for x in row] for row in full.dynamics.lagrange.mass_matrix]

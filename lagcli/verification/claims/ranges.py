@@ -109,9 +109,8 @@ class PassingMotion:
     def _margin(self, condition: Inequality) -> int:
         """What is positive while a condition holds."""
         program = self.x.reference.program
-        left, right = map(self.x.reference.place, (condition.left, condition.right))
-        a, b = (left, right) if condition.comparison[0] == ">" else (right, left)
-        return program.sum(a, program.negative(b))
+        larger, smaller = map(self.x.reference.place, condition.larger_first)
+        return program.sum(larger, program.negative(smaller))
 
     def outcome(self) -> bool | None:
         """Whether the condition holds all the time, or the place is reached.

@@ -158,8 +158,8 @@ class Balance:
 
 def _holds(x: Examination, near: LinearMotion, condition: Inequality) -> bool:
     at = x.reference.values(near.environment)
-    gap = at(x.reference.place(condition.left)) - at(x.reference.place(condition.right))
-    return bool(gap > 0 if condition.comparison[0] == ">" else gap < 0)
+    larger, smaller = map(x.reference.place, condition.larger_first)
+    return bool(at(larger) > at(smaller))
 
 
 def unlisted(
