@@ -7,8 +7,10 @@ A node is made after its parts: in the order of `index`, parts come first.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
+from functools import reduce
+from operator import or_
 from typing import TypeVar
 
 Key = tuple[object, ...]
@@ -294,9 +296,7 @@ class Graph:
             opposite = self.combination((term, -factor) for term, factor in first.terms)
             positive = self.call(function, (opposite,))
             return self.scaled(positive, _PARITY[function])
-        mask = 0
-        for argument in arguments:
-            mask |= argument.mask
+        mask = mask_of(arguments)
         key = (Call, function, arguments, indices)
         return self._made(key, lambda: Call(function, arguments, indices), mask)
 
@@ -316,6 +316,17 @@ def split(node: Node) -> tuple[Fraction, Node]:
         [(rest, coefficient)] = node.terms
         return coefficient, rest
     return _UNIT, node
+
+
+def mask_of(nodes: Iterable[Node]) -> int:
+    """The symbols that occur in some nodes, a bit for each."""
+    return reduce(or_, (node.mask for node in nodes), 0)
+
+
+def with_values(mask: int, values: Mapping[Symbol, Node]) -> int:
+    """A mask with the symbols in the values of its symbols, in theirs, and so on."""
+    more = mask | mask_of(value for symbol, value in values.items() if symbol.mask & mask)
+    return mask if more == mask else with_values(more, values)
 
 
 def ancestry(roots: Iterable[Node]) -> list[Node]:

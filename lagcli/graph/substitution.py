@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from lagcli.graph.nodes import Call, Graph, Node, Product, Sum, Symbol
+from lagcli.graph.nodes import Call, Graph, Node, Product, Sum, Symbol, mask_of
 
 
 class Substitution:
@@ -20,9 +20,7 @@ class Substitution:
 
     def __init__(self, graph: Graph, formulas: Mapping[Symbol, Node]) -> None:
         self.graph = graph
-        self.mask = 0
-        for symbol in formulas:
-            self.mask |= symbol.mask
+        self.mask = mask_of(formulas)
         self._known: dict[Node, Node] = {symbol: node for symbol, node in formulas.items()}  # noqa: C416
 
     def __call__(self, root: Node) -> Node:

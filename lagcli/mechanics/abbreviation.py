@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from lagcli.expression import Expression, operation_count
-from lagcli.graph.nodes import Call, Node, Sum, Symbol
+from lagcli.graph.nodes import Call, Node, Sum, Symbol, mask_of
 from lagcli.graph.sharing import GraphWriter, in_order_of_use, repeated
 from lagcli.record import record
 
@@ -66,9 +66,7 @@ def abbreviated(
 
 def _needed(named: Mapping[Symbol, Node], values: Sequence[Node]) -> dict[Symbol, Node]:
     """The names that the values use, directly or through others."""
-    mask = 0
-    for value in values:
-        mask |= value.mask
+    mask = mask_of(values)
     kept: list[Symbol] = []
     for symbol in reversed(list(named)):
         if symbol.mask & mask:

@@ -32,7 +32,7 @@ from itertools import combinations_with_replacement
 from lagcli.expression import Expression
 from lagcli.given_formulas import order_of_parameters
 from lagcli.graph.derivative import partial
-from lagcli.graph.nodes import Node, Symbol
+from lagcli.graph.nodes import Node, Symbol, mask_of
 from lagcli.graph.sharing import operations
 from lagcli.graph.substitution import Substitution
 from lagcli.graph.values import Digits, Program
@@ -202,9 +202,7 @@ class ClosedForm:
 
     @cached_property
     def _is_quadratic(self) -> bool:
-        velocities = 0
-        for v in self.form.qdot:
-            velocities |= v.mask
+        velocities = mask_of(self.form.qdot)
         return not any(entry.mask & velocities for row in self.form.mass_matrix for entry in row)
 
     @cached_property

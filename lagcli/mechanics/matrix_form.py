@@ -28,7 +28,7 @@ from functools import cached_property
 from lagcli.expression import Expression
 from lagcli.graph.angles import AnglePairs, Pair
 from lagcli.graph.derivative import Differentiation, partial
-from lagcli.graph.nodes import Graph, Node, Symbol, split
+from lagcli.graph.nodes import Graph, Node, mask_of, split
 from lagcli.graph.reading import GraphReader
 from lagcli.graph.substitution import Substitution
 from lagcli.graph.values import Concrete
@@ -73,8 +73,8 @@ class MatrixForm:
         self.q = tuple(graph.symbol(name) for name in names)
         self.qdot = tuple(graph.symbol(name, 1) for name in names)
         self.qddot = tuple(graph.symbol(name, 2) for name in names)
-        self.acceleration_mask = _mask(self.qddot)
-        self._velocity_mask = _mask(self.qdot)
+        self.acceleration_mask = mask_of(self.qddot)
+        self._velocity_mask = mask_of(self.qdot)
         self.read = GraphReader(graph, names, problem.definitions)
         self._weights: dict[tuple[tuple[Node, Fraction], ...], Node] = {}
         self._by_coordinate = tuple(partial(graph, q) for q in self.q)
@@ -277,7 +277,7 @@ class MatrixForm:
     @property
     def varying(self) -> int:
         """The mask of everything that is no parameter."""
-        return _mask((self.t, *self.q, *self.qdot)) | _mask(tuple(self.read.rates))
+        return mask_of((self.t, *self.q, *self.qdot, *self.read.rates))
 
     def _along(self, terms: list[tuple[Node, Node]]) -> Node:
         """Sum of u * f, the f of equal u together."""
@@ -390,10 +390,3 @@ class MatrixForm:
         if all(entry is graph.zero for entry in row):
             raise NotStructural(f"'{constraint.name}' has no coordinate in it")
         return found
-
-
-def _mask(symbols: tuple[Symbol, ...]) -> int:
-    mask = 0
-    for symbol in symbols:
-        mask |= symbol.mask
-    return mask

@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 
 from lagcli.expression import Expression, Name, Negative, Number
+from lagcli.graph.nodes import mask_of
 from lagcli.numerics.equations.arithmetic import Doubles
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.contact import with_contacts
@@ -84,9 +85,7 @@ class Flow:
         self.problem, self.labels = problem, labels
         e, arithmetic = Equations(with_contacts(problem)), Doubles()
         name = e.q[0].name
-        mask = 0
-        for node in (*(x for row in e.mass for x in row), *e.forcing):
-            mask |= node.mask
+        mask = mask_of((*(x for row in e.mass for x in row), *e.forcing))
         if len(e.q) != 1 or e.rows or mask & e.t.mask:
             raise CannotDraw(
                 "the energy is not conserved, and the equations are not those of one coordinate "

@@ -34,12 +34,12 @@ from lagcli.numerics.integrators.steps import component_scales
 _BEYOND = 2
 #: Rows about a place; in a step at least, and of one run at most.
 _ROWS, _IN_STEP, _MOST = 64, 2, 20_000
-#: A change of the velocity that is so many times those on both sides of it is a jump, unless it
-#: is as small as this.
+#: A change of the velocity is a jump where it is _JUMP times those on both sides of it, unless it
+#: is smaller than _SMALL.
 _JUMP, _SMALL = 4.0, 1e-6
 #: Roots at 16 and at 4 rows from the place: 4 where branches cross, 16 where they touch.
 _STRAIGHT = 8.0
-#: Roots larger than so many times what rounding makes of 0 are known.
+#: Roots larger than _KNOWN times what rounding makes of 0 are known.
 _KNOWN, _CLOSER = 1e3, 10
 
 

@@ -19,6 +19,7 @@ import math
 from collections.abc import Sequence
 from fractions import Fraction
 
+from lagcli.graph.nodes import mask_of
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.modes import Mode
 from lagcli.numerics.hybrid.run import Run
@@ -65,7 +66,5 @@ def column_changes(run: Run, mark: Mark, errors: Sequence[float]) -> list[float]
 
 
 def _acts(mode: Mode) -> bool:
-    e = mode.equations
-    nodes = [*(x for row in e.mass for x in row), *e.forcing]
-    nodes += [*(x for row in e.rows for x in row), *e.bias]
-    return any(node.mask & e.t.mask for node in nodes)
+    """Whether the time is in the equations."""
+    return bool(mask_of(mode.equations.dynamics) & mode.equations.t.mask)

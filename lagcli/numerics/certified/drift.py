@@ -18,7 +18,7 @@ def changes(
     run, charge
         The rows, and which of the charges.
     values
-        Of the charge in each row, as far as they count; None where it is not defined.
+        Of the charge in each row that counts; None where it is not defined.
     """
     for number, phase in enumerate(run.phases):
         if not phase.mode.conserved[charge]:

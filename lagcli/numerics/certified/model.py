@@ -7,14 +7,14 @@ structure, with every parameter some number that is not 0.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from itertools import compress
 from typing import Any
 
 from lagcli.expression import Name
 from lagcli.graph.derivative import partial
-from lagcli.graph.nodes import Node, Sum, Symbol
+from lagcli.graph.nodes import Node, Sum, Symbol, mask_of, with_values
 from lagcli.graph.sharing import written_out
 from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.arithmetic import Doubles, UndefinedFunction
@@ -72,14 +72,7 @@ class _Model:
     @property
     def _dynamics(self) -> list[Node]:
         e = self.equations
-        return [
-            *(entry for row in e.mass for entry in row),
-            *e.forcing,
-            *(entry for row in e.rows for entry in row),
-            *e.bias,
-            *e.positions,
-            *e.rates,
-        ]
+        return [*e.dynamics, *e.positions, *e.rates]
 
     def _barrier(self) -> str:
         """Why nothing at all is eliminated."""
@@ -215,38 +208,18 @@ class _Model:
         """The parameters that no equation of motion names, not even through others' values."""
         e, problem = self.equations, self.problem
         read = e.form.read
-        values = {p.name: read(p.value) for p in problem.parameters if p.value is not None}
         impacts = [read(c.restitution) for c in e.problem.constraints if c.restitution]
         limits = [c.holds_while for c in e.problem.constraints if c.holds_while]
         conditions = [read(side) for limit in limits for side in (limit.left, limit.right)]
-        mask = self._closed(_mask([*self._dynamics, *impacts, *conditions]), values)
-        starts = self._closed(_mask([read(x) for x in problem.initial.values()]), values)
+        mask = with_values(mask_of([*self._dynamics, *impacts, *conditions]), e.parameter_values)
+        starts = with_values(mask_of(read(x) for x in problem.initial.values()), e.parameter_values)
         for parameter in problem.parameters:
             symbol = e.graph.symbol(parameter.name)
             if not symbol.mask & mask:
                 started = symbol.mask & starts
                 yield parameter.name, _INITIAL if started else "no equation of motion depends on it"
 
-    def _closed(self, mask: int, values: Mapping[str, Node]) -> int:
-        """With the parameters whose values give those of the mask."""
-        symbols = {self.equations.graph.symbol(name): formula for name, formula in values.items()}
-        while True:
-            more = mask
-            for symbol, formula in symbols.items():
-                if symbol.mask & mask:
-                    more |= formula.mask
-            if more == mask:
-                return mask
-            mask = more
-
 
 def _numbers(count: int, k: int) -> list[float]:
     """Numbers between 1 and 2 in no relation to each other, others for each k."""
     return [1 + math.sqrt(2) * (1 + i + 31 * k) ** 1.5 % 1 for i in range(count)]
-
-
-def _mask(nodes: Sequence[Node]) -> int:
-    found = 0
-    for node in nodes:
-        found |= node.mask
-    return found

@@ -28,7 +28,7 @@ Precision = Callable[[], AbstractContextManager[None]]
 
 #: Local tolerances below this change nothing: an estimate is rounded at h |rate| 1e-16.
 FINEST_DOUBLE = 1e-18
-#: Local tolerances meet rounding from so many of its units on.
+#: In units of rounding: local tolerances below meet it.
 ROUNDED = 10.0
 #: Of runs by dop853 and its like, whose steps err by far less than such a tolerance.
 _CHANCE = 8.0
@@ -54,7 +54,7 @@ class Prepared:
     first, finest
         No run is made with a tolerance above, or below.
     rounded, chance
-        Runs with this tolerance or less meet rounding: so many differences bound the error.
+        Runs with a tolerance up to `rounded` meet rounding: `chance` differences bound the error.
     longest : tuple of float
         The longest step as parts of the span: at first, and where something was missed.
     floor
@@ -122,7 +122,7 @@ def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1
     """
     asked = simulation.asked
     scales = Scales(simulation)
-    total = 2  # runs that progress is told of
+    total = 2  # runs that progress counts
     count = 0
 
     def runner(tolerance: float, longest: float, peaks: Sequence[float] | None, every: int) -> Run:

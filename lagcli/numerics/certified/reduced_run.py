@@ -7,7 +7,7 @@ from copy import copy
 from itertools import compress
 from typing import TypeVar
 
-from lagcli.graph.nodes import Node
+from lagcli.graph.nodes import Node, mask_of
 from lagcli.graph.sharing import written_out
 from lagcli.numerics.equations.columns import Reading
 from lagcli.numerics.equations.reduced_model import CutEquations, Reduction, cut
@@ -67,12 +67,8 @@ def _reduced(
     v: Sequence[float],
 ) -> AnySetup:
     whole, put = simulation.equations, reduction.put
-    left = 0
-    for symbol in (*equations.state, *(equations.graph.symbol(x.name, 2) for x in equations.q)):
-        left |= symbol.mask
-    everything = 0
-    for symbol in (*whole.state, *simulation.reading.accelerations):
-        everything |= symbol.mask
+    left = mask_of((*equations.state, *(equations.graph.symbol(x.name, 2) for x in equations.q)))
+    everything = mask_of((*whole.state, *simulation.reading.accelerations))
 
     def known(node: Node) -> bool:
         return not node.mask & everything & ~left

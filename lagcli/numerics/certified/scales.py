@@ -13,7 +13,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from lagcli.graph.nodes import Node
+from lagcli.graph.nodes import Node, mask_of
 from lagcli.numerics.hybrid.charges import Sizes
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.run import Run
@@ -106,9 +106,7 @@ class Scales:
         if not places or not run.marks:
             return {}
         e, reading = simulation.equations, simulation.reading
-        solved = 0
-        for symbol in (*reading.accelerations, *reading.multipliers):
-            solved |= symbol.mask
+        solved = mask_of((*reading.accelerations, *reading.multipliers))
         plain = [j for j in places if not simulation.nodes[j].mask & solved]
         nodes = [*(simulation.nodes[j] for j in plain), *e.forcing]
         sizes = Sizes(e.graph, e.state, nodes, run.phases[0].mode.modes.constants)

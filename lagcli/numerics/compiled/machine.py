@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from lagcli.graph.nodes import Node, Symbol
+from lagcli.graph.nodes import Node, Symbol, mask_of
 from lagcli.numerics.compiled.coupled import (
     FEWEST,
     CoupledSeries,
@@ -147,7 +147,7 @@ class Machine:
         return self._problem.address("series")
 
     def improve(self, steps: float, order: int) -> None:
-        """Go over to better code where a run of so many steps, with those before it, is long."""
+        """Go over to better code where the run, with those before it, is long."""
         if self.is_quick and self.spent + self.work(steps, order) >= LONG_RUN:
             self.is_quick = False
             _IMPROVED.add(self._text)
@@ -155,7 +155,7 @@ class Machine:
             self.take()
 
     def work(self, steps: float, order: int) -> float:
-        """What a run of so many steps takes."""
+        """What a run of these steps takes."""
         return steps * order**2 * (self.ops + 4 * self.motion.n)
 
     @staticmethod
@@ -166,9 +166,7 @@ class Machine:
     def _series(self, inputs: Sequence[Symbol]) -> Series:
         """`series` of what is eliminated, or of M and F."""
         equations = self.motion.equations
-        mask = 0
-        for x in inputs:
-            mask |= x.mask
+        mask = mask_of(inputs)
         self._coupled = self.motion.n >= FEWEST and is_coupled(equations.mass, mask)
         eliminated = None if self._coupled else equations.eliminated
         roots: Sequence[Node]
@@ -180,9 +178,7 @@ class Machine:
         else:
             guards = eliminated.guards
             roots, _ = eliminated.motion(equations.forcing, equations.bias)
-        known = mask
-        for symbol in self.motion.constants:
-            known |= symbol.mask
+        known = mask | mask_of(self.motion.constants)
         narrow = narrow_parts(equations.graph, self._given(roots), mask)
         narrow += [
             each

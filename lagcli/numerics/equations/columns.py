@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import Any
 
 from lagcli.expression import Expression, Name
-from lagcli.graph.nodes import Node, Symbol
+from lagcli.graph.nodes import Node, Symbol, mask_of
 from lagcli.graph.substitution import Substitution
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.motion import Function, Motion
@@ -80,9 +80,7 @@ class Values:
 
     def __init__(self, motion: Motion, reading: Reading, nodes: Sequence[Node]) -> None:
         solved = (*reading.accelerations, *reading.multipliers)
-        mask = 0
-        for symbol in solved:
-            mask |= symbol.mask
+        mask = mask_of(solved)
         self._motion = motion
         #: for each multiplier of the problem, its place among those that are solved for
         self._places = [motion.equations.place.get(k) for k in range(len(reading.multipliers))]

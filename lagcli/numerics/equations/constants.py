@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.graph.nodes import Node, Symbol
+from lagcli.graph.nodes import Node, Symbol, mask_of, with_values
 from lagcli.numerics.equations.arithmetic import Arithmetic
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.refusal import Refusal
@@ -32,29 +32,16 @@ def constants_of(
     Refusal
         With every parameter that has no value, or one that cannot be.
     """
-    graph, read = equations.graph, equations.form.read
+    graph, formulas = equations.graph, equations.parameter_values
     parameters = {graph.symbol(p.name): p for p in equations.problem.parameters}
-    formulas = {s: read(p.value) for s, p in parameters.items() if p.value is not None}
-    mask = 0
-    for node in wanted:
-        mask |= node.mask
-    while True:
-        more = mask
-        for symbol, formula in formulas.items():
-            if symbol.mask & mask:
-                more |= formula.mask
-        if more == mask:
-            break
-        mask = more
+    mask = with_values(mask_of(wanted), formulas)
     needed = {s: p for s, p in parameters.items() if s.mask & mask}
     missing = [p for s, p in needed.items() if s not in formulas]
     if missing:
         raise Refusal(tuple(_missing(parameter) for parameter in missing))
     values: dict[Symbol, Any] = {}
     while len(values) < len(needed):
-        known = 0
-        for symbol in values:
-            known |= symbol.mask
+        known = mask_of(values)
         for symbol, parameter in needed.items():
             if symbol not in values and not formulas[symbol].mask & ~known:
                 values[symbol] = _value(formulas[symbol], parameter, values, arithmetic)

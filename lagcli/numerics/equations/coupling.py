@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from lagcli.graph.nodes import Graph, Node, Symbol
+from lagcli.graph.nodes import Graph, Node, Symbol, mask_of
 from lagcli.mechanics.rates import ConstraintRow
 
 
@@ -38,9 +38,7 @@ def coupling(
 
 def needed(masks: Sequence[int], named: Sequence[int], asked: Sequence[Node]) -> list[bool]:
     """Which of the coordinates have a part in what is asked; the first two from `coupling`."""
-    wanted = 0
-    for node in asked:
-        wanted |= node.mask
+    wanted = mask_of(asked)
     while True:
         more = wanted
         for mask, needs in zip(masks, named, strict=True):

@@ -10,11 +10,12 @@ from collections.abc import Sequence
 from copy import copy
 from fractions import Fraction
 from functools import cached_property
+from itertools import chain
 
 from lagcli.expression import Expression
 from lagcli.graph.corners import with_corners
 from lagcli.graph.derivative import partial
-from lagcli.graph.nodes import Call, Node, Symbol, ancestry
+from lagcli.graph.nodes import Call, Node, Symbol, ancestry, mask_of
 from lagcli.graph.stable import Stable, stable_dynamics
 from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
 from lagcli.numerics.equations.elimination import Eliminated, Factored, TooLong
@@ -121,6 +122,20 @@ class Equations:
         """Writes columns so that they keep their digits."""
         return Stable(self.graph)
 
+    @property
+    def dynamics(self) -> list[Node]:
+        """M, forcing, A and the bias c, row by row: what the accelerations follow from."""
+        return [*chain(*self.mass), *self.forcing, *chain(*self.rows), *self.bias]
+
+    @property
+    def parameter_values(self) -> dict[Symbol, Node]:
+        """The values of the parameters that have one, as formulas."""
+        return {
+            self.graph.symbol(p.name): self.form.read(p.value)
+            for p in self.problem.parameters
+            if p.value is not None
+        }
+
     @cached_property
     def positions(self) -> list[Node]:
         """f(q, t) of the holonomic constraints."""
@@ -161,13 +176,9 @@ class Equations:
         """
         if self.whole is not self:
             return self.whole.kinks
-        mask = 0
-        for symbol in self.state:
-            mask |= symbol.mask
-        dynamics = [*(entry for row in self.mass for entry in row), *self.forcing]
-        dynamics += [*(entry for row in self.rows for entry in row), *self.bias]
+        mask = mask_of(self.state)
         found: dict[Node, None] = {}
-        for node in ancestry(dynamics):
+        for node in ancestry(self.dynamics):
             if isinstance(node, Call) and node.function in {"abs", "sign"} and node.mask & mask:
                 found[node.arguments[0]] = None
         return list(found)

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
-from lagcli.graph.nodes import Node, Symbol
+from lagcli.graph.nodes import Node, Symbol, mask_of
 from lagcli.numerics.equations.arithmetic import Arithmetic, UndefinedFunction
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.null_space import Held, held_motion
@@ -167,16 +167,7 @@ class Motion:
     @cached_property
     def matrices(self) -> Function:
         """M, forcing, A and the bias c, row by row in one tuple."""
-        e = self.equations
-        return self.function(
-            [
-                *(entry for row in e.mass for entry in row),
-                *e.forcing,
-                *(entry for row in e.rows for entry in row),
-                *e.bias,
-            ],
-            frozen=True,
-        )
+        return self.function(self.equations.dynamics, frozen=True)
 
     @cached_property
     def pivots(self) -> tuple[Function, Function]:
@@ -201,9 +192,7 @@ class Motion:
     @cached_property
     def moving_kinks(self) -> tuple[int, ...]:
         """The kinks whose argument depends on the velocities: dry friction."""
-        mask = 0
-        for v in self.equations.qdot:
-            mask |= v.mask
+        mask = mask_of(self.equations.qdot)
         return tuple(k for k, node in enumerate(self.kinks) if node.mask & mask)
 
     def kink_noise(self, t: float, q: Sequence[float], v: Sequence[float]) -> list[float]:

@@ -26,7 +26,7 @@ from itertools import compress
 from typing import Any
 
 from lagcli.graph.derivative import partial
-from lagcli.graph.nodes import Node, Symbol, ancestry
+from lagcli.graph.nodes import Node, Symbol, ancestry, mask_of
 from lagcli.graph.substitution import Substitution
 from lagcli.mechanics.rates import ConstraintRow
 from lagcli.numerics.equations.coupling import coupling, needed
@@ -71,9 +71,7 @@ class Reduction:
     ) -> None:
         self.equations, self.constants = equations, constants
         self.graph = equations.graph
-        self._varying = 0
-        for symbol in equations.state:
-            self._varying |= symbol.mask
+        self._varying = mask_of(equations.state)
         self.solved: list[Solved] = []
         for k in equations.holonomic[:most]:
             self._solve(k, wanted)

@@ -10,15 +10,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import partial as partial_call
-from functools import reduce
 from math import factorial
-from operator import or_
 from typing import Any
 
 from lagcli.diagnostics import NOWHERE, Diagnostic, Span
 from lagcli.expression import Name
 from lagcli.graph.derivative import partial
-from lagcli.graph.nodes import Constant, Node, Symbol
+from lagcli.graph.nodes import Constant, Node, Symbol, mask_of
 from lagcli.numerics.equations.arithmetic import UndefinedFunction
 from lagcli.numerics.equations.assembly import assemblies
 from lagcli.numerics.equations.determined import determined
@@ -184,7 +182,7 @@ class _Completion:
         self, unknowns: Sequence[Symbol], equations: list[tuple[int, Node]]
     ) -> dict[Symbol, float]:
         """What the equations that are linear in the unknowns determine jointly."""
-        mask = reduce(or_, (s.mask for s in unknowns))
+        mask = mask_of(unknowns)
         rows, right = [], []
         for which, node in equations:
             slopes = [partial(self.equations.graph, s)(node) for s in unknowns]
@@ -200,7 +198,7 @@ class _Completion:
         """The positions that equations determine together, by Newton's method; none is empty."""
         if unknowns[0].primes:  # the rates are linear in the velocities
             return {}
-        mask = reduce(or_, (s.mask for s in unknowns))
+        mask = mask_of(unknowns)
         for first in unknowns:
             part, rows = _connected(first, unknowns, [x for x in equations if x[1].mask & mask])
             if len(part) > len(rows):
@@ -406,7 +404,7 @@ def _connected(
         before = mask
         for _, node in equations:
             if node.mask & mask:
-                mask |= reduce(or_, (s.mask for s in unknowns if s.mask & node.mask), 0)
+                mask |= mask_of(s for s in unknowns if s.mask & node.mask)
     part = [s for s in unknowns if s.mask & mask]
     return part, [(k, node) for k, node in equations if node.mask & mask]
 

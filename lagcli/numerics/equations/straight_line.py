@@ -12,7 +12,7 @@ from fractions import Fraction
 from typing import Any
 
 from lagcli.expression import FUNCTIONS
-from lagcli.graph.nodes import Call, Constant, Node, Product, Sum, Symbol, ancestry
+from lagcli.graph.nodes import Call, Constant, Node, Product, Sum, Symbol, ancestry, mask_of
 from lagcli.numerics.equations.arithmetic import Arithmetic, UndefinedFunction
 
 #: A pivot is compared with the entry that it stands for: (pivot, entry).
@@ -151,9 +151,7 @@ class _Text:
         self, arguments: Sequence[Symbol], roots: Sequence[Node], places: Mapping[Node, int]
     ) -> None:
         self._places = places
-        self._varying = 0
-        for symbol in arguments:
-            self._varying |= symbol.mask
+        self._varying = mask_of(arguments)
         self._arguments = set(arguments)
         self._written: dict[Node, str] = {}
         #: name -> a parameter or pi, a number, or the name of a function

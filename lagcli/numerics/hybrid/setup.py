@@ -15,10 +15,10 @@ from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked, Cut
 from lagcli.problem_data import Problem, charge_of
 
-#: The intervals at which two runs are compared are at least so many.
+#: The least number of intervals at which two runs are compared.
 _COMPARED = 100
 _GOLDEN = 0.6180339887498949
-#: Where the accuracy is lost between two rows, so many are compared there.
+#: Intervals that are compared between two rows where the accuracy is lost.
 _CLOSER = 64
 
 Progress = Callable[[float], None]
@@ -61,7 +61,7 @@ class Setup:
     def begin(self) -> None:
         """Nothing has been run."""
         self.times = self._times()
-        #: so many of the times are those asked for, and what lies between them
+        #: how many of the times are those asked for, and what lies between them
         self.regular = len(self.times)
         self.finished = 0
         #: whether a run was so long that doubles were left for numbers of more bits
@@ -112,10 +112,7 @@ class Setup:
         return names
 
     def _margin(self, condition: Any) -> Node:
-        graph = self.equations.graph
-        left, right = self.reading(condition.left), self.reading(condition.right)
-        sides = (left, right) if condition.comparison[0] == ">" else (right, left)
-        return graph.difference(*sides)
+        return self.equations.graph.difference(*map(self.reading, condition.larger_first))
 
     @property
     def all_nodes(self) -> list[Node]:
@@ -123,10 +120,7 @@ class Setup:
         e = self.equations
         initial = [e.form.read(value) for value in self.problem.initial.values()]
         return [
-            *(entry for row in e.mass for entry in row),
-            *e.forcing,
-            *(entry for row in e.rows for entry in row),
-            *e.bias,
+            *e.dynamics,
             *e.positions,
             *e.rates,
             *initial,

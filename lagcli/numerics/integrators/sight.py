@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+from lagcli.graph.nodes import mask_of
 from lagcli.numerics.compiled.layout import DIVIDES, JUMPS
 from lagcli.numerics.compiled.narrow import Narrow, narrow_parts
 from lagcli.numerics.compiled.unseen import ATTEMPTS, SHORTER, is_seen
@@ -98,15 +99,10 @@ class Sight:
 
 def _narrow(motion: Motion) -> list[Narrow]:
     equations = motion.equations
-    mask = known = 0
-    for symbol in equations.state:
-        mask |= symbol.mask
-    for symbol in motion.constants:
-        known |= symbol.mask
-    nodes = [*(entry for row in equations.mass for entry in row), *equations.forcing]
-    nodes += [*(entry for row in equations.rows for entry in row), *equations.bias]
-    found = narrow_parts(equations.graph, [*nodes, *motion.looked_at], mask, turning=True)
-    known |= mask
+    mask = mask_of(equations.state)
+    nodes = [*equations.dynamics, *motion.looked_at]
+    found = narrow_parts(equations.graph, nodes, mask, turning=True)
+    known = mask | mask_of(motion.constants)
     return [
         each
         for each in found  # a sign is looked at as every step is made

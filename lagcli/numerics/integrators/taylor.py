@@ -23,6 +23,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from lagcli.graph.nodes import mask_of
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.steps import CannotGoOn, Step, Tolerance
@@ -58,13 +59,9 @@ class Taylor:
         self.evaluations = 0
         self.reached: int | None = None
         self._ball, self._series, self._context = arb, arb_series, ctx
-        mask = 0
-        for v in motion.equations.qdot:
-            mask |= v.mask
-        nodes = [*(entry for row in motion.equations.mass for entry in row)]
-        nodes += [*motion.equations.forcing, *motion.equations.bias]
+        mask = mask_of(motion.equations.qdot)
         #: how many coefficients one pass gives
-        self._gain = 1 if any(node.mask & mask for node in nodes) else 2
+        self._gain = 1 if mask_of(motion.equations.dynamics) & mask else 2
 
     def steps(
         self,

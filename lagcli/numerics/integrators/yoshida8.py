@@ -12,6 +12,7 @@ Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd ed., section V.3.
 
 from __future__ import annotations
 
+from lagcli.graph.nodes import mask_of
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.fixed_step import FixedStep, Vector
@@ -55,15 +56,11 @@ class Yoshida8(FixedStep):
 
 def separates(equations: Equations) -> bool:
     """Whether q'' is a function of t and q: M constant, no force of q', no constraint."""
-    state = speeds = 0
-    for symbol in equations.state:
-        state |= symbol.mask
-    for symbol in equations.qdot:
-        speeds |= symbol.mask
+    mass = mask_of(entry for row in equations.mass for entry in row)
     return (
         not equations.rows
-        and not any(entry.mask & state for row in equations.mass for entry in row)
-        and not any(force.mask & speeds for force in equations.forcing)
+        and not mass & mask_of(equations.state)
+        and not mask_of(equations.forcing) & mask_of(equations.qdot)
     )
 
 

@@ -36,7 +36,7 @@ _SHORTEST = 1e-12
 #: They are divided where no simple fraction of a step is: events are often there.
 _PART = 0.4656
 _NEWTON = 30
-#: A trial box is wider by this factor, and found in so many rounds.
+#: A trial box is wider by _ROOM, and found in _WIDENED rounds.
 _ROOM, _WIDENED = 4, 3
 
 

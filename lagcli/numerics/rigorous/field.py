@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from lagcli.graph.derivative import partial
-from lagcli.graph.nodes import Node, Symbol, ancestry
+from lagcli.graph.nodes import Node, Symbol, ancestry, mask_of
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import Refusal
@@ -46,11 +46,9 @@ class VectorField:
         self._slopes = motion.function(entries, frozen=True)
         #: what an evaluation costs, in nodes
         self.cost = len(ancestry([*roots, *entries]))
-        mask = 0
-        for symbol in equations.qdot:
-            mask |= symbol.mask
+        mask = mask_of(equations.qdot)
         #: coefficients that one evaluation gives
-        self._gain = 1 if any(a.mask & mask for a in roots) else 2
+        self._gain = 1 if mask_of(roots) & mask else 2
 
     def rate(self, t: Any, x: Sequence[Any]) -> list[Any]:
         """f at balls."""

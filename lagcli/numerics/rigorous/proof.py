@@ -32,7 +32,7 @@ _NARROW = 1e-3
 _GAIN = 1.02
 #: An attempt ends where they are wider by this factor: what it lacks is known.
 _LOST = 1e3
-#: A loss of digits is taken to go on as it began, over at most so many times the time.
+#: A loss of digits is taken to go on as it began, over at most this multiple of the time.
 _FARTHEST = 8
 #: Of a step whose end is at an event.
 _SHORTER = 0.8

@@ -10,7 +10,7 @@ from itertools import product
 from lagcli.dimensions.forms import minus
 from lagcli.dimensions.inference import Inference
 from lagcli.graph.derivative import partial
-from lagcli.graph.nodes import Call, Constant, Node, Product, Sum, Symbol, ancestry
+from lagcli.graph.nodes import Call, Constant, Node, Product, Sum, Symbol, ancestry, mask_of
 from lagcli.numerics.equations.jacobian import jacobian
 from lagcli.numerics.equations.motion import Function
 from lagcli.record import record
@@ -266,9 +266,7 @@ def _fastest(matrix: Sequence[Sequence[float]]) -> tuple[float, Vector]:
 def light_speeds(scene: ExtremeScene) -> Iterator[tuple[Vector, float]]:
     """Roots of 1 - v^2/c^2 and their like: a velocity, and the factor at which they vanish."""
     e = scene.equations
-    moving = 0
-    for symbol in e.qdot:
-        moving |= symbol.mask
+    moving = mask_of(e.qdot)
     seen: list[Vector] = []
     for node in ancestry([e.lagrangian]):
         if not isinstance(node, Product):

@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from lagcli.expression import Expression, Name, Negative, Number
-from lagcli.graph.nodes import Node, Symbol
+from lagcli.graph.nodes import Node, Symbol, mask_of, with_values
 from lagcli.numerics.equations.arithmetic import Doubles
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.contact import with_contacts
@@ -178,10 +178,7 @@ class ExtremeScene:
     @cached_property
     def dynamics(self) -> list[Node]:
         """All that the motion follows from."""
-        e = self.equations
-        nodes = [*(entry for row in e.mass for entry in row), *e.forcing]
-        nodes += [entry for row in e.rows for entry in row]
-        return [*nodes, *e.bias, *e.positions]
+        return [*self.equations.dynamics, *self.equations.positions]
 
     @cached_property
     def ignorable(self) -> tuple[Symbol, ...]:
@@ -202,14 +199,5 @@ class ExtremeScene:
 
     def is_in(self, name: str, nodes: Sequence[Node]) -> bool:
         """Whether a parameter, or one that it is the value of, occurs."""
-        mask = 0
-        for node in nodes:
-            mask |= node.mask
-        while True:
-            more = mask
-            for p in self.problem.parameters:
-                if p.value is not None and self.equations.graph.symbol(p.name).mask & mask:
-                    more |= self.equations.form.read(p.value).mask
-            if more == mask:
-                return bool(self.equations.graph.symbol(name).mask & mask)
-            mask = more
+        e = self.equations
+        return bool(e.graph.symbol(name).mask & with_values(mask_of(nodes), e.parameter_values))
