@@ -159,14 +159,17 @@ def read_symmetries(sections: Sections, node: DocumentNode) -> tuple[Symmetry, .
         if isinstance(value, Mapping) and not value.entries:
             sections.error(f"{what} changes nothing", value.span, "write shift: {x: 1}")
         for name, change in sections.entries(value, what, "write shift: {x: 1}"):
-            expression = sections.expression(change, what, STATE)
             if name.label in coordinates or name.label in {"t", "gauge"}:
-                changes[name.label] = expression
-            else:
-                hint = did_you_mean(name.label, [*coordinates, "t", "gauge"])
-                hint = hint or "a key is a coordinate, t or gauge"
-                message = f"'{name.label}' in {what} is not a coordinate"
-                sections.error(message, name.span, hint)
+                changes[name.label] = sections.expression(change, what, STATE)
+                continue
+            message = f"'{name.label}' in {what} is not a coordinate"
+            if isinstance(change, Mapping):
+                written = change.text.source.text[change.start : change.end].strip()
+                sections.error(message, name.span, f"write {key.label}: {written}")
+                continue
+            sections.expression(change, what, STATE)
+            hint = did_you_mean(name.label, [*coordinates, "t", "gauge"])
+            sections.error(message, name.span, hint or "a key is a coordinate, t or gauge")
         time, gauge = changes.pop("t", None), changes.pop("gauge", None)
         if gauge is not None and time is None and not changes:
             sections.error(f"{what} changes neither a coordinate nor t", key.span)

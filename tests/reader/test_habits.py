@@ -53,6 +53,7 @@ HABITS = [
     (text(T="m*Derivative(x, t)^2/2"), "write x'"),
     (text(T="m*diff(x, t)^2/2"), "the velocity of x is x'"),
     (text(T="m*diff(x^2, t)^2/2"), "a total time derivative is a prime"),
+    (text(symmetries="{s: {shift: {x: 1}}}"), "write s: {x: 1}"),
     (text(T="m*x(t)'^2/2"), "write x'"),
     (text(V="k*x(t)^2"), "write x"),
     (text(T="m*pow(x', 2)/2"), "write x'^2"),
