@@ -20,6 +20,9 @@ from lagcli.algebra.ring import Poly
 
 _MAX_BASIS = 24
 _MAX_TERMS = 60
+#: Of the degrees of the given polynomials, in a basis: completed without it, two products of two
+#: factors went to degree 101 and took minutes.
+_MAX_GROWTH = 4
 _MAX_PAIRS = 120
 _SHORT = 20  # terms of a polynomial whose remainder is found anew each time
 _RECENT = 8  # others whose remainders are kept
@@ -126,6 +129,7 @@ def _completed(polys: Sequence[Poly]) -> list[Poly]:
         rest = _remainder(poly, basis)
         if rest != 0:
             add(rest)
+    highest = _MAX_GROWTH * max((poly.total_degree() for poly in basis), default=0)
     for _ in range(_MAX_PAIRS):
         if not pairs or len(basis) > _MAX_BASIS:
             break
@@ -133,7 +137,7 @@ def _completed(polys: Sequence[Poly]) -> list[Poly]:
         if _coprime(left, right):
             continue
         rest = _remainder(_difference(left, right), basis)
-        if rest != 0 and len(rest) <= _MAX_TERMS:
+        if rest != 0 and len(rest) <= _MAX_TERMS and rest.total_degree() <= highest:
             add(rest)
     return _interreduced(basis)
 

@@ -96,11 +96,14 @@ class Noether:
         return (*candidates, *evident)
 
     def is_trivial(self, charge: NoetherCharge) -> bool:
-        """Whether a charge is constant by the constraints alone, whatever the motion is."""
+        """Whether a conserved charge is constant by the constraints alone, whatever the motion is."""
+        if not (charge.complete and charge.conserved):
+            return False
         on_surface = self.dynamics.simplified(charge.charge)
-        if not on_surface.free_symbols & {*self.system.q, *self.system.qdot, self.system.t}:
-            return True
-        return charge.conserved is True and self.dynamics.verifier.is_fixed(charge.charge)
+        moving = {*self.system.q, *self.system.qdot, self.system.t}
+        return not on_surface.free_symbols & moving or self.dynamics.verifier.is_fixed(
+            charge.charge
+        )
 
     @cached_property
     def cyclic(self) -> tuple[int, ...]:

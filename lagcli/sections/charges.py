@@ -24,7 +24,7 @@ from lagcli.reader.schema_parts import FORMULAS
 from lagcli.reader.scope import ANSWER
 from lagcli.statements.answers import Answers, Charge, ChargesSection, EnergySection
 from lagcli.statements.declaration import Declaration, Expected, always
-from lagcli.statements.wording import conditions, listed
+from lagcli.statements.wording import TRIVIAL, conditions, listed
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_charges import LargeCharge
@@ -70,6 +70,7 @@ def stated_charge(statements: Statements, charge: NoetherCharge) -> Charge:
     statements.note_check(f"the rate of '{charge.name}'", charge.verified)
     system, change = statements.system, charge.transformation
     named = dict(zip(system.names, change.changes, strict=True)) | {"t": change.time}
+    trivial = charge.source == "candidate" and statements.derivation.noether.is_trivial(charge)
     return Charge(
         name=charge.name,
         source=charge.source,
@@ -78,13 +79,14 @@ def stated_charge(statements: Statements, charge: NoetherCharge) -> Charge:
         },
         gauge=None if charge.gauge is None else statements.as_written(charge.gauge),
         conserved=charge.conserved,
-        charge=_function(statements, charge) if charge.complete else None,
+        charge=_function(statements, charge) if charge.complete and not trivial else None,
         rate=None if charge.rate is None else statements.on_surface(charge.rate),
         verified=charge.verified,
         broken_by=charge.broken_by,
         when=between_impacts(system, change.changes, change.time, charge.gauge)
         if charge.conserved
         else "",
+        trivial=trivial,
     )
 
 
@@ -138,8 +140,7 @@ def blocks(section: ChargesSection, answers: Answers) -> Iterator[Block]:
         yield Paragraph(("Not conserved, because of ", f"{cause}: ", *names, "."))
     for charge in (each for each in section.charges if each not in broken):
         yield _heading(charge)
-        rows = tuple(_rows(charge, shown))
-        if rows:
+        if rows := tuple(_rows(charge, shown)):
             yield Equations(rows)
         yield Paragraph(tuple(_verdict(charge)))
         if charge.where:
@@ -167,6 +168,9 @@ def _rows(charge: Charge, energy: Expression | None) -> Iterator[Row]:
 
 def _verdict(charge: Charge) -> Iterator[str | Expression]:
     checked = _CHECKED[charge.verified]
+    if charge.trivial:
+        yield TRIVIAL
+        return
     if charge.conserved:
         yield f"Conserved{' ' + charge.when if charge.when else ''}: "
         yield own("Q", 1)

@@ -155,7 +155,8 @@ class Charge:
 
     `transformation` holds Delta q by coordinate and Delta t under "t", zeros left out.
     `broken_by` says in words which terms make the rate, empty when conserved.  The charge is
-    real where each of `where` holds (square roots of parameters).
+    real where each of `where` holds (square roots of parameters).  That of a candidate is None
+    where it is `trivial`: 0, or constant by the constraints alone, which conserves nothing.
     """
 
     name: str
@@ -169,6 +170,7 @@ class Charge:
     broken_by: str = ""
     when: str = ""  # of a conserved one, where the file has contacts: "between impacts"
     where: tuple[Above, ...] = ()
+    trivial: bool = False
 
 
 @record(kw_only=True)

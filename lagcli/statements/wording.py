@@ -32,6 +32,8 @@ Part = str | Formula
 CONSERVED = "L does not depend on t explicitly, no applied force and no constraint does work"
 #: What breaks a symmetry of the forces and the constraints that is none of L.
 CHANGE_OF_L = "a change of L that is not a total time derivative"
+#: What a candidate is worth whose charge is 0, or constant by the constraints alone.
+TRIVIAL = "Its charge is constant whatever the motion is: no conserved quantity follows."
 #: The effective potential.
 POTENTIAL = Label("U", ("eff",))
 #: The most operations of a value within a sentence.

@@ -4,11 +4,19 @@ from __future__ import annotations
 
 import pytest
 
+from lagcli.pipeline import Request, state
 from lagcli.statements.wording import CHANGE_OF_L
 
 from .derived import charge, derive, same
 
 FREE = "coordinates: [x, y]\nparameters: {m: {assume: positive}, k: {}, c: {assume: positive}}\n"
+
+
+def listed(text: str):
+    """The symmetries as they are printed."""
+    answers = state(derive(text), Request(sections=("charges",)))
+    assert not answers.warnings
+    return answers.sections["charges"].charges
 
 
 def symmetry(text: str, change: str):
@@ -107,6 +115,29 @@ def test_a_symmetry_along_a_constraint_with_its_boundary_term():
 def test_an_evident_charge_that_a_candidate_gives_is_not_listed_twice():
     d = derive(FREE + "T: m*(x'^2+y'^2)/2\nsymmetries: {push: {x: 3}, time: {t: 1}}")
     assert [c.name for c in d.noether.charges] == ["push", "time", "p_y"]
+
+
+@pytest.mark.parametrize(
+    "candidate",
+    ["{x: 0}", "{x: x' - x'}", "{t: 0}", "{x: 0, gauge: 5}", "{y: 1, gauge: m*y'}",
+     "{x: y, y: -x, gauge: m*(y*x' - x*y')}"],
+)  # fmt: skip
+@pytest.mark.parametrize("held", ["", "\nconstraints: {c: y = 2*x}"])
+def test_a_candidate_whose_charge_is_constant_whatever_the_motion_conserves_nothing(
+    candidate, held
+):
+    text = FREE + "T: m*(x'^2 + y'^2)/2\nsymmetries: {nothing: " + candidate + "}" + held
+    found = listed(text)[0]
+    assert (found.trivial, found.charge) == (True, None)
+
+
+def test_a_candidate_that_the_constraints_alone_keep_constant_conserves_nothing():
+    text = (
+        FREE + "T: m*(x'^2 + y'^2)/2\nconstraints: {c: x^2 + y^2 = 1}\n"
+        "symmetries: {out: {x: x, y: y}, round: {x: -y, y: x}}"
+    )
+    out, round_ = listed(text)[:2]
+    assert (out.trivial, out.charge, round_.trivial) == (True, None, False)
 
 
 def test_nonholonomic_momentum_of_a_coin_is_conserved_where_it_does_no_work():

@@ -14,7 +14,7 @@ from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, listed, says, shows
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.noether import NoetherCharge
-from lagcli.statements.wording import enumerated
+from lagcli.statements.wording import TRIVIAL, enumerated
 
 
 def energy(teller: Teller) -> Iterator[Block]:
@@ -264,6 +264,9 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
     yield says(*noether_words(teller, applies, with_gauge=with_gauge, with_time=with_time))
     yield shows(letters.Q, teller.readable.by_terms(charge.charge), _stays(charge)
                 if charge.conserved is not None else "")  # fmt: skip
+    if teller.derivation.noether.is_trivial(charge):
+        yield says(TRIVIAL)
+        return
     if charge.conserved is None:
         why = f": {charge.broken_by}" if charge.broken_by else ""
         yield says(f"Whether it is conserved was not decided{why}.")

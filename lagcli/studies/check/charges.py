@@ -44,6 +44,8 @@ def conserved(
     if not found:
         if any(c.conserved is None for c in listed):
             return check.undecided(path, "nobody knows if it is conserved")
+        if any(c.trivial for c in listed):
+            return check.wrong(path, "derived: constant whatever the motion is")
         return check.wrong(path, "derived: not conserved")
     verdicts = [check.comparison.same_charge(each, expected) for each in found]
     return check.judge_any(path, verdicts, to_grammar(expected), to_grammar(found[0]))

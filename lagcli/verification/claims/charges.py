@@ -41,25 +41,28 @@ def _evident_are_listed(x: Examination, charges: Sequence[Charge]) -> None:
             continue
         kept = [c.charge for c in charges if c.conserved and c.charge is not None]
         known = [each for charge in kept for each in x.places("", [charge]) or ()]
-        known += [row.value for row in reference.rows] + [row.velocity for row in reference.rows]
-        symbols = [*reference.q, *reference.v, reference.time]
-        rows = [column(states[0].at.gradient(each), symbols) for each in known]
-        own = column(states[0].at.gradient(place), symbols)
-        try:
-            missing = rank([*rows, own], len(symbols)) > rank(rows, len(symbols))
-        except Unclear:
-            continue
-        if missing:
+        if _is_independent(x, place, known):
             x.refute("that all evident conserved quantities are listed", f"{what} is conserved")
+
+
+def _is_independent(x: Examination, place: int, known: Sequence[int]) -> bool:
+    """Whether a quantity is no function of others and of the constraints, seen by gradients."""
+    reference, state = x.reference, x.states()[0]
+    forms = [form for row in reference.rows for form in (row.value, row.velocity)]
+    symbols = [*reference.q, *reference.v, reference.time]
+    rows = [column(state.at.gradient(each), symbols) for each in (*known, *forms)]
+    own = column(state.at.gradient(place), symbols)
+    try:
+        return rank([*rows, own], len(symbols)) > rank(rows, len(symbols))
+    except Unclear:
+        return False
 
 
 def evident(x: Examination) -> Iterator[tuple[str, int, Callable[[Sequence[State]], bool]]]:
     """p_j where L does not contain q_j, and the energy function where it does not contain t."""
     program, reference = x.reference.program, x.reference
-    L = reference.lagrangian
-    momenta = [program.derivative(L, {v: program.one}) for v in reference.v]
-    products = [program.product(v, p) for v, p in zip(reference.v, momenta, strict=True)]
-    h = program.sum(*products, program.negative(L))
+    L, momenta = reference.lagrangian, _momenta(x)
+    h = program.sum(*map(program.product, reference.v, momenta), program.negative(L))
     named = [
         (f"p_{n}", q, p) for n, q, p in zip(reference.names, reference.q, momenta, strict=True)
     ]
@@ -77,8 +80,15 @@ def evident(x: Examination) -> Iterator[tuple[str, int, Callable[[Sequence[State
         yield what, place, conserved
 
 
+def _momenta(x: Examination) -> list[int]:
+    program, reference = x.reference.program, x.reference
+    return [program.derivative(reference.lagrangian, {v: program.one}) for v in reference.v]
+
+
 def _charge(x: Examination, charge: Charge) -> Charge:
     charge = _as_given(x, charge)
+    if charge.trivial:
+        return charge if _is_trivial(x, charge) else _without(charge)
     if charge.charge is None:
         return charge
     what = f"the charge '{charge.name}'"
@@ -99,9 +109,31 @@ def _charge(x: Examination, charge: Charge) -> Charge:
     return charge if len(x.unchecked) == tried else replace(charge, verified=None)
 
 
+def _is_trivial(x: Examination, charge: Charge) -> bool:
+    """Whether Noether's Q depends on the constraints alone."""
+    what, program = f"that the charge of '{charge.name}' is constant", x.reference.program
+    transformation = [charge.transformation.get(n, ZERO) for n in (*x.reference.names, "t")]
+    places = x.places(what, [*transformation, charge.gauge or ZERO])
+    if places is None or not x.states() or x.reference.of_phase_space:
+        return places is not None
+    *changes, time, gauge = places
+    moved = [
+        program.sum(change, program.negative(program.product(v, time)))
+        for change, v in zip(changes, x.reference.v, strict=True)
+    ]
+    work = map(program.product, _momenta(x), moved)
+    stretch = program.product(x.reference.lagrangian, time)
+    Q = program.sum(*work, stretch, program.negative(gauge))
+    if _is_independent(x, Q, []):
+        x.refute(what, "it changes between random states")
+        return False
+    return True
+
+
 def _without(charge: Charge) -> Charge:
     return replace(
         charge,
+        trivial=False,
         gauge=None,
         charge=None,
         rate=None,
