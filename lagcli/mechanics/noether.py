@@ -96,7 +96,7 @@ class Noether:
         return (*candidates, *evident)
 
     def is_trivial(self, charge: NoetherCharge) -> bool:
-        """Whether a conserved charge is constant by the constraints alone, whatever the motion is."""
+        """Whether a charge is conserved by the constraints alone, whatever the motion is."""
         if not (charge.complete and charge.conserved):
             return False
         on_surface = self.dynamics.simplified(charge.charge)
