@@ -224,9 +224,16 @@ def _energies(problem: Problem) -> Iterator[Sum]:
     """T - V and T + V, as sums of the terms of the file."""
     if problem.kinetic is None or problem.potential is None:
         return
-    T, V = (e.terms if isinstance(e, Sum) else (e,) for e in (problem.kinetic, problem.potential))
-    yield Sum((*T, *V))
-    yield Sum((*T, *(t.operand if isinstance(t, Negative) else Negative(t) for t in V)))
+    T, V = map(_terms, (problem.kinetic, problem.potential))
+    if len(T) + len(V) > 1:
+        yield Sum((*T, *V))
+        yield Sum((*T, *(t.operand if isinstance(t, Negative) else Negative(t) for t in V)))
+
+
+def _terms(node: Expression) -> tuple[Expression, ...]:
+    """The terms of a sum; V: 0 has none."""
+    terms = node.terms if isinstance(node, Sum) else (node,)
+    return tuple(term for term in terms if term != Number(Fraction(0)))
 
 
 _DECIMAL = re.compile(r"(?<![\w.])(\d+\.\d*|\.\d+)(?![\w.])")

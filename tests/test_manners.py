@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lagcli import loads, solve
 from lagcli.expression import Call, Name, Negative, Number, Power, Product, Quotient, Sum
 from lagcli.formatters.grammar import to_grammar
 from lagcli.graph.nodes import Graph
@@ -101,3 +102,10 @@ def test_the_value_stays(formula):
 
 def test_numbers_are_not_taken_for_letters():
     assert to_grammar(manner()(Number(parse_text("3").value))) == "3"
+
+
+@pytest.mark.parametrize("potential", ["0", "0*x", "k*x"])
+def test_no_energy_ends_with_nothing(potential):
+    text = f"{{coordinates: [x, y], parameters: [m, I, k], V: {potential}, T: m*x'^2/2 + I*y'^2/2}}"
+    answer = solve(loads(text), ["energy"])
+    assert "0" not in str(answer).partition("Conserved")[0]

@@ -66,7 +66,9 @@ def terms(
         element = field(expression)
     except ZeroDivisionError:
         return Translator(writer).tree(expression)
-    split = _Splitter(field, Shaper(field, writer), leading).split(element)
+    shaper = Shaper(field, writer)
+    growth = _common_exponential(field, element)
+    split = _Splitter(field, shaper, leading).split(element / growth)
     if split is None and not as_given:
         return shape(expression, order)
     given = Translator(writer).tree(expression) if as_given else None
@@ -74,14 +76,29 @@ def terms(
         assert given is not None
         result = shape(expression, order)
         return given if operation_count(given) <= _GIVEN * operation_count(result) else result
-    if given is None:
-        return writer.sum([*split.moving, *split.static])
-    at_rest = _given_at_rest(expression, leading, writer)
     static = writer.sum(split.static)
+    at_rest = _given_at_rest(expression, leading, writer) if as_given and growth.is_one() else None
     if at_rest is not None and operation_count(at_rest) <= _GIVEN * operation_count(static):
         static = at_rest
     result = writer.sum([*split.moving, static])
-    return given if operation_count(given) <= operation_count(result) else result
+    if not growth.is_one():
+        one = Fraction(1)
+        result = writer.product(one, [(result, one), (shaper.shape(growth), one)])
+    return given if given and operation_count(given) <= operation_count(result) else result
+
+
+def _common_exponential(field: Field, element: Element) -> Element:
+    """What all terms have to the same power: exp(c t/m) of (m x'' + c x' + k x) exp(c t/m)."""
+    above, below = (
+        [dict(monomial) for monomial, _ in field.ring.terms(part)]
+        for part in (element.numerator, element.denominator)
+    )
+    found = field.rational(1)
+    for index in {index for monomial in (*above, *below) for index in monomial}:
+        powers = {a.get(index, 0) - b.get(index, 0) for a in above for b in below}
+        if len(powers) == 1 and field.generators[index].kind == "exp":
+            found *= field.generator(index) ** powers.pop()
+    return found
 
 
 def _given_at_rest(expression: Expr, leading: Collection[str], writer: Writer) -> Expression | None:

@@ -149,3 +149,14 @@ def test_the_hash_seed_does_not_matter() -> None:
         for seed in ("0", "1", "2")
     }  # fmt: skip
     assert len(outputs) == 1
+
+
+@pytest.mark.parametrize("rate", [c * t / m, -c * t / m, 2 * x, y - x])
+def test_an_exponential_that_all_terms_have_stands_behind_one_bracket(rate: Expr) -> None:
+    from lagcli.algebra import terms
+
+    row = (m * dx**2 / 2 + k * x**2 / 2) * exp(rate)
+    written = to_grammar(terms(sp.expand(row), ORDER, ["x'"]))
+    assert written == f"(m*x'^2/2 + k*x^2/2)*{to_grammar(shape(exp(rate), ORDER))}"
+    apart = to_grammar(terms(sp.expand(row + k * exp(rate / 2)), ORDER, ["x'"]))
+    assert "(m*x'^2" not in apart
