@@ -87,15 +87,21 @@ class NumericOptions:
             self._wrong("--accuracy", text, given, f"it lies between 0 and 1{_not(accuracy)}")
         return _USUAL_ACCURACY if accuracy is None else accuracy
 
-    def _number(self, text: str | None, given: Expression | None, option: str) -> float | None:
+    def formula(
+        self, text: str | None, given: Expression | None, option: str
+    ) -> Expression | None:
+        """A number as it is written; None where there is none."""
         from lagcli.reader.columns import read_number
 
         try:
-            formula = given if text is None else read_number(text, option)
+            return given if text is None else read_number(text, option)
         except ProblemError as error:
             tell(error.source, error.diagnostics)
             self.good = False
             return None
+
+    def _number(self, text: str | None, given: Expression | None, option: str) -> float | None:
+        formula = self.formula(text, given, option)
         return None if formula is None else _value(formula)
 
     def _wrong(

@@ -222,6 +222,7 @@ def asked_of(
         return None
     return Asked(
         until=until,
+        end=numbers.formula(wish.until, run.until, "--until"),
         accuracy=accuracy,
         samples=wish.samples,
         columns=tuple(Column(name, expression) for name, expression in columns),

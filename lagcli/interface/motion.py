@@ -194,8 +194,11 @@ def asked_of(
         raise ValueError(f"unknown method {chosen!r}: the methods are {', '.join(METHODS)}")
     shown = read_columns(problem, list(show)) if show else usual_columns(problem)
     return Asked(
-        until=_number(problem, until, run.until, "until"),
-        accuracy=_number(problem, accuracy, run.accuracy, "accuracy", _USUAL_ACCURACY),
+        until=_number(problem, _formula(until, run.until, "until"), "until"),
+        end=_formula(until, run.until, "until"),
+        accuracy=_number(
+            problem, _formula(accuracy, run.accuracy, "accuracy"), "accuracy", _USUAL_ACCURACY
+        ),
         samples=samples,
         times=tuple(map(float, times)),
         columns=tuple(Column(name, expression) for name, expression in shown),
@@ -209,25 +212,27 @@ def asked_of(
     )
 
 
-def _number(
-    problem: Problem,
-    given: float | str | None,
-    of_file: Expression | None,
-    what: str,
-    usual: float | None = None,
-) -> float:
-    """A number of the call, or else of the file."""
-    from lagcli.decimals import value_of
+def _formula(
+    given: float | str | None, of_file: Expression | None, what: str
+) -> Expression | None:
+    """A number of the call, or else of the file, as it is written."""
     from lagcli.reader.columns import read_number
 
-    if given is None and of_file is None:
+    if given is None:
+        return of_file
+    return read_number(repr(given) if isinstance(given, float) else str(given), what)
+
+
+def _number(
+    problem: Problem, formula: Expression | None, what: str, usual: float | None = None
+) -> float:
+    """Its value."""
+    from lagcli.decimals import value_of
+
+    if formula is None:
         if usual is None:
             raise ProblemError(problem.source, (Diagnostic(f"{what} is missing: give {what}=…"),))
         return usual
-    if given is None and of_file is not None:
-        formula = of_file
-    else:
-        formula = read_number(repr(given) if isinstance(given, float) else str(given), what)
     value = value_of(formula)
     if value is None or not 0 < float(value) < float("inf"):
         raise ProblemError(problem.source, (Diagnostic(f"{what} must be a positive number"),))

@@ -121,6 +121,35 @@ def test_json_has_an_enclosure_for_each_number(capsysbinary):
     assert content["certificate"]["kind"] == "proof"
 
 
+def test_times_are_those_that_are_written(capsysbinary):
+    """x = sin t at one and two tenths of a second, which no double is, and at parts of pi."""
+    oscillator = lagcli.loads("{coordinates: [x], L: x'^2/2 - x^2/2, initial: {x': 1}}")
+    with mpmath.workdps(40):
+        tenths, thirds = proof(oscillator, "0.2", samples=3), proof(oscillator, "pi", samples=4)
+        for k, row in enumerate(tenths.rows):
+            assert contains(row[1], mpmath.sin(mpmath.mpf(k) / 10))
+        for k, row in enumerate(thirds.rows):
+            assert contains(row[1], mpmath.sin(k * mpmath.pi / 3))
+        assert float(tenths.rows[1][1].rad()) < 1e-21
+    arguments = ["simulate", "plane-pendulum", "--until", "0.2", "--samples", "3", "--rigorous"]
+    assert run([*arguments, "-f", "json"]) == 0
+    rows = json.loads(capsysbinary.readouterr().out)["enclosures"]
+    assert all(float(ball["radius"]) < 1e-20 for row in rows for ball in row)
+
+
+def test_a_row_at_the_time_of_an_impact_has_both_sides():
+    """A ball that falls 1/10 with g = 1 strikes after 1/sqrt 5, at a row."""
+    text = (
+        "{coordinates: [y], T: y'^2/2, V: y, contacts: {floor: {gap: y >= 0, restitution: 1/2}}, "
+        "initial: {y: 1/10}}"
+    )
+    _, _, row, last = proof(lagcli.loads(text), "3/(2*sqrt(5))", samples=4).rows
+    assert row[1].contains(0)
+    assert row[2] is None
+    assert contains(last[1], mpmath.mpf(1) / 40)
+    assert last[2].contains(0)
+
+
 def test_the_table_shows_proved_digits_only(capsysbinary):
     assert run(["simulate", "plane-pendulum", "--until", "1", "--samples", "2", "--rigorous"]) == 0
     last = capsysbinary.readouterr().out.decode().splitlines()[2].split()

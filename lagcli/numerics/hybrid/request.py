@@ -18,6 +18,8 @@ class Asked:
     ----------
     until, accuracy, samples
         The span of time, the bound on the global error of every column, the rows.
+    end : Expression or None
+        `until` as it is written; None where it is that double.
     times : tuple of float
         The rows, from 0 to `until`, where they are not evenly spread.
     columns : tuple of Column
@@ -45,6 +47,7 @@ class Asked:
     accuracy: float
     samples: int
     columns: tuple[Column, ...]
+    end: Expression | None = None
     times: tuple[float, ...] = ()
     project: bool = False
     stop_when: Expression | None = None

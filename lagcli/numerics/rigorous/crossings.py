@@ -74,6 +74,8 @@ class Watched:
 
     def term(self, field: VectorField, t: Any, x: Sequence[Any], order: int) -> Any:
         """The Taylor coefficient of sign * g along the motion."""
+        if order == 1:
+            return self.rate(field, t, x)
         series = field.coefficients(t, x, order)
         return self.sign * field.evaluated(self.value, [t, 1], series, order + 1)[0][order]
 
@@ -121,7 +123,7 @@ def when(piece: Piece, field: VectorField, watched: Watched, begun: int = 0) -> 
             continue
         rate = watched.rate(field, whole, state)
         last = watched.at(b, piece.at(b))
-        if last > 0 and (rate if leaves < 2 else watched.term(field, whole, state, leaves)) > 0:
+        if last > 0 and watched.term(field, whole, state, max(leaves, 1)) > 0:
             continue
         if rate < 0 and not leaves:
             if last > 0:
@@ -155,28 +157,44 @@ def behind(
     watched: Watched,
     fields: tuple[VectorField, VectorField],
     restart: Restart,
-) -> tuple[Any, LohnerSet]:
-    """A time near a crossing, and the set from which the new equations go on there."""
+) -> tuple[LohnerSet, Any, list[Any]]:
+    """What follows a crossing at tau.
+
+    Returns
+    -------
+    LohnerSet
+        From which the new equations go on at s, the middle of tau.
+    arb
+        Times about s in which the crossings of all solutions near the set lie.
+    list of arb
+        Where solutions of the new equations are at these times.
+    """
     old, new = fields
     s = tau.mid()
     before = piece.start.moved(piece.middle(s), piece.derivative(s))
-    late = tau - s
-    box, flow = _moved(old, tau, before.box, late)
-    _, explicit, *gradient = watched.value(tau, *box)
-    matrix = type(flow)
-    n = len(box)
-    row, column = matrix(1, n, gradient), matrix(n, 1, old.rate(tau, box))
-    rate = (row * column)[0, 0] + explicit
-    struck = restart.state(tau, box)
-    after, back = _moved(new, tau, struck, late)
-    slope = restart.slope(tau, box)
-    jump = matrix(n, 1, restart.explicit(tau, box)) + slope * column
-    f = matrix(n, 1, new.rate(tau, after))
+    late, matrix, n = tau - s, type(before.frame), len(before.middle)
+    for _ in range(_WIDENED):
+        times = s + late
+        box, flow = _moved(old, times, before.box, late)
+        _, explicit, *gradient = watched.value(times, *box)
+        row, column = matrix(1, n, gradient), matrix(n, 1, old.rate(times, box))
+        rate = (row * column)[0, 0] + explicit
+        delays = -watched.value(s, *before.box)[0] / rate
+        if late.contains(delays):
+            break
+        late = late.union(2 * delays)
+    else:
+        raise NotEnclosed(f"the time of the event near t = {float(tau):.6g} is not enclosed")
+    struck = restart.state(times, box)
+    after, back = _moved(new, times, struck, late)
+    slope = restart.slope(times, box)
+    jump = matrix(n, 1, restart.explicit(times, box)) + slope * column
+    f = matrix(n, 1, new.rate(times, after))
     derivative = back * (slope - (jump - f) * row / rate) * flow
     delay = -watched.value(s, *before.middle)[0] / rate
     middle = matrix(n, 1, before.middle) + column * delay
     ends = matrix(n, 1, restart.state(s + delay, middle.entries())) - f * delay
-    return s, before.moved(ends.entries(), derivative)
+    return before.moved(ends.entries(), derivative), times, after
 
 
 def _moved(field: VectorField, times: Any, box: Sequence[Any], late: Any) -> tuple[list[Any], Any]:

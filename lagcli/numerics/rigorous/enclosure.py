@@ -59,6 +59,8 @@ _SHORTEST = 1e-7
 _LARGEST = 1e15
 #: As an exponent of 2.
 _LONGEST = 50.0
+#: The bounds over a step hold a little longer: the ball of a time may lie across its end.
+_BEYOND = 1 + 2.0**-20
 
 
 class NotEnclosed(Exception):
@@ -204,7 +206,7 @@ class Enclosures:
         context = self._context
         usual, context.prec = context.prec, _WIDE_BITS
         try:
-            h = (end - t).abs_upper()
+            h = (end - t).abs_upper() * _BEYOND
             forces = self.field.forces(t, centre)
             times, along = self.field.shifted(t, h, [*centre, *forces])
             last = self.field.defect(times, along)

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from fractions import Fraction
 from typing import Any
 
 from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.arithmetic import Balls
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.numerics.hybrid.events import Event
 from lagcli.numerics.hybrid.request import Asked, Certificate, Result
 from lagcli.numerics.rigorous.crossings import UndecidedCrossing, Watched, behind, when
@@ -151,7 +151,7 @@ def prove(problem: Problem, asked: Asked, progress: Progress | None = None) -> P
     bits = _BITS
     work, last = _WORK, 0.0
     while True:
-        with _precision(bits):
+        with precision(bits):
             attempt = Attempt(setup, implied, bits, work, progress)
             found = attempt.proof()
         best = found if best is None or found.holds_until >= best.holds_until else best
@@ -210,8 +210,7 @@ class Attempt:
         #: radius beside the scale of a component, the largest, at the last time
         self.width = 0.0
         self.last = 0.0
-        number = self.arithmetic.number
-        self.times = [number(Fraction(t)) for t in _times(setup.asked)]
+        self.times = self._times()
 
     def proof(self) -> Proof:
         """The rows up to where they are proved."""
@@ -296,7 +295,7 @@ class Attempt:
         self, mode: ProofMode, t: Any, start: LohnerSet, leaving: Mapping[Watched, int]
     ) -> tuple[Piece, tuple[Watched, Any] | None]:
         """A step and what ends it; a shorter one where its end is at an event."""
-        last = self.times[-1]
+        last = self.times[-1].upper()
         piece = mode.enclosures.step(t, start, last * _BEYOND if mode.watched else last)
         try:
             return piece, self._crossing(piece, mode, leaving)
@@ -330,15 +329,18 @@ class Attempt:
             self._take(mode, tau, state)
             return None
         after, restart, what = mode.through(watched, tau, state)
-        t, start = behind(piece, tau, watched, (mode.field, after.field), restart)
         if watched.kind != "kink":
             self._happened(tau, watched.name, what, mode, state)
-        self._rows_within(tau, (mode, state), (after, restart.state(tau, state)))
+        for t in self.times[len(self.rows) :]:
+            tau = tau.union(t) if t.overlaps(tau) else tau
+        start, times, box = behind(piece, tau, watched, (mode.field, after.field), restart)
+        self._rows_within(times, (mode, piece.at(times)), (after, box))
         leaves = {each: order for each in after.watched if (order := _order(each, watched))}
         for each in after.watched:
-            if each not in leaves and not each.at(t, start.box) > 0:
-                raise NotEnclosed(f"what {each.name} does at t = {float(t):.6g} is not decided")
-        return t, start, after, leaves
+            order = leaves.get(each)
+            if not (each.term(after.field, times, box, order) if order else each.at(times, box)) > 0:
+                raise NotEnclosed(f"what {each.name} does at t = {float(tau):.6g} is not decided")
+        return tau.mid(), start, after, leaves
 
     def _happened(self, t: Any, name: str, what: str, mode: ProofMode, x: Sequence[Any]) -> None:
         columns = [column.name for column in self.setup.asked.columns]
@@ -347,8 +349,10 @@ class Attempt:
 
     def _rows_within(self, tau: Any, *sides: tuple[ProofMode, Sequence[Any]]) -> None:
         """Rows within the enclosure of the time of an event: None in columns that jump."""
-        while len(self.rows) < len(self.times) and self.times[len(self.rows)] <= tau.upper():
+        while len(self.rows) < len(self.times) and not self.times[len(self.rows)] > tau:
             t = self.times[len(self.rows)]
+            if not tau.contains(t):
+                raise NotEnclosed(f"whether t = {float(t):.6g} is before an event is not decided")
             before, after = (self._values(mode, t, x) for mode, x in sides)
             self.rows.append(tuple(map(_joined, before, after)))
 
@@ -356,9 +360,20 @@ class Attempt:
         until = piece.end if event is None else event.lower()
         while len(self.rows) < len(self.times):
             t = self.times[len(self.rows)]
-            if not (t <= until if event is None else t < until):
+            if t > until or (event is not None and not t < until):
                 return
             self._take(mode, t, piece.at(t))
+
+    def _times(self) -> list[Any]:
+        """The rows, both ends included, as exactly as they are written."""
+        asked, equations = self.setup.asked, self.setup.equations
+        if asked.times:
+            return [self.arithmetic.ball(t) for t in asked.times]
+        count = asked.samples - 1
+        end = self.arithmetic.ball(asked.until)
+        if asked.end is not None:
+            [end] = straight_line((), [equations.form.read(asked.end)], {}, self.arithmetic)()
+        return [end * k / count for k in range(count + 1)]
 
     def _take(self, mode: ProofMode, t: Any, x: Sequence[Any]) -> None:
         self.rows.append(tuple(self._values(mode, t, x)))
@@ -404,14 +419,6 @@ def _order(each: Watched, crossed: Watched) -> int:
     return 1 if each.kind == crossed.kind else 0
 
 
-def _times(asked: Asked) -> list[float]:
-    """The rows as exact doubles, both ends included."""
-    if asked.times:
-        return [*asked.times]
-    count = asked.samples - 1
-    return [asked.until * k / count for k in range(count)] + [asked.until]
-
-
 def _good(rows: Sequence[Enclosure], accuracy: float) -> int:
     """How many rows are as thin as asked for, beside the largest magnitude of their column.
 
@@ -436,7 +443,8 @@ def _radius(x: Any) -> float:
 
 
 @contextmanager
-def _precision(bits: int) -> Any:
+def precision(bits: int) -> Iterator[None]:
+    """Arithmetic with these bits."""
     from flint import ctx
 
     usual, ctx.prec = ctx.prec, bits

@@ -7,10 +7,12 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from lagcli.numerics.rigorous.proof import Proof
+from lagcli.numerics.rigorous.proof import Proof, precision
 
 #: Digits of a midpoint and of a radius in JSON and CSV.
-_DIGITS, _RADIUS = 30, 3
+_DIGITS = 30
+#: What a decimal is compared with.
+_BITS = 256
 
 
 def to_json(proof: Proof) -> bytes:
@@ -56,13 +58,9 @@ def _ball(x: Any) -> dict[str, str] | None:
     """A decimal midpoint, and a radius that contains its rounding as well."""
     if x is None:
         return None
-    middle = x.mid().str(_DIGITS, radius=False)
-    apart = abs(x - _exact(x, middle)).upper()
-    return {"midpoint": middle, "radius": _above(apart)}
-
-
-def _exact(x: Any, text: str) -> Any:
-    return type(x)(text)
+    with precision(_BITS):
+        middle = x.mid().str(_DIGITS, radius=False)
+        return {"midpoint": middle, "radius": _above(abs(x - type(x)(middle)).upper())}
 
 
 def _above(bound: Any) -> str:
@@ -93,7 +91,7 @@ def to_csv(proof: Proof) -> bytes:
 def to_table(proof: Proof) -> bytes:
     """Every number with the digits that are proved, and what the proof stands on."""
     cells = [list(proof.columns)]
-    cells += [[_proved(x) for x in row] for row in proof.rows]
+    cells += [[_written(row[0]), *map(_proved, row[1:])] for row in proof.rows]
     widths = [max(len(row[j]) for row in cells) for j in range(len(proof.columns))]
     lines = ["  ".join(f"{x:>{w}}" for x, w in zip(row, widths, strict=True)) for row in cells]
     lines += [""] if proof.events else []
@@ -111,15 +109,21 @@ def to_table(proof: Proof) -> bytes:
     return "".join(f"{line}\n" for line in lines).encode()
 
 
+def _written(t: Any) -> str:
+    """A time, which the file or the options give."""
+    shown = _proved(t)
+    return shown.rstrip("0").rstrip(".") if "." in shown else shown
+
+
 def _proved(x: Any) -> str:
     if x is None:
         return ""
-    if x.rad() == 0 and x == float(x):
+    if x.rad() == 0 and x == type(x)(f"{float(x):.15g}"):
         return f"{float(x):.15g}"
     radius, size = float(x.rad()), float(abs(x).upper())
     digits = 15 if radius == 0 else max(1, min(40, math.floor(math.log10(size / radius)) + 1))
     shown: str = x.str(digits, radius=False)
-    return shown if "[" not in shown else f"0 ± {radius:.1e}"
+    return f"0 ± {_above(abs(x).upper())}" if x.contains(0) else shown
 
 
 WRITERS: dict[str, Callable[[Proof], bytes]] = {"table": to_table, "json": to_json, "csv": to_csv}
