@@ -87,9 +87,7 @@ class NumericOptions:
             self._wrong("--accuracy", text, given, f"it lies between 0 and 1{_not(accuracy)}")
         return _USUAL_ACCURACY if accuracy is None else accuracy
 
-    def formula(
-        self, text: str | None, given: Expression | None, option: str
-    ) -> Expression | None:
+    def formula(self, text: str | None, given: Expression | None, option: str) -> Expression | None:
         """A number as it is written; None where there is none."""
         from lagcli.reader.columns import read_number
 

@@ -212,9 +212,7 @@ def asked_of(
     )
 
 
-def _formula(
-    given: float | str | None, of_file: Expression | None, what: str
-) -> Expression | None:
+def _formula(given: float | str | None, of_file: Expression | None, what: str) -> Expression | None:
     """A number of the call, or else of the file, as it is written."""
     from lagcli.reader.columns import read_number
 

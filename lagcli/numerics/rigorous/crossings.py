@@ -74,8 +74,8 @@ class Watched:
 
     def term(self, field: VectorField, t: Any, x: Sequence[Any], order: int) -> Any:
         """The Taylor coefficient of sign * g along the motion."""
-        if order == 1:
-            return self.rate(field, t, x)
+        if order < 2:
+            return self.rate(field, t, x) if order else self.at(t, x)
         series = field.coefficients(t, x, order)
         return self.sign * field.evaluated(self.value, [t, 1], series, order + 1)[0][order]
 

@@ -337,8 +337,7 @@ class Attempt:
         self._rows_within(times, (mode, piece.at(times)), (after, box))
         leaves = {each: order for each in after.watched if (order := _order(each, watched))}
         for each in after.watched:
-            order = leaves.get(each)
-            if not (each.term(after.field, times, box, order) if order else each.at(times, box)) > 0:
+            if not each.term(after.field, times, box, leaves.get(each, 0)) > 0:
                 raise NotEnclosed(f"what {each.name} does at t = {float(tau):.6g} is not decided")
         return tau.mid(), start, after, leaves
 
