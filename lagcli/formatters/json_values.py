@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields, is_dataclass
 from typing import Any, TypeVar
 
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.statements.motions import Above
+from lagcli.units import Unit
 
 #: The version of the contract.
 SCHEMA = 1
@@ -19,39 +21,37 @@ Schema = dict[str, Any]
 _Some = TypeVar("_Some")
 
 
-def unless_none(value: _Some | None, shown: Callable[[_Some], Value]) -> Value:
-    """Null where there is no value."""
-    return None if value is None else shown(value)
+def plain(value: Any) -> Any:
+    """A value of a statement: formulas as text, records by the names of their fields."""
+    match value:
+        case Expression():
+            return to_grammar(value)
+        case Above(left=left, right=right):
+            return f"{to_grammar(left)} > {to_grammar(right)}"
+        case Unit():
+            return str(value)
+        case Mapping():
+            return {name: plain(each) for name, each in value.items()}
+        case tuple() | list():
+            return [plain(each) for each in value]
+    if is_dataclass(value):
+        return {part.name: plain(getattr(value, part.name)) for part in fields(value)}
+    return value
 
 
-def string(expression: Expression | None) -> str | None:
-    """One formula."""
-    return None if expression is None else to_grammar(expression)
+def fields_of(statement: object, names: str) -> Object:
+    """These fields of a record, in this order."""
+    return {name: plain(getattr(statement, name)) for name in names.split()}
 
 
-def strings(expressions: Sequence[Expression]) -> list[str]:
-    """A list of formulas."""
-    return [to_grammar(each) for each in expressions]
-
-
-def by_name(expressions: Mapping[str, Expression | None]) -> Object:
-    """Formulas by name."""
-    return {name: string(expression) for name, expression in expressions.items()}
-
-
-def above(inequality: Above) -> str:
-    """An inequality."""
-    return f"{to_grammar(inequality.left)} > {to_grammar(inequality.right)}"
-
-
-def inequalities(where: Sequence[Above]) -> list[str]:
-    """Inequalities, all of which hold."""
-    return [above(each) for each in where]
+def list_or_null(values: Sequence[_Some] | None, shown: Callable[[_Some], Value]) -> Value:
+    """Each value as it is shown; null where there are none to show."""
+    return None if values is None else [shown(each) for each in values]
 
 
 def place(at: Mapping[str, Expression], on: tuple[Expression, Expression] | None = None) -> Object:
     """A state, or a family of them on a line."""
-    result: Object = {"at": by_name(at)}
+    result: Object = {"at": plain(at)}
     if on is not None:
         result["on"] = " = ".join(map(to_grammar, on))
     return result

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Paragraph
-from lagcli.formatters.json_values import FORMULA, Object, by_name, map_of, unless_none
+from lagcli.formatters.json_values import FORMULA, Object, fields_of, map_of
 from lagcli.sections._expected import expected_by_coordinate
 from lagcli.statements.answers import AccelerationsSection, Answers
 from lagcli.statements.declaration import Declaration, always
@@ -67,10 +67,8 @@ def blocks(section: AccelerationsSection, _: Answers) -> Iterator[Block]:
 
 def json(section: AccelerationsSection) -> Object:
     """Formulas by coordinate; two more keys where the Lagrangian is singular."""
-    result: Object = {"accelerations": unless_none(section.accelerations, by_name)}
-    if not section.regular:
-        result |= {"regular": False, "degenerate": section.degenerate}
-    return result
+    names = "accelerations" if section.regular else "accelerations regular degenerate"
+    return fields_of(section, names)
 
 
 SECTION = Declaration(

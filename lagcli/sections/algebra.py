@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Heading, Paragraph
 from lagcli.formatters.grammar import to_grammar
-from lagcli.formatters.json_values import Object, by_name, string
+from lagcli.formatters.json_values import Object, fields_of
 from lagcli.problem_data import ExpectAlgebra
 from lagcli.reader.expected_algebra import read_algebra
 from lagcli.reader.schema_parts import COUNT, FORMULAS, TEXT, YES_OR_NO, list_of, record_of, ref
@@ -84,27 +84,8 @@ def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
 
 def json(section: AlgebraSection) -> Object:
     """The counts, the verdict and the special values."""
-    return {
-        "algebra": {
-            "ansatz": section.ansatz,
-            "dimension": section.dimension,
-            "dimension_counts": section.dimension_counts,
-            "name": section.name,
-            "independent": section.independent,
-            "in_involution": section.in_involution,
-            "integrable": section.integrable,
-            "special": [_special(case) for case in section.special],
-        }
-    }
-
-
-def _special(case: SpecialValue) -> Object:
-    return {
-        "parameter": case.parameter,
-        "value": string(case.value),
-        "number": case.number,
-        "charges": by_name(case.charges),
-    }
+    names = "ansatz dimension dimension_counts name independent in_involution integrable special"
+    return {"algebra": fields_of(section, names)}
 
 
 def tell(teller: Teller, section: AlgebraSection) -> Iterator[Block]:

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Bracket, Equations, Paragraph, Row
 from lagcli.expression import Expression, Name
-from lagcli.formatters.json_values import Object, by_name, string, unless_none
+from lagcli.formatters.json_values import Object, fields_of
 from lagcli.problem_data import Problem
 from lagcli.reader.phase_space import read_expected_brackets
 from lagcli.reader.schema_parts import FORMULAS
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Expected, Told
-from lagcli.statements.phase_space import BracketsSection, PoissonBracket
+from lagcli.statements.phase_space import BracketsSection
 from lagcli.values import substituted
 
 if TYPE_CHECKING:
@@ -60,23 +60,7 @@ def blocks(section: BracketsSection, _: Answers) -> Iterator[Block]:
 
 def json(section: BracketsSection) -> Object:
     """Observables, brackets and rates."""
-    return {
-        "brackets": {
-            "observables": by_name(section.observables),
-            "brackets": [_bracket(each) for each in section.brackets],
-            "rates": unless_none(section.rates, by_name),
-        }
-    }
-
-
-def _bracket(each: PoissonBracket) -> Object:
-    return {
-        "name": each.name,
-        "left": string(each.left),
-        "right": string(each.right),
-        "value": string(each.value),
-        "named": string(each.named),
-    }
+    return {"brackets": fields_of(section, "observables brackets rates")}
 
 
 def given(problem: Problem) -> bool:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Bracket, Equations, Formula, Heading, Label, Paragraph, Row
 from lagcli.expression import Name, Number
 from lagcli.formatters.grammar import to_grammar
-from lagcli.formatters.json_values import Object, by_name, string, unless_none
+from lagcli.formatters.json_values import Object, fields_of
 from lagcli.problem_data import ExpectCanonical, Problem
 from lagcli.reader.phase_space import VERDICTS, read_expected_canonical
 from lagcli.reader.schema_parts import FORMULA as EXPRESSION
@@ -126,35 +126,11 @@ def json(section: TransformationsSection) -> Object:
 
 
 def _transformation(each: ExaminedTransformation) -> Object:
-    return {
-        "name": each.name,
-        "variables": by_name(each.variables),
-        "kind": each.kind,
-        "valence": string(each.valence),
-        "failing": [
-            {
-                "left": bracket.left,
-                "right": bracket.right,
-                "value": string(bracket.value),
-                "expected": string(bracket.expected),
-            }
-            for bracket in each.failing
-        ],
-        "generator": unless_none(each.generator, _function),
-        "hamiltonian": string(each.hamiltonian),
-        "reason": each.reason,
-    }
-
-
-def _function(generator: GeneratingFunction) -> Object:
-    return {
-        "kind": generator.kind,
-        "function": string(generator.function),
-        "generates": generator.generates,
-        "failing": [
-            f"{to_grammar(left)} = {to_grammar(right)}" for left, right in generator.failing
-        ],
-    }
+    shown = fields_of(each, "name variables kind valence failing generator hamiltonian reason")
+    if (found := each.generator) is not None:
+        failing = [f"{to_grammar(left)} = {to_grammar(right)}" for left, right in found.failing]
+        shown["generator"] = fields_of(found, "kind function generates") | {"failing": failing}
+    return shown
 
 
 def given(problem: Problem) -> bool:

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Row
 from lagcli.expression import Expression, Name
-from lagcli.formatters.grammar import to_grammar
-from lagcli.formatters.json_values import FORMULA, Object, map_of, record_of, unless_none
+from lagcli.formatters.json_values import FORMULA, map_of, record_of
 from lagcli.sections.hamiltonian import fold_of, given
 from lagcli.statements.answers import Answers, CanonicalPair, CanonicalSection
 from lagcli.statements.declaration import Declaration, Told
@@ -76,17 +75,6 @@ def blocks(section: CanonicalSection, _: Answers) -> Iterator[Block]:
     yield Equations(tuple(rows))
 
 
-def json(section: CanonicalSection) -> Object:
-    """The right sides by coordinate."""
-    pairs = unless_none(
-        section.equations,
-        lambda found: {
-            name: {"q": to_grammar(pair.q), "p": to_grammar(pair.p)} for name, pair in found.items()
-        },
-    )
-    return {"canonical_equations": pairs}
-
-
 def tell(teller: Teller, section: CanonicalSection) -> Iterator[Block]:
     """From H to the equations."""
     from lagcli.mechanics.explaining.phase_space import canonical_equations
@@ -103,7 +91,6 @@ SECTION = Declaration(
     large=large,
     phase_space=phase_space,
     blocks=blocks,
-    json=json,
     schema=map_of(record_of(("q", "p"), {"q": FORMULA, "p": FORMULA})),
     unasked=given,
     told=Told(title="Canonical equations", blocks=tell, order=60),

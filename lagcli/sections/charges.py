@@ -7,16 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row
 from lagcli.expression import ZERO, Expression, Name
-from lagcli.formatters.json_values import (
-    FORMULA,
-    OR_NULL,
-    Object,
-    by_name,
-    inequalities,
-    map_of,
-    record_of,
-    string,
-)
+from lagcli.formatters.json_values import FORMULA, OR_NULL, Object, fields_of, map_of, record_of
 from lagcli.letters import own
 from lagcli.problem_data import NOT_CONSERVED
 from lagcli.reader.nodes import DocumentNode, Scalar
@@ -192,16 +183,8 @@ def charges_json(section: ChargesSection) -> list[Object] | None:
 
 
 def _charge(charge: Charge) -> Object:
-    where: Object = {"where": inequalities(charge.where)} if charge.where else {}
-    return where | {
-        "name": charge.name,
-        "source": charge.source,
-        "transformation": by_name(charge.transformation),
-        "gauge": string(charge.gauge),
-        "conserved": charge.conserved,
-        "charge": string(charge.charge),
-        "rate": string(charge.rate),
-    }
+    names = "name source transformation gauge conserved charge rate"
+    return fields_of(charge, f"where {names}" if charge.where else names)
 
 
 def json(section: ChargesSection) -> Object:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row
 from lagcli.expression import ZERO, Expression
-from lagcli.formatters.json_values import Object, by_name, map_of, strings, unless_none
+from lagcli.formatters.json_values import Object, map_of, plain
 from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.schema_parts import FORMULAS
 from lagcli.reader.schema_parts import map_of as names_to
@@ -117,18 +117,11 @@ def _forces(forces: Mapping[str, Expression]) -> Equations:
 
 def json(section: ConstraintForcesSection) -> Object:
     """By constraint; the total and the forces on points have keys of their own."""
-    forces: Object = {
-        constraint: unless_none(by_coordinate, by_name)
-        for constraint, by_coordinate in section.forces.items()
-    }
-    result: Object = {"constraint_forces": forces}
+    result: Object = {"constraint_forces": plain(section.forces)}
     if section.forces:
-        result["total_constraint_force"] = unless_none(section.total, by_name)
+        result["total_constraint_force"] = plain(section.total)
     if section.on_points:
-        result["point_forces"] = {
-            constraint: {point: strings(force) for point, force in by_point.items()}
-            for constraint, by_point in section.on_points.items()
-        }
+        result["point_forces"] = plain(section.on_points)
     return result
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph
-from lagcli.formatters.json_values import Object, unless_none
+from lagcli.formatters.json_values import Object, fields_of
 from lagcli.statements.answers import Answers, DimensionsSection, QuantityUnit
 from lagcli.statements.declaration import Declaration, Told
 from lagcli.statements.wording import unit_rows
@@ -73,15 +73,8 @@ def _part(
 
 def json(section: DimensionsSection) -> Object:
     """The unit of each quantity, and where it comes from."""
-    parts = ("coordinates", "parameters", "functions", "definitions", "energy", "momenta",
-             "forces", "multipliers", "charges")  # fmt: skip
-    return {"dimensions": {name: _units(getattr(section, name)) for name in parts}}
-
-
-def _units(quantities: QuantityUnit | Mapping[str, QuantityUnit]) -> Object:
-    if isinstance(quantities, QuantityUnit):
-        return {"unit": unless_none(quantities.unit, str), "source": quantities.source}
-    return {name: _units(each) for name, each in quantities.items()}
+    names = "coordinates parameters functions definitions energy momenta forces multipliers charges"
+    return {"dimensions": fields_of(section, names)}
 
 
 def tell(teller: Teller, section: DimensionsSection) -> Iterator[Block]:

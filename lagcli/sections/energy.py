@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Label, Paragraph
 from lagcli.expression import Expression
-from lagcli.formatters.json_values import OR_NULL, Object, record_of, string
+from lagcli.formatters.json_values import OR_NULL, Object, plain, record_of
 from lagcli.reader.schema_parts import FORMULA
 from lagcli.reader.scope import STATE
 from lagcli.statements.answers import Answers, EnergySection
@@ -61,14 +61,7 @@ def blocks(section: EnergySection, _: Answers) -> Iterator[Block]:
 
 def json(section: EnergySection) -> Object:
     """The function and the verdicts."""
-    return {
-        "energy": {
-            "function": string(section.function),
-            "conserved": section.conserved,
-            "is_total_energy": section.is_total_energy,
-            "reason": section.reason,
-        }
-    }
+    return {"energy": plain(section)}
 
 
 def read(reader: ExpectReader, node: DocumentNode) -> Expression:

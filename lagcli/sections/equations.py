@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Equations, Paragraph, Row
 from lagcli.expression import ZERO, Equation, Expression, Name, operation_count, walk
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
-from lagcli.formatters.json_values import FORMULA, Object, record_of, unless_none
+from lagcli.formatters.json_values import FORMULA, Object, list_or_null, record_of
 from lagcli.reader.schema_parts import list_of, ref
 from lagcli.reader.scope import EQUATION
 from lagcli.statements.answers import Answers, EquationsSection, LagrangeEquation
@@ -136,9 +136,7 @@ def equation_json(equation: LagrangeEquation) -> Object:
 
 def json(section: EquationsSection) -> Object:
     """The equations without the constraints, which are the file's."""
-    return {
-        "equations": unless_none(section.equations, lambda each: [equation_json(e) for e in each])
-    }
+    return {"equations": list_or_null(section.equations, equation_json)}
 
 
 def read(reader: ExpectReader, node: DocumentNode) -> tuple[Equation, ...]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Formula, Paragraph, Row
 from lagcli.expression import ZERO, Name
-from lagcli.formatters.json_values import Object, above, inequalities, place, string, unless_none
+from lagcli.formatters.json_values import Object, list_or_null, place, plain
 from lagcli.problem_data import ExpectEquilibrium
 from lagcli.reader.expected_reduction import read_equilibria
 from lagcli.reader.schema_parts import FORMULAS, STABLE, list_of, record_of, ref
@@ -83,26 +83,24 @@ def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:
 
 def json(section: EquilibriaSection) -> Object:
     """The list; null where they were not found."""
-    found = unless_none(section.equilibria, lambda each: [_equilibrium(e) for e in each])
-    return {"equilibria": found}
+    return {"equilibria": list_or_null(section.equilibria, _equilibrium)}
 
 
 def _equilibrium(equilibrium: Equilibrium) -> Object:
     verdict = equilibrium.verdict
     result = place(equilibrium.at, equilibrium.on) | {"stable": verdict.stable}
     if equilibrium.where:
-        result["condition"] = " and ".join(map(above, equilibrium.where))
+        result["condition"] = " and ".join(plain(equilibrium.where))
     if verdict.asymptotic:
         result["asymptotic"] = True
     if verdict.rapid is not None:
-        minimum = None if verdict.minimum is None else inequalities(verdict.minimum)
-        result["averaged"] = {"frequency": string(verdict.rapid), "minimum": minimum}
+        result["averaged"] = plain({"frequency": verdict.rapid, "minimum": verdict.minimum})
     for name in () if verdict.rapid else ("minimum", "hurwitz", "spectrum"):
         found = getattr(verdict, name)
         if found is not None and not (name == "minimum" and verdict.stable):
-            result[name] = inequalities(found)
+            result[name] = plain(found)
     if verdict.unstable and verdict.rapid is None:
-        result["unstable"] = inequalities(verdict.unstable)
+        result["unstable"] = plain(verdict.unstable)
     for name in ("free", "touching", "indeterminate"):
         if names := getattr(equilibrium, name):
             result[name] = names

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
 from lagcli.expression import Expression, Name
 from lagcli.formatters.grammar import to_grammar
-from lagcli.formatters.json_values import Object, string, strings, unless_none
+from lagcli.formatters.json_values import Object, fields_of, list_or_null
 from lagcli.problem_data import (
     Expect,
     Inequality,
@@ -117,13 +117,12 @@ def json(section: FindSection) -> Object:
 
 def _answer(answer: Answer) -> Object:
     match answer:
-        case Solutions(solutions=solutions):
-            return {"solutions": unless_none(solutions, strings)}
+        case Solutions():
+            return fields_of(answer, "solutions")
         case Ranges(unknown=unknown, ranges=ranges):
-            return {"ranges": unless_none(ranges, lambda each: [_range(unknown, r) for r in each])}
-        case Rewritten(value=value):
-            both = {"values": strings(answer.values)} if answer.values else {}
-            return {"value": string(value), **both}
+            return {"ranges": list_or_null(ranges, lambda each: _range(unknown, each))}
+        case Rewritten():
+            return fields_of(answer, "value values" if answer.values else "value")
 
 
 def _range(unknown: str, range_: Range) -> list[str]:

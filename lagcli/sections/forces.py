@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
 from lagcli.expression import Call, Expression, Product, operation_count, walk
 from lagcli.formatters.grammar import to_grammar
-from lagcli.formatters.json_values import Object, by_name, string, strings
+from lagcli.formatters.json_values import Object, fields_of, plain
 from lagcli.reader.nodes import DocumentNode, Sequence
 from lagcli.reader.schema_parts import FORMULA, FORMULAS, list_of
 from lagcli.reader.schema_parts import map_of as names_to
@@ -131,22 +131,15 @@ def json(section: ForcesSection) -> Object:
     return {
         "forces": {
             "on_points": [_force_json(each) for each in section.forces],
-            "torques": {
-                constraint: by_name(torques) for constraint, torques in section.torques.items()
-            },
+            "torques": plain(section.torques),
             "friction_needed": [_friction_json(each) for each in section.friction_needed],
         }
     }
 
 
 def _force_json(force: PointForce) -> Object:
-    result: Object = {
-        "constraint": force.constraint,
-        "point": force.point,
-        "acts_as": force.kind,
-        "force": string(force.force),
-        "direction": strings(force.direction),
-    }
+    result = fields_of(force, "constraint point") | {"acts_as": force.kind}
+    result |= fields_of(force, "force direction")
     if force.towards is not None:
         result["towards"] = force.towards or _ORIGIN
     if force.away_from is not None:
@@ -157,12 +150,8 @@ def _force_json(force: PointForce) -> Object:
 
 
 def _friction_json(needed: FrictionNeeded) -> Object:
-    return {
-        "frictions": needed.frictions,
-        "normal": needed.normal,
-        "coefficient": string(needed.coefficient),
-        "where": [f"{to_grammar(each)} > 0" for each in needed.where],
-    }
+    where = [f"{to_grammar(each)} > 0" for each in needed.where]
+    return fields_of(needed, "frictions normal coefficient") | {"where": where}
 
 
 def tell(teller: Teller, section: ForcesSection) -> Iterator[Block]:

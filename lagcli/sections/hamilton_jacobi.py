@@ -16,7 +16,7 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Expression, Name, Negative, Product
-from lagcli.formatters.json_values import Object, by_name, inequalities, string, unless_none
+from lagcli.formatters.json_values import Object, fields_of
 from lagcli.problem_data import ExpectHamiltonJacobi
 from lagcli.reader.expected_reduction import read_hamilton_jacobi
 from lagcli.reader.schema_parts import FORMULAS, YES_OR_NO, record_of
@@ -126,36 +126,12 @@ def _solution(section: HamiltonJacobiSection) -> Iterator[Block]:
 
 def json(section: HamiltonJacobiSection) -> Object:
     """The equation, its test, and the parts of S."""
-    return {
-        "hamilton_jacobi": {
-            "hamiltonian": string(section.hamiltonian),
-            "separable": section.separable,
-            "obstacle": section.obstacle or None,
-            "constants": section.constants,
-            "equations": by_name(section.equations),
-            "derivatives": unless_none(section.derivatives, by_name),
-            "functions": by_name(section.functions),
-            "cases": {
-                name: [
-                    {"function": string(each.function), "where": inequalities(each.where)}
-                    for each in forms
-                ]
-                for name, forms in section.cases.items()
-            },
-            **_timed(section),
-            "reason": section.reason,
-        }
-    }
-
-
-def _timed(section: HamiltonJacobiSection) -> Object:
-    if section.time_rate is None:
-        return {}
-    return {
-        "time_rate": string(section.time_rate),
-        "of_time": string(section.of_time),
-        "integrals": by_name(section.integrals),
-    }
+    before = fields_of(section, "hamiltonian separable")
+    names = "constants equations derivatives functions cases"
+    if section.time_rate is not None:
+        names += " time_rate of_time integrals"
+    after = fields_of(section, f"{names} reason")
+    return {"hamilton_jacobi": {**before, "obstacle": section.obstacle or None, **after}}
 
 
 def tell(teller: Teller, section: HamiltonJacobiSection) -> Iterator[Block]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from lagcli.document import Block, Label
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
-from lagcli.formatters.json_values import OR_NULL, Object, string
+from lagcli.formatters.json_values import OR_NULL
 from lagcli.reader.schema_parts import FORMULA
 from lagcli.reader.scope import PHASE_SPACE
 from lagcli.statements.answers import Answers, HamiltonianSection
@@ -74,11 +74,6 @@ def blocks(section: HamiltonianSection, _: Answers) -> Iterable[Block]:
     return [one_row(Label("H"), found)]
 
 
-def json(section: HamiltonianSection) -> Object:
-    """One formula."""
-    return {"hamiltonian": string(section.hamiltonian)}
-
-
 def given(problem: Any) -> bool:
     """Whether the file gives H."""
     return problem.hamiltonian is not None
@@ -113,7 +108,6 @@ SECTION = Declaration(
     large=large,
     phase_space=phase_space,
     blocks=blocks,
-    json=json,
     schema=OR_NULL,
     unasked=given,
     abbreviated=True,

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Label
-from lagcli.formatters.json_values import OR_NULL, Object, string
+from lagcli.formatters.json_values import OR_NULL
 from lagcli.statements.answers import Answers, LagrangianSection
 from lagcli.statements.declaration import Declaration, always
 from lagcli.statements.wording import not_found, one_row
@@ -41,11 +41,6 @@ def blocks(section: LagrangianSection, _: Answers) -> Iterable[Block]:
     return [not_found() if found is None else one_row(Label("L"), found)]
 
 
-def json(section: LagrangianSection) -> Object:
-    """One formula."""
-    return {"lagrangian": string(section.lagrangian)}
-
-
 SECTION = Declaration(
     name="lagrangian",
     heading="Lagrangian",
@@ -54,7 +49,6 @@ SECTION = Declaration(
     large=large,
     phase_space=phase_space,
     blocks=blocks,
-    json=json,
     schema=OR_NULL,
     unasked=always,
 )

@@ -7,15 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Formula, Label, Matrix, Paragraph
 from lagcli.expression import Expression
-from lagcli.formatters.json_values import (
-    FORMULA,
-    Object,
-    Schema,
-    by_name,
-    map_of,
-    record_of,
-    strings,
-)
+from lagcli.formatters.json_values import FORMULA, Object, Schema, map_of, plain, record_of
 from lagcli.statements.answers import Answers, MatrixFormSection
 from lagcli.statements.declaration import Declaration
 from lagcli.statements.wording import not_found, rows_by_name
@@ -95,17 +87,7 @@ def _column(label: Label, entries: tuple[Expression, ...], names: tuple[str, ...
 
 def json(section: MatrixFormSection) -> Object:
     """Null where the form is not given."""
-    if not section.mass_matrix:
-        return {"matrix_form": None}
-    return {
-        "matrix_form": {
-            "mass_matrix": [strings(row) for row in section.mass_matrix],
-            "constraint_jacobian": [strings(row) for row in section.constraint_jacobian],
-            "forcing": strings(section.forcing),
-            "constraint_bias": strings(section.constraint_bias),
-            "shared": by_name(section.shared),
-        }
-    }
+    return {"matrix_form": plain(section) if section.mass_matrix else None}
 
 
 _COLUMN: Schema = {"type": "array", "items": FORMULA}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Paragraph
 from lagcli.expression import Name
-from lagcli.formatters.json_values import Object, by_name
+from lagcli.formatters.json_values import Object, plain
 from lagcli.statements.answers import Answers, ModelSection
 from lagcli.statements.declaration import Declaration, Told
 from lagcli.statements.wording import listed, not_found, rows_by_name
@@ -48,17 +48,7 @@ def blocks(section: ModelSection, _: Answers) -> Iterator[Block]:
 
 def json(section: ModelSection) -> Object:
     """Null where there is no such model."""
-    if section.kept is None:
-        return {"model": None}
-    return {
-        "model": {
-            "kept": section.kept,
-            "eliminated": by_name(section.eliminated),
-            "ignorable": section.ignorable,
-            "dropped": section.dropped,
-            "reason": dict(section.reason),
-        }
-    }
+    return {"model": None if section.kept is None else plain(section)}
 
 
 def tell(teller: Teller, section: ModelSection) -> Iterator[Block]:

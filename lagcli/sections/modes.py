@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Label, Paragraph, Row
 from lagcli.expression import Expression, Number, Power
-from lagcli.formatters.json_values import Object, by_name, place, string, unless_none
+from lagcli.formatters.json_values import Object, fields_of, list_or_null, place
 from lagcli.letters import own
 from lagcli.problem_data import Expect
 from lagcli.reader.schema_parts import FORMULA, list_of
@@ -91,18 +91,15 @@ def _shape(shape: Mapping[str, Expression]) -> Iterator[Row]:
 
 def json(section: ModesSection) -> Object:
     """The list; null where they were not found."""
-    found = unless_none(section.modes, lambda each: [_mode_json(m) for m in each])
-    return {"modes": found}
+    return {"modes": list_or_null(section.modes, _mode_json)}
 
 
 def _mode_json(mode: ModesOfFrequency) -> Object:
-    result = place(mode.at, mode.on) | {"frequency": string(mode.frequency)}
+    result = place(mode.at, mode.on) | fields_of(mode, "frequency")
     if mode.frequency is None:
-        result["frequency_squared"] = string(mode.frequency_squared)
-    result["shape"] = unless_none(mode.shape, by_name)
-    if mode.more_shapes:
-        result["more_shapes"] = [by_name(shape) for shape in mode.more_shapes]
-    return result | {"multiplicity": mode.multiplicity}
+        result |= fields_of(mode, "frequency_squared")
+    names = "shape more_shapes multiplicity" if mode.more_shapes else "shape multiplicity"
+    return result | fields_of(mode, names)
 
 
 def tell(teller: Teller, section: ModesSection) -> Iterator[Block]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Paragraph
-from lagcli.formatters.json_values import FORMULA, Object, by_name, map_of, unless_none
+from lagcli.formatters.json_values import FORMULA, map_of
 from lagcli.sections._expected import expected_by_coordinate
 from lagcli.statements.answers import Answers, MomentaSection
 from lagcli.statements.declaration import Declaration, always
@@ -48,11 +48,6 @@ def blocks(section: MomentaSection, _: Answers) -> Iterator[Block]:
         yield Paragraph(("Cyclic: ", *listed(section.cyclic), "."))
 
 
-def json(section: MomentaSection) -> Object:
-    """Formulas by coordinate."""
-    return {"momenta": unless_none(section.momenta, by_name)}
-
-
 SECTION = Declaration(
     name="momenta",
     heading="Momenta",
@@ -60,7 +55,6 @@ SECTION = Declaration(
     derive=derive,
     large=large,
     blocks=blocks,
-    json=json,
     schema=map_of(FORMULA),
     unasked=always,
     expected=(expected_by_coordinate("momenta", "the expected momentum of '{}'"),),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, get_args
 
 from lagcli.document import Block, Equations, Paragraph, Row
 from lagcli.expression import Expression, Name
-from lagcli.formatters.json_values import OR_NULL, Object, map_of, record_of, string
+from lagcli.formatters.json_values import OR_NULL, Object, fields_of, map_of, record_of
 from lagcli.reader.schema_parts import FORMULAS
 from lagcli.reader.scope import ANSWER
 from lagcli.statements.answers import Answers, ConstraintKind, Multiplier, MultipliersSection
@@ -115,7 +115,7 @@ def blocks(section: MultipliersSection, _: Answers) -> Iterator[Block]:
 def json(section: MultipliersSection) -> Object:
     """By constraint; one more key where some are redundant."""
     multipliers: Object = {
-        constraint: {"symbol": each.symbol, "value": string(each.value), "kind": each.kind}
+        constraint: fields_of(each, "symbol value kind")
         for constraint, each in section.multipliers.items()
     }
     redundant: Object = {"redundant": section.redundant} if section.redundant else {}

@@ -16,14 +16,7 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Name
-from lagcli.formatters.json_values import (
-    Object,
-    by_name,
-    inequalities,
-    string,
-    strings,
-    unless_none,
-)
+from lagcli.formatters.json_values import Object, fields_of
 from lagcli.letters import own
 from lagcli.problem_data import ExpectReduction
 from lagcli.reader.expected_reduction import read_reduction
@@ -170,38 +163,27 @@ def json(section: ReductionSection) -> Object:
 
 def _reduced(section: ReductionSection) -> Object:
     return {
-        "momenta": by_name(section.momenta),
-        "routhian": string(section.routhian),
+        **fields_of(section, "momenta routhian"),
         "equations": [equation_json(each) for each in section.equations],
-        "reconstruction": by_name(section.reconstruction),
-        "effective_potential": string(section.effective_potential),
-        "gyroscopic": by_name(section.gyroscopic),
-        "one_freedom": unless_none(section.one_freedom, _one_freedom_json),
+        **fields_of(section, "reconstruction effective_potential gyroscopic"),
+        "one_freedom": _one_freedom_json(section.one_freedom),
     }
 
 
-def _one_freedom_json(motion: OneFreedom) -> Object:
+def _one_freedom_json(motion: OneFreedom | None) -> Object | None:
+    if motion is None:
+        return None
     return {
-        "coordinate": motion.coordinate,
-        "constant": motion.constant,
-        "energy": string(motion.energy),
-        "turning_points": unless_none(motion.turning_points, strings),
-        "rate": string(motion.rate),
+        **fields_of(motion, "coordinate constant energy turning_points rate"),
         "periods": [_period_json(each) for each in motion.periods],
         "reason": motion.reason,
     }
 
 
 def _period_json(period: PeriodSeries) -> Object:
-    place: Object = {"at": by_name(period.at)}
-    if period.root_of is not None:
-        place = {"root_of": string(period.root_of)}
-    return place | {
-        "amplitude": period.amplitude or None,
-        "order": period.order,
-        "period": string(period.period),
-        "where": inequalities(period.where),
-    }
+    place = fields_of(period, "at" if period.root_of is None else "root_of")
+    amplitude = {"amplitude": period.amplitude or None}
+    return place | amplitude | fields_of(period, "order period where")
 
 
 def tell(teller: Teller, section: ReductionSection) -> Iterator[Block]:

@@ -18,7 +18,7 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power
-from lagcli.formatters.json_values import Object, by_name, inequalities, place, strings, unless_none
+from lagcli.formatters.json_values import Object, fields_of, list_or_null, place
 from lagcli.letters import own
 from lagcli.problem_data import ExpectSteady
 from lagcli.reader.expected_reduction import read_steady_motions
@@ -135,30 +135,18 @@ def _linearized(motion: SteadyMotion) -> Iterator[Block]:
 
 def json(section: SteadySection) -> Object:
     """The motions; null where they were not found."""
-    found = unless_none(section.motions, lambda motions: [_motion_json(m) for m in motions])
-    return {"steady_motions": found}
+    return {"steady_motions": list_or_null(section.motions, _motion_json)}
 
 
 def _motion_json(motion: SteadyMotion) -> Object:
     verdict = motion.verdict
-    return place(motion.at, motion.on) | {
-        "free": motion.free,
-        "rates": unless_none(motion.rates, by_name),
-        "momenta": by_name(motion.momenta),
-        "where": inequalities(motion.where),
-        "mirrored": motion.mirrored,
-        "stable": verdict.stable,
-        "asymptotic": verdict.asymptotic,
-        "minimum": unless_none(verdict.minimum, inequalities),
-        "hurwitz": unless_none(verdict.hurwitz, inequalities),
-        "spectrum": unless_none(verdict.spectrum, inequalities),
-        "unstable": inequalities(verdict.unstable),
-        "frequencies_squared": strings(motion.frequencies_squared),
-        "mass": [strings(row) for row in motion.mass],
-        "velocity": [strings(row) for row in motion.velocity],
-        "stiffness": [strings(row) for row in motion.stiffness],
-        "reason": verdict.reason.replace("{V}", verdict.potential),
-    }
+    return (
+        place(motion.at, motion.on)
+        | fields_of(motion, "free rates momenta where mirrored")
+        | fields_of(verdict, "stable asymptotic minimum hurwitz spectrum unstable")
+        | fields_of(motion, "frequencies_squared mass velocity stiffness")
+        | {"reason": verdict.reason.replace("{V}", verdict.potential)}
+    )
 
 
 def tell(teller: Teller, section: SteadySection) -> Iterator[Block]:

@@ -95,8 +95,8 @@ class Declaration:
         The derivation, from `lagcli.mechanics.statements.Statements`.
     blocks : function (statement, answers) -> blocks
         Its wording as blocks of `lagcli.document`.
-    json : function (statement) -> mapping
-        Its keys in the JSON.
+    json : function (statement) -> mapping, or None
+        Its keys in the JSON; None: one key, its content.
     schema : mapping or None
         JSON Schema of its own key.
     large, phase_space : function (statements) -> statement, or None
@@ -119,7 +119,7 @@ class Declaration:
     order: int
     derive: Callable[[Any], Any]
     blocks: Callable[[Any, Any], Iterable[Block]]
-    json: Callable[[Any], Mapping[str, Any]]
+    json: Callable[[Any], Mapping[str, Any]] | None = None
     schema: Schema | None = None
     large: Callable[[Any], Any] | None = None
     phase_space: Callable[[Any], Any] | None = None

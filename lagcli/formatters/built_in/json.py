@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 
-from lagcli.formatters.json_values import SCHEMA, Object, Value, by_name
+from lagcli.formatters.json_values import SCHEMA, Object, Value, plain
 from lagcli.formatters.options import Options
 from lagcli.statements.answers import Answers
 from lagcli.statements.registry import in_order
@@ -32,10 +32,13 @@ def to_object(answers: Answers) -> Object:
         "degrees_of_freedom": answers.degrees_of_freedom,
     }
     for each in in_order((*answers.sections, *answers.absent)):
-        if each.name in answers.sections:
+        if each.name not in answers.sections:
+            result[each.name] = None
+        elif each.json is not None:
             result |= each.json(answers.sections[each.name])
         else:
-            result[each.name] = None
+            content = each.content or each.name
+            result[each.name] = plain(getattr(answers.sections[each.name], content))
     if answers.where:
-        result["where"] = by_name(answers.where)
+        result["where"] = plain(answers.where)
     return result | {"warnings": answers.warnings}
