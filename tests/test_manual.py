@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -71,16 +72,34 @@ def test_the_lines_of_python_run(page, at_home, capsys):
             assert capsys.readouterr().out
 
 
+def table_of(page, head, rows):
+    """The table below a head in a page of the manual, which is made of declarations."""
+    path = ROOT / "lagcli" / "manual" / page
+    text = path.read_text("utf-8")
+    above, below, shown = re.search(rf"({head}.*\n)(\| --- .*\n)((?:\|.*\n)*)", text).groups()
+    if os.environ.get("LAGCLI_UPDATE"):
+        path.write_text(text.replace(above + below + shown, above + below + rows), "utf-8")
+    return shown
+
+
 def test_the_methods_are_listed_as_they_declare_themselves():
     from lagcli.numerics.certified.methods import METHODS
 
-    page = ROOT / "lagcli" / "manual" / "simulate.md"
-    text = page.read_text("utf-8")
-    head, rows = re.search(r"(\| method \|.*\n\| --- .*\n)((?:\|.*\n)*)", text).groups()
-    listed = "".join(f"| `{each.name}` | {each.reason} |\n" for each in METHODS.values())
-    if os.environ.get("LAGCLI_UPDATE"):
-        page.write_text(text.replace(head + rows, head + listed), "utf-8")
-    assert rows == listed
+    rows = "".join(f"| `{each.name}` | {each.reason} |\n" for each in METHODS.values())
+    assert table_of("simulate.md", r"\| method \|", rows) == rows
+
+
+def test_the_sections_are_listed_as_their_modules_describe_them():
+    from lagcli.statements.declaration import never
+    from lagcli.statements.registry import built_in
+
+    def row(each):
+        summary = import_module(f"lagcli.sections.{each.name}").__doc__.splitlines()[0]
+        dot = "" if each.unasked is never else "· "
+        return f"| {dot}| `{each.name}` | {summary.removesuffix('.')} |\n"
+
+    rows = "".join(map(row, built_in()))
+    assert table_of("solve.md", r"\| \| section \|", rows) == rows
 
 
 def test_every_page_of_the_manual_is_found_by_its_name_and_topics():

@@ -1,4 +1,4 @@
-"""q'' by coordinate, solved."""
+"""q'' solved, free of accelerations and multipliers, with the constraints used."""
 
 from __future__ import annotations
 

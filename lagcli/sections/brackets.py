@@ -1,4 +1,4 @@
-"""Poisson brackets of observables, and their rates on the motion."""
+"""Poisson brackets of observables, and dA/dt = {A, H} + ∂A/∂t."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Canonical transformations."""
+"""Canonical transformations tested, their generating functions, the new Hamiltonian."""
 
 from __future__ import annotations
 

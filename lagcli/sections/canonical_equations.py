@@ -1,4 +1,4 @@
-"""q' = dH/dp and p' = -dH/dq + … by coordinate."""
+"""q' = ∂H/∂p, p' = −∂H/∂q with multipliers, forces and dissipation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The symmetries of the file and the evident ones, with their conserved quantities."""
+"""Noether's charge of each symmetry, given or evident, and the rate of what is not conserved."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""lambda df/dq by constraint and coordinate, their total, and the force on each point."""
+"""λ ∂f/∂q along each coordinate, their sum, and the force on each point."""
 
 from __future__ import annotations
 

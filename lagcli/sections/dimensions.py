@@ -1,4 +1,4 @@
-"""The units of all quantities."""
+"""The unit of every quantity, given or inferred."""
 
 from __future__ import annotations
 

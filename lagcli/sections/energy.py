@@ -1,4 +1,4 @@
-"""The Jacobi function h = sum q' dL/dq' - L."""
+"""h = Σ q' ∂L/∂q' − L, whether it is conserved, whether it is T + V, and why."""
 
 from __future__ import annotations
 

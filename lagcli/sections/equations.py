@@ -1,4 +1,4 @@
-"""Lagrange's equations and the constraints."""
+"""d/dt(∂L/∂q') − ∂L/∂q = Q + Σ λ ∂f/∂q, one for each coordinate, and the constraints."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The states of rest, and whether each is stable."""
+"""The equilibria, and whether each is stable."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The real forces of the constraints, and the friction that they need."""
+"""The force of each constraint on each point, torques, and the friction that is needed."""
 
 from __future__ import annotations
 

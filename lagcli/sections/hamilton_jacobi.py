@@ -1,4 +1,4 @@
-"""The wording of the Hamilton-Jacobi equation and its separation."""
+"""Whether the Hamilton-Jacobi equation separates in the coordinates given, and S."""
 
 from __future__ import annotations
 

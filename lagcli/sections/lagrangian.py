@@ -1,4 +1,4 @@
-"""L = T - V, or L as the file gives it."""
+"""L = T − V, or L as given."""
 
 from __future__ import annotations
 

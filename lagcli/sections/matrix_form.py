@@ -1,4 +1,4 @@
-"""M q'' = forcing + A^T lambda with A q'' + bias = 0."""
+"""M q'' = forcing + Aᵀλ with A q'' + bias = 0: the form for large systems."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The model that a numerical run of every coordinate integrates."""
+"""What a numerical run integrates, what it eliminates or leaves out, and why."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The normal modes about each equilibrium."""
+"""The small oscillations about each equilibrium."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""p_q = dL/dq'."""
+"""p = ∂L/∂q', and the cyclic coordinates."""
 
 from __future__ import annotations
 

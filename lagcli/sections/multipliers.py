@@ -1,4 +1,4 @@
-"""The multiplier of each constraint."""
+"""Each λ solved, and whether its constraint is holonomic, integrable or nonholonomic."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The cyclic coordinates eliminated, and one remaining freedom by quadrature."""
+"""The Routhian without the cyclic coordinates, U_eff, turning points and the period."""
 
 from __future__ import annotations
 

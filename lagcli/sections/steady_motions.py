@@ -1,4 +1,4 @@
-"""Steady motions and their stability."""
+"""Motions with the cyclic coordinates at constant rates, and their stability."""
 
 from __future__ import annotations
 
