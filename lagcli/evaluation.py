@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from functools import reduce
 from operator import add, mul
 from typing import Any
@@ -21,9 +22,12 @@ from lagcli.expression import (
 
 
 def evaluated(
-    node: Expression, values: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]]
+    node: Expression,
+    values: Mapping[str, Any],
+    functions: Mapping[str, Callable[..., Any]],
+    number: Callable[[Fraction], Any] = float,
 ) -> Any:
-    """The value of a formula.
+    """The value of a formula, worked out as it is written, from left to right.
 
     Parameters
     ----------
@@ -32,7 +36,9 @@ def evaluated(
     values
         Of its names, `x'` with the prime; that of pi among them.
     functions
-        By name; of the numbers that the values are, floats or arrays.
+        By name; of the numbers that the values are, floats, arrays or balls.
+    number
+        Makes such a number of an exact one.
 
     Raises
     ------
@@ -43,11 +49,11 @@ def evaluated(
     """
 
     def value(part: Expression) -> Any:
-        return evaluated(part, values, functions)
+        return evaluated(part, values, functions, number)
 
     match node:
-        case Number(value=number):
-            return float(number)
+        case Number(value=exact):
+            return number(exact)
         case Name():
             return values[str(node)]
         case Negative(operand=operand):
@@ -58,8 +64,10 @@ def evaluated(
             return reduce(mul, map(value, factors))
         case Quotient(numerator=above, denominator=below):
             return value(above) / value(below)
-        case Power(base=base, exponent=Number(value=number)) if number.denominator == 1:
-            return value(base) ** int(number)
+        case Power(base=base, exponent=exponent) if "power" in functions:
+            return functions["power"](value(base), value(exponent))
+        case Power(base=base, exponent=Number(value=exact)) if exact.denominator == 1:
+            return value(base) ** int(exact)
         case Power(base=base, exponent=exponent):
             return value(base) ** value(exponent)
         case Call(function=function, arguments=arguments, primes=0):

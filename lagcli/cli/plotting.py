@@ -148,7 +148,7 @@ def ending(path: Path) -> str:
     return path.suffix.lower().removeprefix(".")
 
 
-def is_drawn_as(output: Path | None, endings: tuple[str, ...]) -> bool:
+def is_drawn_as(output: Path | None, endings: tuple[str, ...], option: str = "-o") -> bool:
     """Whether the ending of a file is one of these, and there is what writes it; told if not."""
     if output is None:
         return True
@@ -157,11 +157,12 @@ def is_drawn_as(output: Path | None, endings: tuple[str, ...]) -> bool:
         first = output.with_suffix(f".{endings[0]}")
         known = ", ".join(f".{each}" for each in endings)
         what = f"'.{kind}' is not one of" if kind else "the ending says the form, one of"
-        tell_line(f"lagcli: error: -o {output}: {what} {known}: for example -o {first}")
+        tell_line(f"lagcli: error: {option} {output}: {what} {known}: for example {option} {first}")
         return False
     if kind != "html" and find_spec("matplotlib") is None:
         tell_line(
-            f"lagcli: error: -o {output} needs the package matplotlib: pip install 'lagcli[plot]'"
+            f"lagcli: error: {option} {output} needs the package matplotlib: "
+            "pip install 'lagcli[plot]'"
         )
         return False
     return True

@@ -22,7 +22,7 @@ Plot = Annotated[
     typer.Option(
         "--plot",
         metavar="FILE.svg",
-        help="Draw error against cost, a line a method; FILE.png with cairosvg.",
+        help="Draw cost against error, a line for each method, as SVG, PDF or PNG.",
     ),
 ]
 Methods = Annotated[

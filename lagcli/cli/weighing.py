@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lagcli.cli.choices import COSTS, STUDIES
+from lagcli.cli.choices import COSTS, PICTURES, STUDIES
 from lagcli.cli.delivering import has_place, place
+from lagcli.cli.plotting import ending, is_drawn_as
 from lagcli.cli.running import NumericOptions, counted, is_known, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
@@ -45,7 +44,7 @@ def weigh_file(wish: TradeoffOptions) -> Status:
     """Run, write, and say how it ended."""
     good = is_known("--format", wish.format_name, STUDIES) & is_known("--cost", wish.cost, COSTS)
     methods = _methods(wish.methods)
-    good = good & (methods is not None) & _can_be_drawn(wish.plot)
+    good = good & (methods is not None) & is_drawn_as(wish.plot, PICTURES, "--plot")
     good = good & has_place(wish.output, wish.file) & has_place(wish.plot, wish.file)
     found = understood(wish.file, wish.settings, wish.state, lambda p: _end(p, wish))
     if found is None or not good or methods is None:
@@ -99,21 +98,15 @@ def _written(made: Study, wish: TradeoffOptions) -> bool:
         (wish.output, WRITERS[wish.format_name](made).encode())
     ]
     if wish.plot is not None:
-        from lagcli.studies.tradeoff.plot import to_svg
+        from lagcli.pictures.drawing import CannotDraw
+        from lagcli.pictures.figure import to_bytes
+        from lagcli.studies.tradeoff.plot import picture_of
 
         try:
-            parts.insert(0, (wish.plot, _drawn(to_svg(made), wish.plot)))
-        except ValueError as error:
+            parts.insert(0, (wish.plot, to_bytes(picture_of(made), ending(wish.plot))))
+        except CannotDraw as error:
             tell_line(f"{wish.plot}: warning: nothing to draw: {error}")
     return all(place(data, path) for path, data in parts)
-
-
-def _drawn(svg: str, path: Path) -> bytes:
-    """The plot as the file's name has it."""
-    if path.suffix.lower() == ".svg":
-        return svg.encode()
-    made: bytes = import_module("cairosvg").svg2png(bytestring=svg.encode(), scale=2)
-    return made
 
 
 # -- options -------------------------------------------------------------------------------------
@@ -130,18 +123,3 @@ def _methods(text: str | None) -> tuple[str, ...] | None:
         advice = did_you_mean(word, every) or f"there are {', '.join(every)}"
         tell_line(f"lagcli: error: --methods: unknown name '{word}': {advice}")
     return None if wrong else tuple(asked)
-
-
-def _can_be_drawn(path: Path | None) -> bool:
-    """SVG, or PNG where there is what makes one."""
-    kind = "" if path is None else path.suffix.lower()
-    if path is None or kind == ".svg" or (kind == ".png" and find_spec("cairosvg") is not None):
-        return True
-    svg = path.with_suffix(".svg")
-    tell_line(
-        f"lagcli: error: --plot: '{path}' needs the package cairosvg: pip install cairosvg, or "
-        f"name it {svg}, of which any browser makes a PNG"
-        if kind == ".png"
-        else f"lagcli: error: --plot: '{path}' is neither SVG nor PNG: name it {svg}"
-    )
-    return False

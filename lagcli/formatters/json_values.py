@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
+from math import isfinite
 from typing import Any, TypeVar
 
 from lagcli.expression import Expression
@@ -22,7 +23,7 @@ _Some = TypeVar("_Some")
 
 
 def plain(value: Any) -> Any:
-    """A value of a statement: formulas as text, records by the names of their fields."""
+    """A value as JSON has it: formulas as text, records by their fields, no infinite number."""
     match value:
         case Expression():
             return to_grammar(value)
@@ -34,6 +35,8 @@ def plain(value: Any) -> Any:
             return {name: plain(each) for name, each in value.items()}
         case tuple() | list():
             return [plain(each) for each in value]
+        case float():
+            return value if isfinite(value) else None
     if is_dataclass(value):
         return {part.name: plain(getattr(value, part.name)) for part in fields(value)}
     return value

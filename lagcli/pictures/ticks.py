@@ -94,7 +94,11 @@ def _of_pi(times: Fraction) -> DrawnName:
 
 
 def _powers(axis: Axis, most: int) -> list[Tick]:
+    """Powers of ten; within less than two decades 1, 2 and 5 of each."""
     first, last = math.ceil(math.log10(axis.low)), math.floor(math.log10(axis.high))
+    if last - first < 2:
+        parts = (m * 10.0**k for k in range(first - 1, last + 1) for m in (1, 2, 5))
+        return [Tick(at=x, label=_plain(f"{x:g}")) for x in parts if axis.low <= x <= axis.high]
     every = max(1, math.ceil((last - first + 1) / most))
     return [Tick(at=10.0**k, label=_power(k)) for k in range(first, last + 1) if k % every == 0]
 

@@ -1,10 +1,8 @@
 """`lagcli tradeoff` as a process."""
 
 import csv
-import importlib.util
 import io
 import json
-import os
 import subprocess
 import sys
 from xml.etree import ElementTree as ET
@@ -61,15 +59,9 @@ def test_certificates_keep_their_promise_and_auto_is_judged(made):
     assert {trade["name"] for trade in document["trades"]} == {"digits", "proof"}
 
 
-def test_the_plot_shows_the_runs(made):
-    document, plot = made
-    root = ET.fromstring(plot)
-    lines = {
-        line.get("id"): len(line.get("points").split())
-        for line in root.iter("{http://www.w3.org/2000/svg}polyline")
-    }
-    runs = [each["method"] for each in document["runs"]]
-    assert lines == {name: runs.count(name) for name in ("dop853", "taylor")}
+def test_the_plot_is_a_picture(made):
+    _, plot = made
+    assert ET.fromstring(plot).tag == "{http://www.w3.org/2000/svg}svg"
 
 
 @pytest.mark.long
@@ -98,7 +90,7 @@ def test_kinks_have_no_power_series():
         (["-f", "jsn"], "did you mean 'json'"),
         (["--cost", "money"], "there are total, integration, evaluations"),
         (["--methods", "dop85"], "did you mean 'dop853'"),
-        (["--plot", "x.pdf"], "neither SVG nor PNG"),
+        (["--plot", "x.gif"], "is not one of .svg, .pdf, .png"),
         (["--plot", "nowhere/x.svg"], "there is no directory"),
         (["--set", "q=1"], "q"),
     ],
@@ -108,28 +100,6 @@ def test_bad_options(arguments, told):
     assert done.returncode == 2
     assert told in done.stderr
     assert done.stdout == ""
-
-
-PAINTER = """
-def svg2png(bytestring, scale):
-    assert bytestring.startswith(b"<svg") and scale == 2
-    return b"PNG of a plot"
-"""
-
-
-@pytest.mark.long
-def test_png_is_left_to_cairosvg_where_it_is_installed(tmp_path, monkeypatch):
-    plot, text = tmp_path / "x.png", OSCILLATOR.replace("EXPECTED", "cos(w*t)")
-    if importlib.util.find_spec("cairosvg") is None:
-        done = run("-", "--plot", str(plot), stdin=text)
-        assert done.returncode == 2
-        assert "pip install cairosvg" in done.stderr
-        assert "x.svg" in done.stderr
-    (tmp_path / "cairosvg.py").write_text(PAINTER)
-    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
-    done = run("-", "--methods", "dop853", "--plot", str(plot), stdin=text)
-    assert done.returncode == 0, done.stderr
-    assert plot.read_bytes() == b"PNG of a plot"
 
 
 def test_all_mistakes_at_once(tmp_path):

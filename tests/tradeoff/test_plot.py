@@ -6,9 +6,12 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
+from lagcli.pictures.drawing import CannotDraw, Curve, Marks
+from lagcli.pictures.figure import to_bytes
+from lagcli.pictures.ticks import ticks
 from lagcli.record import replace
 from lagcli.studies.tradeoff.front import RunPoint
-from lagcli.studies.tradeoff.plot import to_svg
+from lagcli.studies.tradeoff.plot import picture_of
 from lagcli.studies.tradeoff.reference import ReferenceMotion, difference
 from lagcli.studies.tradeoff.study import Study
 from lagcli.studies.tradeoff.writing import to_csv, to_json, to_text
@@ -33,38 +36,48 @@ def study_of(points=POINTS, name="a <b> & c.yaml", cost="total"):
     )  # fmt: skip
 
 
+def parts(study):
+    [panel] = picture_of(study).panels
+    curves = [item for item in panel.items if isinstance(item, Curve)]
+    dots, rings = (
+        [item for item in panel.items if isinstance(item, Marks) and item.role == role]
+        for role in ("stable", "start")
+    )
+    return panel, curves, dots, rings
+
+
 @pytest.mark.parametrize("cost", ["total", "integration", "evaluations"])
 def test_a_line_for_each_method_and_a_mark_for_each_run(cost):
-    root = ET.fromstring(to_svg(study_of(cost=cost)))
-    lines = {line.get("id"): line.get("points").split() for line in root.iter(f"{SVG}polyline")}
-    assert {name: len(points) for name, points in lines.items()} == {"dop853": 3, "taylor": 2}
-    marks = [c for c in root.iter(f"{SVG}circle") if c.get("fill") != "none"]
-    assert len(marks) == len(POINTS)
-    texts = list(root.iter(f"{SVG}text"))
-    words = ["".join(text.itertext()) for text in texts if text.get("fill")]
-    assert words.count("dop853") == 1
-    # what is read is drawn after its halo, in renderers without paint-order too
-    drawn = [text.get("stroke") for text in texts if text.text == "dop853"]
-    assert drawn == ["white", None]
-    assert "dop853: order 8, explicit" in words
-    assert "a <b> & c.yaml: what accuracy costs" in words
+    study = study_of(cost=cost)
+    _, curves, dots, _ = parts(study)
+    assert [len(curve.pieces[0]) for curve in curves] == [3, 2]
+    assert sum(len(each.points) for each in dots) == len(POINTS)
+    words = [curve.label.plain for curve in curves]
+    assert words[0] == "dop853: order 8, explicit"
+    assert words[1].startswith("taylor: any order")
+    svg = to_bytes(picture_of(study), "svg")
+    assert ET.fromstring(svg).tag == f"{SVG}svg"
+    assert picture_of(study).title == "a <b> & c.yaml: what accuracy costs until t = 1"
 
 
-def test_the_places_are_logarithms():
-    root = ET.fromstring(to_svg(study_of()))
-    [line] = [x for x in root.iter(f"{SVG}polyline") if x.get("id") == "dop853"]
-    (x0, y0), (x1, y1), (x2, y2) = [map(float, p.split(",")) for p in line.get("points").split()]
-    assert x0 < x1 < x2  # more exact to the right
-    assert (x2 - x1) / (x1 - x0) == pytest.approx(3 / 4, rel=1e-2)
-    assert y1 - y0 == pytest.approx(y2 - y1, rel=1e-2)  # each costs twice as much
-    assert y2 < y1 < y0  # dearer is higher
+def test_the_places_are_the_errors_and_costs():
+    panel, [curve, _], _, _ = parts(study_of())
+    assert curve.pieces == (((1e-5, 0.1), (1e-9, 0.2), (1e-12, 0.4)),)
+    for axis in (panel.x, panel.y):
+        assert axis.logarithmic
+    assert panel.x.low < 1e-20 < 1e-5 < panel.x.high
+    assert panel.y.low < 0.1 < 0.9 < panel.y.high
+
+
+def test_an_axis_of_less_than_two_decades_has_1_2_and_5():
+    panel, *_ = parts(study_of())
+    assert [tick.label.plain for tick in ticks(panel.y)] == ["0.1", "0.2", "0.5", "1"]
 
 
 def test_rings_are_the_front():
     study = study_of()
-    root = ET.fromstring(to_svg(study))
-    rings = [c for c in root.iter(f"{SVG}circle") if c.get("fill") == "none"]
-    assert len(rings) == len(study.front) == 4
+    *_, [rings] = parts(study)
+    assert len(rings.points) == len(study.front) == 4
     starred = [line for line in to_text(study).splitlines() if line.startswith("* ")]
     assert len(starred) == 4 + 1  # and what the star means
 
@@ -77,16 +90,18 @@ def test_no_error_at_all_is_0():
     assert "error at most 0, made" in to_text(still)
     [row] = [line for line in to_text(still).splitlines() if "dop853" in line]
     assert row.split()[:4] == ["*", "dop853", "1e-04", "0"]
-    ET.fromstring(to_svg(still))
+    [curve] = parts(still)[1]
+    assert curve.pieces == (((1e-200, 0.1),),)
+    assert to_bytes(picture_of(still), "svg")
 
 
 def test_one_run_alone_is_drawn():
-    ET.fromstring(to_svg(study_of(points=POINTS[:1])))
+    assert to_bytes(picture_of(study_of(points=POINTS[:1])), "svg")
 
 
 def test_nothing_to_draw_is_an_error():
-    with pytest.raises(ValueError, match="no run"):
-        to_svg(study_of(points=(LOST,)))
+    with pytest.raises(CannotDraw, match="no run"):
+        picture_of(study_of(points=(LOST,)))
 
 
 def test_a_run_without_a_result_is_told_everywhere():

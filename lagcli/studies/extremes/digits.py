@@ -14,19 +14,10 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from lagcli.expression import (
-    Call,
-    Expression,
-    Name,
-    Negative,
-    Number,
-    Power,
-    Product,
-    Quotient,
-    Sum,
-)
+from lagcli.evaluation import evaluated
+from lagcli.expression import Expression
 from lagcli.numerics.certified.precise import precision
-from lagcli.numerics.equations.arithmetic import Arithmetic, Balls, Doubles, UndefinedFunction
+from lagcli.numerics.equations.arithmetic import Arithmetic, Balls, Doubles
 from lagcli.studies.extremes.case import CaseFormula, Loss
 
 #: What a double holds.
@@ -70,7 +61,7 @@ def exactly(
             given = {name: arithmetic.ball(x) for name, x in values.items()}
             try:
                 found = arithmetic.ball(work(arithmetic, given))
-            except (ArithmeticError, ValueError, UndefinedFunction):
+            except (ArithmeticError, LookupError, ValueError):
                 return None
             if not found.is_finite():
                 continue
@@ -85,7 +76,7 @@ def lost(tree: Expression, values: Mapping[str, float], exact: Any) -> float | N
         return None
     try:
         found = float(number_of(tree, values, Doubles()))
-    except (ArithmeticError, ValueError):
+    except (ArithmeticError, LookupError, ValueError):
         return DIGITS
     return digits_between(found, exact)
 
@@ -104,46 +95,12 @@ def digits_between(found: float, exact: Any) -> float:
 
 
 def number_of(node: Expression, values: Mapping[str, Any], arithmetic: Arithmetic) -> Any:
-    """The value of a tree, worked out as it is written, from left to right.
+    """The value of a tree, worked out as it is written.
 
     Raises
     ------
-    ArithmeticError, ValueError
+    ArithmeticError, LookupError, ValueError
         Where a part is not defined.
-    UndefinedFunction
-        For a function without a formula.
     """
     functions = arithmetic.functions
-
-    def value(node: Expression) -> Any:
-        match node:
-            case Number(value=exact):
-                return arithmetic.number(exact)
-            case Name(name="pi", primes=0):
-                return functions["pi"]()
-            case Name():
-                return values[str(node)]
-            case Negative(operand=operand):
-                return -value(operand)
-            case Sum(terms=(first, *others)):
-                total = value(first)
-                for term in others:
-                    if isinstance(term, Negative):
-                        total = total - value(term.operand)
-                    else:
-                        total = total + value(term)
-                return total
-            case Product(factors=(first, *others)):
-                total = value(first)
-                for factor in others:
-                    total = total * value(factor)
-                return total
-            case Quotient(numerator=above, denominator=below):
-                return value(above) / value(below)
-            case Power(base=base, exponent=exponent):
-                return functions["power"](value(base), value(exponent))
-            case Call(function=function, arguments=arguments, primes=0) if function in functions:
-                return functions[function](*map(value, arguments))
-        raise UndefinedFunction(str(node))
-
-    return value(node)
+    return evaluated(node, {**values, "pi": functions["pi"]()}, functions, arithmetic.number)

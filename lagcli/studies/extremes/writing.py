@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.json_values import fields_of, plain
 from lagcli.record import record
 from lagcli.studies.extremes.case import GROUPS, KINDS, Case, CaseFormula, Group, Loss, Trial
 from lagcli.studies.extremes.study import ExtremesStudy
@@ -176,15 +177,7 @@ def to_json(study: ExtremesStudy) -> str:
         "problem": study.name,
         "accuracy": study.wanted.accuracy,
         "notes": list(study.notes),
-        "formulas": [
-            {
-                "group": formula.group,
-                "name": formula.name,
-                "printed": to_grammar(formula.printed),
-                "rewritten": None if formula.rewritten is None else to_grammar(formula.rewritten),
-            }
-            for formula in study.formulas
-        ],
+        "formulas": plain(study.formulas),
         "cases": [_document(case, trial) for case, trial in study.trials],
     }
     return json.dumps(document, ensure_ascii=False, allow_nan=False) + "\n"
@@ -192,36 +185,18 @@ def to_json(study: ExtremesStudy) -> str:
 
 def _document(case: Case, trial: Trial) -> dict[str, Any]:
     return {
-        "kind": case.kind,
-        "name": case.name,
-        "parameters": {name: to_grammar(x) for name, x in case.parameters.items()},
+        **fields_of(case, "kind name parameters"),
         "initial": {str(name): to_grammar(x) for name, x in case.initial.items()},
         "outcome": trial.verdict,
         "reason": trial.reason or None,
-        "digits_lost": [
-            {
-                "group": loss.group,
-                "name": loss.name,
-                "printed": loss.printed,
-                "rewritten": loss.rewritten,
-            }
-            for loss in trial.losses
-        ],
+        "digits_lost": plain(trial.losses),
         "digits_lost_in_a_run": trial.run_loss,
-        "condition": _finite(trial.condition),
+        "condition": plain(trial.condition),
         "singular": trial.condition == float("inf"),
-        "until": trial.until,
-        "holds_until": trial.holds_until,
-        "accuracy": trial.accuracy,
-        "error": _finite(trial.error),
-        "drift": _finite(trial.drift),
+        **fields_of(trial, "until holds_until accuracy error drift"),
         "method": trial.method or None,
         "seconds": trial.seconds,
     }
-
-
-def _finite(value: float | None) -> float | None:
-    return value if value is not None and abs(value) < float("inf") else None
 
 
 def to_csv(study: ExtremesStudy) -> str:

@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from lagcli.formatters.json_values import fields_of
 from lagcli.studies.tradeoff.front import AS_GOOD, AccuracyVerdict, RunPoint
 from lagcli.studies.tradeoff.inside import Trade, trades
 from lagcli.studies.tradeoff.study import Study
@@ -166,23 +167,13 @@ def to_json(study: Study) -> str:
 
 
 def _document(point: RunPoint) -> dict[str, Any]:
+    numbers = "tolerance error integration total evaluations steps drift residual"
     return {
         "method": point.method,
         "taken": point.taken or None,
-        "tolerance": point.tolerance,
-        "error": _finite(point.error),
-        "integration": point.integration,
-        "total": point.total,
-        "evaluations": point.evaluations,
-        "steps": point.steps,
-        "drift": _finite(point.drift),
-        "residual": _finite(point.residual),
+        **fields_of(point, numbers),
         "why": point.why or None,
     }
-
-
-def _finite(value: float | None) -> float | None:
-    return value if value is not None and abs(value) < float("inf") else None
 
 
 def to_csv(study: Study) -> str:
