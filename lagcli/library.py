@@ -74,6 +74,7 @@ def folder() -> Path | None:
     return next((place for place in places if place.is_dir()), None)
 
 
+@cache
 def entries() -> tuple[LibraryEntry, ...]:
     """Every problem, in the order of the names."""
     place = folder()

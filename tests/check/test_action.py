@@ -70,6 +70,7 @@ def test_the_report_for_code_scanning_is_a_file(step, tmp_path):
     assert [each["level"] for each in found] == ["error"]
 
 
+@pytest.mark.long
 def test_a_shard_leaves_the_rest_to_others(step):
     shown = [step(paths=".", shard=f"{k}/2", arguments="-j 1")[0] for k in (1, 2)]
     assert sorted(shown) == [0, 1]

@@ -10,6 +10,7 @@ from IPython.core.interactiveshell import InteractiveShell
 
 import lagcli
 
+SLOW = ("phase-space", "equilibria", "motions")
 NOTEBOOKS = sorted((Path(lagcli.__file__).parent / "manual" / "notebooks").glob("*.ipynb"))
 
 
@@ -27,7 +28,14 @@ def cells(path):
             yield "".join(cell["source"])
 
 
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path",
+    [
+        path if path.stem not in SLOW else pytest.param(path, marks=pytest.mark.long)
+        for path in NOTEBOOKS
+    ],
+    ids=lambda path: path.stem,
+)
 def test_every_cell_runs_and_shows_what_it_ends_with(path, shell, capsys):
     shown = 0
     for code in cells(path):

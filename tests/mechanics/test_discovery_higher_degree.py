@@ -9,7 +9,7 @@ import pytest
 
 from lagcli.mechanics.discovery.summary import summary
 
-from .derived import derive
+from .derived import derive, mostly_long
 from .test_discovery_literature import kept, problem
 
 T2, T3 = "m*(x'^2 + y'^2)/2", "m*(x'^2 + y'^2 + z'^2)/2"
@@ -30,7 +30,7 @@ PLANE = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", PLANE)
+@pytest.mark.parametrize("name", mostly_long(PLANE, "Holt", "Fokas and Lagerstrom, turned"))
 def test_an_integral_of_third_degree_makes_it_integrable(name):
     text = problem(PLANE[name], parameters="m k a d")
     found = summary(derive(text).discovery)
@@ -87,7 +87,7 @@ FOURTH = {
 }
 
 
-@pytest.mark.parametrize("name", FOURTH)
+@pytest.mark.parametrize("name", mostly_long(FOURTH, "Holt, fourth degree"))
 def test_an_integral_of_fourth_degree_makes_it_integrable(name):
     text = problem(FOURTH[name], parameters="m k b d")
     found = summary(derive(text).discovery)

@@ -10,7 +10,7 @@ import pytest
 
 from lagcli.mechanics.discovery.summary import summary
 
-from .derived import derive
+from .derived import derive, mostly_long
 from .test_discovery_literature import POS, kept, problem
 
 RADIAL = f"{{r: {POS}, phi: {{}}}}"
@@ -23,7 +23,7 @@ PLANES = {
 }
 
 
-@pytest.mark.parametrize("name", PLANES)
+@pytest.mark.parametrize("name", mostly_long(PLANES, "parabolic", "logarithmic"))
 def test_a_flat_plane_has_the_eight_of_a_free_particle(name):
     coordinates, rates, _ = PLANES[name]
     found = summary(derive(problem(f"m*({rates})/2", coordinates, "m a")).discovery)
@@ -31,7 +31,7 @@ def test_a_flat_plane_has_the_eight_of_a_free_particle(name):
     assert found.name.startswith("Schrödinger sch(2)")
 
 
-@pytest.mark.parametrize("name", PLANES)
+@pytest.mark.parametrize("name", mostly_long(PLANES, "parabolic", "logarithmic"))
 def test_kepler_keeps_its_runge_lenz_vector(name):
     coordinates, rates, inverse = PLANES[name]
     text = problem(f"m*({rates})/2 + k*{inverse}", coordinates, "m a k")

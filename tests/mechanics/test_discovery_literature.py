@@ -113,6 +113,7 @@ def test_keplers_problem_of_a_monopole_has_its_runge_lenz_vector():
     assert found.name.startswith("the energy and so(4) where the energy is negative")
 
 
+@pytest.mark.long
 def test_without_the_inverse_square_it_has_none():
     derivation = derive(problem(f"{MONOPOLE} + k/{SPACE}", "[x, y, z]", "m k | g"))
     assert {c.name for c in derivation.discovery.charges} == {"energy", "L_x", "L_y", "L_z"}
