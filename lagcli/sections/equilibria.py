@@ -56,8 +56,8 @@ def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
     if section.equilibria is None:
         yield Paragraph((f"Not found: {section.reason}.",))
     elif not section.equilibria:
-        complete, edge = section.complete, section.edge
-        yield none_found("equilibrium", section.unless, complete=complete, edge=edge)
+        complete, edge, where = section.complete, section.edge, section.where
+        yield none_found("equilibrium", section.unless, complete=complete, edge=edge, where=where)
     for equilibrium in once(section.equilibria or ()):
         yield from state_blocks(equilibrium.at, on=equilibrium.on)
         yield Paragraph(_stability(equilibrium))

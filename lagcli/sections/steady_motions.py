@@ -67,7 +67,8 @@ def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
         yield Paragraph((f"Not found: {section.reason}.",))
         return
     if not section.motions:
-        yield none_found("steady motion", section.unless, complete=section.complete)
+        complete, where = section.complete, section.where
+        yield none_found("steady motion", section.unless, complete=complete, where=where)
     for number, motion in enumerate(once(section.motions), 1):
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(motion)

@@ -251,6 +251,7 @@ class EquilibriaSection:
     else all solve that each of `open` is 0 (where these are not long).  Where there are none, there
     may be some for values of the parameters for which each of `unless` vanishes; None: for special
     values that are not known; and at the `edge` 0 of coordinates that are assumed positive.
+    `where` restricts what was sought, in words.
     """
 
     equilibria: tuple[Equilibrium, ...] | None
@@ -260,6 +261,7 @@ class EquilibriaSection:
     open: tuple[Expression, ...] = ()
     unless: tuple[Expression, ...] | None = ()
     edge: tuple[str, ...] = ()
+    where: str = ""
 
 
 @record(kw_only=True)

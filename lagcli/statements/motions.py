@@ -130,6 +130,7 @@ class SteadySection:
     `momenta` are the cyclic coordinates whose momenta are constant.  Where there are no motions,
     there may be some for parameters for which each of `unless` vanishes; None: for special values.
     What is not `complete` was not sought where each of `singular_where` vanishes.
+    `where` restricts what was sought, in words.
 
     Under velocity constraints the conditions are those of constant velocities, where the
     `eliminated` ones follow from the constraints; each motion is then `rolling`.
@@ -144,6 +145,7 @@ class SteadySection:
     momenta: tuple[str, ...] = ()
     unless: tuple[Expression, ...] | None = ()
     singular_where: tuple[Expression, ...] = ()
+    where: str = ""
 
 
 @record

@@ -36,6 +36,9 @@ CHANGE_OF_L = "a change of L that is not a total time derivative"
 TRIVIAL = "Its charge is constant whatever the motion is: no conserved quantity follows."
 #: The effective potential.
 POTENTIAL = Label("U", ("eff",))
+#: Said of what was sought on a constraint surface with a cone's apex, a crossing or an edge.
+INDEPENDENT = " where the gradients of the constraints are independent"
+NOT_ZERO = " where the gradient of the constraint is not 0"
 #: The most operations of a value within a sentence.
 _SHORT = 3
 _SHORT_RELATION = 12
@@ -250,13 +253,14 @@ def none_found(
     *,
     complete: bool,
     edge: Sequence[str] = (),
+    where: str = "",
 ) -> Paragraph:
     """That there is none of what was sought, or that none is known."""
     if not complete:
         return Paragraph(("None was found.",))
     if vanishing == () and not edge:
-        return Paragraph(("There is none.",))
-    lead, *rest = unless(what, vanishing, edge)
+        return Paragraph((f"There is none{where}.",))
+    lead, *rest = unless(what + where, vanishing, edge)
     return Paragraph((f"{str(lead)[0].upper()}{str(lead)[1:]}", *rest, "."))
 
 

@@ -50,9 +50,9 @@ def steady(teller: Teller, section: Section) -> Iterator[Block]:
         yield says(
             "The constraints give ",
             names(found.eliminated, 1),
-            " in terms of the other velocities. With these substituted, the accelerations depend "
-            "on some of the coordinates only. In a steady motion these are constant and so are the "
-            "velocities, and the accelerations vanish:",
+            " in terms of the other velocities, which are constant in a steady motion. So are the "
+            "coordinates that the accelerations depend on, and the accelerations vanish"
+            + (":" if any(each != ZERO for each in found.conditions.values()) else "."),
         )
         yield from _steady_states(teller, found)
         return
@@ -95,7 +95,7 @@ def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
     wanted = [each for each in dict.fromkeys(found.conditions.values()) if each != ZERO]
     if wanted:
         yield Equations(tuple(Row(ZERO, each) for each in wanted))
-    elif found.conditions:
+    elif found.conditions and not found.eliminated:
         yield says("These are 0 everywhere.")
     if found.motions is None:
         yield says(f"These were not solved: {found.reason}.")
@@ -115,7 +115,8 @@ def _none(teller: Teller, found: SteadySection) -> list[Part]:
         return ["No solution was found."]
     where = "" if found.momenta or found.eliminated else " in these coordinates"
     where += " while the contacts are open" if teller.problem.contacts else ""
-    return ["These have no solution: ", *unless(f"steady motion{where}", found.unless), "."]
+    none = unless(f"steady motion{where}" + " there" * bool(found.where), found.unless)
+    return [f"These have no solution{found.where}: ", *none, "."]
 
 
 def _motion(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:

@@ -32,6 +32,7 @@ from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.family import Family, exists_where, family
 from lagcli.mechanics.oscillations.kinks import at_kinks
 from lagcli.record import record
+from lagcli.statements.wording import INDEPENDENT, NOT_ZERO
 
 _MAX_EVIDENT = 64
 #: Why nothing is solved for where the forces at rest are 0/0.
@@ -74,6 +75,8 @@ class RestPoints:
         self.complete = True
         #: all solutions are where the coordinates are singular, and none is an equilibrium
         self.at_singular_coordinates = False
+        #: at some solutions the gradients of the constraints are not independent
+        self.at_singular_constraints = False
 
     @cached_property
     def points(self) -> tuple[RestPoint, ...] | None:
@@ -86,8 +89,6 @@ class RestPoints:
             return None
         equations = self._at_all_times
         found, lost = self._found(equations)
-        if lost and self._along_one:
-            found, lost = self._found(self._along_one)
         kinks = not (self.depends_on_time or self._kinks_apart) and at_kinks(
             self.forces_at_rest, equations, self.system.q, found
         )
@@ -118,6 +119,8 @@ class RestPoints:
                 found.append(point)
             elif len(solution.values) < len(self.system.q) and self._may_be_real(solution):
                 lost = True
+            else:
+                self.at_singular_constraints |= self._loses_rank(solution.values)
         return found, lost or not (found or solved.complete)
 
     def _point(self, solution: SystemSolution) -> RestPoint | None:
@@ -200,7 +203,9 @@ class RestPoints:
         conditions = [e.f for e in constraints.equations if e.holonomic]
         conditions += [e.drift for e in constraints.equations if not e.holonomic]
         forces: Sequence[Expr] = self.forces_at_rest
-        if constraints.equations:
+        if self._one_gradient:
+            forces = self._along_one
+        elif constraints.equations:
             forces = [
                 sympy.Add(*(v * f for v, f in zip(vector, forces, strict=True)))
                 for vector in _polynomial(nullspace(constraints.jacobian))
@@ -243,18 +248,32 @@ class RestPoints:
         return tuple(q.name for q in self.system.q if q.is_positive and holds(q))
 
     @property
-    def _along_one(self) -> list[Expr]:
-        """f = 0 and a_i F_j = a_j F_i: the force along the gradient of a single constraint.
+    def restricted_to(self) -> str:
+        """Where rest was decided, in words: everywhere, or with independent gradients only."""
+        several = len(self.dynamics.constraints.equations) > 1
+        return (INDEPENDENT if several else NOT_ZERO) if self.at_singular_constraints else ""
 
-        Where a component of the gradient vanishes the displacements of `equations` do, too.
-        """
+    @property
+    def _one_gradient(self) -> bool:
+        """Whether no basis of the displacements is one everywhere, of a single constraint."""
         constraints = self.dynamics.constraints.equations
-        if len(constraints) != 1 or not constraints[0].holonomic:
-            return []
-        a, F = constraints[0].row, self.forces_at_rest
+        return len(constraints) == 1 and not any(
+            free_of(a, self.system.q) and is_zero(a) is False for a in constraints[0].row
+        )
+
+    @property
+    def _along_one(self) -> list[Expr]:
+        """a_i F_j = a_j F_i: the force along the gradient of a single constraint."""
+        [constraint] = self.dynamics.constraints.equations
+        a, F = constraint.row, self.forces_at_rest
         pairs = combinations(range(len(F)), 2)
-        minors = [simplify(a[i] * F[j] - a[j] * F[i]) for i, j in pairs]
-        return [constraints[0].f, *(x for x in minors if is_zero(x) is not True)]
+        return [simplify(a[i] * F[j] - a[j] * F[i]) for i, j in pairs]
+
+    def _loses_rank(self, values: Mapping[Symbol, Expr]) -> bool:
+        """Whether the gradients of the constraints are independent, but not there."""
+        rows = self.dynamics.constraints.jacobian
+        there = [[at(a, values) for a in row] for row in rows]
+        return bool(rows) and len(nullspace(there)) > len(nullspace(rows))
 
     def balanced(self, values: Mapping[Symbol, Expr], positive: Sequence[Expr] = ()) -> bool:
         """Whether a state of rest is an equilibrium, by substitution where these are positive.

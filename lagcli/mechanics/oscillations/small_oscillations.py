@@ -77,6 +77,7 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
         reason=TIMED if timed else "",
         at_all_times=timed,
         edge=() if places else oscillations.rest.edge,
+        where=oscillations.rest.restricted_to,
         open=()
         if oscillations.complete
         else tuple(written(e, dynamics.system.order) for e in oscillations.rest.conditions),

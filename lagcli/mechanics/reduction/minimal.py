@@ -11,14 +11,16 @@ Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., section 1.4.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import sympy
-from sympy import Expr
+from sympy import Expr, S, Symbol
 
 from lagcli.algebra import shape, simplify
 from lagcli.algebra.build import free_of
 from lagcli.expression import ZERO, Equation
+from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.derivation import Derivation
 from lagcli.problem_data import Constraint, Parameter, Problem
 
@@ -43,6 +45,36 @@ def minimal(derivation: Derivation, *, rolling: bool = False) -> Derivation:
         solved = {q: value.xreplace(solved) for q, value in solved.items()}
     if any(q.is_positive and value.is_positive is not True for q, value in solved.items()):
         return derivation
+    return _without(derivation, solved, kept_constraints)
+
+
+def integrated(derivation: Derivation) -> Derivation | None:
+    """The same without velocity constraints on coordinates that L does not contain.
+
+    a q' + b = 0 with constant a and b is a q + b t = 0.  None where a constraint is of another kind.
+    """
+    system = derivation.system
+    solved: dict[Symbol, Expr] = {}
+    acting = [system.L, *system.applied_forces]
+    absent = [q for q in system.q if all(free_of(x, [q]) for x in acting)]
+    for e in derivation.dynamics.constraints.equations:
+        if e.holonomic or not free_of(sympy.Add(*e.row, e.drift), (*system.q, system.t)):
+            return None
+        terms = (a * q for a, q in zip(e.row, system.q, strict=True))
+        whole = simplify(sympy.Add(e.drift * system.t, *terms).xreplace(solved))
+        q = next((q for q in absent if not free_of(whole, [q])), None)
+        if q is None:
+            return None
+        value = {q: simplify(-whole.xreplace({q: S.Zero}) / whole.diff(q))}
+        solved = {x: simplify(old.xreplace(value)) for x, old in solved.items()} | value
+    return _without(derivation, solved, []) if solved else None
+
+
+def _without(
+    derivation: Derivation, solved: Mapping[Symbol, Expr], kept_constraints: Sequence[ConstraintEquation]
+) -> Derivation:
+    """The derivation of the other coordinates, and of the constraints that are kept."""
+    system = derivation.system
     flow = dict(zip(system.q, system.qdot, strict=True))
     put_in: dict[Expr, Expr] = {
         **solved,

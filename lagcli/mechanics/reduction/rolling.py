@@ -29,12 +29,14 @@ from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.characteristic import determinant, determinant_in
-from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
-from lagcli.mechanics.reduction.minimal import minimal
-from lagcli.mechanics.stability.judge import Stability, by_polynomial, undecided
+from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.reduction.minimal import integrated, minimal
+from lagcli.mechanics.stability.judge import Stability, by_polynomial, judge, undecided
 from lagcli.record import record
 
+_UNIFORM = "all velocities are constant in every motion"
 _MOST_CHOICES = 40
 _MOST_DEPTH = 6
 
@@ -249,14 +251,31 @@ class RollingMotions:
     # -- stability --------------------------------------------------------------------------------
 
     def verdict(self, motion: RollingMotion) -> tuple[Stability, tuple[Expr, ...]]:
-        """By the roots s of the linearised equations, those that are not 0 along the family."""
+        """By the roots s of the linearised equations, those that are not 0 along the family.
+
+        By energy, too, where the constraints can be integrated and put into L.
+        """
+        if not any(self._equations or ()):
+            return Stability(stable=True, reason=_UNIFORM), ()
         try:
             powers = self._characteristic(motion)
         except ZeroDivisionError:
             powers = None
         if powers is None:
             return undecided("the linearised equations were not found"), ()
-        return by_polynomial(powers, motion.positive, dimension=self._dimension(motion))
+        found, squares = by_polynomial(powers, motion.positive, dimension=self._dimension(motion))
+        return self._by_energy(motion) or found, squares
+
+    def _by_energy(self, motion: RollingMotion) -> Stability | None:
+        """The verdict on rest in the coordinates that are left; None of other motions."""
+        if self.turning or self._integrated is None:
+            return None
+        point = RestPoint(motion.values, (), motion.positive)
+        return judge(Linearization(RestPoints(self._integrated.dynamics), point))
+
+    @cached_property
+    def _integrated(self) -> Derivation | None:
+        return integrated(self.derivation)
 
     def _dimension(self, motion: RollingMotion) -> int:
         """Of the steady motions near it: a manifold where the conditions have full rank."""

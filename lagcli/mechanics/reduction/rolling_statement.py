@@ -43,7 +43,7 @@ def _motion(found: RollingMotions, motion: RollingMotion) -> SteadyMotion:
         momenta={},
         where=conditions(motion.positive, order),
         mirrored=False,
-        verdict=stated(judged, order, motion.positive),
+        verdict=stated(judged, order, motion.positive, potential=""),
         frequencies_squared=tuple(map(shaped, squares)),
         rolling=True,
     )

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import simplify
+from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import rounded, written
 from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 from lagcli.mechanics.oscillations.exceptions import unless_written
 from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
@@ -92,6 +92,7 @@ class _SteadyStatement:
                 acting=steady.acting,
                 momenta=cyclic,
                 unless=() if found else unless_written(steady.unless, self.order),
+                where=steady.rest.restricted_to,
             ),
             [],
         )
@@ -130,6 +131,9 @@ class _SteadyStatement:
             pass
         if self.steady.grazes(motion):
             judged = undecided(GRAZES)
+        potential = potential_of(self.steady.rest, "U_eff")
+        if judged.is_open and (whole := self._at_rest(motion)) is not None:
+            judged, potential = judge(whole), potential_of(whole.rest)
         system, names = self.steady.system, self.steady.full.names
         rates = motion.rates
         point = self.steady.point(motion)
@@ -148,7 +152,7 @@ class _SteadyStatement:
             momenta={name: self._shape(value) for name, value in momenta.items()},
             where=self._where(motion),
             mirrored=motion.mirrored,
-            verdict=self._verdict(judged, motion, turning=turning),
+            verdict=self._verdict(judged, motion, potential, turning=turning),
             frequencies_squared=tuple(
                 self._shape(without_moduli(w, motion.positive)) for w in squares
             ),
@@ -158,17 +162,28 @@ class _SteadyStatement:
             on=relation_sides(point, system.q, self.order),
         )
 
+    def _at_rest(self, motion: Steady) -> Linearization | None:
+        """The motion near it in all coordinates, where the cyclic ones do not move."""
+        if not motion.rates or any(is_zero(rate) is not True for rate in motion.rates.values()):
+            return None
+        full, q = self.routh.full.dynamics, self.steady.full.q
+        values = {x: value for x, value in motion.values.items() if x in q}
+        free = tuple(x for x in q if x not in values)
+        return Linearization(RestPoints(full), RestPoint(values, free, motion.positive))
+
     def _where(self, motion: Steady) -> tuple[Above, ...]:
         shortest = sorted(motion.positive, key=lambda e: int(e.count_ops()))
         return conditions(shortest, self.order)
 
-    def _verdict(self, judged: Stability, motion: Steady, *, turning: bool) -> Verdict:
+    def _verdict(
+        self, judged: Stability, motion: Steady, potential: str, *, turning: bool
+    ) -> Verdict:
         cyclic = bool(self.routh.cyclic)
         return stated(
             by_routh(judged) if cyclic else judged,
             self.order,
             motion.positive,
-            potential=potential_of(self.steady.rest, "U_eff"),
+            potential=potential,
             gyroscopic=turning,
             given=[v**2 for v in self.steady.full.qdot if v in motion.free_rates],
         )

@@ -63,6 +63,7 @@ _FALLING = "a squared frequency is negative, since {V} has no minimum there"
 _GROWING = "a root of the characteristic polynomial has a positive real part"
 _ALL_ROOTS = "all roots have negative real parts"
 _NO_SECOND = "{V} has no minimum of second order"
+_EVERYWHERE = "every position is an equilibrium, and the kinetic energy does not grow"
 _NEUTRAL = "there is no force to first order"
 _FLAT = "{V} has no second derivative there"
 _POWERS = "all roots are 0, and to first order displacements grow in proportion to a power of t"
@@ -203,6 +204,8 @@ def _not_to_be_judged(near: Near) -> str:
 
 
 def _judged(near: Near) -> Stability:
+    if near.rests_everywhere and near.has_energy and near.inertia_is_definite:
+        return Stability(stable=True, reason=_EVERYWHERE, across=True, minimum=())
     if len(near.others) == 1 and not near.linear.gyroscopic:
         forced = any(x != 0 for row in near.linear.K for x in row)
         return by_higher_order(near) or undecided(_POWERS if forced else _NEUTRAL)

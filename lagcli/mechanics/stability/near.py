@@ -219,6 +219,19 @@ class Near:
         """The same without the velocity constraints that cannot be integrated."""
         return len(self._tangents) - self._excluded(self.restoring)
 
+    @property
+    def rests_everywhere(self) -> bool:
+        """Whether every displacement leads to an equilibrium, and nothing is damped.
+
+        At given momenta of cyclic coordinates that is not so at all others.
+        """
+        linear = self.linear
+        return (
+            not linear.damped
+            and set(linear.point.values) <= set(linear.system.q)
+            and self.dimension_released == len(self.restoring.M)
+        )
+
     @cached_property
     def as_many_equilibria(self) -> bool:
         """Whether the equilibria near it are a manifold with a dimension for each root 0."""
