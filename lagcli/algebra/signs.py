@@ -182,7 +182,24 @@ def _of_factor(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | No
         return _of_number(expression)
     if expression.is_positive:
         return 1
-    return -1 if expression.is_negative else None
+    return -1 if expression.is_negative else _between_ends(field, factor, positive)
+
+
+def _between_ends(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | None:
+    """The sign of a + b cos² where a and a + b have it, of a + b cos where a + b and a - b do."""
+    for equal in (factor, *_with_squares_swapped(field, factor)):
+        used = field.ring.used(equal)
+        for g in used:
+            generator, parts = field.generators[g], field.ring.coefficients(equal, g)
+            circular = generator.kind in ("cos", "sin") and generator.partner not in used
+            if not circular or len(parts) != 2 or 0 not in parts or max(parts) > 2:
+                continue
+            a, b = parts[0], parts[max(parts)]
+            ends = (a + b, a if 2 in parts else a - b)
+            signs = {_of_factor(field, end, positive) for end in ends}
+            if len(signs) == 1:
+                return signs.pop()
+    return None
 
 
 def _with_squares_swapped(field: Field, poly: Poly) -> Iterator[Poly]:

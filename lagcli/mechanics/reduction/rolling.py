@@ -33,7 +33,15 @@ from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.reduction.minimal import integrated, minimal
-from lagcli.mechanics.stability.judge import Stability, by_polynomial, judge, undecided
+from lagcli.mechanics.stability.judge import (
+    ACCELERATES,
+    Stability,
+    by_polynomial,
+    judge,
+    undecided,
+    unstable,
+)
+from lagcli.mechanics.stability.uniform import displaced_it_accelerates
 from lagcli.record import record
 
 _UNIFORM = "all velocities are constant in every motion"
@@ -264,6 +272,8 @@ class RollingMotions:
         if powers is None:
             return undecided("the linearised equations were not found"), ()
         found, squares = by_polynomial(powers, motion.positive, dimension=self._dimension(motion))
+        if found.is_open and displaced_it_accelerates(self.dynamics):
+            return unstable(ACCELERATES), squares
         return self._by_energy(motion) or found, squares
 
     def _by_energy(self, motion: RollingMotion) -> Stability | None:

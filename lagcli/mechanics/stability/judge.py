@@ -37,6 +37,7 @@ from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
 from lagcli.mechanics.stability.near import Near, contradictory, one_is_negative
 from lagcli.mechanics.stability.signs import is_positive, sign_of, weak_sign
 from lagcli.mechanics.stability.spectrum import conditions_of
+from lagcli.mechanics.stability.uniform import displaced_it_accelerates
 from lagcli.mechanics.theorems import (
     HURWITZ,
     KELVIN_TAIT_CHETAEV,
@@ -61,6 +62,8 @@ DRIFTS = "a velocity constraint has a term without velocities that depends on th
 EXCLUDED = "the constraints exclude every displacement"
 _FALLING = "a squared frequency is negative, since {V} has no minimum there"
 _GROWING = "a root of the characteristic polynomial has a positive real part"
+#: By an exact solution.
+ACCELERATES = "near it there are motions with a constant acceleration"
 _ALL_ROOTS = "all roots have negative real parts"
 _NO_SECOND = "{V} has no minimum of second order"
 _EVERYWHERE = "every position is an equilibrium, and the kinetic energy does not grow"
@@ -208,6 +211,8 @@ def _judged(near: Near) -> Stability:
         return Stability(stable=True, reason=_EVERYWHERE, across=True, minimum=())
     if len(near.others) == 1 and not near.linear.gyroscopic:
         forced = any(x != 0 for row in near.linear.K for x in row)
+        if forced and displaced_it_accelerates(near.linear.dynamics):
+            return unstable(ACCELERATES)
         return by_higher_order(near) or undecided(_POWERS if forced else _NEUTRAL)
     if near.has_energy and not near.inertia_is_definite:
         roots = by_roots(near)
