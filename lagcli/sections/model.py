@@ -10,7 +10,7 @@ from lagcli.expression import Name
 from lagcli.formatters.json_values import Object, plain
 from lagcli.statements.answers import Answers, ModelSection
 from lagcli.statements.declaration import Declaration, Told
-from lagcli.statements.wording import listed, not_found, rows_by_name
+from lagcli.statements.wording import listed, not_found, rows_by_name, with_names
 
 if TYPE_CHECKING:
     from lagcli.mechanics.explaining.teller import Teller
@@ -43,12 +43,15 @@ def blocks(section: ModelSection, _: Answers) -> Iterator[Block]:
     if section.dropped:
         yield Paragraph(("Without influence: ", *listed(section.dropped), "."))
     for name, reason in section.reason.items():
-        yield Paragraph((Name(name), f": {reason}."))
+        yield Paragraph((Name(name), ": ", *with_names(reason), "."))
 
 
 def json(section: ModelSection) -> Object:
     """Null where there is no such model."""
-    return {"model": None if section.kept is None else plain(section)}
+    if section.kept is None:
+        return {"model": None}
+    reason = {name: why.replace("`", "") for name, why in section.reason.items()}
+    return {"model": {**plain(section), "reason": reason}}
 
 
 def tell(teller: Teller, section: ModelSection) -> Iterator[Block]:

@@ -60,6 +60,11 @@ def rows_by_name(expressions: Mapping[str, Expression], primes: int = 0) -> Equa
     return Equations(tuple(Row(Name(name, primes), each) for name, each in expressions.items()))
 
 
+def with_names(text: str) -> list[Part]:
+    """A sentence whose names stand between backticks."""
+    return [Name(part) if k % 2 else part for k, part in enumerate(text.split("`")) if part]
+
+
 def listed(names: Iterable[str]) -> list[Part]:
     """Names between commas."""
     parts: list[Part] = []

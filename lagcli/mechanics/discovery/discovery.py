@@ -57,6 +57,8 @@ class Discovery(Setting):
         Whether there was no search at all, for the reason in `stopped`.
     momentum_equations : tuple of NoetherCharge
         Of symmetries that nonholonomic constraints admit without a constant charge.
+    cartesian : tuple of Expr
+        The functions in which the ansatz is affine, where these are not the coordinates.
     unproved : str
         The sentence of `stopped` where a symmetry is known, but not its charge.
     """
@@ -65,6 +67,7 @@ class Discovery(Setting):
         super().__init__(noether)
         self.momentum_equations: tuple[NoetherCharge, ...] = ()
         self.unsearched = bool(self.unusable)
+        self.cartesian: tuple[Expr, ...] = ()
         self.unproved = ""
         self._of_lagrangian: list[Transformation] = []
         if self.unsearched:
@@ -106,6 +109,7 @@ class Discovery(Setting):
         if isometries is not None and (
             isometries.beyond(kinds) or (times.pushed and isometries.flat)
         ):
+            self.cartesian = tuple(isometries.functions) if isometries.flat else ()
             return isometries.search(times, allowed), isometries.words + _timed(times)
         slots = point_slots(equations)
         spaces = affine(kinds)

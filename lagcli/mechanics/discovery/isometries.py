@@ -149,9 +149,8 @@ class Isometries:
     def words(self) -> str:
         """What is searched."""
         if self.flat:
-            named = ", ".join(str(X).replace("**", "^") for X in self.functions)
-            which = "are Cartesian coordinates" if self.metric.n > 1 else "is the arc length"
-            return f"point transformations affine in {named}, which {which} of the kinetic energy"
+            which = "Cartesian coordinates" if self.metric.n > 1 else "the arc length"
+            return f"point transformations affine in {which} of the kinetic energy"
         return "point transformations that are isometries of the kinetic energy"
 
     # -- point symmetries -------------------------------------------------------------------

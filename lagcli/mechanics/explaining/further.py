@@ -122,7 +122,9 @@ def _none(rest: RestPoints, states: EquilibriaSection) -> list[Part]:
         lead = f"{where}, and in regular coordinates that is not an equilibrium: "
         none = unless("equilibrium", states.unless) if states.unless != () else ["there is none"]
         return [lead, *none, "."]
-    lead = f"These have no solution{states.where}" + " that holds at all times" * states.at_all_times
+    lead = (
+        f"These have no solution{states.where}" + " that holds at all times" * states.at_all_times
+    )
     what = "equilibrium" + " there" * bool(states.where)
     return [f"{lead}: ", *unless(what, states.unless, states.edge), "."]
 

@@ -10,7 +10,7 @@ from lagcli.expression import Name
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import names, says
 from lagcli.statements.answers import DimensionsSection, ModelSection, QuantityUnit, Section
-from lagcli.statements.wording import unit_rows
+from lagcli.statements.wording import unit_rows, with_names
 
 
 def model(_: Teller, section: Section) -> Iterator[Block]:
@@ -21,8 +21,7 @@ def model(_: Teller, section: Section) -> Iterator[Block]:
         return
     yield says(
         "A numerical run integrates as few coordinates as possible. A constraint that can be "
-        "solved "
-        "for a coordinate eliminates it."
+        "solved for a coordinate eliminates it where that saves work."
     )
     if found.eliminated:
         yield says("Eliminated:")
@@ -31,15 +30,16 @@ def model(_: Teller, section: Section) -> Iterator[Block]:
     if found.ignorable:
         yield says(
             names(found.ignorable),
-            " is cyclic: it follows from the others by its constant momentum."
+            " is cyclic: the motion of the others does not depend on its value."
             if len(found.ignorable) == 1
-            else " are cyclic: they follow from the others by their constant momenta.",
+            else " are cyclic: the motion of the others does not depend on their values.",
         )
     if found.dropped:
         yield says("The motion does not depend on ", names(found.dropped), ".")
     if found.reason:
         yield says("The reasons:")
-        yield Items(tuple((Name(name), f": {why}.") for name, why in found.reason.items()))
+        reasons = ((Name(name), ": ", *with_names(w), ".") for name, w in found.reason.items())
+        yield Items(tuple(reasons))
 
 
 def dimensions(teller: Teller, section: Section) -> Iterator[Block]:

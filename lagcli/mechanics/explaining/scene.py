@@ -94,7 +94,7 @@ def _contacts(teller: Teller) -> Iterator[Block]:
             bound.left,
             _COMPARISONS[bound.comparison],
             bound.right,
-            ". What follows holds for as long.",
+            ". What follows is valid as long as it holds.",
         )
 
 

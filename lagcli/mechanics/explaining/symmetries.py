@@ -40,6 +40,12 @@ def discovered(teller: Teller, section: Section) -> Iterator[Block]:
         f"by a boundary term. The search uses an ansatz with unknown coefficients: "
         f"{discovery.ansatz}."
     )
+    if discovery.cartesian:
+        which = "Cartesian coordinates are" if len(discovery.cartesian) > 1 else "arc length is"
+        named = [
+            part for X in discovery.cartesian for part in (", ", teller.readable.as_written(X))
+        ]
+        yield says(f"The {which} ", *named[1:], ".")
     yield says(
         "For a point transformation the Euler-Lagrange expression of the change of ",
         letters.L,

@@ -51,7 +51,7 @@ def minimal(derivation: Derivation, *, rolling: bool = False) -> Derivation:
 def integrated(derivation: Derivation) -> Derivation | None:
     """The same without velocity constraints on coordinates that L does not contain.
 
-    a q' + b = 0 with constant a and b is a q + b t = 0.  None where a constraint is of another kind.
+    a q' + b = 0 with constant a and b is a q + b t = 0; None of constraints of another kind.
     """
     system = derivation.system
     solved: dict[Symbol, Expr] = {}
@@ -71,7 +71,9 @@ def integrated(derivation: Derivation) -> Derivation | None:
 
 
 def _without(
-    derivation: Derivation, solved: Mapping[Symbol, Expr], kept_constraints: Sequence[ConstraintEquation]
+    derivation: Derivation,
+    solved: Mapping[Symbol, Expr],
+    kept_constraints: Sequence[ConstraintEquation],
 ) -> Derivation:
     """The derivation of the other coordinates, and of the constraints that are kept."""
     system = derivation.system

@@ -33,7 +33,7 @@ from lagcli.statements.answers import ModelSection
 #: States at which it is seen whether L depends on a coordinate, and what counts as 0 there.
 _STATES, _ZERO = 6, 1e-9
 
-_GIVEN = "the constraint {} determines it; a run that outputs its multiplier keeps both"
+_GIVEN = "the constraint '{}' determines it; a run that outputs its multiplier keeps both"
 _INITIAL = "only the initial state depends on it"
 _OWN_STEPS = "a long run gives each independent subsystem its own steps"
 _IGNORABLE = "its momentum is conserved, but its velocity is needed, so it is integrated"
@@ -162,7 +162,8 @@ class _Model:
             wanted = reduction.needed(mass, forcing, rows, [e.q[j], e.qdot[j]])
             others = [other for other in compress(names, wanted) if other != name]
             if len(others) + 1 < len(names):
-                depends = f"on {', '.join(others)} only" if others else "on no other coordinate"
+                named = ", ".join(f"`{other}`" for other in others)
+                depends = f"on {named} only" if others else "on no other coordinate"
                 yield (
                     name,
                     f"its motion depends {depends}; a run that outputs less omits the others{own}",
