@@ -109,7 +109,7 @@ def test_a_family_is_one_state_and_not_some_of_its_points(text, expected):
 
 def test_no_point_of_a_sphere_without_forces_is_told_alone():
     sphere = _SPACE + "V: 0\nconstraints: {sphere: x^2 + y^2 + z^2 = a^2}"
-    assert states(sphere) == [("x^2 + y^2 + z^2 = a^2", {}, (), None)]
+    assert states(sphere) == [("x^2 + y^2 + z^2 = a^2", {}, (), True)]
 
 
 def test_the_modes_of_a_ring_are_along_it_and_across_it():

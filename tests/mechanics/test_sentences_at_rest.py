@@ -87,7 +87,7 @@ def test_a_blade_across_the_slope_is_not_without_a_force(seed):
     )
     verdicts = [each.verdict for each in equilibria(derive(text).dynamics).equilibria or ()]
     assert verdicts
-    assert all(v.stable is None and "power of t" in v.reason for v in verdicts)
+    assert all(v.stable is False and "constant acceleration" in v.reason for v in verdicts)
     assert "no force" not in said(text, "Equilibria", "equilibria")
 
 
