@@ -155,7 +155,8 @@ def judge(linear: Linearization, characteristic: Characteristic | None = None) -
         reason = _not_to_be_judged(near)
         if reason:
             return undecided(reason)
-        return by_a_growing_root(near) or _judged(near)
+        found = by_a_growing_root(near) or _judged(near)
+        return _among_equilibria(near) or found if found.is_open else found
     except ZeroDivisionError:
         return undecided("the equations of motion are singular there")
 
@@ -206,9 +207,14 @@ def _not_to_be_judged(near: Near) -> str:
     return ""
 
 
+def _among_equilibria(near: Near) -> Stability | None:
+    """Stable along them, where every position is one and the kinetic energy never grows."""
+    if not (near.rests_everywhere and near.has_energy and near.inertia_is_definite):
+        return None
+    return Stability(stable=True, reason=_EVERYWHERE, across=True, minimum=())
+
+
 def _judged(near: Near) -> Stability:
-    if near.rests_everywhere and near.has_energy and near.inertia_is_definite:
-        return Stability(stable=True, reason=_EVERYWHERE, across=True, minimum=())
     if len(near.others) == 1 and not near.linear.gyroscopic:
         forced = any(x != 0 for row in near.linear.K for x in row)
         if forced and displaced_it_accelerates(near.linear.dynamics):
