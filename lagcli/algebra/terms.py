@@ -21,8 +21,10 @@ from lagcli.algebra.simplification import shape
 from lagcli.algebra.writing import Writer
 from lagcli.expression import (
     Expression,
+    Name,
     Negative,
     Number,
+    Power,
     Product,
     Quotient,
     Sum,
@@ -68,7 +70,7 @@ def terms(
         return Translator(writer).tree(expression)
     shaper = Shaper(field, writer)
     growth = _common_exponential(field, element)
-    split = _Splitter(field, shaper, leading).split(element / growth)
+    split = _Splitter(field, shaper, order, leading).split(element / growth)
     if split is None and not as_given:
         return shape(expression, order)
     given = Translator(writer).tree(expression) if as_given else None
@@ -123,9 +125,12 @@ class _Split:
 
 
 class _Splitter:
-    def __init__(self, field: Field, shaper: Shaper, leading: Collection[str]) -> None:
+    def __init__(
+        self, field: Field, shaper: Shaper, order: Sequence[str], leading: Collection[str]
+    ) -> None:
         self.field = field
         self.shaper = shaper
+        self.parameters = frozenset(order[: order.index("t")] if "t" in order else ())
         self.leading = leading
 
     def split(self, element: Element) -> _Split | None:
@@ -182,7 +187,8 @@ class _Splitter:
 
     def _bracketed(self, groups: list[list[Term]], whole: Element) -> list[Expression]:
         """One expression for each group, or one bracket where that is flat and much shorter."""
-        single = [self._alike(group, whole) for group in self._with_equal_factors(groups)]
+        alike = self._with_equal_factors(groups, whole)
+        single = [part for some in alike for part in self._alike(some, whole)]
         if len(groups) < 2:
             return single
         together = self._shape([term for group in groups for term in group], whole)
@@ -191,25 +197,50 @@ class _Splitter:
             return [together]
         return single
 
-    def _with_equal_factors(self, groups: list[list[Term]]) -> list[list[list[Term]]]:
-        """The groups, the squares with the same factor together: c (x'² + y'²)."""
+    def _with_equal_factors(
+        self, groups: list[list[Term]], whole: Element
+    ) -> list[list[list[Term]]]:
+        """The groups that share a bracket: c (x'² + y'²), m (x y' - y x')."""
         found: dict[object, list[list[Term]]] = {}
         for place, group in enumerate(groups):
             fast, _ = self._factor(group[0][0])
-            is_square = len(fast) == 1 and fast[0][1] == 2
-            rest = frozenset((self._factor(monomial)[1], c) for monomial, c in group)
-            found.setdefault(rest if is_square else place, []).append(group)
+            key: object = place
+            if len(fast) == 1 and fast[0][1] == 2:
+                key = frozenset((self._factor(monomial)[1], c) for monomial, c in group)
+            elif self._degree(fast) == (0, 1):
+                key = self._parameters(self._shape(group, whole)) or place
+            found.setdefault(key, []).append(group)
         return list(found.values())
+
+    def _parameters(self, term: Expression) -> frozenset[Expression]:
+        """The parameters and the number that multiply or divide a term without a bracket."""
+        match term:
+            case Negative(operand=inner):
+                return self._parameters(inner)
+            case Quotient(numerator=above, denominator=below):
+                return self._parameters(above) | {Quotient(below, below)}
+            case Product(factors=factors) if not _sums(factors):
+                return frozenset(f for f in factors if self._is_parameter(f))
+            case _:
+                return frozenset()
+
+    def _is_parameter(self, factor: Expression) -> bool:
+        base = factor.base if isinstance(factor, Power) else factor
+        return isinstance(base, Number) or (isinstance(base, Name) and base.name in self.parameters)
 
     def _factor(self, monomial: Monomial) -> tuple[Monomial, Monomial]:
         """The leading quantities of a monomial, and the rest."""
         fast = tuple(pair for pair in monomial if self._is_leading(pair[0]))
         return fast, tuple(pair for pair in monomial if pair not in fast)
 
-    def _alike(self, groups: list[list[Term]], whole: Element) -> Expression:
-        """The shape of groups that differ in their squares alone."""
+    def _alike(self, groups: list[list[Term]], whole: Element) -> list[Expression]:
+        """The shape of groups that share a bracket."""
+        apart = [self._shape(group, whole) for group in groups]
         if len(groups) == 1:
-            return self._shape(groups[0], whole)
+            return apart
+        if self._factor(groups[0][0][0])[0][0][1] == 1:
+            together = self._shape([term for group in groups for term in group], whole)
+            return [together] if is_flat(together) else apart
         writer = self.shaper.writer
         squares = []
         for group in groups:
@@ -218,7 +249,7 @@ class _Splitter:
             squares.append(writer.power(name, Fraction(exponent)))
         factor = self._shape([(self._factor(m)[1], c) for m, c in groups[0]], whole)
         one = Fraction(1)
-        return writer.product(one, [(factor, one), (writer.sum(squares), one)])
+        return [writer.product(one, [(factor, one), (writer.sum(squares), one)])]
 
     def _without_leading(self, static: list[Term], whole: Element) -> list[Expression]:
         """The terms by their functions; those of the shortest sum where that is much shorter."""

@@ -160,3 +160,26 @@ def test_an_exponential_that_all_terms_have_stands_behind_one_bracket(rate: Expr
     assert written == f"(m*x'^2/2 + k*x^2/2)*{to_grammar(shape(exp(rate), ORDER))}"
     apart = to_grammar(terms(sp.expand(row + k * exp(rate / 2)), ORDER, ["x'"]))
     assert "(m*x'^2" not in apart
+
+
+@pytest.mark.parametrize(
+    ("charge", "written"),
+    [
+        (m * x * dy - m * y * dx, "m*(x*y' - y*x')"),
+        (m * x * dy - m * y * dx + c * (x**2 + y**2) / 2, "m*(x*y' - y*x') + c*(x^2 + y^2)/2"),
+        (
+            m1 * (x * dy - y * dx) + m2 * (u * dv - v * du),
+            "m1*(x*y' - y*x') + m2*(theta1*theta2' - theta2*theta1')",
+        ),
+        (m1 * t * dx + m2 * t * dy, "m1*t*x' + m2*t*y'"),
+        (
+            m * R * (dx * cos(phi) + dy * sin(phi)) + k * dphi,
+            "m*R*(x'*cos(phi) + y'*sin(phi)) + k*phi'",
+        ),
+    ],
+)
+def test_what_is_linear_in_the_velocities_shares_a_bracket(charge: Expr, written: str) -> None:
+    from lagcli.algebra import terms
+
+    velocities = [s.name for s in (dx, dy, du, dv, dtheta, dphi)]
+    assert to_grammar(terms(sp.expand(charge), ORDER, velocities)) == written
