@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 from unicodedata import normalize
 
@@ -16,8 +15,6 @@ from lagcli.diagnostics import NOWHERE, Diagnostic, ProblemError, Source
 from lagcli.record import record
 
 if TYPE_CHECKING:
-    from os import PathLike
-
     from lagcli.formatters import Options
     from lagcli.mechanics.derivation import Derivation
     from lagcli.mechanics.stating import Stating
@@ -361,49 +358,3 @@ def render(answers: Sequence[Answers], format_name: str, options: Options) -> st
     if isinstance(formatter, UnknownFormatter):
         raise LookupError(formatter.message)  # noqa: TRY004 - a name, not a type
     return formatter(answers, options)
-
-
-# -- for programs that use lagcli as a library ------------------------------------------
-
-
-def load(path: str | PathLike[str]) -> Problem:
-    """Read a problem file.
-
-    Raises
-    ------
-    OSError
-        When the file cannot be read.
-    ProblemError
-        When it is no problem; carries every diagnostic.
-
-    Examples
-    --------
-    >>> problem = load("problems/hoop.yaml")  # doctest: +SKIP
-    """
-    found = read(str(path), Path(path).read_bytes())
-    if found.problem is None:
-        raise ProblemError(found.source, found.diagnostics)
-    return found.problem
-
-
-def solve(problem: Problem, sections: Sequence[str] | None = None) -> Answers:
-    """Derive and state what the sections say of a problem, each answer verified.
-
-    Parameters
-    ----------
-    problem
-        As `load` gives it.
-    sections
-        Names of sections; the usual ones when None.
-
-    Raises
-    ------
-    ProblemError
-        When the constraints cannot be used.
-
-    Examples
-    --------
-    >>> answers = solve(load("problems/hoop.yaml"), ["accelerations"])  # doctest: +SKIP
-    """
-    wanted = None if sections is None else tuple(sections)
-    return state(derive(problem), Request(sections=wanted))

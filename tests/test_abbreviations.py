@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from lagcli import load
 from lagcli.abbreviations import abbreviated, written_out
 from lagcli.expression import Name, walk
-from lagcli.pipeline import Request, derive, load, state
+from lagcli.pipeline import Request, derive, state
 
 SECTIONS = ("accelerations", "multipliers", "hamiltonian")
 

@@ -248,13 +248,3 @@ def vanishes_at_random(expression: Expr) -> bool:
         if not found[-1] or len(found) == (2 if symbols else 1):
             break
     return bool(found) and all(found)
-
-
-def evaluate(
-    expression: Expr,
-    values: Mapping[Symbol, Any],
-    digits: int = 50,
-    functions: Mapping[str, Callable[..., Any]] | None = None,
-) -> Any:
-    """The value of one expression at one point; see `Evaluator`."""
-    return Evaluator([expression], digits, functions)(values)[0]

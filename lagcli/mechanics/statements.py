@@ -15,7 +15,6 @@ from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import SolvedMotion
 from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
-from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.statements.answers import (
     Answers,
@@ -29,24 +28,6 @@ if TYPE_CHECKING:
 NUMERIC_CHECK = "50 digits"
 #: Operations that a printed acceleration may have where the elimination has half of them.
 _READABLE = 150
-
-
-def answers(problem: Problem, sections: Sequence[str] | None = None) -> Answers:
-    """Derive what the sections need and state it.
-
-    Parameters
-    ----------
-    problem
-        A checked problem.
-    sections
-        Names of sections; the usual ones when None.
-
-    Raises
-    ------
-    ProblemError
-        When the constraints cannot be used.
-    """
-    return Statements(Derivation(problem)).answers(sections)
 
 
 _JUMP = (

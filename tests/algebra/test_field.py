@@ -10,7 +10,7 @@ from sympy import Expr, Symbol, cos, exp, sin, sqrt
 
 from lagcli.algebra import Field, is_zero
 from lagcli.algebra.build import unspecified
-from lagcli.algebra.numeric import Evaluator, evaluate
+from lagcli.algebra.numeric import Evaluator
 
 a, b, t, v = (Symbol(n, real=True) for n in "a b t v".split())
 p, q, n = (Symbol(s, positive=True) for s in "p q n".split())
@@ -58,6 +58,10 @@ def test_identities(identity: Expr) -> None:
 )  # fmt: skip
 def test_certainly_not_zero(expression: Expr) -> None:
     assert is_zero(expression) is False
+
+
+def evaluate(expression, values):
+    return Evaluator([expression], 50)(values)[0]
 
 
 def test_hidden_dependence_is_not_denied() -> None:

@@ -18,6 +18,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
+from lagcli import load
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import Builder
 from lagcli.algebra.entry import Field
@@ -35,7 +36,6 @@ from lagcli.expression import (
     children,
     walk,
 )
-from lagcli.pipeline import load
 from lagcli.problem_data import Problem
 from lagcli.reader.expressions import parse_text
 from tests.bench.measure import ROOT, Row

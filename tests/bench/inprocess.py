@@ -8,9 +8,9 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 
 import sympy.physics.mechanics  # noqa: F401 - imports are no part of it
 
+from lagcli import load
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics  # noqa: F401
-from lagcli.pipeline import load
 
 problem = load(Path(sys.argv[1]))
 began = time.process_time()

@@ -95,9 +95,10 @@ def main():
     parser.add_argument("--only-time", action="store_true")
     arguments = parser.parse_args()
     started = time.process_time()
+    from lagcli import load
     from lagcli.diagnostics import ProblemError
     from lagcli.mechanics.system import System
-    from lagcli.pipeline import load, with_lagrangian
+    from lagcli.pipeline import with_lagrangian
 
     problem = load(arguments.path)
     try:

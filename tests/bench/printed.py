@@ -22,10 +22,11 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 import mpmath
 import sympy
 
+from lagcli import load
 from lagcli.algebra.numeric import Evaluator
 from lagcli.expression import Expression, walk
 from lagcli.formatters.grammar import to_grammar
-from lagcli.pipeline import Request, derive, load, state
+from lagcli.pipeline import Request, derive, state
 from lagcli.reader.expressions import parse_text
 
 ROOT = Path(__file__).parents[2]

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from lagcli.pipeline import load, read
+from lagcli import load
+from lagcli.pipeline import read
 from lagcli.studies.extremes.cases import cases_of
 from lagcli.studies.extremes.roles import (
     alike,

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import pytest
 
+from lagcli import load
 from lagcli.abbreviations import written_out
 from lagcli.formatters import explaining
 from lagcli.formatters.built_in.json import to_object
@@ -22,7 +23,7 @@ from lagcli.formatters.built_in.latex import render
 from lagcli.formatters.display_width import display_width
 from lagcli.formatters.options import Options
 from lagcli.mechanics.derivation import Derivation
-from lagcli.pipeline import Request, derive, explain, load, state
+from lagcli.pipeline import Request, derive, explain, state
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.statements.answers import Answers

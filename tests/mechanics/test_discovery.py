@@ -14,11 +14,12 @@ from pathlib import Path
 
 import pytest
 
+from lagcli import load
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.discovery import limits
 from lagcli.mechanics.discovery.summary import summary
-from lagcli.pipeline import load, solve
+from tests.solved import solve
 
 from .derived import derive
 

@@ -10,12 +10,12 @@ from pathlib import Path
 import pytest
 import sympy
 
+from lagcli import load
 from lagcli.algebra import is_zero
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.mechanics.discovery.surface import independent_on_surface
-from lagcli.pipeline import load
 from lagcli.reader import parse_text
 
 from .derived import derive

@@ -12,11 +12,12 @@ from pathlib import Path
 import pytest
 import sympy
 
+from lagcli import load
 from lagcli.algebra.build import Builder
 from lagcli.document import Equations, Heading, Items, Label, Paragraph
 from lagcli.expression import Diff, Expression, Name, Number, Power, Rate, walk
 from lagcli.formatters.grammar import to_grammar
-from lagcli.pipeline import derive, explain, load
+from lagcli.pipeline import derive, explain
 from lagcli.rewriting import rebuilt
 from lagcli.statements.registry import told_in_order
 

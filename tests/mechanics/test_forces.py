@@ -9,10 +9,10 @@ import pytest
 import sympy
 from sympy import Expr
 
+from lagcli import load
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.statements import Statements
-from lagcli.pipeline import load
 from lagcli.reader import parse_text
 from lagcli.statements.answers import Answers
 from lagcli.statements.forces import ForcesSection

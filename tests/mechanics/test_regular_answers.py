@@ -9,9 +9,9 @@ import mpmath
 import pytest
 import sympy
 
+from lagcli import load
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.derivation import Derivation
-from lagcli.pipeline import load
 
 from .derived import derive
 

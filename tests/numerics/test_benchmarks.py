@@ -8,8 +8,8 @@ from lagcli import load
 from lagcli.decimals import value_of
 from lagcli.expression import operation_count
 from lagcli.mechanics.matrix_form import MatrixForm
-from lagcli.pipeline import solve
 from lagcli.studies.check.trajectory import TrajectoryCheck
+from tests.solved import solve
 
 from .running import last, simulated
 

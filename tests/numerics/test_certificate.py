@@ -5,8 +5,9 @@ from random import Random
 import mpmath
 import pytest
 
+from lagcli import load
 from lagcli.diagnostics import ProblemError
-from lagcli.pipeline import load, with_lagrangian
+from lagcli.pipeline import with_lagrangian
 
 from .running import ROOT, simulated
 

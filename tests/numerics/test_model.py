@@ -9,7 +9,8 @@ import pytest
 from lagcli import load
 from lagcli.mechanics.derivation import Derivation
 from lagcli.numerics.certified.model import model_section
-from lagcli.pipeline import Request, solve, state
+from lagcli.pipeline import Request, state
+from tests.solved import solve
 
 
 def lagcli(*arguments, status=0):

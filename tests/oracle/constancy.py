@@ -18,11 +18,12 @@ from typing import Any
 
 from mpmath import mp, mpf
 
+from lagcli import load
 from lagcli.formatters.built_in.json import to_object
-from lagcli.pipeline import load, solve
 from lagcli.problem_data import Problem
 from lagcli.reader import parse_text
 from lagcli.record import replace
+from tests.solved import solve
 
 from .jets import real_part
 from .motion import NoMotion, motion

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from mpmath import mp
 
-from lagcli.pipeline import load
+from lagcli import load
 from lagcli.problem_data import Problem
 from lagcli.reader import parse_text
 

@@ -12,11 +12,12 @@ from typing import Any
 import pytest
 from mpmath import mp, mpf
 
+from lagcli import load
 from lagcli.formatters.built_in.json import to_object
-from lagcli.pipeline import load, solve
 from lagcli.problem_data import Problem
 from tests.library.test_library import EXAMINED as SECTIONS
 from tests.library.test_library import LIBRARY
+from tests.solved import solve
 
 from .examine import examine
 from .functions import ELEMENTARY, StandIn

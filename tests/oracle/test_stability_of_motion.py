@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from lagcli import load
 from lagcli.mechanics.derivation import Derivation
-from lagcli.pipeline import load, with_lagrangian
+from lagcli.pipeline import with_lagrangian
 from lagcli.reader import read_problem
 
 from .perturbed import Claim, claims, contradiction

@@ -2,6 +2,7 @@
 
 import pytest
 
+from lagcli import load
 from lagcli.formatters.display_width import display_width
 from lagcli.library import entries
 from lagcli.numerics.equations.columns import Column
@@ -14,7 +15,7 @@ from lagcli.pictures.kinds import PictureRequest, picture_of
 from lagcli.pictures.page import to_html
 from lagcli.pictures.scene import scene
 from lagcli.pictures.terminal import Terminal, to_text
-from lagcli.pipeline import load, with_lagrangian
+from lagcli.pipeline import with_lagrangian
 from lagcli.problem_data import METHODS
 from lagcli.reader.columns import usual_columns
 

@@ -153,12 +153,12 @@ def test_a_title_is_never_a_formula(plot, tmp_path):
 
 
 def test_the_error_stays_below_the_bound_of_the_certificate():
+    from lagcli import load
     from lagcli.numerics.equations.columns import Column
     from lagcli.numerics.hybrid.request import Asked
     from lagcli.pictures.drawing import Curve, Rule
     from lagcli.pictures.error import error
     from lagcli.pictures.run import short
-    from lagcli.pipeline import load
     from lagcli.reader.columns import usual_columns
 
     problem = load(KEPLER)

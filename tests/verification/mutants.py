@@ -77,13 +77,13 @@ ASKED: dict[str, tuple[str, ...]] = {
 
 def solved(name: str, before: Any = None) -> dict[str, Any]:
     """One problem as it is derived, and, where that is not as before, as it is then printed."""
-    from lagcli import pipeline
+    from lagcli import load, pipeline
     from lagcli.formatters.built_in.json import to_object
     from lagcli.verification import verified
 
     pipeline.VERIFYING = False
     try:
-        derivation = pipeline.derive(pipeline.load(ROOT / f"problems/{name}.yaml"))
+        derivation = pipeline.derive(load(ROOT / f"problems/{name}.yaml"))
         answers = pipeline.state(derivation, pipeline.Request(sections=ASKED[name]))
         derived = json.loads(json.dumps(to_object(answers)))
         if derived == before:
@@ -215,7 +215,7 @@ def outcome(site: Site, before: dict[str, Any], names: Sequence[str]) -> Outcome
 
 def judge(result: Outcome, name: str, before: Any, after: Any) -> None:
     """What one problem shows of a mutant."""
-    from lagcli.pipeline import load
+    from lagcli import load
 
     problem = load(ROOT / f"problems/{name}.yaml")
     derived = Meaning(problem, before, after["derived"]).differences()

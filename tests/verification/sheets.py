@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from lagcli import load
 from lagcli.expression import Expression, Number, Product, Sum
 from lagcli.pipeline import _statements as statements
-from lagcli.pipeline import derive, load
+from lagcli.pipeline import derive
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.rewriting import rewritten

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from lagcli.pipeline import derive, explain, load
+from lagcli import load
+from lagcli.pipeline import derive, explain
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.statements.answers import Answers

@@ -35,7 +35,7 @@ def test_a_known_change_is_noticed(file: str, text: str, change: str) -> None:
 
 
 def differences(before: dict[str, object], after: dict[str, object]) -> list[str]:
-    from lagcli.pipeline import load
+    from lagcli import load
 
     problem = load(ROOT / "problems/chains/coupled-pendulums.yaml")
     sheets = ({"warnings": [], **each} for each in (before, after))

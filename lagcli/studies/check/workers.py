@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-import multiprocessing
-import signal
 import sys
 import time
 from collections.abc import Generator, Sequence
-from contextlib import suppress
-from multiprocessing.connection import Connection, wait
+from multiprocessing.connection import wait
 from pathlib import Path
 
 from lagcli.diagnostics import Diagnostic, Source
 from lagcli.platform.failures import describe
-from lagcli.platform.stack import with_deep_stack
 from lagcli.sparing import keep_what_is_there, spare_sympy
 from lagcli.studies.check.findings import Report
 from lagcli.studies.check.one import broken, check_problem, too_long
-
-#: Forked workers share what the parent has imported: SymPy's start-up is paid once.
-_FORKS = sys.platform == "linux"
-_PROCESSES = multiprocessing.get_context("fork") if _FORKS else multiprocessing.get_context("spawn")
+from lagcli.studies.worker import Worker
 
 
 def check_all(files: Sequence[str], jobs: int, limit: float) -> Generator[Report, None, None]:
@@ -53,29 +46,17 @@ def _import_what_workers_need() -> None:
     keep_what_is_there()
 
 
-class _Worker:
-    """A process that checks one file after another, as they are sent to it."""
+class _Checker(Worker):
+    """A worker with the place of its file, and the end of the time that this has."""
 
-    def __init__(self, inherited: Sequence[Connection]) -> None:
-        self.connection, theirs = _PROCESSES.Pipe()
-        others = [*inherited, self.connection] if _FORKS else []
-        self.process = _PROCESSES.Process(target=_work, args=(theirs, others), daemon=True)
-        self.process.start()
-        theirs.close()
-        self.place: int | None = None
-        self.deadline = float("inf")
+    place: int | None = None
+    deadline = float("inf")
 
     def begin(self, place: int, name: str, data: bytes | None, limit: float) -> None:
         """Send a file, or what standard input held; the clock of that file starts."""
         self.place = place
         self.deadline = time.monotonic() + limit
         self.connection.send((name, data))
-
-    def kill(self) -> None:
-        """End the process at once."""
-        self.process.kill()
-        self.process.join()
-        self.connection.close()
 
 
 class _Pool:
@@ -86,7 +67,7 @@ class _Pool:
         self.limit = limit
         self.standard = sys.stdin.buffer.read() if "-" in files else None
         self.waiting = iter(range(len(files)))
-        self.workers: list[_Worker] = []
+        self.workers: list[_Checker] = []
         self.reports: dict[int, Report] = {}
 
     def start(self, count: int) -> None:
@@ -95,11 +76,11 @@ class _Pool:
             self._add()
 
     def _add(self) -> None:
-        worker = _Worker([other.connection for other in self.workers])
+        worker = _Checker(_report, self.workers)
         self.workers.append(worker)
         self._feed(worker)
 
-    def _feed(self, worker: _Worker) -> None:
+    def _feed(self, worker: _Checker) -> None:
         place = next(self.waiting, None)
         if place is None:
             worker.place, worker.deadline = None, float("inf")
@@ -120,17 +101,16 @@ class _Pool:
             elif time.monotonic() >= worker.deadline:
                 self._replace(worker, worker.place, too_long(name, self.limit))
 
-    def _receive(self, worker: _Worker, place: int, name: str) -> None:
+    def _receive(self, worker: _Checker, place: int, name: str) -> None:
         try:
             self.reports[place] = worker.connection.recv()
         except EOFError:
-            worker.process.join()
-            ending = f"the process ended with status {worker.process.exitcode}"
+            ending = f"the process ended with status {worker.ended()}"
             self._replace(worker, place, broken(name, ending))
         else:
             self._feed(worker)
 
-    def _replace(self, worker: _Worker, place: int, report: Report) -> None:
+    def _replace(self, worker: _Checker, place: int, report: Report) -> None:
         self.reports[place] = report
         worker.kill()
         self.workers.remove(worker)
@@ -140,21 +120,6 @@ class _Pool:
         """End all workers."""
         for worker in self.workers:
             worker.kill()
-
-
-def _work(connection: Connection, others: Sequence[Connection]) -> None:
-    """What a worker does until the parent is gone."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent ends its workers
-    for other in others:  # else the end of the parent would not be seen here
-        other.close()
-    with_deep_stack(lambda: _serve(connection))
-
-
-def _serve(connection: Connection) -> None:
-    """Check what is sent until the other end of the pipe is closed."""
-    with suppress(EOFError, OSError):
-        while True:
-            connection.send(_report(*connection.recv()))
 
 
 def _report(name: str, data: bytes | None) -> Report:

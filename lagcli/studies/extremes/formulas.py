@@ -9,7 +9,7 @@ from lagcli.graph.nodes import Graph
 from lagcli.graph.reading import GraphReader
 from lagcli.graph.sharing import operations, written_out
 from lagcli.graph.stable import Stable
-from lagcli.pipeline import solve
+from lagcli.pipeline import Request, derive, state
 from lagcli.problem_data import Problem
 from lagcli.statements.answers import AccelerationsSection, ChargesSection, MultipliersSection
 from lagcli.studies.extremes.case import CaseFormula, Group
@@ -20,7 +20,8 @@ _LONGEST = 20_000
 
 def printed_formulas(problem: Problem) -> tuple[CaseFormula, ...]:
     """Accelerations, multipliers and conserved charges in terms of the parameters."""
-    sections = solve(problem, ["accelerations", "multipliers", "charges"]).sections
+    request = Request(sections=("accelerations", "multipliers", "charges"))
+    sections = state(derive(problem), request).sections
     rewrite = _Rewriting(problem)
     return tuple(
         CaseFormula(group=group, name=name, printed=tree, rewritten=rewrite(tree))
