@@ -13,7 +13,8 @@ from lagcli.document import (
     Label,
     Row,
 )
-from lagcli.expression import ZERO, Diff, Expression, Name, Negative, Product
+from lagcli.expression import ZERO, Diff, Expression, Name, Negative, Product, walk
+from lagcli.mechanics.explaining.reduction import used_to_eliminate
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
 from lagcli.statements.answers import CanonicalSection, Section
@@ -96,7 +97,7 @@ def brackets(_: Teller, section: Section) -> Iterator[Block]:
         yield Equations(tuple(Row(Name(name, 1), rate) for name, rate in found.rates.items()))
 
 
-def hamilton_jacobi(_: Teller, section: Section) -> Iterator[Block]:
+def hamilton_jacobi(teller: Teller, section: Section) -> Iterator[Block]:
     """From H(q, dS/dq) = E to the parts of S, coordinate by coordinate."""
     found = cast(HamiltonJacobiSection, section)
     if found.hamiltonian is None:
@@ -107,6 +108,11 @@ def hamilton_jacobi(_: Teller, section: Section) -> Iterator[Block]:
         yield from _by_forces_of_time(found, found.time_rate)
         return
     H, W = Label("H"), Label("W")
+    left = {node.name for node in walk(found.hamiltonian) if isinstance(node, Name)}
+    gone = [n for n in teller.system.names if teller.dynamics.constraints and f"p_{n}" not in left]
+    if gone:
+        momenta = ", and the momenta are those of the Lagrangian that is left."
+        yield says(*used_to_eliminate(gone), momenta)
     yield says(
         *(
             "Each momentum in the Hamiltonian is the derivative of ",

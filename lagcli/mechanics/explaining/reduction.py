@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import cast
 
@@ -61,12 +61,18 @@ def _timed(reduced: ReductionSection) -> bool:
     return any(node == Name("t") for node in parts)
 
 
+def used_to_eliminate(gone: Sequence[str]) -> list[Part]:
+    """That constraints are solved for these coordinates."""
+    return [
+        f"The constraint{' is' if len(gone) == 1 else 's are'} used to eliminate ",
+        *names(gone),
+    ]
+
+
 def _cyclic(teller: Teller, reduced: ReductionSection) -> Iterator[Block]:
     cyclic = list(reduced.momenta)
     if reduced.eliminated:
-        one = len(reduced.eliminated) == 1
-        yield says(f"The constraint{'s are' if not one else ' is'} used to eliminate ",
-                   names(reduced.eliminated), ".")  # fmt: skip
+        yield says(*used_to_eliminate(reduced.eliminated), ".")
     if cyclic:
         one = len(cyclic) == 1
         yield says(names(cyclic), " is cyclic, with the constant momentum" if one

@@ -13,11 +13,12 @@ from lagcli.algebra.equations import rounded, written
 from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.equilibria import RestPoints, at
 from lagcli.mechanics.oscillations.exceptions import unless_written
 from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
+from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
 from lagcli.mechanics.reduction.readable import conditions, without_moduli
 from lagcli.mechanics.reduction.rolling import RollingMotions
 from lagcli.mechanics.reduction.rolling_statement import rolling_section
@@ -115,7 +116,7 @@ class _SteadyStatement:
             if not motion.derivatives:
                 linear = Linearization(self.steady.rest, self.steady.point(motion))
                 judged = judge(linear)
-                if not (linear.drifts or self.steady.grazes(motion)):
+                if not (linear.drifts or linear.has_kink or self.steady.grazes(motion)):
                     matrices = (linear.M, linear.C, linear.K)
                     squares, turning = squares_of(linear), held_by_gyroscopic_terms(linear)
                 if motion.family is not None:
@@ -132,8 +133,8 @@ class _SteadyStatement:
         if self.steady.grazes(motion):
             judged = undecided(GRAZES)
         potential = potential_of(self.steady.rest, "U_eff")
-        if judged.is_open and (whole := self._at_rest(motion)) is not None:
-            judged, potential = judge(whole), potential_of(whole.rest)
+        if judged.is_open and (resting := self._at_rest(motion)) is not None:
+            judged, potential = resting, potential_of(RestPoints(self.routh.full.dynamics))
         system, names = self.steady.system, self.steady.full.names
         rates = motion.rates
         point = self.steady.point(motion)
@@ -162,14 +163,16 @@ class _SteadyStatement:
             on=relation_sides(point, system.q, self.order),
         )
 
-    def _at_rest(self, motion: Steady) -> Linearization | None:
-        """The motion near it in all coordinates, where the cyclic ones do not move."""
-        if not motion.rates or any(is_zero(rate) is not True for rate in motion.rates.values()):
+    def _at_rest(self, motion: Steady) -> Stability | None:
+        """The verdict on the equilibrium that it is, where the cyclic coordinates do not move."""
+        if motion.rates is None or any(is_zero(x) is not True for x in motion.rates.values()):
             return None
-        full, q = self.routh.full.dynamics, self.steady.full.q
-        values = {x: value for x, value in motion.values.items() if x in q}
-        free = tuple(x for x in q if x not in values)
-        return Linearization(RestPoints(full), RestPoint(values, free, motion.positive))
+        q, values = self.steady.full.q, motion.values
+        for place in SmallOscillations(self.routh.full.dynamics).places or ():
+            pairs = ((place.point.values.get(x, x), values.get(x, x)) for x in q)
+            if all(is_zero(there - here) is True for there, here in pairs):
+                return place.verdict
+        return None
 
     def _where(self, motion: Steady) -> tuple[Above, ...]:
         shortest = sorted(motion.positive, key=lambda e: int(e.count_ops()))

@@ -71,10 +71,11 @@ class Action:
         self.x, self.section = x, section
         program, what = x.reference.program, "the Hamilton-Jacobi equation"
         derivatives = section.derivatives or {}
-        self.names = [n for n in x.reference.names if n in derivatives or not derivatives]
+        H = x.places(what, [section.hamiltonian] if section.hamiltonian is not None else [])
+        left = derivatives or {name.removeprefix("p_") for name, _ in program.symbols(H or [])}
+        self.names = [n for n in x.reference.names if n in left]
         self.q = [program.symbol(n) for n in self.names]
         self.p = [program.symbol(f"p_{n}") for n in self.names]
-        H = x.places(what, [section.hamiltonian] if section.hamiltonian is not None else [])
         equations = x.places(what, list(section.equations.values()))
         slopes = x.places(what, [derivatives[n] for n in self.names] if derivatives else [])
         self.readable = bool(H) and equations is not None and slopes is not None
