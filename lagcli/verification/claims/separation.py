@@ -30,7 +30,7 @@ _WHY = "what was derived does not hold at random states"
 _STEPS = 30
 _NEAR = 1e-20
 #: States with moved constants until a condition holds at two; Kepler's with E < 0 takes some 10.
-_ATTEMPTS, _WANTED = 60, 2
+_ATTEMPTS, _WANTED = 300, 2
 
 
 def hamilton_jacobi(x: Examination, section: HamiltonJacobiSection) -> HamiltonJacobiSection:
@@ -300,10 +300,7 @@ class Action:
         for _ in range(attempts):
             scales = [arb(random.choice((2, 3, 5)) ** random.randint(-2, 2)) for _ in moved]
             there = {key: known[key] * scale for key, scale in zip(moved, scales, strict=True)}
-            yield values(
-                {
-                    **known,
-                    **there,
-                    self.energy: there.get(self.energy, arb(1)) * random.choice((1, -1)),
-                }
-            )
+            signs = {
+                key: there[key] * random.choice((1, -1)) for key in self.constants if key in there
+            }
+            yield values({**known, **there, **signs})
