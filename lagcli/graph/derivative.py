@@ -172,6 +172,7 @@ _SLOPES: dict[str, Rule] = {
     "log": lambda g, x, _: g.monomial([(x[0], Fraction(-1))]),
     "abs": _named("sign"),
     "sign": lambda g, _x, _: g.zero,
+    "side": lambda g, _x, _: g.zero,
     "sin": _named("cos"),
     "cos": _named("sin", -1),
     "tan": _inverse_square("cos"),

@@ -19,9 +19,7 @@ import math
 from collections.abc import Sequence
 from fractions import Fraction
 
-from lagcli.graph.nodes import mask_of
 from lagcli.numerics.hybrid.mark import Mark
-from lagcli.numerics.hybrid.modes import Mode
 from lagcli.numerics.hybrid.run import Run
 
 #: The bits that a method carries when nobody asks for more; others carry those of doubles.
@@ -32,7 +30,7 @@ _LOOKS, _LATER = 50, 1e-9
 
 def clock_errors(run: Run, span: float) -> list[float]:
     """What every component of the state may err by; nothing where the time acts on none."""
-    if not run.marks or not run.steps or not any(_acts(phase.mode) for phase in run.phases):
+    if not run.marks or not run.steps or not any(phase.mode.equations.depends_on_time for phase in run.phases):
         return []
     bits = BITS.get(run.method_name, DOUBLES)
     squares = [0.0] * len(run.marks[0].q)
@@ -63,8 +61,3 @@ def column_changes(run: Run, mark: Mark, errors: Sequence[float]) -> list[float]
         for j, (a, b) in enumerate(zip(here, there, strict=True)):
             total[j] += math.inf if b is None else 0.0 if a is None else abs(float(b - a))
     return total
-
-
-def _acts(mode: Mode) -> bool:
-    """Whether the time is in the equations."""
-    return bool(mask_of(mode.equations.dynamics) & mode.equations.t.mask)

@@ -140,7 +140,7 @@ def are_felt(outcome: Outcome, others: Modes, accuracy: float) -> bool:
         That of the columns.
     """
     run = outcome.run
-    if run.shortened:  # what is narrow is seldom met by a row
+    if run.shortened or run.events:  # what is narrow, and an impact, is seldom met by a row
         return True
     marks = run.marks[:: max(1, len(run.marks) // _LOOKS)]
     n, columns = len(run.peaks) // 2, len(others.simulation.nodes)

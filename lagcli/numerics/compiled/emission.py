@@ -331,7 +331,7 @@ class Series:
                 turn = two("fsub", turn, inner((u, "FJ"), (y, "R")))
                 turn = two("fsub", turn, inner((place, "FJ"), (below, "R")))
                 return two("fmul", two("fmul", turn, "%part"), self._inverse(zero, below))
-            case "sign":
+            case "sign" | "side":
                 return text.whole(0)
             case "signed":
                 return two("fmul", text.loaded("%signs", op.numbers[0]), a)

@@ -35,6 +35,7 @@ from lagcli.numerics.compiled.intrinsics import (
     velocities,
 )
 from lagcli.numerics.compiled.layout import (
+    CLOCK,
     CONSTRAINTS,
     DEFECT,
     DONE,
@@ -132,9 +133,10 @@ def move(
 
 
 def kick(rows: Reals, ahead: Reals, facts: Reals, counts: Ints, part: float) -> None:
-    """Change the velocities by what the rounding of the place changes a narrow force.
+    """Change the velocities by what the rounding of place and time changes a narrow force.
 
-    In one of two runs: |dF| h |q| eps / |dq| of a step in which q changes by dq and F by dF.
+    In one of two runs: |dF| h |q| eps / |dq| of a step in which q changes by dq and F by dF,
+    and likewise for t where it acts.
     """
     n = counts[N]
     size = 0.0
@@ -143,8 +145,9 @@ def kick(rows: Reals, ahead: Reals, facts: Reals, counts: Ints, part: float) -> 
         size = max(size, abs(ahead[j]))
         way = max(way, reach(at(rows, j * STRIDE), 1, counts[ORDER], part))
     if facts[KICK] > 0 and way > 0:
+        apart = max(size / way, facts[CLOCK] * rows[2 * n * STRIDE] / facts[H])
         for j in range(n, 2 * n):
-            change = facts[KICK] * size / way * bend(at(rows, j * STRIDE), counts[ORDER], part)
+            change = facts[KICK] * apart * bend(at(rows, j * STRIDE), counts[ORDER], part)
             if ahead[j] < 0:
                 change = -change
             ahead[j] = ahead[j] + change

@@ -17,7 +17,8 @@ SHORTEST = 7
 ROUNDING = 8
 SCALE = 9
 KICK = 10
-FACTS = 11
+CLOCK = 11
+FACTS = 12
 
 # counts
 N = 0
@@ -35,7 +36,8 @@ WATCHED = 11
 BLOCKED = 12
 SHORTENED = 13
 NEAR = 14
-COUNTS = 15
+TOUCHED = 15
+COUNTS = 16
 
 # what is watched: its kind, the rows of its argument and of the whole, its power, and the
 # same rows in the doubles beside numbers of 80 bits

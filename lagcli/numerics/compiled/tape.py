@@ -33,7 +33,7 @@ class Op(NamedTuple):
     name : str
         `input`, `sum`, `product`, `quotient`, `power`, `root`, `exp`, `sin` (whose
         cosine follows it, `other`), `sinh` likewise, `tanh`, `primitive`, `angle`,
-        `sign`, `signed`, `abs`, `sign_of`.
+        `sign`, `side`, `signed`, `abs`, `sign_of`.
     operands : tuple of int
         Places on the tape.
     numbers : tuple
@@ -217,7 +217,7 @@ class Tape:
         row = self.place_of(x)
         here = Scaled(self._one, row)
         match name:
-            case "exp" | "tanh":
+            case "exp" | "tanh" | "side":
                 return self._scaled(Op(name, (row,)))
             case "sin" | "cos" | "sinh" | "cosh":
                 kind = "sinh" if name.endswith("h") else "sin"

@@ -124,6 +124,10 @@ class Text:
                 return self.loaded(signs, op.numbers[0])
             case "signed":
                 return self.two("fmul", self.loaded(signs, op.numbers[0]), x[0])
+            case "side":
+                negative = self.made(f"fcmp olt {self.real} {x[0]}, {self.whole(0)}")
+                signs = f"{self.real} {self.whole(-1)}, {self.real} {self.whole(1)}"
+                return self.made(f"select i1 {negative}, {signs}")
             case "abs_of":
                 return self.call("fabs", x[0])
             case "sign_of":

@@ -33,6 +33,7 @@ from lagcli.numerics.compiled.layout import (
     NEAR,
     SHORTENED,
     STRIDE,
+    TOUCHED,
     TURNS,
     WATCHED,
     WIDTH,
@@ -51,7 +52,9 @@ SETTLED = 1e-4
 INNER = 1.5
 SHORTER = 0.8
 ATTEMPTS = 400
-#: A sign that only touches 0 shortens a step no more than this.
+#: An argument of a sign that only touches 0 shortens a step no more than to 2^-30 of it, and
+#: the next one, where it touches again, no more than to 2^-6.
+DEEPEST = 9.313225746154785e-10
 LEAST = 0.015625
 #: Steps after one that was shortened that count as near something narrow.
 NEIGHBOURS = 40
@@ -140,7 +143,9 @@ def is_clear(rows: Reals, watch: Ints, i: int, order: int, part: float, least: f
 def unblocked(rows: Reals, watch: Ints, counts: Ints, order: int, part: float) -> float:
     """The part of s over which a step passes over nothing: this or less."""
     before = part + 1
-    least = part * LEAST
+    least = part * DEEPEST
+    if counts[TOUCHED] == 1:
+        least = part * LEAST
     counts[BLOCKED] = 0
     attempts = 0
     while part < before and attempts < ATTEMPTS:
@@ -151,6 +156,9 @@ def unblocked(rows: Reals, watch: Ints, counts: Ints, order: int, part: float) -
                 part = part * SHORTER
                 if watch[i * WIDTH] != JUMPS:
                     counts[BLOCKED] = i + 1
+    counts[TOUCHED] = 0
+    if part < least:
+        counts[TOUCHED] = 1
     if counts[BLOCKED] > 0:
         counts[SHORTENED] += 1
         counts[NEAR] = NEIGHBOURS

@@ -48,6 +48,7 @@ class Doubles:
         },
         "abs": abs,
         "sign": _sign,
+        "side": lambda x: math.copysign(1.0, x),
         "cot": lambda x: 1 / math.tan(x),
         "sec": lambda x: 1 / math.cos(x),
         "csc": lambda x: 1 / math.sin(x),
@@ -115,6 +116,7 @@ class Balls:
             "atan2": self._atan2,
             "abs": lambda x: x * self._sign(x),
             "sign": self._sign,
+            "side": lambda x: self.ball(-1 if self._constant(x).mid() < 0 else 1),
             "power": self._power,
             "pi": self.ball.pi,
         }

@@ -127,6 +127,11 @@ class Equations:
         """M, forcing, A and the bias c, row by row: what the accelerations follow from."""
         return [*chain(*self.mass), *self.forcing, *chain(*self.rows), *self.bias]
 
+    @cached_property
+    def depends_on_time(self) -> bool:
+        """Whether the time is in the equations."""
+        return bool(mask_of(self.dynamics) & self.t.mask)
+
     @property
     def parameter_values(self) -> dict[Symbol, Node]:
         """The values of the parameters that have one, as formulas."""

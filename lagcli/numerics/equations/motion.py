@@ -23,9 +23,11 @@ Function = Callable[..., tuple[Any, ...]]
 #: A time in which a sign shows itself.
 _AFTER = 1e-6
 _NUDGE = 1e-6
+#: In which the argument of an event is worked out.
+_BITS = 160
+_EPSILON = 2.2e-16
 #: An argument of a sign within so many roundings of its terms is 0.
-ROUNDINGS = 100
-_ROUNDINGS = ROUNDINGS * 2.2e-16
+_ROUNDINGS = 100 * _EPSILON
 
 
 class Motion:
@@ -183,6 +185,39 @@ class Motion:
         return self.function(self.kinks)
 
     @cached_property
+    def exact_kink_arguments(self) -> Function:
+        """The same, the state taken as exact."""
+        return self.exactly(self.kinks)
+
+    def exactly(self, nodes: Sequence[Node]) -> Function:
+        """The values of nodes, rounded once: of the doubles of a state and the file's parameters."""
+        from flint import ctx
+
+        from lagcli.numerics.equations.arithmetic import Balls
+        from lagcli.numerics.equations.constants import constants_of
+
+        equations, arithmetic = self.equations, Balls()
+
+        def made() -> Function:
+            constants = constants_of(equations, list(nodes), arithmetic)
+            return straight_line(equations.state, nodes, constants, arithmetic)
+
+        def with_bits(call: Callable[[], Any]) -> Any:
+            usual, ctx.prec = ctx.prec, _BITS
+            try:
+                return call()
+            finally:
+                ctx.prec = usual
+
+        function = with_bits(made)
+
+        def at(*state: float) -> tuple[float, ...]:
+            balls = [*map(arithmetic.ball, state)]
+            return tuple(map(float, with_bits(lambda: function(*balls))))
+
+        return at
+
+    @cached_property
     def kink_rates(self) -> Function:
         """The rates of what stands in abs and sign, of the state and then q''."""
         e = self.equations
@@ -202,10 +237,23 @@ class Motion:
         noise = [0.0] * len(here)
         for j, x in enumerate(state):
             if x:
-                moved = [*state[:j], x * (1 + _NUDGE), *state[j + 1 :]]
-                for k, y in enumerate(self.kink_arguments(*moved)):
+                for k, y in enumerate(self._nudged(state, j, _NUDGE * x)):
                     noise[k] += abs(y - here[k]) / _NUDGE * _ROUNDINGS
         return noise
+
+    def kink_change(
+        self, k: int, t: float, state: Sequence[float], sizes: Sequence[float]
+    ) -> float:
+        """How much a rounding of every component of the state changes one of these arguments."""
+        whole, total = [t, *state], 0.0
+        here = self.kink_arguments(*whole)[k]
+        for j, size in enumerate(sizes, 1):
+            if size:
+                total += abs(self._nudged(whole, j, _NUDGE * size)[k] - here)
+        return total / _NUDGE * _EPSILON
+
+    def _nudged(self, state: Sequence[float], j: int, change: float) -> tuple[Any, ...]:
+        return self.kink_arguments(*state[:j], state[j] + change, *state[j + 1 :])
 
     def set_signs(self, t: float, q: Sequence[float], v: Sequence[float]) -> None:
         """Take the signs of the kinks' arguments here, or just after where they are 0."""

@@ -202,7 +202,7 @@ class _Text:
         return name
 
     def _function(self, name: str) -> str:
-        if name not in FUNCTIONS and name != "power":
+        if name not in FUNCTIONS and name not in {"power", "side"}:
             raise UndefinedFunction(name)
         self.given[f"f_{name}"] = name
         return f"f_{name}"

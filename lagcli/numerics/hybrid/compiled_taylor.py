@@ -103,6 +103,7 @@ class CompiledTaylor:
             (k.SHORTEST, 4 * numbers.rounding),
             (k.ROUNDING, _HELD * numbers.rounding),
             (k.KICK, numbers.rounding if bound.moved else 0.0),
+            (k.CLOCK, 1.0 if motion.equations.depends_on_time else 0.0),
         ):
             facts[place] = numbers.cell(fact)
         counts[k.N], counts[k.ORDER] = self.n, self.order
@@ -139,7 +140,7 @@ class CompiledTaylor:
         state, motion = self._prepare(q, v, until, tolerance), self.machine.motion
         ahead, both, t = self._ahead, 2 * self.n, begin
         state[both] = begin
-        kinks, self.reached = Kinks(motion), None
+        kinks, self.reached = Kinks(motion, tolerance), None
         if motion.kinks:
             kinks.begin(t, q, v)
         while t < until:
@@ -169,7 +170,7 @@ class CompiledTaylor:
                 if kinks.sticks(end, q, v):
                     self.reached = kinks.reached
                     return
-                v = kinks.pass_through(end, q, v, moved=tolerance.moved)
+                v = kinks.pass_through(end, q, v)
                 state[self.n : both] = v
             t = end
             if self.evaluations % (_LOOK * self.order) == 0:

@@ -77,6 +77,11 @@ class Condition:
     kind: Kind = "stop"
     index: int = -1
     two_sided: bool = False
+    exact_margin: Margin | None = None
+
+    def exactly(self, t: float, q: Vector, v: Vector) -> float:
+        """The margin of a state that is taken as exact, where its formula allows that."""
+        return float((self.exact_margin or self.margin)(t, q, v))
 
 
 @record

@@ -13,7 +13,7 @@ from typing import Any
 from lagcli.graph.nodes import Node, Symbol
 from lagcli.numerics.equations.arithmetic import Arithmetic
 from lagcli.numerics.equations.columns import Values
-from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.motion import Function, Motion
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.charges import Sizes, conserved_charges
 from lagcli.numerics.hybrid.events import Condition
@@ -78,7 +78,14 @@ class Mode:
             if k in self.held
         ]
         found += [
-            Condition(names[k], "contact closes", self._watched(node), "gap", k)
+            Condition(
+                names[k],
+                "contact closes",
+                self._watched(node),
+                "gap",
+                k,
+                exact_margin=self._exactly(node),
+            )
             for k, node in simulation.gaps.items()
             if k not in self.held
         ]
@@ -98,6 +105,16 @@ class Mode:
         def margin(t: float, q: Sequence[Any], v: Sequence[Any]) -> float:
             [value] = values(t, q, v)
             return math.inf if value is None else float(value)
+
+        return margin
+
+    def _exactly(self, node: Node) -> Callable[..., float]:
+        known: list[Function] = []
+
+        def margin(t: float, q: Sequence[float], v: Sequence[float]) -> float:
+            if not known:
+                known.append(self.motion.exactly([node]))
+            return float(known[0](t, *q, *v)[0])
 
         return margin
 

@@ -12,7 +12,7 @@ from lagcli.numerics.hybrid.modes import Mode
 from lagcli.numerics.hybrid.transitions import Transitions, Turn
 from lagcli.numerics.integrators.sight import seen_steps
 from lagcli.numerics.integrators.steps import CannotGoOn, Method, Step, Tolerance, component_scales
-from lagcli.numerics.integrators.switching import lateness
+from lagcli.numerics.integrators.switching import displaced, lateness, later
 from lagcli.record import record, replace
 
 Vector = list[Any]
@@ -74,7 +74,7 @@ class Run:
     ) -> None:
         self.transitions = transitions
         self.tolerance = tolerance
-        transitions.rounding = self._rounding
+        transitions.rounding, transitions.moved = self._rounding, tolerance.moved
         self._allowed = allowed
         self._watch = Watch(self._state_in, self._errors, self._rounding)
         self.marks: list[Mark] = []
@@ -192,6 +192,8 @@ class Run:
             q, v, t = step.q, step.v, step.end
             self._see(step)
             found = self._watch.first(step)
+            if found is not None and not found.touches:
+                found = replace(found, t=later(self.tolerance, found.t, step.end))
             end = t if found is None else found.t
             self._mark_until(step, end)
             if found is not None:
@@ -213,14 +215,13 @@ class Run:
         """What follows an occurrence, as if it had been met at the time itself.
 
         Doubles find the margin u of a contact u/u' late: the state goes back by that time
-        before what happens, and forth by it after.  In a run that is moved it errs by what the
-        rounding of u makes of that time.
+        before what happens, and forth by it after.  A run that is moved finds it later, and has
+        what the rounding of the state makes of that time.
         """
         condition, t = found.condition, found.t
-        late, unsure = (0.0, 0.0) if found.touches else self._lateness(mode, condition, t, q, v)
-        if condition.kind not in {"gap", "loss"} or not late + unsure:
+        late = 0.0 if found.touches else self._lateness(mode, condition, t, q, v)
+        if condition.kind not in {"gap", "loss"} or not late:
             return self.transitions.after(mode, found, q, v)
-        late += unsure if self.tolerance.moved else 0.0
         following = self.transitions.after(mode, found, *_shifted(mode, t, q, v, -late))
         if following.mode is None:
             return replace(following, q=q, v=v)
@@ -229,18 +230,19 @@ class Run:
 
     def _lateness(
         self, mode: Mode, condition: Condition, t: float, q: Vector, v: Vector
-    ) -> tuple[float, float]:
+    ) -> float:
         def at(time: float) -> float:
             return float(condition.margin(t + time, *_shifted(mode, t, q, v, time)))
 
         h = _RATE_OVER * self._times[-1]
         try:
-            u, rate = at(0.0), (at(h) - at(-h)) / (2 * h)
-            errors = [_EPSILON * abs(float(x)) for x in (*q, *v)]
-            noise = self._watch.felt(condition, t, q, v, errors)
+            rate = (at(h) - at(-h)) / (2 * h)
+            late = lateness(t, condition.exactly(t, q, v), rate)
+            noise = self._watch.felt(condition, t, q, v, [_EPSILON * x for x in self.peaks])
+            late += displaced(self.tolerance, t, len(self.events), noise, rate)
         except (ArithmeticError, ValueError):
-            return 0.0, 0.0
-        return lateness(t, u, rate, noise)
+            return 0.0
+        return late
 
     def _steps(self, method: Method, turn: Turn, until: float, begin: float) -> Iterator[Step]:
         """The steps of a phase; none is longer than what a bounce takes to its highest point."""

@@ -26,6 +26,8 @@ _NEAR = 100.0
 #: Two speeds that differ by less come to rest together, when they strike together.
 _SAME = 4.0
 _STANDS = 1e-12
+#: So many roundings away.
+_BESIDE = 8
 
 
 @record(kw_only=True)
@@ -68,6 +70,8 @@ class Transitions:
         self.contacts = modes.simulation.contacts
         #: of each component at a time; the run that this is for says it
         self.rounding: Callable[[float], Sequence[float]] = lambda _: ()
+        #: whether impacts take place some roundings away
+        self.moved = False
         self._fastest: dict[int, float] = {}
 
     # -- the beginning -----------------------------------------------------------------------
@@ -151,7 +155,7 @@ class Transitions:
         sided = frozenset(self.contacts)
         always = held - sided - {lost}
         closed = (held & sided) - {lost}
-        hinge = self._hinge(t, q, v)
+        hinge = self._hinge(t, self._beside(q) if struck else q, v)
         struck = struck | self._together(t, q, v, hinge, held | struck | still | {lost})
         unknown = [k for k in struck if self.contacts[k].restitution is None]
         if unknown:
@@ -260,6 +264,12 @@ class Transitions:
             after = self._hinge(t, q, found[0])
         left = frozenset(k for k in closed if after.rates[k] > limit[k])
         return *found, resting, bounces, left
+
+    def _beside(self, q: Vector) -> Vector:
+        """The place of an impact, which rounding moves along a surface, in a run that is moved."""
+        if not self.moved:
+            return q
+        return [x + (-1) ** j * _BESIDE * math.ulp(x) for j, x in enumerate(q)]
 
     def _touching(self, t: float, q: Vector, v: Vector, closed: frozenset[int]) -> Vector:
         """The positions with the gaps of what is struck at 0."""

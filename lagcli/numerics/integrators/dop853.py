@@ -90,7 +90,7 @@ class Dop853:
             Where the step becomes shorter than rounding, with the reason.
         """
         t, n = begin, self.n
-        motion, kinks = self.motion, Kinks(self.motion)
+        motion, kinks = self.motion, Kinks(self.motion, tolerance)
         self.reached = None
         if motion.kinks:
             kinks.begin(t, q, v)
@@ -152,7 +152,7 @@ class Dop853:
                 if kinks.sticks(t, q, v):
                     self.reached = kinks.reached
                     return
-                v = kinks.pass_through(t, q, v, moved=tolerance.moved)
+                v = kinks.pass_through(t, q, v)
                 rate = self._rate(t, q, v)
             factor = _SAFETY * error ** (-1 / ORDER) if error else _GROW
             h = min(h * min(grow, max(_SHRINK, factor)), tolerance.longest)

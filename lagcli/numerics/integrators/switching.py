@@ -14,8 +14,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from lagcli.numerics.equations.motion import ROUNDINGS, Motion
-from lagcli.numerics.integrators.steps import Inside
+from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.integrators.steps import Inside, Tolerance
 
 _PLACES = (0.25, 0.5, 0.75)
 _HALVINGS = 60
@@ -24,20 +24,41 @@ _AT_ONCE = 1e-9
 _AGAIN = 8
 #: Roundings of the time within which a crossing is found; near a touch it is farther away.
 _ULPS = 1e5
+#: In a run that is moved an event is so many roundings of the time and the state away; fewer at
+#: tolerances whose differences are taken many times.
+_AWAY, _NEARER, _FINE = 8, 1, 1e-13
+_GOLDEN = 0.6180339887498949
 
 
-def lateness(t: float, u: float, rate: float, noise: float) -> tuple[float, float]:
-    """How long ago u was 0, and how much its noise makes of that; 0 near a touch."""
-    if not rate or not abs(u) + noise <= _ULPS * math.ulp(t) * abs(rate):
-        return 0.0, 0.0
-    return u / rate, abs(noise / rate)
+def lateness(t: float, u: float, rate: float) -> float:
+    """How long ago u was 0; 0 near a touch."""
+    return u / rate if rate and abs(u) <= _ULPS * math.ulp(t) * abs(rate) else 0.0
+
+
+def displaced(bound: Tolerance, t: float, count: int, noise: float, rate: float) -> float:
+    """What rounding of the state makes of a time in a run that is moved: 0 in others.
+
+    Some events are earlier and some later, so that this adds up as rounding does.
+    """
+    if not bound.moved or not rate or not noise <= _ULPS * math.ulp(t) * abs(rate):
+        return 0.0
+    return math.copysign(_roundings(bound) * noise / rate, count * _GOLDEN % 1.0 - 0.5)
+
+
+def later(bound: Tolerance, t: float, most: float) -> float:
+    """Some roundings after a time, at which the same event is met in a run that is moved."""
+    return min(t + _roundings(bound) * math.ulp(t), most) if bound.moved else t
+
+
+def _roundings(bound: Tolerance) -> int:
+    return _AWAY if bound.value > _FINE else _NEARER
 
 
 class Kinks:
     """The arguments of abs and sign along one run."""
 
-    def __init__(self, motion: Motion) -> None:
-        self.motion = motion
+    def __init__(self, motion: Motion, tolerance: Tolerance) -> None:
+        self.motion, self._tolerance = motion, tolerance
         self.reached: int | None = None  # the one at which the next step ends
         self._slack = [0.0] * len(motion.kinks)
         self._times: list[float] = []
@@ -75,7 +96,7 @@ class Kinks:
             else:
                 good = middle
         self.reached = wrong(bad)[0]
-        return bad * h
+        return later(self._tolerance, t + bad * h, t + h) - t
 
     def begin(self, t: float, q: Sequence[float], v: Sequence[float]) -> None:
         """Begin at a state; what is at a kink there may be on either side by rounding."""
@@ -105,26 +126,23 @@ class Kinks:
         recent = self._times[-_AGAIN:]
         return len(recent) == _AGAIN and recent[-1] - recent[0] < _AT_ONCE * span
 
-    def pass_through(
-        self, t: float, q: Sequence[float], v: Sequence[float], *, moved: bool = False
-    ) -> list[float]:
+    def pass_through(self, t: float, q: Sequence[float], v: Sequence[float]) -> list[float]:
         """Change the branch that has been reached; v as if it had been changed in time.
 
         The step ends where doubles see the argument u on the other side, u/u' late: there
-        v errs by that time the jump of q''.  In a run that is moved v errs by what the rounding
-        of u makes of that time, always the same way.
+        v errs by that time the jump of q''.  A run that is moved ends the step later, and what
+        the rounding of the state makes of that time is in its v.
         """
         assert self.reached is not None
         motion, k, self.reached = self.motion, self.reached, None
         before = motion.accelerations(t, *q, *v)
-        u = float(motion.kink_arguments(t, *q, *v)[k])
+        u = motion.exact_kink_arguments(t, *q, *v)[k]
         rate = float(motion.kink_rates(t, *q, *v, *before)[k])
-        noise = motion.kink_noise(t, q, v)[k] / ROUNDINGS if moved else 0.0
         motion.signs[k] *= -1
-        late, unsure = lateness(t, u, rate, noise)
+        noise = motion.kink_change(k, t, (*q, *v), self._tolerance.peaks)
+        late = lateness(t, u, rate) + displaced(self._tolerance, t, len(self._times), noise, rate)
         after = motion.accelerations(t, *q, *v)
-        jump = [b - a for a, b in zip(before, after, strict=True)]
-        return [x + late * d + math.copysign(unsure * d, x) for x, d in zip(v, jump, strict=True)]
+        return [x + late * (b - a) for x, a, b in zip(v, before, after, strict=True)]
 
     def why(self) -> str:
         """What holds the motion at a kink."""
