@@ -5,9 +5,9 @@
     cosh u = (exp(u) + exp(-u))/2,    sinh^a u / cosh^b u = tanh^a u / cosh^(b - a) u
 
 A negative power of S is one of S' times an exponential, which takes up those beside it:
-exp(u)/(1 + exp(u))^2 at u = 1000 is exp(-1000)/(exp(-1000) + 1)^2.  Which k_i u is the largest
-follows from `side(u)`, the sign of u at the beginning of a step: both forms are equal as mathematics,
-so that it is a constant there.
+exp(u)/(1 + exp(u))^2 at u = 1000 is exp(-1000)/(exp(-1000) + 1)^2.  Which k_i u is the
+largest follows from `side(u)`, the sign of u at the beginning of a step.  It is a constant
+there, since both forms are equal as mathematics.
 """
 
 from __future__ import annotations

@@ -132,3 +132,47 @@ def test_a_particle_between_walls(seed):
     turns = int(way)
     place = way - turns if turns % 2 == 0 else turns + 1 - way
     claims_hold(BETWEEN.format(x=x, v=v), until, place, (-1) ** turns * mpmath.mpf(v))
+
+
+@pytest.mark.parametrize("width", ["1e-3", "1e-6", "1e-8"])
+def test_a_window_whose_ends_are_no_doubles(width):
+    """A force 1/w between t = 3 and 3 + w: the end is where the file writes it."""
+    w, end = mpmath.mpf(width), mpmath.mpf(10)
+    force = f"(sign(t - 3) - sign(t - 3 - {width}))/(2*{width})"
+    claims_hold(given_to(f'forces: {{x: "{force}"}}'), 10, end - 3 - w / 2, mpmath.mpf(1))
+
+
+def test_a_slab_so_thin_that_its_far_side_is_left_at_once():
+    """-1000 between 3 and 3.0001: a step from its near side would turn back by itself."""
+    mpmath.mp.dps = 25
+    depth = mpmath.mpf("0.0001")
+    slower = mpmath.sqrt(1 - 2000 * depth)
+    within = (1 - slower) / 1000
+    for given in (
+        'forces: {x: "-500*(sign(x - 3) - sign(x - 3.0001))"}',
+        'V: "500*(abs(x - 3) - abs(x - 3.0001))"',
+    ):
+        claims_hold(given_to(given, "0", "1"), 10, 3 + depth + slower * (7 - within), slower)
+
+
+@pytest.mark.parametrize("e", ["1", "0.97", "0.8"])
+def test_a_ball_that_loses_a_part_of_its_speed(e):
+    mpmath.mp.dps = 25
+    g, h, v, t, until = mpmath.mpf("3.7"), mpmath.mpf("1.3"), mpmath.mpf(0), mpmath.mpf(0), 8
+    while True:
+        flight = (v + mpmath.sqrt(v * v + 2 * g * h)) / g
+        if t + flight >= until:
+            break
+        v, h, t = mpmath.mpf(e) * (g * flight - v), mpmath.mpf(0), t + flight
+    s = until - t
+    floor = f'{{floor: {{gap: "x >= 0", restitution: {e}}}}}'
+    file = given_to(f'V: "3.7*x"\ncontacts: {floor}', "1.3")
+    claims_hold(file, until, h + v * s - g * s * s / 2, v - g * s)
+
+
+def test_an_impact_on_a_floor_that_jumps():
+    """The floor 2/(1 + u^2), u = (t - 4)/w, strikes what rests at 1 when u = -1."""
+    speed = 2 * mpmath.mpf(1) / mpmath.mpf("1e-3")
+    floor = '{floor: {gap: "x - 2/(1 + ((t - 4)/1e-3)^2) >= 0", restitution: 1}}'
+    start = mpmath.mpf(4) - mpmath.mpf("1e-3")
+    claims_hold(given_to(f"contacts: {floor}", "1"), 10, 1 + speed * (10 - start), speed)

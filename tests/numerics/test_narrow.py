@@ -4,13 +4,17 @@ The references are integrals: of a force over the time, of 1/v over the path.
 """
 
 import random
+from fractions import Fraction
 
 import mpmath
 import pytest
 
+from lagcli.graph.bounded import bounded
 from lagcli.graph.nodes import Graph
 from lagcli.numerics.compiled.layout import DIVIDES, FLAT, GROWS, HIGH, JUMPS
 from lagcli.numerics.compiled.narrow import narrow_parts
+from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.straight_line import straight_line
 from tests.numerics.running import column, last, simulated
 
 BY_TIME = """
@@ -61,6 +65,8 @@ PULSES = {
     "{h}/{w}/(1 + ((t - {c})/{w})^2)": lambda u: 1 / (1 + u**2),
     "{h}*tanh((t - {c})/{w})/{w}": mpmath.tanh,
     "{h}/cosh((t - {c})/{w})^2/{w}": lambda u: mpmath.sech(u) ** 2,
+    "{h}/cosh((t - {c})/{w})/{w}": mpmath.sech,
+    "{h}*exp((t - {c})/{w})/(1 + exp((t - {c})/{w}))^2/{w}": lambda u: mpmath.sech(u / 2) ** 2 / 4,
 }
 
 
@@ -128,6 +134,45 @@ def test_a_wall_is_not_passed_through(width):
     assert result.certificate.reached
     assert max(column(result, "x")) < 5
     assert last(result, "x'") == pytest.approx(-1, abs=1e-9)
+
+
+@pytest.mark.parametrize("place", [-1000.0, -2.0, 0.5, 3.0, 1000.0])
+def test_quotients_of_exponentials_are_those_of_doubles_or_beyond(place):
+    graph = Graph()
+    x = graph.symbol("x")
+    e, two = (graph.call("exp", (graph.scaled(x, k),)) for k in (3, -6))
+    below = graph.sum([graph.constant(2), e, graph.product(x, two)])
+    cosh, sinh = (graph.call(name, (x,)) for name in ("cosh", "sinh"))
+    formulas = [
+        graph.quotient(e, graph.product(below, below)),
+        graph.monomial([(cosh, Fraction(-3)), (sinh, Fraction(1))]),
+        graph.monomial([(below, Fraction(-1, 2)), (two, Fraction(1))]) if place > 0 else graph.one,
+        graph.quotient(graph.difference(two, e), graph.sum([e, two])),
+    ]
+    mpmath.mp.dps = 30
+    u = mpmath.mpf(place)
+    s, a, b = 2 + mpmath.exp(3 * u) + u * mpmath.exp(-6 * u), mpmath.exp(3 * u), mpmath.exp(-6 * u)
+    true = [
+        a / s**2,
+        mpmath.sinh(u) / mpmath.cosh(u) ** 3,
+        b / mpmath.sqrt(s) if place > 0 else 1,
+        (b - a) / (a + b),
+    ]
+    found = straight_line([x], bounded(graph, formulas), {}, Doubles())(place)
+    for value, exact in zip(found, true, strict=True):
+        assert value == pytest.approx(float(exact), rel=1e-12, abs=1e-300)
+
+
+def test_a_force_of_1e12_on_a_relativistic_particle():
+    """x = (sqrt(1 + F^2 t^2) - 1)/F: 1 - v^2 falls to 1e-24."""
+    file = """
+coordinates: [x]
+L: "-sqrt(1 - x'^2) + 1e12*x"
+initial: {x: 0, x': 0}
+"""
+    result = simulated(file, 1, 1e-6)
+    assert result.certificate.reached
+    assert abs(last(result, "x") - (1 - 1e-12)) <= result.certificate.global_error["x"]
 
 
 @pytest.mark.parametrize(

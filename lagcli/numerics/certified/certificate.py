@@ -177,14 +177,19 @@ def refusal_of(simulation: Setup, motion: Motion, outcome: Outcome, holds_until:
     if stop is not None and _is_known(outcome, holds_until):
         why = why_stopped(motion, stop)
         return f"the motion stops at t = {stop.t:.13g}: {why}; shown until t = {holds_until:.6g}"
-    bound = max(outcome.errors)
-    why = outcome.reason or f"the bound at the end is {bound:.1e}"
+    why = outcome.reason or _what_grows(outcome)
     told = f"the accuracy {asked.accuracy:g} is not reached until t = {asked.until:g}: {why}"
     held = f"it holds until t = {holds_until:.6g}"
-    more = "; --precision carries more digits"
-    if asked.digits is not None or simulation.goes_on:
-        more = ""
-    return f"{told}; {held}{more}"
+    in_doubles = simulation.goes_on or simulation.equations.kinks
+    helps = asked.digits is None and not in_doubles and not outcome.reason
+    return f"{told}; {held}" + ("; --precision carries more digits" if helps else "")
+
+
+def _what_grows(outcome: Outcome) -> str:
+    """Rounding, or the distance of neighbouring motions until no digit is known."""
+    if outcome.lost_at < outcome.controller.span:
+        return f"motions that begin a rounding apart agree in no digit at t = {outcome.lost_at:.6g}"
+    return f"rounding leaves an error of up to {max(outcome.errors):.1e}"
 
 
 def _is_known(outcome: Outcome, holds_until: float) -> bool:

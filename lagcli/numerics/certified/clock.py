@@ -30,7 +30,11 @@ _LOOKS, _LATER = 50, 1e-9
 
 def clock_errors(run: Run, span: float) -> list[float]:
     """What every component of the state may err by; nothing where the time acts on none."""
-    if not run.marks or not run.steps or not any(phase.mode.equations.depends_on_time for phase in run.phases):
+    if (
+        not run.marks
+        or not run.steps
+        or not any(phase.mode.equations.depends_on_time for phase in run.phases)
+    ):
         return []
     bits = BITS.get(run.method_name, DOUBLES)
     squares = [0.0] * len(run.marks[0].q)
@@ -61,3 +65,7 @@ def column_changes(run: Run, mark: Mark, errors: Sequence[float]) -> list[float]
         for j, (a, b) in enumerate(zip(here, there, strict=True)):
             total[j] += math.inf if b is None else 0.0 if a is None else abs(float(b - a))
     return total
+
+
+def _is_driven(run: Run) -> bool:
+    return any(phase.mode.equations.depends_on_time for phase in run.phases)

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 
 from lagcli.numerics.certified.accuracy import SATURATED, USUAL, Outcome
 from lagcli.numerics.certified.clock import BITS, DOUBLES
+from lagcli.record import replace
 
 #: In machine code: a growth that is extrapolated is not known better, and a run is short.
 _LARGEST, _AT_ONCE = "taylor128", 1000
@@ -71,6 +72,19 @@ def horizon_of(outcome: Outcome) -> float:
         return float(stop.t) or span
     left = max(BITS[_LARGEST] + math.log2(outcome.controller.accuracy), 1.0)
     return min(span, span * left / lost_bits(outcome)) or span
+
+
+def with_rounding(found: Outcome, doubles: Outcome) -> Outcome:
+    """The bounds of a run with more bits, as what rounding came to in doubles has them at least.
+
+    Of 80 bits it is 2^-11 of that: near a collision two runs may differ by less, by chance.
+    """
+    if not found.reached or doubles.lost_at < doubles.controller.span:
+        return found
+    part = 2.0 ** (DOUBLES - BITS[found.run.method_name])
+    least = [min(part * x, found.controller.accuracy) for x in doubles.errors]
+    errors, held = ([*map(max, bounds, least)] for bounds in (found.errors, found.held))
+    return replace(found, errors=errors, held=held)
 
 
 def is_better(found: Outcome, outcome: Outcome) -> bool:

@@ -143,6 +143,7 @@ def are_felt(outcome: Outcome, others: Modes, accuracy: float) -> bool:
     if run.shortened or run.events:  # what is narrow, and an impact, is seldom met by a row
         return True
     marks = run.marks[:: max(1, len(run.marks) // _LOOKS)]
+    marks += [run.narrowest] if run.narrowest is not None else []
     n, columns = len(run.peaks) // 2, len(others.simulation.nodes)
     least = [peak / others.simulation.asked.until for peak in run.peaks[n:]]
     sizes, changes = least, [0.0] * n

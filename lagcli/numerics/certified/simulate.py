@@ -10,7 +10,13 @@ from lagcli.numerics.certified.accuracy import Outcome
 from lagcli.numerics.certified.attempts import attempt, groups
 from lagcli.numerics.certified.branches import is_met, is_sharp, on_one_branch
 from lagcli.numerics.certified.certificate import result_of, rows_asked_for
-from lagcli.numerics.certified.escalation import TIMES, first_tolerance, is_better, within_reach
+from lagcli.numerics.certified.escalation import (
+    TIMES,
+    first_tolerance,
+    is_better,
+    with_rounding,
+    within_reach,
+)
 from lagcli.numerics.certified.methods import SHARP, SHARPER, STIFF
 from lagcli.numerics.certified.prepared import Precision
 from lagcli.numerics.certified.reduced_run import cut_simulation
@@ -117,6 +123,8 @@ class Simulation(Setup):
             names, first = (group, 1.0) if outcome is None else self._beyond(outcome, group)
             if names:
                 found, with_digits = attempt(self, names, modes, first)
+                if found and outcome is not None:
+                    found = with_rounding(found, outcome)
                 if found and (outcome is None or is_better(found, outcome)):
                     outcome, digits = found, with_digits
         if outcome is None:

@@ -50,7 +50,7 @@ from lagcli.numerics.compiled.unseen import unblocked
 SAFETY = 0.9
 FIRST = 1e-3
 WIDEST = 256.0
-STARTING = 4
+STARTING = 6
 #: Terms whose step differs from the one before it by less than a sixth.
 ALIKE = 16.0
 #: 2^-15: doubles have 11 bits less than numbers of 80.
@@ -68,7 +68,7 @@ def see(rows: Reals, peaks: Reals, scales: Reals, facts: Reals, counts: Ints, or
     for i in range(2 * n):
         size = abs(rows[i * STRIDE])
         if size == 0 and peaks[i] == 0:
-            h = sudden(rows, facts, n) / facts[SCALE]
+            h = sudden(rows, facts, n, order) / facts[SCALE]
             size = leading(at(rows, i * STRIDE), order, h)
         if size > peaks[i]:
             peaks[i] = size
@@ -88,8 +88,11 @@ def leading(c: Reals, order: int, h: float) -> float:
     return 0.0
 
 
-def sudden(rows: Reals, facts: Reals, n: int) -> float:
-    """A time in which nothing that is not 0 changes by more than itself."""
+def sudden(rows: Reals, facts: Reals, n: int, order: int) -> float:
+    """A time in which nothing that is not 0 changes by more than itself.
+
+    Nor does the first term of what begins at 0.
+    """
     h = FIRST * facts[LONGEST] / facts[SCALE]
     for i in range(2 * n):
         c = at(rows, i * STRIDE)
@@ -98,6 +101,13 @@ def sudden(rows: Reals, facts: Reals, n: int) -> float:
                 h = abs(c[0] / c[1])
             if abs(c[2]) * h * h > abs(c[0]):
                 h = sqrt(abs(c[0] / c[2]))
+        else:
+            first = 0
+            for k in range(1, order + 1):
+                if first > 0 and abs(c[k]) * raised(h, k - first) > abs(c[first]):
+                    h = exp(log(abs(c[first] / c[k])) / (k - first))
+                if first == 0 and c[k] != 0:
+                    first = k
     return h * facts[SCALE]
 
 

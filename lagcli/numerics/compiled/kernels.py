@@ -44,6 +44,7 @@ from lagcli.numerics.compiled.layout import (
     LARGE,
     LIMIT,
     MORE,
+    NARROWEST,
     NEAR,
     ORDER,
     PENDING,
@@ -62,6 +63,8 @@ from lagcli.numerics.compiled.layout import (
 from lagcli.numerics.compiled.unseen import bend, reach
 
 PART = 0.999
+#: The first steps are short because nothing is known yet.
+STARTED = 8
 GOLDEN = 0.6180339887498949
 
 
@@ -264,7 +267,10 @@ def drive(
     times: Reals,
     out: Reals,
 ) -> int:
-    """Steps until the end, or until so many have been made; the rows asked for into `out`."""
+    """Steps until the end, or until so many have been made; the rows asked for into `out`.
+
+    The state before the shortest step stands behind them.
+    """
     both = 2 * counts[N]
     work = at(ahead, 2 * both + 1)
     limit = counts[STEPS] + counts[LIMIT]
@@ -272,6 +278,10 @@ def drive(
         status = expand(rows, small, signs, state, peaks, scales, watch, facts, counts)
         if status != MORE:
             return status
+        if counts[STEPS] >= STARTED and facts[H] < facts[NARROWEST]:
+            facts[NARROWEST] = facts[H]
+            for i in range(both + 1):
+                out[counts[TIMES] * (both + 1) + i] = state[i]
         end = state[both] + facts[H]
         if state[both] + 1.01 * facts[H] >= facts[UNTIL]:
             end = facts[UNTIL]

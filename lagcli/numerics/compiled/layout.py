@@ -18,7 +18,8 @@ ROUNDING = 8
 SCALE = 9
 KICK = 10
 CLOCK = 11
-FACTS = 12
+NARROWEST = 12
+FACTS = 13
 
 # counts
 N = 0

@@ -190,7 +190,7 @@ class Motion:
         return self.exactly(self.kinks)
 
     def exactly(self, nodes: Sequence[Node]) -> Function:
-        """The values of nodes, rounded once: of the doubles of a state and the file's parameters."""
+        """The values of nodes, rounded once: a state of doubles, the parameters of the file."""
         from flint import ctx
 
         from lagcli.numerics.equations.arithmetic import Balls

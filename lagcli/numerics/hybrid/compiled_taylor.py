@@ -103,6 +103,7 @@ class CompiledTaylor:
             (k.SHORTEST, 4 * numbers.rounding),
             (k.ROUNDING, _HELD * numbers.rounding),
             (k.KICK, numbers.rounding if bound.moved else 0.0),
+            (k.NARROWEST, k.LARGE),
             (k.CLOCK, 1.0 if motion.equations.depends_on_time else 0.0),
         ):
             facts[place] = numbers.cell(fact)
@@ -267,7 +268,7 @@ class CompiledTaylor:
         if surface is not None:
             surface.measure(0.0, q, v)
         state = self._prepare(q, v, times[-1], run.tolerance)
-        asked, out = self._array(times), self._zeros(len(times) * (both + 1))
+        asked, out = self._array(times), self._zeros((len(times) + 1) * (both + 1))
         memmove(out, state, sizeof(state))
         counts[k.PENDING], counts[k.TIMES], counts[k.PROBES] = 1, len(times), probes
         given = [self._rows, self._small, self._other, self._signs, state, self._lost]
@@ -296,6 +297,9 @@ class CompiledTaylor:
             Mark(float(t), whole[j : j + n], whole[j + n : j + both], 0, sample)
             for sample, (t, j) in enumerate(zip(times[:done], places, strict=False))
         ]
+        if float(facts[k.NARROWEST]) < k.LARGE:
+            *narrow, t = whole[-both - 1 :]
+            run.narrowest = Mark(float(t), narrow[:n], narrow[n:], 0)
         run.method_name = self.name
         run.steps = int(counts[k.STEPS])
         self.machine.spent += self.machine.work(run.steps, self.order)

@@ -86,6 +86,8 @@ class Run:
         self.again: Callable[[], Run] = lambda: self
         self.steps = 0
         self.defect = 0.0
+        #: where the steps are shortest
+        self.narrowest: Mark | None = None
         #: steps that would have passed over something narrow
         self.shortened = 0
         self.evaluations = 0
@@ -228,9 +230,7 @@ class Run:
         q, v = _shifted(following.mode, t, following.q, following.v, late)
         return replace(following, q=q, v=v)
 
-    def _lateness(
-        self, mode: Mode, condition: Condition, t: float, q: Vector, v: Vector
-    ) -> float:
+    def _lateness(self, mode: Mode, condition: Condition, t: float, q: Vector, v: Vector) -> float:
         def at(time: float) -> float:
             return float(condition.margin(t + time, *_shifted(mode, t, q, v, time)))
 
