@@ -50,7 +50,7 @@ from lagcli.numerics.compiled.unseen import unblocked
 SAFETY = 0.9
 FIRST = 1e-3
 WIDEST = 256.0
-STARTING = 6
+STARTING = 4
 #: Terms whose step differs from the one before it by less than a sixth.
 ALIKE = 16.0
 #: 2^-15: doubles have 11 bits less than numbers of 80.
@@ -254,7 +254,10 @@ def expand(
         guess = 1.0
         if facts[H] > 0:
             guess = facts[H] / facts[SCALE] / SAFETY
-        h = length(rows, scales, both, order, facts[TOLERANCE], guess) * facts[SCALE]
+        allowed = facts[TOLERANCE]
+        if order < counts[ORDER]:  # the unit of time of the motion is sought
+            allowed = 1.0
+        h = length(rows, scales, both, order, allowed, guess) * facts[SCALE]
         h = min(h, facts[LONGEST])
         part = h / facts[SCALE]
         if order == counts[ORDER] and part * WIDEST > 1 and part < WIDEST:
