@@ -117,7 +117,7 @@ def _with_values(problem: Problem, request: Request) -> tuple[Problem, list[Diag
 
 
 def derive(problem: Problem) -> Derivation:
-    """Problem -> derivation; its parts are worked out when they are asked for."""
+    """Problem -> derivation; its parts are worked out at their first use."""
     from lagcli.mechanics.derivation import Derivation
 
     return Derivation(problem)
@@ -229,7 +229,7 @@ def with_lagrangian(problem: Problem) -> Problem:
 
 
 def explain(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
-    """Derivation -> its account, step by step, and the steps asked for beside it.
+    """Derivation -> its account, step by step, and the requested further steps.
 
     Raises
     ------

@@ -264,7 +264,7 @@ class KnownRow:
 
 @record(kw_only=True)
 class Trajectory:
-    """The motion from `initial`, as far as it is known."""
+    """What is known of the motion from `initial`."""
 
     formulas: tuple[Known, ...] = ()  # of t and the parameters, at all times
     rows: tuple[KnownRow, ...] = ()  # values at times

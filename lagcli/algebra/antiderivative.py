@@ -196,7 +196,7 @@ def _by_rules(expression: Expr, x: Symbol) -> Expr | None:
 
 @contextmanager
 def _at_most(count: int) -> Iterator[None]:
-    """Let the rules be tried on so many integrands; then NotImplementedError."""
+    """Let the rules be tried on a number of integrands; then NotImplementedError."""
     from sympy.integrals import manualintegrate
 
     steps, tried = manualintegrate.integral_steps, 0

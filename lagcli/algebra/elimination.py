@@ -31,7 +31,7 @@ Nonzero = Callable[[Expr], bool]
 
 @dataclass(frozen=True, slots=True)
 class EliminatedExpression:
-    """An expression with symbols eliminated as far as they could be.
+    """An expression with symbols eliminated where that was possible.
 
     `left` are the symbols that remain although they were to go; `relations` what
     the relations have become, and `solutions` what was put in for which symbol, in order.

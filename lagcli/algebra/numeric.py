@@ -1,4 +1,4 @@
-"""Numbers for SymPy expressions with mpmath, at as many digits as asked for.
+"""Numbers for SymPy expressions with mpmath, at any number of digits.
 
 A list of expressions is compiled once to a plan in which equal parts are computed once;
 the plan is a flat list of operations, run at as many points as wanted.  Unspecified

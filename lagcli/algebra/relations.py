@@ -38,7 +38,7 @@ class Relations:
         those that occur with a prime too: coordinates and their velocities.
     moving
         Symbols whose value changes, so that nothing is divided by what depends on them.
-        Where they are not told, nothing is divided by a function of anything.
+        Where they are not given, nothing is divided by a function of anything.
 
     Attributes
     ----------
@@ -244,7 +244,7 @@ class Relations:
         return False
 
     def _ideals_in(self, field: Field, count: int = _IDEALS) -> list[Ideal]:
-        """The first ideals, made when they are asked for."""
+        """The first ideals, made at their first use."""
         if not self.remaining:
             return []
         known = self._ideals.get(id(field))

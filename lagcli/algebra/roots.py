@@ -100,7 +100,7 @@ def _root(field: Field, base: Element, index: int) -> Element:
 
 
 def _note_scale(field: Field, above: Poly, below: Poly) -> None:
-    """Remember that sqrt(above/d²) was asked for: it may read better than sqrt(above)/d.
+    """Remember that sqrt(above/d²) was used: it may read better than sqrt(above)/d.
 
     Only for d >= 0: it is sqrt(above)/|d| otherwise.
     """

@@ -1,4 +1,4 @@
-"""The dimensions of a problem, as far as its units and its formulas determine them."""
+"""The dimensions of a problem, where its units and its formulas determine them."""
 
 from __future__ import annotations
 

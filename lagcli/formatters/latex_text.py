@@ -87,7 +87,7 @@ _ACCENTS = {
     "\u0327": "\\c",
 }
 
-#: A longer word may be broken after so many characters.
+#: A longer word may be broken after this number of characters.
 _LONG_WORD = 16
 
 

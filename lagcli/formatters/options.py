@@ -43,7 +43,7 @@ class Options:
     standalone : bool
         `latex` and `html` print a whole document instead of a fragment.
     several : bool
-        Several files were asked for: `json` prints an array, also of one answer.
+        Several files were requested: `json` prints an array, also of one answer.
     latex : LatexOptions
         Of `latex`.
     below : tuple of str

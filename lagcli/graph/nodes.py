@@ -16,7 +16,7 @@ from typing import TypeVar
 Key = tuple[object, ...]
 Made = TypeVar("Made", bound="Node")
 
-#: A power of a number is worked out when it has at most so many digits.
+#: A power of a number is worked out up to this size.
 _POWER_BITS = 34_000  # 10,000 digits
 
 

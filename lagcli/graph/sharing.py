@@ -27,7 +27,7 @@ class Shared:
     Attributes
     ----------
     roots : tuple of Expression
-        One for each node that was asked for.
+        One for each node that was given.
     named : dict
         Name -> tree, in order of use.
     """

@@ -275,7 +275,7 @@ class ClosedForm:
 
 
 class _State(dict[str, object]):
-    """A random value for every symbol, drawn when it is first asked for."""
+    """A random value for every symbol, drawn at its first use."""
 
     def __init__(self, source: random.Random, form: MatrixForm) -> None:
         super().__init__()

@@ -18,7 +18,7 @@ if TYPE_CHECKING:  # a large system is stated without SymPy, which these import
 
 
 class Derivation:
-    """The parts of the theory for one problem, computed when first asked for.
+    """The parts of the theory for one problem, computed at their first use.
 
     Raises
     ------

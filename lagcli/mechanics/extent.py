@@ -9,9 +9,9 @@ from lagcli.problem_data import Problem
 if TYPE_CHECKING:
     from lagcli.mechanics.matrix_form import MatrixForm
 
-#: Up to so many unknowns q'' and lambda a system is small, whatever its entries.
+#: Up to this number of unknowns q'' and lambda a system is small, whatever its entries.
 SMALL_UNKNOWNS = 3
-#: Beyond so many unknowns it is large, whatever its entries.
+#: Beyond this number of unknowns it is large, whatever its entries.
 LARGE_UNKNOWNS = 24
 #: Operations of all entries of M, forcing, A and bias: a chain of five has 800, of six 1200,
 #: and simplifying the entries of one more takes as long as everything else together.

@@ -1,4 +1,4 @@
-"""The boundary term G of a transformation: K = dG/dt, or the proof that there is none.
+"""The boundary term G of a transformation: K = dG/dt, or the proof that none exists.
 
 Closed forms are tried first, of K and of K - dG0/dt with
 

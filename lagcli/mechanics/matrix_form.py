@@ -42,7 +42,7 @@ Weights = dict[tuple[Node, Node], list[tuple[Node, Fraction]]]
 
 
 class NotStructural(Exception):
-    """The problem needs the algebra: what is wrong with it, or what it means, is told there."""
+    """The problem needs the algebra: what is wrong with it, or what it means, is stated there."""
 
 
 class MatrixForm:

@@ -163,7 +163,7 @@ class Stating:
         return [each.name for each in built_in() if each.unasked(self.problem)]
 
     def lacks(self, what: str, why: str = "") -> None:
-        """Note that an answer was asked for and not found."""
+        """Note that a requested answer was not found."""
         self.complete = False
         self.warnings.append(f"{what} could not be found: {why or self.why_missing}")
 

@@ -1,4 +1,4 @@
-"""How a mistake of lagcli itself is told: one line, and how to see more."""
+"""How a mistake of lagcli itself is reported: one line, and how to see more."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import traceback
 
 
 def describe(error: BaseException) -> str:
-    """A sentence for an error that no one foresaw; its traceback only when asked for."""
+    """A sentence for an error that no one foresaw; its traceback on request only."""
     if os.environ.get("LAGCLI_TRACEBACK"):
         traceback.print_exception(error)
     match error:

@@ -17,7 +17,7 @@ __all__ = ["collect_rarely", "keep_what_is_there", "spare_sympy"]
 
 
 def spare_sympy() -> None:
-    """Import of SymPy what a derivation needs, the rest once it is asked for.
+    """Import of SymPy what a derivation needs, the rest when it is first used.
 
     Nothing is spared with `LAGCLI_WHOLE_SYMPY` set, with SymPy imported already, or with a
     version that this was not made for: all works as well, and starts more slowly.

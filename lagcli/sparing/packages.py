@@ -1,4 +1,4 @@
-"""SymPy's packages, which import a submodule when one of its names is asked for.
+"""SymPy's packages, which import a submodule when one of its names is used.
 
 The `__init__.py` of such a package is a list of `from .module import names`.  It is read
 instead of run: PEP 562 in a package that was written before it.

@@ -85,7 +85,7 @@ def _give_way(names: Iterable[str]) -> None:
 
 
 class _Module(ModuleType):
-    """In the place of a module; all of them give way once more is asked for."""
+    """In the place of a module; all of them give way when more is used."""
 
     def __init__(self, name: str, names: list[str]) -> None:
         super().__init__(name)

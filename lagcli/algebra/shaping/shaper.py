@@ -235,7 +235,7 @@ class Shaper:
             return _as_product(self.atoms, self.grouper.group(self.atoms.terms(poly)))
         parts: dict[int | PlannedSum, Exponent] = {}
         for radicand, term in self.atoms.roots:
-            # c² - v² = (c - v)(c + v) is not to be told apart where its root occurs
+            # c² - v² = (c - v)(c + v) is not split where its root occurs
             divisor = self.field.ring.lift(radicand)
             while (rest := self._over(poly, divisor)) is not None:
                 poly = rest

@@ -77,7 +77,7 @@ _CODE = re.compile("`([^`]+)`")
 #: A formula with a sign and another behind it, or with a punctuation mark.
 _FORMULA = "<math>(?:(?!</math>).)*</math>"
 _TORN = re.compile(rf"{_FORMULA}(?: [-+−=·] {_FORMULA})*[.,;:)]|{_FORMULA}(?: [-+−=·] {_FORMULA})+")
-#: A side of an equation is broken where its terms reach so many operations.
+#: A side of an equation is broken where its terms reach this number of operations.
 _LONG = 24
 
 

@@ -40,7 +40,7 @@ from lagcli.units import Unit
 _EQUALS = " = "
 #: Left sides wider than this part of the line stand on lines of their own.
 _NARROW = 0.35
-#: A line inside brackets is indented by so many columns for each.
+#: A line inside brackets is indented by this number of columns for each.
 _STEP = 2
 #: An inner line keeps at least this much of the width.
 _LEAST = 0.5

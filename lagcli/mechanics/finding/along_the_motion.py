@@ -98,7 +98,7 @@ class AlongTheMotion:
     ) -> Expr | None:
         """The expression in the named quantities and parameters; None with `why_not`.
 
-        The time may be left in it only where it is asked for.
+        The time may be left in it only where it is requested.
         """
         self.why_not = ""
         subject = self.on_motion(expression)

@@ -187,7 +187,7 @@ class LastingAnswer:
         return self._on_line(u, functions, start, values, strict=strict)
 
     def _margins(self, passing: Passing) -> Sequence[Expr]:
-        """What ends the motion where it is negative; not the condition that is asked for."""
+        """What ends the motion where it is negative; not the condition in question."""
         contacts = [c.holds_while for c in self.system.problem.constraints if c.holds_while]
         if isinstance(self.question, Lasting) and contacts == [self.question.condition]:
             return passing.assumed

@@ -30,7 +30,7 @@ class SpecialValues:
     Parameters
     ----------
     p
-        The parameter that is asked for.
+        The parameter in question.
     events
         Expressions in p and other parameters.
     positive

@@ -30,7 +30,7 @@ HOLDS, FAILS, UNKNOWN, TURNS, ENDS = "holds", "fails", "unknown", "turns", "ends
 
 @record
 class Start:
-    """u(0), u'(0), u''(0), and the place asked for, None where a condition is asked."""
+    """u(0), u'(0), u''(0), and the place in question, None for a condition."""
 
     place: Expr
     velocity: Expr
@@ -39,7 +39,7 @@ class Start:
 
     @property
     def formulas(self) -> list[Expr]:
-        """All of them that there are."""
+        """All of them."""
         target = [] if self.target is None else [self.target]
         return [self.place, self.velocity, self.acceleration, *target]
 

@@ -119,7 +119,7 @@ class WhereSearch:
         return simplify(a**2 - b**2 * square), simplify(-a / b)
 
     def _departing(self, roots: list[Expr], equation: Expr, square: Expr) -> list[Expr]:
-        """From rest at an equilibrium: mirror images are told once."""
+        """From rest at an equilibrium: mirror images are listed once."""
         u = self.unknown
         self.notes.append("the initial state is an equilibrium: both departures from it count")
         if is_zero(self.along.initially(u)) is not True:

@@ -46,7 +46,7 @@ def _import_what_workers_need() -> None:
     keep_what_is_there()
 
 
-class _Checker(Worker):
+class _FileWorker(Worker):
     """A worker with the place of its file, and the end of the time that this has."""
 
     place: int | None = None
@@ -67,7 +67,7 @@ class _Pool:
         self.limit = limit
         self.standard = sys.stdin.buffer.read() if "-" in files else None
         self.waiting = iter(range(len(files)))
-        self.workers: list[_Checker] = []
+        self.workers: list[_FileWorker] = []
         self.reports: dict[int, Report] = {}
 
     def start(self, count: int) -> None:
@@ -76,11 +76,11 @@ class _Pool:
             self._add()
 
     def _add(self) -> None:
-        worker = _Checker(_report, self.workers)
+        worker = _FileWorker(_report, self.workers)
         self.workers.append(worker)
         self._feed(worker)
 
-    def _feed(self, worker: _Checker) -> None:
+    def _feed(self, worker: _FileWorker) -> None:
         place = next(self.waiting, None)
         if place is None:
             worker.place, worker.deadline = None, float("inf")
@@ -101,7 +101,7 @@ class _Pool:
             elif time.monotonic() >= worker.deadline:
                 self._replace(worker, worker.place, too_long(name, self.limit))
 
-    def _receive(self, worker: _Checker, place: int, name: str) -> None:
+    def _receive(self, worker: _FileWorker, place: int, name: str) -> None:
         try:
             self.reports[place] = worker.connection.recv()
         except EOFError:
@@ -110,7 +110,7 @@ class _Pool:
         else:
             self._feed(worker)
 
-    def _replace(self, worker: _Checker, place: int, report: Report) -> None:
+    def _replace(self, worker: _FileWorker, place: int, report: Report) -> None:
         self.reports[place] = report
         worker.kill()
         self.workers.remove(worker)

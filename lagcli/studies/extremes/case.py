@@ -93,7 +93,7 @@ class Trial:
     condition
         Of the mass matrix scaled to a unit diagonal; inf where it is singular.
     until, holds_until
-        The span asked for, and the time until which the accuracy is claimed.
+        The requested span, and the time until which the accuracy is claimed.
     accuracy, error
         The one claimed, and the true one.
     drift

@@ -34,7 +34,7 @@ _PRECISE = 60
 _DIGITS = 24
 #: A reference may take this part of the time that a case has.
 _SHARE = 0.25
-#: A run that takes too long is made so many times shorter, so often.
+#: The factor by which a run that takes too long is shortened, and how often.
 _SHORTER, _ATTEMPTS = 100.0, 3
 
 

@@ -18,7 +18,7 @@ _NAME = 25
 _HEAD = ("case", "cond", "acc.", "run", "mult.", "charges", "drift", "outcome")
 #: The last column is aligned to the left.
 _WIDTHS = (_NAME, 5, 8, 4, 8, 8, 6, 9)
-#: A rewriting that gains fewer digits is not told of.
+#: A rewriting that gains fewer digits is not reported.
 _WORTH = 1.0
 _COLUMNS = (
     "kind", "case", "outcome", "condition", "accelerations", "accelerations_rewritten",

@@ -19,7 +19,7 @@ class RunPoint:
     Attributes
     ----------
     method
-        As it was asked for.
+        As requested.
     tolerance, accuracy
         The local tolerance of a single run, or what a run with its certificate was to reach.
     taken
@@ -70,7 +70,7 @@ def front(points: Iterable[RunPoint], cost: Cost, resolved: float = 0.0) -> set[
     cost
         What is paid.
     resolved
-        Errors below this cannot be told apart.
+        Errors below this cannot be distinguished.
 
     Returns
     -------

@@ -32,7 +32,7 @@ _LADDER = ((34, 1e-22, 1e-25), (52, 1e-36, 1e-40), (90, 1e-70, 1e-75))
 _BETWEEN = 8  # digits fewer in the other run
 _GOOD = 1e-17
 _DIGITS = 50
-#: What a run in doubles may be asked for, where nothing better can be had.
+#: The accuracy of a run in doubles, where nothing better is possible.
 _DOUBLES = (1e-12, 1e-10, 1e-8, 1e-6)
 #: A formula further from the motion than this is not its solution.
 _FOLLOWS = 1e-6
@@ -171,7 +171,7 @@ def _precise(
 
 
 def precise_rows(problem: Problem, asked: Asked, digits: int, limit: float) -> Rows | None:
-    """The rows by power series with so many digits; None where that is not possible in time.
+    """The rows by power series with this number of digits; None where that is not possible in time.
 
     One run, without a bound on its error: it confirms what another method has found.
 

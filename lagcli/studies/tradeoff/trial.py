@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from lagcli.numerics.hybrid.run import Run
     from lagcli.problem_data import Problem
 
-#: A short integration is timed again and again, until so many seconds or runs.
+#: A short integration is timed repeatedly, up to these seconds and runs.
 _SECONDS, _AGAIN = 0.05, 5
 #: The longest step of a single run is this part of the span: nothing is guarded against.
 _PARTS = 10.0
-#: The accuracy of a single run, which claims none, is told as this at least.
+#: The least accuracy that a single run, which claims none, is given.
 _LEAST = 1e-14
 #: The name of a run that is proved, beside those of the methods.
 PROOF = "proof"
@@ -100,7 +100,7 @@ def trial(given: Given) -> dict[str, Any]:
 
 
 def asked_of(given: Given) -> tuple[Problem, Asked]:
-    """The problem, and its coordinates and velocities asked for."""
+    """The problem, and the request for its coordinates and velocities."""
     from lagcli.numerics.equations.columns import Column
     from lagcli.numerics.hybrid.request import Asked
     from lagcli.pipeline import Request, read, with_lagrangian
@@ -230,7 +230,7 @@ def _certified(problem: Problem, asked: Asked, ticked: Callable[[float], None]) 
 
 
 def _text(value: Any) -> str | None:
-    """Every digit: a double is a sum of powers of two, and told as that very number."""
+    """Every digit: a double is a sum of powers of two, and written as that number."""
     if value is None or isinstance(value, float):
         return None if value is None else str(Decimal(value))
     return str(value.mid().str(_DIGITS, radius=False))
