@@ -26,7 +26,7 @@ $(READY): pyproject.toml
 		rm -rf $(VENV); echo "no venv: on Debian, apt-get install python3-venv" >&2; exit 1; }
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --editable '.[dev,fast]'
 	@# on all cores, without the packages' own tests; Python itself may not be allowed to keep bytecode
-	@$(BIN)/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib lagcli || true
+	@$(BIN)/python -m compileall -qq -j 0 -x '/(tests?|pip|setuptools|pkg_resources|mypyc?)/' $(VENV)/lib lagcli || true
 	@touch $@
 
 .PHONY: solve
