@@ -12,7 +12,7 @@ point, B a matrix of points, r a box.
        A(s) in sum_{k<Q} J_k s^k + J_Q s^Q,
 
    J_k from p + E at the beginning of the step, J_Q from p + E at every s of it.
-3. With N >= |A| entry by entry, |e(s)| <= exp(N h) (|B r| + h^(K+1)/(K+1) |F_K|).  Where that lies
+3. With N >= |A| entry by entry, from J of p + E at every s, |e(s)| <= exp(N h) (|B r| + h^(K+1)/(K+1) |F_K|).  Where that lies
    inside E, the solutions exist on the whole step and the supposition was right.
 4. The flow of A is P(s) = sum_{k<=Q} P_k s^k up to h exp(N h) max |A P - P'|, so that
 
@@ -237,25 +237,22 @@ class Enclosures:
             _ROOM * x + _LEAST_ROOM * scale for x, scale in zip(whole, self.scales, strict=True)
         ]
         for _ in range(_TUBES):
-            matrices = self._matrices(t, centre, over, tube)
-            if matrices is None:
-                return None
-            bound = _sum_of_sizes(matrices, h)
+            slopes, bound = self._slopes(t, centre, over, tube)
             if not all(x < _LARGEST for x in (bound * h).entries()):
                 return None
             grown = (bound * h).exp()
             errors = (grown * column).entries()
             if all(x < e for x, e in zip(errors, tube, strict=True)):
-                return self._bounded(matrices, grown, h, defect, column)
+                return self._bounded(slopes, grown, h, defect, column)
             tube = [2 * x.abs_upper() for x in errors]
             if not all(x < _LARGEST for x in tube):
                 return None
         return None
 
-    def _matrices(
+    def _slopes(
         self, t: Any, centre: Sequence[Sequence[Any]], over: tuple[Any, Any], tube: Sequence[Any]
-    ) -> list[Any] | None:
-        """J_0 .. J_Q."""
+    ) -> tuple[list[Any], Any]:
+        """da/dx as J_0 .. J_Q, and N."""
         room = [self._ball(0, e) for e in tube]
         at_start = [[c[0] + e, *c[1:_FLOW_ORDER]] for c, e in zip(centre, room, strict=True)]
         times, along = over
@@ -263,33 +260,45 @@ class Enclosures:
             [c[0] + e, *c[1 : _FLOW_ORDER + 1]]
             for c, e in zip(along[: len(room)], room, strict=True)
         ]
-        found = self.field.jacobian([t, 1], at_start, _FLOW_ORDER)
-        found += self.field.jacobian([times, 1], anywhere, _FLOW_ORDER + 1)[_FLOW_ORDER:]
-        return found if all(x.is_finite() for m in found for x in m.entries()) else None
+        found = self.field.slopes([t, 1], at_start, _FLOW_ORDER)
+        first, *_, last = self.field.slopes([times, 1], anywhere, _FLOW_ORDER + 1)
+        return [*found, last], self._sizes(self.field.jacobian(first))
 
     def _bounded(
-        self, matrices: Sequence[Any], grown: Any, h: Any, defect: Sequence[Any], whole: Any
+        self, slopes: Sequence[Any], grown: Any, h: Any, defect: Sequence[Any], whole: Any
     ) -> StepFlow | None:
         """P from the middles of J_k; D from the defect A P - P'; None where D is no small part."""
-        middles = [m.mid() for m in matrices]
-        size = len(defect)
+        n, size, order = self.field.n, len(defect), _FLOW_ORDER
+        middles = [m.mid() for m in slopes]
         found = [self._matrix(size, size, [int(i == j) for i in range(size) for j in range(size)])]
-        for k in range(_FLOW_ORDER):
-            found.append(convolved(middles, found, k) / (k + 1))
-        found = [m.mid() for m in found]
+        for k in range(order):
+            found.append((self._rate(middles, found, k) / (k + 1)).mid())
         rest = [
-            convolved(matrices, found, k)
-            - ((k + 1) * found[k + 1] if k < _FLOW_ORDER else 0 * found[0])
-            for k in range(2 * _FLOW_ORDER + 1)
+            self._rate(slopes, found, k) - (k + 1) * found[k + 1]
+            if k < order
+            else self._rate(slopes, found, k)
+            for k in range(2 * order + 1)
         ]
-        error = grown * _sum_of_sizes(rest, h) * h
-        lost, kept = (error * whole).entries(), (_sum_of_sizes(found, h) * whole).entries()
-        n, least = self.field.n, self.target * max(self.scales)
+        over = self._ball(0, h)
+        error = grown * self._sizes(_horner(rest, over)) * h
+        lost, kept = (error * whole).entries(), (self._sizes(_horner(found, over)) * whole).entries()
+        least = self.target * max(self.scales)
         kinds = (slice(0, n), slice(n, None))
         if not all(_largest(lost[k]) <= _LOST * _largest(kept[k]) + least for k in kinds):
             return None
         moved = grown * self._matrix(size, 1, list(defect))
         return StepFlow(found, self._around_zero(error), self._around_zero(moved))
+
+    def _rate(self, slopes: Sequence[Any], flow: Sequence[Any], k: int) -> Any:
+        """The k-th coefficient of A P: below what the velocities have, da/dx P."""
+        size = flow[0].ncols()
+        above = flow[k].entries()[size * size // 2 :] if k < len(flow) else [0] * (size * size // 2)
+        return self._matrix(size, size, above + convolved(slopes, flow, k).entries())
+
+    def _sizes(self, matrix: Any) -> Any:
+        """|M|, rounded up."""
+        bounds = [x.abs_upper() for x in matrix.entries()]
+        return self._matrix(matrix.nrows(), matrix.ncols(), bounds)
 
     def _around_zero(self, bound: Any) -> Any:
         """A matrix of balls around 0."""
@@ -302,16 +311,6 @@ def _largest(bounds: Sequence[Any]) -> Any:
     for x in bounds[1:]:
         found = found.max(x)
     return found
-
-
-def _sum_of_sizes(matrices: Sequence[Any], h: Any) -> Any:
-    """sum_k |M_k| h^k, rounded up."""
-    total, power = None, 1
-    for m in matrices:
-        sizes = type(m)(m.nrows(), m.ncols(), [x.abs_upper() * power for x in m.entries()])
-        total = sizes if total is None else total + sizes
-        power *= h
-    return total
 
 
 def _horner(coefficients: Sequence[Any], s: Any) -> Any:

@@ -56,7 +56,7 @@ class VectorField:
 
     def slope(self, t: Any, x: Sequence[Any]) -> Any:
         """J at balls."""
-        return self.jacobian([t], [[each] for each in x], 1)[0]
+        return self.jacobian(self.slopes([t], [[each] for each in x], 1)[0])
 
     def coefficients(self, t: Any, x: Sequence[Any], order: int) -> list[list[Any]]:
         """Taylor coefficients 0 .. order of the solution from x: of q, then of v."""
@@ -90,15 +90,12 @@ class VectorField:
         n, known = self.n, len(x[0])
         found = [list(c) for c in x]
         a = self.evaluated(self._accelerations, [t, 1], x, count)
-        slopes = self.evaluated(self._slopes, [t, 1], x, count - known)
-        matrices = [
-            self._matrix(n, 2 * n, [entry[k] for entry in slopes]) for k in range(count - known)
-        ]
+        slopes = self.slopes([t, 1], x, count - known)
         errors: list[Any] = []
         for k in range(known, count):
             change = [entry[k - 1] for entry in a]
             if errors:
-                added = convolved(matrices, errors, len(errors) - 1).entries()
+                added = convolved(slopes, errors, len(errors) - 1).entries()
                 change = [b + c for b, c in zip(change, added, strict=True)]
             places = [(found[n + i][k - 1]) / k for i in range(n)]
             rates = [b / k for b in change]
@@ -171,14 +168,16 @@ class VectorField:
     def _first_of(self, x: Any) -> Any:
         return x[0] if isinstance(x, self._series) else x
 
-    def jacobian(self, time: Sequence[Any], x: Sequence[Sequence[Any]], length: int) -> list[Any]:
-        """The first Taylor coefficients of J along power series x."""
-        n, found = self.n, []
-        entries = self.evaluated(self._slopes, time, x, length)
-        for k in range(length):
-            top = [int(k == 0 and j == i + n) for i in range(n) for j in range(2 * n)]
-            found.append(self._matrix(2 * n, 2 * n, [*top, *(a[k] for a in entries)]))
-        return found
+    def slopes(self, time: Sequence[Any], x: Sequence[Sequence[Any]], length: int) -> list[Any]:
+        """The first Taylor coefficients of da/dx, shape (n, 2n), along power series x."""
+        n, entries = self.n, self.evaluated(self._slopes, time, x, length)
+        return [self._matrix(n, 2 * n, [a[k] for a in entries]) for k in range(length)]
+
+    def jacobian(self, slope: Any) -> Any:
+        """J with da/dx below what the velocities have."""
+        n = self.n
+        above = [int(j == i + n) for i in range(n) for j in range(2 * n)]
+        return self._matrix(2 * n, 2 * n, above + slope.entries())
 
     def evaluated(
         self, function: Any, time: Sequence[Any], x: Sequence[Sequence[Any]], length: int
