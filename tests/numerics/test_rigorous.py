@@ -191,3 +191,14 @@ def test_the_cut_of_an_angle_is_passed():
     row = proof(problem, 4.0, samples=2).rows[-1]
     with mpmath.workdps(40):
         assert contains(row[1], mpmath.mpf(64) / 6 - mpmath.pi * (4 - mpmath.pi) ** 2)
+
+
+def test_a_constraint_that_others_imply_at_the_beginning_only_ends_the_proof():
+    """x^2 + y^2 = 1 and x^2 + 2 y^2 = 1 have the same tangent at (1, 0), and go apart."""
+    text = (
+        "{coordinates: [x, y], T: (x'^2 + y'^2)/2, V: y, "
+        "constraints: {circle: x^2 + y^2 = 1, ellipse: x^2 + 2*y^2 = 1}, initial: {x: 1, y: 0}}"
+    )
+    found = proof(lagcli.loads(text), 1.0)
+    assert not found.reached
+    assert "do not imply" in found.refusal

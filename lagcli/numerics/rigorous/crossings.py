@@ -77,7 +77,7 @@ class Watched:
         if order < 2:
             return self.rate(field, t, x) if order else self.at(t, x)
         series = field.coefficients(t, x, order)
-        return self.sign * field.evaluated(self.value, [t, 1], series, order + 1)[0][order]
+        return self.sign * field.system.evaluated(self.value, [t, 1], series, order + 1)[0][order]
 
 
 class UndecidedCrossing(NotEnclosed):

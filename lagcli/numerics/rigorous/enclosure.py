@@ -12,8 +12,9 @@ point, B a matrix of points, r a box.
        A(s) in sum_{k<Q} J_k s^k + J_Q s^Q,
 
    J_k from p + E at the beginning of the step, J_Q from p + E at every s of it.
-3. With N >= |A| entry by entry, from J of p + E at every s, |e(s)| <= exp(N h) (|B r| + h^(K+1)/(K+1) |F_K|).  Where that lies
-   inside E, the solutions exist on the whole step and the supposition was right.
+3. With N >= |A| entry by entry, from J of p + E at every s of the step,
+   |e(s)| <= exp(N h) (|B r| + h^(K+1)/(K+1) |F_K|).  Where that lies inside E, the solutions exist
+   on the whole step and the supposition was right.
 4. The flow of A is P(s) = sum_{k<=Q} P_k s^k up to h exp(N h) max |A P - P'|, so that
 
        x(h) in p(h) + (P(h) + D) B r + d,
@@ -37,18 +38,19 @@ from collections.abc import Sequence
 from typing import Any
 
 from lagcli.numerics.integrators.taylor import log2_size
-from lagcli.numerics.rigorous.field import VectorField, convolved
+from lagcli.numerics.rigorous.field import VectorField
 from lagcli.numerics.rigorous.sets import LohnerSet
+from lagcli.numerics.rigorous.solution import convolved
 from lagcli.record import record
 
 #: Of the length at which the last coefficients say that the remainder is small enough.
 _FIRST_TRY = 0.9
 #: Bounds over a step are wide: they need no more bits.
 _WIDE_BITS = 64
-#: Q.  The flow multiplies radii only: at the usual lengths its remainder is 1e-6 of it.
-_FLOW_ORDER = 8
-#: E beside the error at the beginning, and beside the largest values so far.
-_ROOM, _LEAST_ROOM = 1e3, 1e-12
+#: Q beside K.  The flow multiplies radii only: at the usual lengths its remainder is 1e-6 of it.
+_FLOW_ORDER = 2 / 7
+#: E beside the error at the beginning, at first, and then beside the growth in the last step.
+_ROOM, _GROWN = 1e3, 2.0
 _TUBES = 4
 #: What D may be of P, on the errors at hand: 1000 steps widen them by a percent.
 _LOST = 1e-5
@@ -65,6 +67,10 @@ _BEYOND = 1 + 2.0**-20
 
 class NotEnclosed(Exception):
     """Why no enclosure was found from here on."""
+
+
+class ShortSteps(NotEnclosed):
+    """The width of the set shortens the steps, which more bits may lengthen."""
 
 
 @record
@@ -144,16 +150,29 @@ class Enclosures:
         What the remainder of a step may be beside the largest value of each component so far.
     peaks : list of float
         These values, which the proof goes on with.
+    least : float
+        Steps that are shorter, beside the length that the Taylor series allows, are not taken.
     """
 
-    def __init__(self, field: VectorField, order: int, target: float, peaks: list[float]) -> None:
+    def __init__(
+        self,
+        field: VectorField,
+        order: int,
+        target: float,
+        peaks: list[float],
+        least: float = 0.0,
+    ) -> None:
         from flint import arb, arb_mat, ctx
 
-        self.field, self.order, self.target = field, order, target
+        self.field, self.order, self.target, self._least = field, order, target, least
         self._ball, self._matrix, self._context = arb, arb_mat, ctx
         self._peaks = peaks
+        #: Q
+        self.flow_order = round(_FLOW_ORDER * order)
         #: what the last steps were of the estimated length
         self._part = _FIRST_TRY
+        #: E of the next step beside the error at its beginning
+        self._room: list[float] = []
 
     def step(self, t: Any, start: LohnerSet, until: Any) -> Piece:
         """A step from a set towards the end.
@@ -177,6 +196,8 @@ class Enclosures:
             flow = self._wide(t, end, centre, start)
             if flow is not None:
                 self._part = min(1.0, self._part * (_LONGER if attempt == 0 else 1.0))
+                if self._part < self._least:
+                    raise ShortSteps("the steps become too short")
                 return Piece(t, end, centre, flow, start)
             h, self._part = _SHORTER * h, max(_LEAST_PART, _SHORTER * self._part)
         raise NotEnclosed(
@@ -233,8 +254,10 @@ class Enclosures:
         """The flow, where a tube E is found in which the errors stay."""
         whole = [x + d for x, d in zip(start.spread, defect, strict=True)]
         column = self._matrix(len(whole), 1, whole)
+        room = self._room or [_ROOM] * len(whole)
         tube = [
-            _ROOM * x + _LEAST_ROOM * scale for x, scale in zip(whole, self.scales, strict=True)
+            a * x + self.target * scale
+            for a, x, scale in zip(room, whole, self.scales, strict=True)
         ]
         for _ in range(_TUBES):
             slopes, bound = self._slopes(t, centre, over, tube)
@@ -243,6 +266,10 @@ class Enclosures:
             grown = (bound * h).exp()
             errors = (grown * column).entries()
             if all(x < e for x, e in zip(errors, tube, strict=True)):
+                self._room = [
+                    _GROWN * float(e / x) if x > 0 else _ROOM
+                    for e, x in zip(errors, whole, strict=True)
+                ]
                 return self._bounded(slopes, grown, h, defect, column)
             tube = [2 * x.abs_upper() for x in errors]
             if not all(x < _LARGEST for x in tube):
@@ -254,21 +281,22 @@ class Enclosures:
     ) -> tuple[list[Any], Any]:
         """da/dx as J_0 .. J_Q, and N."""
         room = [self._ball(0, e) for e in tube]
-        at_start = [[c[0] + e, *c[1:_FLOW_ORDER]] for c, e in zip(centre, room, strict=True)]
+        order = self.flow_order
+        at_start = [[c[0] + e, *c[1:order]] for c, e in zip(centre, room, strict=True)]
         times, along = over
         anywhere = [
-            [c[0] + e, *c[1 : _FLOW_ORDER + 1]]
-            for c, e in zip(along[: len(room)], room, strict=True)
+            [c[0] + e, *c[1 : order + 1]] for c, e in zip(along[: len(room)], room, strict=True)
         ]
-        found = self.field.slopes([t, 1], at_start, _FLOW_ORDER)
-        first, *_, last = self.field.slopes([times, 1], anywhere, _FLOW_ORDER + 1)
+        slopes = self.field.system.slopes
+        found = slopes([t, 1], at_start, order)
+        first, *_, last = slopes([times, 1], anywhere, order + 1)
         return [*found, last], self._sizes(self.field.jacobian(first))
 
     def _bounded(
         self, slopes: Sequence[Any], grown: Any, h: Any, defect: Sequence[Any], whole: Any
     ) -> StepFlow | None:
         """P from the middles of J_k; D from the defect A P - P'; None where D is no small part."""
-        n, size, order = self.field.n, len(defect), _FLOW_ORDER
+        n, size, order = self.field.n, len(defect), self.flow_order
         middles = [m.mid() for m in slopes]
         found = [self._matrix(size, size, [int(i == j) for i in range(size) for j in range(size)])]
         for k in range(order):
@@ -281,7 +309,10 @@ class Enclosures:
         ]
         over = self._ball(0, h)
         error = grown * self._sizes(_horner(rest, over)) * h
-        lost, kept = (error * whole).entries(), (self._sizes(_horner(found, over)) * whole).entries()
+        lost, kept = (
+            (error * whole).entries(),
+            (self._sizes(_horner(found, over)) * whole).entries(),
+        )
         least = self.target * max(self.scales)
         kinds = (slice(0, n), slice(n, None))
         if not all(_largest(lost[k]) <= _LOST * _largest(kept[k]) + least for k in kinds):

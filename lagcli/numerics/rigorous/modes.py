@@ -13,10 +13,12 @@ from lagcli.graph.substitution import Substitution
 from lagcli.numerics.equations.columns import Values
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.rigorous.crossings import Restart, Watched
 from lagcli.numerics.rigorous.enclosure import Enclosures, NotEnclosed
-from lagcli.numerics.rigorous.field import VectorField, solved
+from lagcli.numerics.rigorous.field import VectorField
+from lagcli.numerics.rigorous.solution import LinearSystem
 
 Key = tuple[frozenset[int], tuple[int, ...]]
 
@@ -31,7 +33,7 @@ class ProofModes:
         Exact parameters in balls.
     implied : frozenset of int
         Constraints that the others imply.
-    order, target
+    order, target, least
         As of `Enclosures`.
     """
 
@@ -43,9 +45,10 @@ class ProofModes:
         implied: frozenset[int],
         order: int,
         target: float,
+        least: float,
     ) -> None:
         self.setup, self.constants, self.arithmetic = setup, constants, arithmetic
-        self.implied, self.order, self.target = implied, order, target
+        self.implied, self.order, self.target, self.least = implied, order, target, least
         #: of what `--stop-when` compares with 0, at the beginning
         self.stop_sign = 0
         self.peaks = [0.0] * (2 * len(setup.equations.q))
@@ -98,12 +101,19 @@ class ProofMode:
     def __init__(self, modes: ProofModes, held: frozenset[int], signs: tuple[int, ...]) -> None:
         self.modes, self.held, self.signs = modes, held, signs
         setup = modes.setup
-        self.equations = _without(setup.equations.holding(held), modes.implied)
+        whole = setup.equations.holding(held)
+        self.equations = _without(whole, modes.implied)
         self.motion = Motion(
             self.equations, modes.constants, modes.arithmetic, [float(sign) for sign in signs]
         )
+        #: A q' + b of the constraints that the others imply
+        self.implied = self.motion.function(
+            [whole.rates[place] for k, place in whole.place.items() if k in modes.implied]
+        )
         self.field = VectorField(self.motion)
-        self.enclosures = Enclosures(self.field, modes.order, modes.target, modes.peaks)
+        self.enclosures = Enclosures(
+            self.field, modes.order, modes.target, modes.peaks, modes.least
+        )
         self.values = Values(self.motion, setup.reading, setup.nodes)
 
     @cached_property
@@ -136,7 +146,9 @@ class ProofMode:
         symbols = [*reading.accelerations, *reading.multipliers]
         if not any(node.mask & s.mask for s in symbols):
             return node
-        assert equations.eliminated is not None
+        if equations.eliminated is None:
+            message = "not enclosed: the accelerations have no formula of their own"
+            raise Refusal(message, mistake=False)
         a, found = equations.eliminated.motion(equations.forcing, equations.bias)
         zero = equations.graph.zero
         places = map(equations.place.get, range(len(reading.multipliers)))
@@ -195,8 +207,8 @@ class ProofMode:
         own = equations.place[k]
         jump = graph.product(graph.sum([graph.one, e]), equations.rates[own])
         bias = [jump if row == own else zero for row in range(len(equations.rows))]
-        change, columns, _ = solved(equations, [zero] * self.motion.n, bias, equations.state)
-        restart = self._impulse(change, columns)
+        motion = Motion(equations, self.modes.constants, self.modes.arithmetic, self.motion.signs)
+        restart = self._impulse(LinearSystem(motion, [zero] * motion.n, bias, equations.state))
         ratio = self.motion.function([e])(t, *x)[0]
         after = restart.state(t, x)
         signs = self._signs_after(t, after)
@@ -222,27 +234,27 @@ class ProofMode:
                 raise NotEnclosed(f"whether {each.name} is lost by an impact is not decided")
         return found
 
-    def _impulse(self, change: Sequence[Node], columns: Sequence[Sequence[Node]]) -> Restart:
-        n, motion = self.motion.n, self.motion
-        velocities = motion.function(change, frozen=True)
-        flat = [entry for row in zip(*columns, strict=True) for entry in row]
-        slopes = motion.function(flat, frozen=True)
-        width = 1 + 2 * n
+    def _impulse(self, system: LinearSystem) -> Restart:
+        """The change of velocities that solves a system."""
+        n = self.motion.n
 
         def state(t: Any, x: Sequence[Any]) -> list[Any]:
-            jumps = velocities(t, *x)
+            jumps = system.solution([t], [[each] for each in x], 1).found[0].entries()[:n]
             return [*x[:n], *(v + d for v, d in zip(x[n:], jumps, strict=True))]
 
+        def slopes(t: Any, x: Sequence[Any]) -> Any:
+            return system.slopes([t], [[each] for each in x], 1)[0]
+
         def explicit(t: Any, x: Sequence[Any]) -> Any:
-            return [self._zero] * n + list(slopes(t, *x)[::width])
+            found = slopes(t, x)
+            return [self._zero] * n + [found[i, 0] for i in range(n)]
 
         def slope(t: Any, x: Sequence[Any]) -> Any:
-            found = self._identity(t, x)
-            values = slopes(t, *x)
+            whole, found = self._identity(t, x), slopes(t, x)
             for i in range(n):
                 for j in range(2 * n):
-                    found[n + i, j] += values[i * width + 1 + j]
-            return found
+                    whole[n + i, j] += found[i, 1 + j]
+            return whole
 
         return Restart(state, explicit, slope)
 

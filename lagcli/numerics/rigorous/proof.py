@@ -15,7 +15,7 @@ from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.numerics.hybrid.events import Event
 from lagcli.numerics.hybrid.request import Asked, Certificate, Result
 from lagcli.numerics.rigorous.crossings import UndecidedCrossing, Watched, behind, when
-from lagcli.numerics.rigorous.enclosure import NotEnclosed, Piece
+from lagcli.numerics.rigorous.enclosure import NotEnclosed, Piece, ShortSteps
 from lagcli.numerics.rigorous.initial import initial_state
 from lagcli.numerics.rigorous.modes import ProofMode, ProofModes
 from lagcli.numerics.rigorous.sets import LohnerSet, around
@@ -26,6 +26,9 @@ from lagcli.record import record, replace
 _BITS, _MOST_BITS, _ORDER = 80, 640, 0.36
 #: Entries of f and J that are evaluated to order 28, all attempts together: some 10 minutes.
 _WORK = 2e6
+#: With fewer bits than _PATIENT an attempt ends where the width of the set makes steps shorter
+#: than _SHORT of what the Taylor series allows: Andrews' squeezer takes 10 times as many in 80.
+_PATIENT, _SHORT, _MORE_BITS = 160, 0.1, 48
 #: More bits help where the enclosures are wider than this part of the accuracy.
 _NARROW = 1e-3
 #: And where the last ones have brought the proof so much farther.
@@ -159,7 +162,7 @@ def prove(problem: Problem, asked: Asked, progress: Progress | None = None) -> P
         bits = attempt.bits_needed()
         if found.reached or not 0 < bits <= _MOST_BITS or work <= 0 or attempt.last < _GAIN * last:
             return best
-        last = attempt.last
+        last = 0.0 if attempt.short else attempt.last
 
 
 def _setup(problem: Problem, asked: Asked) -> tuple[Simulation, frozenset[int]]:
@@ -210,6 +213,7 @@ class Attempt:
         #: radius beside the scale of a component, the largest, at the last time
         self.width = 0.0
         self.last = 0.0
+        self.short = False
         self.times = self._times()
 
     def proof(self) -> Proof:
@@ -217,7 +221,7 @@ class Attempt:
         try:
             self._go()
         except NotEnclosed as reason:
-            self.refusal = str(reason)
+            self.refusal, self.short = str(reason), isinstance(reason, ShortSteps)
         except (ArithmeticError, ValueError, OverflowError) as reason:
             self.refusal = f"the equations are not defined on the enclosure: {reason}"
         asked = self.setup.asked
@@ -244,6 +248,8 @@ class Attempt:
     def bits_needed(self) -> int:
         """For the whole span, by what was lost so far; 0 where more do not help."""
         accuracy, until = self.setup.asked.accuracy, self.setup.asked.until
+        if self.short:
+            return self.bits + _MORE_BITS
         if not (self.too_wide or self.width > _NARROW * accuracy):
             return 0
         lost = max(1.0, self.bits + math.log2(max(self.width, 2.0**-self.bits)))
@@ -255,7 +261,13 @@ class Attempt:
         setup, ball = self.setup, self.arithmetic.ball
         constants = constants_of(setup.equations, setup.all_nodes, self.arithmetic)
         modes = ProofModes(
-            setup, constants, self.arithmetic, self.implied, self.order, 2.0**-self.bits
+            setup,
+            constants,
+            self.arithmetic,
+            self.implied,
+            self.order,
+            2.0**-self.bits,
+            _SHORT if self.bits < _PATIENT else 0.0,
         )
         first = modes(setup.given, [1] * len(setup.equations.kinks))
         state, assumed = initial_state(first.motion, setup.start)
@@ -273,10 +285,18 @@ class Attempt:
 
     def _name_implied(self) -> None:
         """Constraints that others imply at the beginning are taken to be implied all the way."""
-        if not self.implied:
-            return
-        names = [self.setup.whole.constraints[k].name for k in sorted(self.implied)]
-        self.assumed.append(f"the other constraints imply {', '.join(names)}")
+        if self.implied:
+            self.assumed.append(f"the other constraints imply {', '.join(self._implied_names)}")
+
+    def _look_at_implied(self, piece: Piece, mode: ProofMode) -> None:
+        """The end of the proof where what is taken to be implied is violated."""
+        if not all(x.contains(0) for x in mode.implied(piece.end, *piece.at(piece.end))):
+            names, t = ", ".join(self._implied_names), float(piece.end)
+            raise NotEnclosed(f"near t = {t:.6g} the other constraints do not imply {names}")
+
+    @property
+    def _implied_names(self) -> list[str]:
+        return [self.setup.whole.constraints[k].name for k in sorted(self.implied)]
 
     def _through_mode(
         self, t: Any, start: LohnerSet, mode: ProofMode, leaving: Mapping[Watched, int]
@@ -385,13 +405,15 @@ class Attempt:
     def _count(self, piece: Piece, mode: ProofMode) -> None:
         self.steps += 1
         self.last = float(piece.end)
-        self.work += mode.field.cost * (self.order / 28) ** 2
+        self.work += mode.field.system.cost * (self.order / 28) ** 2
         scales = mode.enclosures.scales
         self.width = max(
             float(x) / scale for x, scale in zip(piece.start.spread, scales, strict=True)
         )
         if self.progress is not None:
             self.progress(self.last / self.setup.asked.until)
+        if self.implied:
+            self._look_at_implied(piece, mode)
         if self.width > self.setup.asked.accuracy * _LOST:
             raise NotEnclosed(_WIDE.format(self.setup.asked.accuracy))
         if self.work > self.most:

@@ -1,0 +1,201 @@
+r"""The accelerations and the multipliers on power series of balls.
+
+    M a - A^T lambda = F,    A a = -c,        in short K z = r,
+
+are solved for one coefficient after another,
+
+    K_0 z_k = r_k - sum_{j=1..k} K_j z_{k-j},
+
+with one inverse: (Y K_0)^-1 Y, where Y is about the inverse of the middle of K_0, so that wide
+balls are not eliminated from one another.  The derivatives obey the same equations:
+
+    K dz = dr - dK z.
+
+References
+----------
+A. Neumaier, *Interval Methods for Systems of Equations* (1990), section 4.1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import chain
+from typing import Any
+
+from lagcli.graph.derivative import partial
+from lagcli.graph.nodes import Node, Symbol, ancestry, mask_of
+from lagcli.numerics.equations.motion import Motion
+
+Series = Sequence[Any]
+
+
+class Solution:
+    """z of one power series x, as far as it is known.
+
+    Attributes
+    ----------
+    matrices, rights : list of arb_mat
+        K_0 .. and r_0 .. ; K_0 only where K is constant.
+    found : list of arb_mat
+        z_0 .. , columns.
+    """
+
+    def __init__(self) -> None:
+        self.matrices: list[Any] = []
+        self.rights: list[Any] = []
+        self.found: list[Any] = []
+        self.inverse: Any = None
+
+    def solve(self, rights: Sequence[Any], found: list[Any]) -> list[Any]:
+        """The rest of z for right sides."""
+        if self.inverse is None:
+            self.inverse = inverted(self.matrices[0])
+        later = self.matrices[1:]
+        for k in range(len(found), len(rights)):
+            rest = rights[k] - convolved(later, found, k - 1) if k and later else rights[k]
+            found.append(self.inverse * rest)
+        return found
+
+    def components(self, places: range) -> list[list[Any]]:
+        """Coefficients of components of z."""
+        return [[z[i, 0] for z in self.found] for i in places]
+
+
+class LinearSystem:
+    """K z = r of a motion, and the derivatives of z.
+
+    Parameters
+    ----------
+    motion : Motion
+        In balls.
+    forcing, bias : sequences of nodes
+        F and c.
+    symbols : sequence of Symbol
+        With respect to which z is differentiated.
+    """
+
+    def __init__(
+        self,
+        motion: Motion,
+        forcing: Sequence[Node],
+        bias: Sequence[Node],
+        symbols: Sequence[Symbol],
+    ) -> None:
+        from flint import arb_mat, arb_series, ctx
+
+        self._matrix, self._series, self._context = arb_mat, arb_series, ctx
+        equations = motion.equations
+        graph, mass, rows = equations.graph, equations.mass, equations.rows
+        n, m = motion.n, motion.m
+        self.n, self.size, self._width = n, n + m, len(symbols)
+        # z as arguments beside the state; no file can name the second
+        z = [graph.symbol(q.name, 2) for q in equations.q]
+        z += [graph.symbol(f"multiplier {k}") for k in range(m)]
+        matrix = [[*mass[i], *(graph.scaled(row[i], -1) for row in rows)] for i in range(n)]
+        matrix += [[*row, *[graph.zero] * m] for row in rows]
+        right = [*forcing, *(graph.scaled(c, -1) for c in bias)]
+        left = [
+            graph.difference(
+                r, graph.sum([graph.product(a, x) for a, x in zip(row, z, strict=True)])
+            )
+            for row, r in zip(matrix, right, strict=True)
+        ]
+        slopes = [partial(graph, s) for s in symbols]
+        partials = [slope(node) for node in left for slope in slopes]
+        entries = [*chain(*matrix)]
+        self._entries = motion.function(entries, frozen=True)
+        self._rights = motion.function(right, frozen=True)
+        self._left = motion.function(left, z, frozen=True)
+        self._partials = motion.function(partials, z, frozen=True)
+        self._steady = not mask_of(entries) & mask_of(equations.state)
+        #: what an evaluation costs, in nodes
+        self.cost = len(ancestry([*entries, *right, *partials]))
+
+    def solution(self, time: Series, x: Sequence[Series], length: int) -> Solution:
+        """The first coefficients of z along power series x."""
+        return self.continued(Solution(), time, x, length)
+
+    def continued(
+        self, known: Solution, time: Series, x: Sequence[Series], length: int
+    ) -> Solution:
+        """The same with more coefficients of x."""
+        size, begin = self.size, len(known.rights)
+        if not (known.matrices and self._steady):
+            entries = self.evaluated(self._entries, time, x, 1 if self._steady else length)
+            known.matrices += [
+                self._matrix(size, size, [each[k] for each in entries])
+                for k in range(begin, 1 if self._steady else length)
+            ]
+        rights = self.evaluated(self._rights, time, x, length)
+        known.rights += [
+            self._matrix(size, 1, [each[k] for each in rights]) for k in range(begin, length)
+        ]
+        known.solve(known.rights, known.found)
+        return known
+
+    def slopes(
+        self, time: Series, x: Sequence[Series], length: int, known: Solution | None = None
+    ) -> list[Any]:
+        """The first coefficients of da/dx, shape (n, symbols), along power series x."""
+        at = known or self.solution(time, x, length)
+        n, width = self.n, self._width
+        z = [each[:length] for each in at.components(range(self.size))]
+        entries = self.evaluated(self._partials, time, [*x, *z], length)
+        rights = [
+            self._matrix(self.size, width, [each[k] for each in entries]) for k in range(length)
+        ]
+        found = at.solve(rights, [])
+        if self.size == n:
+            return found
+        return [self._matrix(n, width, each.entries()[: n * width]) for each in found]
+
+    def defect(self, time: Any, x: Sequence[Series], z: Sequence[Series], order: int) -> list[Any]:
+        """The coefficient of an order of what polynomials x and z leave of z.
+
+        Parameters
+        ----------
+        time : arb
+        x, z : sequences of series
+            About every time of a ball.
+        """
+        size = self.size
+        left = self.evaluated(self._left, [time, 1], [*x, *z], order + 1)
+        last = self._matrix(size, 1, [each[order] for each in left])
+        entries = self.evaluated(self._entries, [time], [each[:1] for each in x], 1)
+        inverse = inverted(self._matrix(size, size, [each[0] for each in entries]))
+        found: list[Any] = (inverse * last).entries()
+        return found
+
+    def evaluated(self, function: Any, time: Series, x: Sequence[Series], length: int) -> list[Any]:
+        """The values of a function as series of a length."""
+        series, context = self._series, self._context
+        usual, context.cap = context.cap, length
+        try:
+            found = function(series(list(time)[:length]), *(series(c[:length]) for c in x))
+            return [a if isinstance(a, series) else series([a]) for a in found]
+        finally:
+            context.cap = usual
+
+
+def inverted(matrix: Any) -> Any:
+    """An enclosure of the inverse.
+
+    Raises
+    ------
+    ZeroDivisionError
+        Where the matrix may be singular.
+    """
+    about = matrix.mid().inv().mid()
+    return (about * matrix).inv() * about
+
+
+def convolved(left: Sequence[Any], right: Sequence[Any], k: int) -> Any:
+    """sum_j left_j right_(k-j)."""
+    pairs = [
+        (left[j], right[k - j])
+        for j in range(max(0, k - len(right) + 1), min(k, len(left) - 1) + 1)
+    ]
+    total = pairs[0][0] * pairs[0][1]
+    for a, b in pairs[1:]:
+        total += a * b
+    return total
