@@ -2,7 +2,7 @@
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.leaves import to_expression
-from lagcli.algebra.linear import LinearSolution, left_nullspace, nullspace, rank, solve_linear
+from lagcli.algebra.linear import LinearSolution, dot, left_nullspace, nullspace, rank, solve_linear
 from lagcli.algebra.relations import Relations
 from lagcli.algebra.shapes import Shapes
 from lagcli.algebra.simplification import is_zero, shape, simplify
@@ -13,6 +13,7 @@ __all__ = [
     "LinearSolution",
     "Relations",
     "Shapes",
+    "dot",
     "is_zero",
     "left_nullspace",
     "nullspace",

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import sympy
 from sympy import Expr
 
 from lagcli.algebra.build import as_expr
@@ -108,6 +109,11 @@ def solve_linear(
     det = readable.pair(determinant)[0] if shapes is None else field.to_sympy(determinant)
     flat: list[Expr] | list[list[Expr]] = values if several else [v[0] for v in values]
     return LinearSolution(flat, det, singular=False, rank=n)
+
+
+def dot(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
+    """sum a_i b_i."""
+    return sympy.Add(*(x * y for x, y in zip(a, b, strict=True)))
 
 
 def rank(A: Matrix, relations: Relations | None = None) -> int:

@@ -29,7 +29,7 @@ from functools import cached_property
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import is_zero, simplify
+from lagcli.algebra import dot, is_zero, simplify
 from lagcli.algebra.build import without_jumps
 from lagcli.algebra.jumps import is_continuous
 from lagcli.mechanics.dynamics import Dynamics
@@ -225,14 +225,14 @@ class Noether:
         eta = self.characteristic(transformation)
         parts = {
             CHANGE_OF_L: change - system.total_derivative(boundary),
-            "the applied forces": _dot(system.forces, eta),
+            "the applied forces": dot(system.forces, eta),
             "the dissipation": -sympy.Add(
                 *(system.D.diff(v) * e for v, e in zip(system.qdot, eta, strict=True))
             ),
         }
         for equation in dynamics.constraints.equations:
             # a . (Dq - q' Dt) = a . Dq + b Dt on the motion
-            across = _dot(equation.row, transformation.changes)
+            across = dot(equation.row, transformation.changes)
             across += equation.drift * transformation.time
             if is_zero(across, dynamics.constraints.relations) is not True:
                 parts[f"the constraint '{equation.name}'"] = equation.multiplier * across
@@ -389,6 +389,3 @@ class Noether:
         turning = [self.turning_energy] if self.turning_energy is not None else []
         return tuple(charge.charge for charge in (*evident, *joint, *turning))
 
-
-def _dot(a: tuple[Expr, ...], b: tuple[Expr, ...]) -> Expr:
-    return sympy.Add(*(x * y for x, y in zip(a, b, strict=True)))

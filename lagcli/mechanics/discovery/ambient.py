@@ -23,24 +23,22 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import product
+from math import prod
 
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import simplify
+from lagcli.algebra import dot, simplify
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import CIRCULAR, free_of
-from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric
-from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo, pivot_columns
+from lagcli.mechanics.discovery.modular import NoPoint, independent
+from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.spectrum import roots_of
-from lagcli.mechanics.discovery.tree import Memo, Tree
 
 _MOST = 260
-_BAD_POINTS = 50
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
-_Jet = tuple[int, int, int]  # value, first and second derivative
 
 
 def ambient_functions(metric: Metric, allowed: Allowance) -> list[Expr]:
@@ -51,15 +49,11 @@ def ambient_functions(metric: Metric, allowed: Allowance) -> list[Expr]:
     if metric.n == 1:  # X = int sqrt(g) dx
         length = antiderivative(simplify(sympy.sqrt(metric.g[0][0])), metric.q[0], rules=False)
         return [] if length is None else [length]
-    factors = [_of_coordinate(x, metric, K) for x in metric.q]
-    joint = _joint(metric)
-    size = len(joint)
-    for each in factors:
-        size *= len(each)
-    if size > _MOST:
+    factors = [*(_of_coordinate(x, metric, K) for x in metric.q), _joint(metric)]
+    if prod(map(len, factors)) > _MOST:
         return []
     try:
-        found = _Hessian(metric, K, factors, joint, allowed).solutions()
+        found = _solutions(metric, K, [sympy.Mul(*parts) for parts in product(*factors)], allowed)
     except (NoPoint, ZeroDivisionError):
         return []
     found = [X for X in found if not free_of(X, metric.q)]
@@ -158,150 +152,24 @@ def _bases(expression: Expr) -> list[Expr]:
 # -- the linear equations --------------------------------------------------------------------
 
 
-class _Hessian:
-    """X;ij + K g_ij X = 0 for combinations of products of functions of single coordinates."""
-
-    def __init__(
-        self,
-        metric: Metric,
-        K: Expr,
-        factors: Sequence[Sequence[Expr]],
-        joint: Sequence[Expr],
-        allowed: Allowance,
-    ) -> None:
-        self.metric, self.K, self.allowed = metric, K, allowed
-        products = [(parts, j) for parts in product(*factors) for j in joint]
-        self.products = sorted(products, key=_complexity, reverse=True)
-        q, n = metric.q, range(metric.n)
-        self._jets = {
-            (x, h): (h, h.diff(x), h.diff(x, 2))
-            for x, each in zip(q, factors, strict=True) for h in each
-        }  # fmt: skip
-        self._joint_jets = {
-            j: (j, [j.diff(x) for x in q], [[j.diff(x, y) for y in q] for x in q]) for j in joint
-        }
-        self._pairs = [(i, k) for i in n for k in range(i + 1)]
-        self._gamma = metric.christoffel
-        expressions = [e for jet in self._jets.values() for e in jet]
-        for j, first, second in self._joint_jets.values():
-            expressions += [j, *first, *(e for row in second for e in row)]
-        expressions += [e for table in self._gamma for row in table for e in row]
-        expressions += [K * metric.g[i][k] for i, k in self._pairs]
-        self.tree = Tree(expressions, q, allowed)
-
-    def solutions(self) -> list[Expr]:
-        """All of them, the simplest first, with exact coefficients."""
-        width = len(self.products)
-        rows: list[list[int]] = []
-        values: list[list[int]] = []
-        bad = 0
-        while len(rows) < width + 12 or len(values) < 4 * self.metric.n:
-            self.allowed.check()
-            try:
-                more, value = self._rows(self.tree.points.point())
-            except NoPoint:
-                bad += 1
-                if bad > _BAD_POINTS:
-                    raise
-                continue
-            rows += more
-            values.append(value)
-        return self._exact(_independent(kernel_modulo(rows, width)[1], values))
-
-    def _exact(self, vectors: Sequence[dict[int, int]]) -> list[Expr]:
-        exact = ExactSolver(self.tree.points)
-        found = []
-        for vector in vectors:
-            indices = sorted(vector)
-            values = exact.recognized([vector[i] for i in indices])
-            values = values or exact.solved([self._conditions(i) for i in indices])
-            if values is not None:
-                terms = [c * self._function(i) for c, i in zip(values, indices, strict=True)]
-                found.append(sympy.Add(*terms))
-        return found
-
-    def _function(self, index: int) -> Expr:
-        parts, j = self.products[index]
-        return sympy.Mul(*parts, j)
-
-    def _conditions(self, index: int) -> list[Expr]:
-        X, q = self._function(index), self.metric.q
+def _solutions(metric: Metric, K: Expr, products: Sequence[Expr], allowed: Allowance) -> list[Expr]:
+    """X;ij + K g_ij X = 0 for combinations of the products: the simplest that are independent."""
+    q, gamma = metric.q, metric.christoffel
+    functions = sorted(products, key=_complexity, reverse=True)
+    conditions = []
+    for X in functions:
         slopes = [X.diff(x) for x in q]
-        return [
-            slopes[i].diff(q[k])
-            - sympy.Add(*(self._gamma[m][i][k] * s for m, s in enumerate(slopes)))
-            + self.K * self.metric.g[i][k] * X
-            for i, k in self._pairs
-        ]
-
-    def _rows(self, point: Sequence[int]) -> tuple[list[list[int]], list[int]]:
-        """The equations at a point, and the values of the products there."""
-        memo: Memo = {}
-
-        def at(expression: Expr) -> int:
-            return self.tree.value(expression, point, memo)
-
-        jets = {key: tuple(map(at, jet)) for key, jet in self._jets.items()}
-        joint = {
-            j: (at(j), list(map(at, first)), [list(map(at, row)) for row in second])
-            for j, (_, first, second) in self._joint_jets.items()
-        }
-        gamma = [[[at(e) for e in row] for row in table] for table in self._gamma]
-        metric = [at(self.K * self.metric.g[i][k]) for i, k in self._pairs]
-        columns, values = [], []
-        for parts, j in self.products:
-            own = [jets[x, h] for x, h in zip(self.metric.q, parts, strict=True)]
-            X, first, second = _times(own, joint[j])
-            values.append(X)
-            columns.append([
-                (second[i][k] - sum(gamma[m][i][k] * s for m, s in enumerate(first)) + g * X)
-                % PRIME
-                for (i, k), g in zip(self._pairs, metric, strict=True)
-            ])  # fmt: skip
-        return [list(row) for row in zip(*columns, strict=True)], values
+        conditions.append([
+            slopes[i].diff(q[k]) - dot([table[i][k] for table in gamma], slopes)
+            + K * metric.g[i][k] * X
+            for i in range(metric.n) for k in range(i + 1)
+        ])  # fmt: skip
+    relation = Relation(conditions, q, allowed, functions)
+    rows = relation.tree.rows([[X] for X in functions], 4 * metric.n)
+    vectors = independent(rows, 0, relation.kernel()[::-1])
+    exact = (c for vector in vectors if (c := relation.exact(vector)) is not None)
+    return [sympy.Add(*(x * functions[k] for k, x in c.items())) for c in exact]
 
 
-def _independent(
-    vectors: Sequence[dict[int, int]], values: Sequence[Sequence[int]]
-) -> list[dict[int, int]]:
-    """The simplest combinations of products that are independent functions, and not 0."""
-    simplest = list(reversed(vectors))
-    if not simplest:
-        return []
-    table = [
-        [sum(c * row[k] for k, c in vector.items()) % PRIME for vector in simplest]
-        for row in values
-    ]
-    return [simplest[k] for k in pivot_columns(table)]
-
-
-def _times(
-    own: Sequence[tuple[int, ...]], joint: tuple[int, list[int], list[list[int]]]
-) -> tuple[int, list[int], list[list[int]]]:
-    """Value, gradient and second derivatives of h_1(q_1) … h_n(q_n) J(q)."""
-    n = len(own)
-
-    def mixed(orders: Sequence[int]) -> int:
-        value = 1
-        for jet, order in zip(own, orders, strict=True):
-            value = value * jet[order] % PRIME
-        return value
-
-    def unit(*places: int) -> list[int]:
-        return [places.count(k) for k in range(n)]
-
-    plain = mixed(unit())
-    slopes = [mixed(unit(i)) for i in range(n)]
-    J, DJ, DDJ = joint
-    first = [(s * J + plain * d) % PRIME for s, d in zip(slopes, DJ, strict=True)]
-    second = [
-        [(mixed(unit(i, k)) * J + slopes[i] * DJ[k] + slopes[k] * DJ[i] + plain * DDJ[i][k])
-         for k in range(n)]
-        for i in range(n)
-    ]  # fmt: skip
-    return plain * J % PRIME, first, second
-
-
-def _complexity(each: tuple[tuple[Expr, ...], Expr]) -> tuple[int, str]:
-    whole = sympy.Mul(*each[0], each[1])
-    return sympy.count_ops(whole) + len(whole.free_symbols), str(whole)
+def _complexity(function: Expr) -> tuple[int, str]:
+    return sympy.count_ops(function) + len(function.free_symbols), str(function)

@@ -17,7 +17,6 @@ from sympy import Expr, Symbol
 
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.modular import pivot_columns
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.search import SlotUnknown
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
@@ -84,8 +83,7 @@ def time_functions(
 def _independent(functions: Sequence[Expr], t: Symbol) -> list[Expr]:
     """The first of them that span all, over the constants: t/(t + 1) is 1 - 1/(t + 1)."""
     each = list(dict.fromkeys(functions))
-    rows = Relation([[f] for f in each], [t], Allowance()).rows(len(each) + 4)
-    return [each[k] for k in pivot_columns(rows)]
+    return [each[k] for k in Relation([[f] for f in each], [t], Allowance()).independent()]
 
 
 def _functions(found: Iterable[Exponent], t: Symbol) -> list[Expr]:

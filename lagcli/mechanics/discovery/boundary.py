@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import is_zero, simplify
+from lagcli.algebra import dot, is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import NoPoint
@@ -43,13 +43,10 @@ def gauge_of(change: Expr, system: System, allowed: Allowance) -> Expr | None:
     allowed.spend(_OF_DERIVATIVE * (1 + len(q)) * len(candidates))
     if 0 < len(candidates) <= _MOST_CANDIDATES:
         vectors = [[c.diff(x) for x in (t, *q)] for c in candidates]
-        try:
-            values = Relation([*vectors, [-by_t, *(-x for x in by_q)]], [t, *q], allowed).of_last()
-        except (NoPoint, ZeroDivisionError):
-            values = None
+        whole = [-by_t, *(-x for x in by_q)]
+        values = Relation([*vectors, whole], [t, *q], allowed).of_last()
         if values is not None:
-            terms = [c * x for c, x in zip(candidates, values, strict=True)]
-            return simplify(sympy.Add(*terms))
+            return simplify(dot(candidates, values))
     if any(not free_of(f, [t]) for f in change.atoms(*_OF_TIME)):
         return None
     return boundary_term(simplify(change), system)

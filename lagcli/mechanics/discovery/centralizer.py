@@ -15,9 +15,8 @@ from dataclasses import replace
 import sympy
 from sympy import Expr
 
-from lagcli.mechanics.discovery.exact import ExactSolver
+from lagcli.algebra import dot
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.modular import kernel_modulo
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.noether import NoetherCharge, Transformation
@@ -41,30 +40,18 @@ def centralized(
         return result
     vectors: list[list[Expr]] = [
         [
-            sympy.Add(*(c * e.diff(x) for c, x in zip(result[m].changes, system.q, strict=True)))
+            dot(result[m].changes, [e.diff(x) for x in system.q])
             for m in joint
             for e in result[k].changes
         ]
         for k in turns
     ]
-    relation = Relation(vectors, [system.t, *system.q], allowed)
-    _, kernel = kernel_modulo(relation.rows(len(turns) + 8), len(turns))
-    exact = ExactSolver(relation.points)
-    for combination in kernel:
-        indices = sorted(combination)
-        values = exact.recognized([combination[i] for i in indices])
-        values = values or exact.solved([vectors[i] for i in indices])
-        if values is None or len(indices) < 2:
+    for values in Relation(vectors, [system.t, *system.q], allowed).all():
+        if len(values) < 2:
             continue
-        changes = [
-            sympy.Add(
-                *(c * result[turns[i]].changes[j] for i, c in zip(indices, values, strict=True))
-            )
-            for j in range(len(system.q))
-        ]
-        result[turns[indices[-1]]] = Transformation(
-            scaled(changes, set(system.parameters)), sympy.S.Zero
-        )
+        columns = zip(*(result[turns[i]].changes for i in values), strict=True)
+        changes = scaled([dot(list(values.values()), c) for c in columns], set(system.parameters))
+        result[turns[max(values)]] = Transformation(changes, sympy.S.Zero)
     return result
 
 
@@ -81,16 +68,11 @@ def without_time(
     if len(chosen) < 2:
         return result
     rates = [[result[k].charge.diff(t)] for k in chosen]
-    relation = Relation(rates, [t, *system.q, *system.qdot], allowed)
-    exact = ExactSolver(relation.points)
-    for vector in kernel_modulo(relation.rows(len(chosen) + 8), len(chosen))[1]:
-        indices = sorted(vector)
-        values = exact.recognized([vector[i] for i in indices])
-        values = values or exact.solved([rates[i] for i in indices])
-        if values is not None and len(indices) > 1:
-            factors = scaled(values, set(system.parameters))
-            parts = [result[chosen[i]] for i in indices]
-            result[chosen[indices[-1]]] = _combined(parts, factors)
+    for values in Relation(rates, [t, *system.q, *system.qdot], allowed).all():
+        if len(values) > 1:
+            factors = scaled(list(values.values()), set(system.parameters))
+            parts = [result[chosen[i]] for i in values]
+            result[chosen[max(values)]] = _combined(parts, factors)
     return result
 
 
@@ -98,9 +80,7 @@ def _combined(charges: Sequence[NoetherCharge], factors: Sequence[Expr]) -> Noet
     """The sum of multiples of charges of displacements."""
 
     def total(values: Sequence[Expr | None]) -> Expr:
-        return sympy.expand(
-            sympy.Add(*(c * (x or 0) for c, x in zip(factors, values, strict=True)))
-        )
+        return sympy.expand(dot(factors, [x or sympy.S.Zero for x in values]))
 
     columns = zip(*(c.transformation.changes for c in charges), strict=True)
     return replace(

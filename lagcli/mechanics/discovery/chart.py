@@ -14,7 +14,6 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.dynamics import Dynamics
 
@@ -37,10 +36,7 @@ def solved_in_chart(
         return put(sympy.Add(*(value.diff(x) * dx for x, dx in (*moving, *pushed))))
 
     variables = [s for s in (*system.q, *system.qdot) if s not in dependent]
-    try:
-        found = Relation([[rate(value)] for value in values], variables, allowed).of_last()
-    except (NoPoint, ZeroDivisionError):
-        return None
+    found = Relation([[rate(value)] for value in values], variables, allowed).of_last()
     return None if found is None else _without_common([*found, sympy.S.One])
 
 

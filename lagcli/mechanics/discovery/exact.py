@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, product
 
@@ -46,6 +46,15 @@ class ExactSolver:
         self._monomials: list[_Monomial] | None = None
         self._linear: list[_Monomial] | None = None
         self._signed: dict[int, tuple[_Monomial, int]] = {}
+
+    def of(
+        self, vector: Mapping[int, int], column: Callable[[int], Sequence[Expr]]
+    ) -> dict[int, Expr] | None:
+        """Coefficients by column for those modulo the prime; None where they were not found."""
+        indices = sorted(vector)
+        values = self.recognized([vector[i] for i in indices])
+        values = values or self.solved([column(i) for i in indices])
+        return None if values is None else dict(zip(indices, values, strict=True))
 
     # -- by recognition -------------------------------------------------------------------
 

@@ -20,7 +20,7 @@ from itertools import combinations_with_replacement
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import Field, is_zero, simplify
+from lagcli.algebra import Field, dot, is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.ansatz import ordered, quadratic, quadratic_unknowns
 from lagcli.mechanics.discovery.kinds import Kinds
@@ -43,6 +43,7 @@ MOST_UNKNOWNS = 480
 _MOST_OF_FIELD = 24  # a monopole has 19; a dipole with 31 takes 12 s and has no more integrals
 
 Slots = list[tuple[Slot, Expr]]
+Vector = tuple[Expr, ...]
 
 
 class QuadraticIntegrals:
@@ -74,7 +75,7 @@ class QuadraticIntegrals:
         search = self.search(products)
         kernel = search.kernel()
         kernel.reverse()  # the simplest first
-        new = self._independent(search, products, kernel)
+        new = self._independent(search, products, kernel) if kernel else []
         charges = []
         for solution in search.solutions(new):
             functions = self._scaled(search, solution)
@@ -125,11 +126,8 @@ class QuadraticIntegrals:
         kernel: Sequence[dict[int, int]],
     ) -> list[dict[int, int]]:
         """The vectors of the kernel that are no combinations of the products and of earlier."""
-        if not kernel:
-            return []
-        n = len(self.equations.q)
         rows: list[list[int]] = []
-        while len(rows) < len(products) + len(kernel) + n:
+        while len(rows) < len(products) + len(kernel) + len(self.equations.q):
             self.allowed.check()
             point = search.points.point()
             try:
@@ -138,7 +136,8 @@ class QuadraticIntegrals:
             except NoPoint:
                 continue
             rows += [list(row) for row in zip(*columns, strict=True)]
-        return [kernel[k - len(products)] for k in pivot_columns(rows) if k >= len(products)]
+        start = len(products)
+        return [kernel[k - start] for k in pivot_columns(rows) if k >= start]
 
     def _multiplier(
         self, search: Search, vector: dict[int, int], point: Sequence[int]
@@ -164,27 +163,7 @@ class QuadraticIntegrals:
         scalar = self._scalar(functions, eta, second + first)
         if scalar is None:
             return None
-        whole = second + first + scalar
-        if not self._is_conserved(whole, eta):
-            return None
-        # p = M q' + A: sum p_j eta_j = 2 (second degree) + (first degree) + A . eta
-        shift = sympy.Add(
-            *(
-                p.xreplace(self._still) * x
-                for p, x in zip(self.noether.dynamics.lagrange.momenta, eta, strict=True)
-            )
-        )
-        return NoetherCharge(
-            "",
-            "discovered",
-            Transformation(eta, sympy.S.Zero),
-            second - scalar + shift,
-            whole,
-            conserved=True,
-            rate=sympy.S.Zero,
-            verified="exact",
-            broken_by="",
-        )
+        return integral_of(self.noether, eta, second + first + scalar)
 
     def _scalar(self, functions: Slots, eta: Sequence[Expr], _: Expr, /) -> Expr | None:
         """S(q) from its gradient."""
@@ -202,17 +181,11 @@ class QuadraticIntegrals:
         ]
         return gradient, expanded(b.xreplace(self._still))
 
-    def _is_conserved(self, charge: Expr, eta: Sequence[Expr]) -> bool:
-        """Whether dQ/dt = sum eta_j (d/dt dL/dq_j' - dL/dq_j) identically: then 0 on the motion."""
-        left = self.noether.dynamics.lagrange.left_sides
-        along = sympy.Add(*(x * e for x, e in zip(eta, left, strict=True)))
-        return is_zero(self.noether.system.total_derivative(charge) - along) is True
-
     def _kinetic(self, functions: Slots) -> tuple[Expr, Expr]:
         """sum f p_i p_j and f p_i^2/2, and sum f p_j, with p = M q'."""
         second, first = [], []
         for slot, f in functions:
-            along = sympy.Add(*(u * p for u, p in zip(slot.vector, self.momenta, strict=True)))
+            along = dot(slot.vector, self.momenta)
             if slot.kind[0] == "xi":
                 first.append(f * along)
             else:
@@ -222,10 +195,7 @@ class QuadraticIntegrals:
     @property
     def momenta(self) -> list[Expr]:
         """p = M q'."""
-        return [
-            sympy.Add(*(m * v for m, v in zip(row, self.equations.v, strict=True)))
-            for row in self.equations.mass
-        ]
+        return [dot(row, self.equations.v) for row in self.equations.mass]
 
     def _of_rest(self) -> set[Expr]:
         """The terms of L at rest without their constant factors."""
@@ -242,13 +212,10 @@ class QuadraticIntegrals:
             return sympy.S.Zero
         candidates = self._candidates(functions)
         vectors = [[c.diff(x) for x in q] for c in candidates]
-        try:
-            values = Relation([*vectors, [-f for f in force]], q, self.allowed).of_last()
-        except (NoPoint, ZeroDivisionError):
-            values = None
+        values = Relation([*vectors, [-f for f in force]], q, self.allowed).of_last()
         if values is not None:
-            return sympy.Add(*(c * x for c, x in zip(candidates, values, strict=True)))
-        rate = sympy.Add(*(f * v for f, v in zip(force, self.equations.v, strict=True)))
+            return dot(candidates, values)
+        rate = dot(force, self.equations.v)
         return boundary_term(simplify(rate), self.noether.system)
 
     def _candidates(self, functions: Slots) -> list[Expr]:
@@ -276,6 +243,25 @@ class QuadraticIntegrals:
         } - {sympy.S.One}
         made += [a * b * x for b in terms for a in monomials[: 1 + len(q)] for x in turns]
         return sorted({m for m in made if not free_of(m, q)}, key=_length)
+
+
+def integral_of(noether: Noether, eta: Vector, whole: Expr) -> NoetherCharge | None:
+    """Q where dQ/dt = sum eta_j (d/dt dL/dq_j' - dL/dq_j) identically: then 0 on the motion."""
+    lagrange = noether.dynamics.lagrange
+    left = noether.system.total_derivative(whole) - dot(eta, lagrange.left_sides)
+    if is_zero(left) is not True:
+        return None
+    return NoetherCharge(
+        "",
+        "discovered",
+        Transformation(eta, sympy.S.Zero),
+        dot(eta, lagrange.momenta) - whole,
+        whole,
+        conserved=True,
+        rate=sympy.S.Zero,
+        verified="exact",
+        broken_by="",
+    )
 
 
 def _roots(expression: Expr, q: Sequence[Symbol]) -> set[Expr]:

@@ -24,17 +24,17 @@ from itertools import combinations, combinations_with_replacement
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import is_zero, simplify
+from lagcli.algebra import dot, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.exact import ExactSolver
-from lagcli.mechanics.discovery.hidden import is_gyroscopic
+from lagcli.mechanics.discovery.hidden import integral_of, is_gyroscopic
 from lagcli.mechanics.discovery.isometries import Isometries
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.modular import PRIME, kernel_modulo, pivot_columns
+from lagcli.mechanics.discovery.modular import independent, kernel_modulo
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.tree import Tree
-from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+from lagcli.mechanics.noether import Noether, NoetherCharge
 from lagcli.mechanics.total_derivative import boundary_term
 
 #: The degrees that are searched, by the number of coordinates.
@@ -75,7 +75,7 @@ def _translations(n: int) -> list[Vector]:
 
 def _rotations(equations: SlotEquations) -> list[Vector]:
     """X_i e_k - X_k e_i, X = M q."""
-    X = [_along(row, equations.q) for row in equations.mass]
+    X = [dot(row, equations.q) for row in equations.mass]
     found = []
     for i, k in combinations(range(len(X)), 2):
         field: list[Expr] = [sympy.S.Zero] * len(X)
@@ -112,7 +112,7 @@ class HigherIntegrals:
         self._still = dict.fromkeys(equations.v, sympy.S.Zero)
         self._rest = noether.system.L.xreplace(self._still)
         self._slopes = [self._rest.diff(x) for x in equations.q]  # -grad V
-        self._momenta = [_along(row, equations.v) for row in equations.mass]
+        self._momenta = [dot(row, equations.v) for row in equations.mass]
 
     # -- the linear equations ---------------------------------------------------------------
 
@@ -132,24 +132,13 @@ class HigherIntegrals:
         rows = tree.rows(columns, points * len(columns[0]))
         kernel = kernel_modulo(rows, len(columns))[1]
         kernel.reverse()
-        if not kernel:
-            return []
-        start = len(products)
-        table = [
-            [*row[:start], *(
-                sum(c * row[start + k] for k, c in vector.items()) % PRIME for vector in kernel
-            )]
-            for row in tree.rows([*products, *values], start + len(kernel) + 8)
-        ]  # fmt: skip
+        table = tree.rows([*products, *values], len(products) + len(kernel) + 8)
         exact = ExactSolver(tree.points)
         found: list[NoetherCharge] = []
-        for k in pivot_columns(table):
-            if k >= start:
-                indices = sorted(kernel[k - start])
-                numbers = [kernel[k - start][i] for i in indices]
-                factors = exact.recognized(numbers) or exact.solved([columns[i] for i in indices])
-                if factors is not None:
-                    found += self._proved(factors, [parts[i] for i in indices])
+        for vector in independent(table, len(products), kernel):
+            factors = exact.of(vector, columns.__getitem__)
+            if factors is not None:
+                found += self._proved(list(factors.values()), [parts[i] for i in factors])
         return found
 
     def _leading(self) -> Iterator[_Part]:
@@ -167,8 +156,8 @@ class HigherIntegrals:
 
     def _moved(self, fields: Sequence[Vector]) -> tuple[Expr, Expr]:
         """(A.p)(B.p)... and what V adds to its rate: -(A.grad V)(B.p)... - ..."""
-        p = [_along(A, self._momenta) for A in fields]
-        push = [_along(A, self._slopes) for A in fields]
+        p = [dot(A, self._momenta) for A in fields]
+        push = [dot(A, self._slopes) for A in fields]
         rate = sympy.Add(*(sympy.Mul(f, *p[:k], *p[k + 1 :]) for k, f in enumerate(push)))
         return sympy.Mul(*p), rate
 
@@ -178,7 +167,7 @@ class HigherIntegrals:
         monomials = [sympy.S.One, *X]
         if len(q) == 2:
             monomials += [x * y for x, y in combinations_with_replacement(X, 2)]
-        slopes = [_along(A, self._slopes) for A in self.frame.spanning]
+        slopes = [dot(A, self._slopes) for A in self.frame.spanning]
         terms = [
             term.as_independent(*q, as_Add=False)[1]
             for each in (self._rest, *slopes)
@@ -215,7 +204,7 @@ class HigherIntegrals:
 
     def _proved(self, factors: Sequence[Expr], parts: Sequence[_Part]) -> Iterator[NoetherCharge]:
         """The integral with exact coefficients, where dQ/dt is 0 on the motion exactly."""
-        system, lagrange = self.noether.system, self.noether.dynamics.lagrange
+        system = self.noether.system
         chosen = list(zip(scaled(factors, frozenset(system.parameters)), parts, strict=True))
         rate = sympy.Add(*(c * part.below for c, part in chosen))
         S = sympy.S.Zero if self.degree == 3 else boundary_term(simplify(-rate), system)
@@ -224,23 +213,7 @@ class HigherIntegrals:
         whole = sympy.Add(S, *(c * part.value for c, part in chosen))
         inverse = sympy.Matrix([list(row) for row in self.equations.mass]).inv(method="ADJ")
         slopes = [whole.diff(v) for v in self.equations.v]
-        eta = tuple(_along(inverse.row(i), slopes) for i in range(len(slopes)))  # dQ/dp
-        left = system.total_derivative(whole) - _along(eta, lagrange.left_sides)
-        powers = sympy.Poly(left, *system.qdot, *system.qddot).coeffs()
-        if not all(is_zero(coefficient) is True for coefficient in powers):
-            return
-        yield NoetherCharge(
-            "",
-            "discovered",
-            Transformation(eta, sympy.S.Zero),
-            _along(eta, lagrange.momenta) - whole,
-            whole,
-            conserved=True,
-            rate=sympy.S.Zero,
-            verified="exact",
-            broken_by="",
-        )
-
-
-def _along(field: Sequence[Expr], other: Sequence[Expr]) -> Expr:
-    return sympy.Add(*(x * y for x, y in zip(field, other, strict=True)))
+        eta = tuple(dot(inverse.row(i), slopes) for i in range(len(slopes)))  # dQ/dp
+        charge = integral_of(self.noether, eta, whole)
+        if charge is not None:
+            yield charge

@@ -24,14 +24,14 @@ from itertools import combinations, combinations_with_replacement
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import simplify
+from lagcli.algebra import dot, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.ambient import ambient_functions
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, ordered, time_functions
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric
-from lagcli.mechanics.discovery.modular import NoPoint, pivot_columns
+from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.search import Search, SlotUnknown
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
@@ -94,12 +94,9 @@ class Isometries:
     def dilation(self) -> Vector:
         """G^ab X_a grad X_b, half the gradient of the square of the distance."""
         mass = self.metric.g
-        lowered = [
-            [sympy.Add(*(m * x for m, x in zip(row, D, strict=True))) for row in mass]
-            for D in self._gradients
-        ]
+        lowered = [[dot(row, D) for row in mass] for D in self._gradients]
         gram = sympy.Matrix([
-            [simplify(sympy.Add(*(x * y for x, y in zip(D, low, strict=True)))) for low in lowered]
+            [simplify(dot(D, low)) for low in lowered]
             for D in self._gradients
         ])  # fmt: skip
         inverse = gram.inv(method="ADJ")
@@ -139,11 +136,10 @@ class Isometries:
         if not new:
             return True
         try:
-            relation = Relation([[x] for x in (*known, *new)], q, self.allowed)
-            rows = relation.rows(len(known) + len(new) + 4)
+            found = Relation([[x] for x in (*known, *new)], q, self.allowed).independent()
         except (NoPoint, ZeroDivisionError):
             return False
-        return all(k < len(known) for k in pivot_columns(rows))
+        return all(k < len(known) for k in found)
 
     @property
     def words(self) -> str:
@@ -175,13 +171,8 @@ class Isometries:
         rates = [sympy.Add(*(X.diff(x) * y for x, y in zip(q, v, strict=True)))
                  for X in self.functions]  # fmt: skip
         vectors = [[X] for X in (*self.functions, *rates, sympy.S.One)]
-        try:
-            values = Relation([*vectors, [-force]], (*q, *v), self.allowed).of_last()
-        except (NoPoint, ZeroDivisionError):
-            return None
-        if values is None:
-            return None
-        return sympy.Add(*(c * x for c, x in zip(values, (*symbols, sympy.S.One), strict=True)))
+        values = Relation([*vectors, [-force]], (*q, *v), self.allowed).of_last()
+        return None if values is None else dot(values, (*symbols, sympy.S.One))
 
     def _to_first(self, force: Expr) -> Expr:
         still = dict.fromkeys(self.equations.v, sympy.S.Zero)

@@ -22,11 +22,12 @@ from itertools import combinations, combinations_with_replacement
 import sympy
 from sympy import Expr
 
+from lagcli.algebra import dot
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, expanded
 from lagcli.mechanics.discovery.isometries import Isometries, Vector
 from lagcli.mechanics.discovery.kinds import Kinds
-from lagcli.mechanics.discovery.modular import PRIME, kernel_modulo, pivot_columns
+from lagcli.mechanics.discovery.modular import independent, kernel_modulo
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.slots import Slot
@@ -61,18 +62,17 @@ class KillingIntegrals(QuadraticIntegrals):
 
     def _basis(self, fields: Sequence[Vector]) -> list[Vector]:
         """The first of the fields that are independent: symmetries such as L about a centre."""
-        relation = Relation(fields, self.equations.q, self.allowed)
-        return [fields[k] for k in pivot_columns(relation.rows(len(fields) + 8))]
+        return [fields[k] for k in Relation(fields, self.equations.q, self.allowed).independent()]
 
     def _product(self, A: Vector, B: Vector) -> Slot:
         """u = A (B.p) + B (A.p), the multipliers of (A.p)(B.p)."""
-        a, b = (_along(X, self.momenta) for X in (A, B))
+        a, b = (dot(X, self.momenta) for X in (A, B))
         return Slot(("product",), tuple(x * b + y * a for x, y in zip(A, B, strict=True)))
 
     def _gradient(self, A: Vector, B: Vector) -> list[Expr]:
         """(A.grad V) B_i + (B.grad V) A_i."""
-        a, b = (_along(X, self._slopes_of_V) for X in (A, B))
-        low = [[_along(X, row) for row in self.equations.mass] for X in (A, B)]
+        a, b = (dot(X, self._slopes_of_V) for X in (A, B))
+        low = [[dot(X, row) for row in self.equations.mass] for X in (A, B)]
         return [a * y + b * x for x, y in zip(*low, strict=True)]
 
     def found(self, known: Sequence[NoetherCharge]) -> list[tuple[Slots, NoetherCharge]]:
@@ -90,38 +90,21 @@ class KillingIntegrals(QuadraticIntegrals):
         tree = Tree(everything, (self.equations.t, *q, *self.equations.v), self.allowed)
         _, kernel = kernel_modulo(tree.rows(curls, len(curls) + 8), len(curls))
         kernel.reverse()
-        table = [
-            [*row[: len(products)], *(
-                sum(c * row[len(products) + k] for k, c in vector.items()) % PRIME
-                for vector in kernel
-            )]
-            for row in tree.rows([*products, *multipliers], len(products) + 8 + len(curls))
-        ]  # fmt: skip
-        if not kernel:
-            return []
-        new = [kernel[k - len(products)] for k in pivot_columns(table) if k >= len(products)]
+        rows = tree.rows([*products, *multipliers], len(products) + 8 + len(curls))
+        new = independent(rows, len(products), kernel)
         return [each for vector in new for each in self._proved(tree, curls, vector)]
 
     def _proved(
         self, tree: Tree, curls: Sequence[Sequence[Expr]], vector: dict[int, int]
     ) -> Iterator[tuple[Slots, NoetherCharge]]:
         """The integral with exact coefficients."""
-        indices = sorted(vector)
-        exact = ExactSolver(tree.points)
-        values = exact.recognized([vector[i] for i in indices])
-        values = values or exact.solved([curls[i] for i in indices])
-        if values is None:
+        known = ExactSolver(tree.points).of(vector, curls.__getitem__)
+        if known is None:
             return
-        values = list(scaled(values, self.constants))
-        self._force = [
-            expanded(
-                sympy.Add(
-                    *(c * self._gradients[k][i] for k, c in zip(indices, values, strict=True))
-                )
-            )
-            for i in range(len(self.equations.q))
-        ]
-        functions = [(self.pairs[i], c) for i, c in zip(indices, values, strict=True)]
+        factors = scaled(list(known.values()), self.constants)
+        gradients = [self._gradients[k] for k in known]
+        self._force = [expanded(dot(factors, each)) for each in zip(*gradients, strict=True)]
+        functions = [(self.pairs[k], c) for k, c in zip(known, factors, strict=True)]
         charge = self._charge(functions)
         if charge is not None:
             yield functions, charge
@@ -143,7 +126,3 @@ class KillingIntegrals(QuadraticIntegrals):
             for term in sympy.Add.make_args(sympy.expand(each))
         }
         return sorted((m for m in terms if m != 1), key=sympy.default_sort_key)
-
-
-def _along(field: Sequence[Expr], other: Sequence[Expr]) -> Expr:
-    return sympy.Add(*(x * y for x, y in zip(field, other, strict=True)))

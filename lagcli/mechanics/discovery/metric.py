@@ -23,7 +23,7 @@ import sympy
 from mpmath import mpf
 from sympy import Expr, Symbol
 
-from lagcli.algebra import simplify
+from lagcli.algebra import dot, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery.slots import SlotEquations
@@ -70,10 +70,7 @@ class Metric:
     def gradient(self, X: Expr) -> tuple[Expr, ...]:
         """g^ij X,j."""
         slopes = [X.diff(x) for x in self.q]
-        return tuple(
-            simplify(sympy.Add(*(a * s for a, s in zip(row, slopes, strict=True))))
-            for row in self.inverse
-        )
+        return tuple(simplify(dot(row, slopes)) for row in self.inverse)
 
     def riemann(self, i: int, j: int, k: int, m: int) -> Expr:
         """R_ijkm."""

@@ -195,6 +195,20 @@ def kernel_modulo(
     return table, vectors
 
 
+def independent(
+    rows: Sequence[Sequence[int]], known: int, kernel: Sequence[dict[int, int]]
+) -> list[dict[int, int]]:
+    """The vectors of a kernel that are no combinations of the known and of earlier ones.
+
+    The first columns hold the values of the known functions, the others those of the unknowns.
+    """
+    table = [
+        [*row[:known], *(sum(c * row[known + k] for k, c in v.items()) % PRIME for v in kernel)]
+        for row in rows
+    ]
+    return [kernel[k - known] for k in pivot_columns(table) if k >= known] if kernel else []
+
+
 def pivot_columns(rows: Sequence[Sequence[int]]) -> list[int]:
     """The columns that are no combinations of earlier ones."""
     reduced, rank = nmod_mat([list(row) for row in rows], PRIME).rref()

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 
 import sympy
 
-from lagcli.algebra import is_zero, nullspace, rank, simplify
+from lagcli.algebra import dot, is_zero, nullspace, rank, simplify
 from lagcli.mechanics.discovery.admissible import Vector, primitive
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.scaling import scaled
@@ -131,10 +131,7 @@ class MomentumEquations:
                                 for x, y, s in zip(X, e, q, strict=True)))
                     for f, g in zip(e, X, strict=True)
                 ]  # fmt: skip
-                vector += [
-                    sympy.Add(*(a * b for a, b in zip(row, bracket, strict=True)))
-                    for row in self.rows
-                ]
+                vector += [dot(row, bracket) for row in self.rows]
             vectors.append(vector)
         return [
             tuple(
@@ -148,10 +145,7 @@ class MomentumEquations:
         """Admissible combinations with coefficients that depend on q, the simplest first."""
         if not generators:
             return []
-        across = [
-            [simplify(sympy.Add(*(a * x for a, x in zip(row, X, strict=True)))) for X in generators]
-            for row in self.rows
-        ]
+        across = [[simplify(dot(row, X)) for X in generators] for row in self.rows]
         orbit = rank(generators, self.relations)
         found = [e for e in self.fields if rank([*generators, e], self.relations) == orbit]
         for coefficients in nullspace(across, self.relations):

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra.entry import Field
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.modular import ModularPoints, NoPoint, kernel_modulo
-
-_BAD_POINTS = 50
+from lagcli.mechanics.discovery.modular import NoPoint, kernel_modulo, pivot_columns
+from lagcli.mechanics.discovery.tree import Tree
 
 
 class Relation:
@@ -24,49 +22,49 @@ class Relation:
         Each of the same length.
     variables
         All other symbols are constants.
+    more
+        Other functions, of which `tree` has values too.
     """
 
     def __init__(
-        self, vectors: Sequence[Sequence[Expr]], variables: Sequence[Symbol], allowed: Allowance
+        self,
+        vectors: Sequence[Sequence[Expr]],
+        variables: Sequence[Symbol],
+        allowed: Allowance,
+        more: Sequence[Expr] = (),
     ) -> None:
         self.vectors = [list(v) for v in vectors]
-        self.allowed = allowed
-        field = Field([e for v in self.vectors for e in v])
-        elements = [[field(e) for e in v] for v in self.vectors]
-        self.points = ModularPoints(field, variables)
-        self._compiled = [[self.points.compiled(e) for e in v] for v in elements]
+        self.tree = Tree([*more, *(e for v in self.vectors for e in v)], variables, allowed)
 
     def rows(self, count: int) -> list[list[int]]:
         """At least so many rows of values, modulo a prime; columns are the vectors."""
-        rows: list[list[int]] = []
-        bad = 0
-        while len(rows) < count:
-            self.allowed.check()
-            point = self.points.point()
-            try:
-                columns = [[e(point) for e in v] for v in self._compiled]
-            except NoPoint:
-                bad += 1
-                if bad > _BAD_POINTS:
-                    raise
-                continue
-            rows += [list(row) for row in zip(*columns, strict=True)]
-        return rows
+        return self.tree.rows(self.vectors, count)
+
+    def independent(self) -> list[int]:
+        """The vectors that are no combinations of earlier ones."""
+        return pivot_columns(self.rows(len(self.vectors) + 8))
+
+    def kernel(self) -> list[dict[int, int]]:
+        """A basis of the relations modulo the prime: each has one vector that no other has."""
+        width = len(self.vectors)
+        return kernel_modulo(self.rows(width + 8), width)[1]
+
+    def exact(self, vector: dict[int, int]) -> dict[int, Expr] | None:
+        """The coefficients of one of them; None where they were not found."""
+        return ExactSolver(self.tree.points).of(vector, self.vectors.__getitem__)
+
+    def all(self) -> Iterator[dict[int, Expr]]:
+        """Those of the basis whose coefficients were found."""
+        return (c for vector in self.kernel() if (c := self.exact(vector)) is not None)
 
     def of_last(self) -> list[Expr] | None:
         """c with sum c_k vector_k + (last vector) = 0, or None; checked by the caller."""
-        width = len(self.vectors)
-        _, kernel = kernel_modulo(self.rows(width + 8), width)
-        vector = next((v for v in kernel if width - 1 in v), None)
-        if vector is None:
+        last = len(self.vectors) - 1
+        try:
+            vector = next((v for v in self.kernel() if last in v), None)
+            known = None if vector is None else self.exact(vector)
+        except (NoPoint, ZeroDivisionError):
             return None
-        indices = sorted(vector)
-        exact = ExactSolver(self.points)
-        values = exact.recognized([vector[i] for i in indices])
-        if values is None:
-            values = exact.solved([self.vectors[i] for i in indices])
-            if values is None or values[-1] == 0:
-                return None
-            values = [x / values[-1] for x in values]
-        known = dict(zip(indices, values, strict=True))
-        return [known.get(i, sympy.S.Zero) for i in range(width - 1)]
+        if not known or known[last] == 0:
+            return None
+        return [known.get(i, sympy.S.Zero) / known[last] for i in range(last)]

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import sympy
-from sympy import Expr, Symbol
+from sympy import Expr
 
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
@@ -84,31 +84,10 @@ class Search:
             T: (T, T.diff(t), T.diff(t, 2)) for T in dict.fromkeys(u.time for u in self.unknowns)
         }
         spaces = dict.fromkeys(u.space for u in self.unknowns)
-        self._factors = {g: self._split(g) for g in spaces if _is_product(g, equations.q)}
-        self._wholes = {g: self._whole(g) for g in spaces if g not in self._factors}
-        self._enter(more)
-
-    def _split(self, g: Expr) -> list[tuple[Expr, Expr, Expr]]:
-        """g(q) = product of h_k(q_k): h_k, h_k', h_k'' for each coordinate."""
-        jets = []
-        for x in self.equations.q:
-            _, h = g.as_independent(x, as_Add=False)
-            jets.append((h, h.diff(x), h.diff(x, 2)))
-        return jets
-
-    def _whole(self, g: Expr) -> tuple[Expr, list[Expr], list[list[Expr]]]:
-        """g with its gradient and its second derivatives, where it is no such product."""
-        q = self.equations.q
-        slopes = [g.diff(x) for x in q]
-        return g, slopes, [[s.diff(x) for x in q] for s in slopes]
-
-    def _enter(self, more: Sequence[Expr]) -> None:
-        """Everything into one field."""
+        self._space_jets = {g: _jets(g, equations) for g in spaces}
         expressions = [e for c in self.conditions for condition in c for _, e in condition]
         jets = [e for jet in self._time_jets.values() for e in jet]
-        jets += [e for jets in self._factors.values() for jet in jets for e in jet]
-        for g, slopes, second in self._wholes.values():
-            jets += [g, *slopes, *(e for row in second for e in row)]
+        jets += [e for jet in self._space_jets.values() for e in jet]
         jets += self.equations.v
         variables = [self.equations.t, *self.equations.q, *self.equations.v]
         self.tree = Tree([*expressions, *jets, *more], variables, self.allowed)
@@ -117,13 +96,8 @@ class Search:
 
     def function_value(self, unknown: SlotUnknown, point: Sequence[int]) -> int:
         """T g at a point."""
-        memo: Memo = {}
-        value = self.tree.value(unknown.time, point, memo)
-        if unknown.space in self._wholes:
-            return value * self.tree.value(unknown.space, point, memo) % PRIME
-        for h, _, _ in self._factors[unknown.space]:
-            value = value * self.tree.value(h, point, memo) % PRIME
-        return value
+        time, space = self.values([unknown.time, unknown.space], point)
+        return time * space % PRIME
 
     # -- modulo a prime -----------------------------------------------------------------
 
@@ -144,17 +118,7 @@ class Search:
             for conditions in self.conditions
         ]
         times = {T: [at(e) for e in jet] for T, jet in self._time_jets.items()}
-        v = [at(x) for x in self.equations.v]
-        spaces = {
-            g: _space_jets([tuple(map(at, jet)) for jet in jets], v)
-            for g, jets in self._factors.items()
-        }
-        for g, (_, slopes, second) in self._wholes.items():
-            partial = list(map(at, slopes))
-            first = sum(x * y for x, y in zip(partial, v, strict=True))
-            rows = [sum(at(e) * y for e, y in zip(row, v, strict=True)) for row in second]
-            twice = sum(x * y for x, y in zip(rows, v, strict=True))
-            spaces[g] = [at(g), *partial, first % PRIME, twice % PRIME]
+        spaces = {g: [at(e) for e in jet] for g, jet in self._space_jets.items()}
         columns = []
         entries = [sum(len(condition) for condition in table) for table in tables]
         EFFORT.done += sum(entries[unknown.slot] for unknown in self.unknowns)
@@ -187,7 +151,8 @@ class Search:
         width = len(self.unknowns)
         rows = self._batch(width + 10)
         while True:
-            vectors = self._kernel(rows)
+            self.allowed.check()
+            self._reduced, vectors = kernel_modulo(rows, width)
             fresh = self._batch(12)
             broken = [
                 row for row in fresh
@@ -197,42 +162,25 @@ class Search:
                 return vectors
             rows = [*self._reduced, *broken, *self._batch(width // 2)]
 
-    def _kernel(self, rows: list[list[int]]) -> list[dict[int, int]]:
-        self.allowed.check()
-        self._reduced, vectors = kernel_modulo(rows, len(self.unknowns))
-        return vectors
-
     # -- exactly -------------------------------------------------------------------------
 
     def solutions(self, vectors: Sequence[dict[int, int]] | None = None) -> list[SlotSolution]:
         """The solutions with exact coefficients, simplest last as the unknowns are."""
-        exact = self._exact
         found = []
         for vector in self.kernel() if vectors is None else vectors:
             self.allowed.check()
-            indices = sorted(vector)
-            values = exact.recognized([vector[i] for i in indices])
-            if values is None:
-                values = exact.solved([self.formulas(i) for i in indices])
-            if values is None:
+            known = self._exact.of(vector, self.formulas)
+            if known is None:
                 self.unsolved += 1
                 continue
-            found.append(
-                SlotSolution(
-                    tuple(
-                        (self.unknowns[i], value)
-                        for i, value in zip(indices, values, strict=True)
-                        if value != 0
-                    )
-                )
-            )
+            terms = ((self.unknowns[i], value) for i, value in known.items() if value != 0)
+            found.append(SlotSolution(tuple(terms)))
         return found
 
     def formulas(self, index: int) -> list[Expr]:
         """The conditions for one unknown as formulas."""
         unknown = self.unknowns[index]
-        f, D = unknown.function, self.equations.convected
-        jets = [f, *(f.diff(x) for x in self.equations.q), D(f), D(D(f))]
+        jets = _jets(unknown.function, self.equations)
         return [
             sympy.Add(*(jets[j] * e for j, e in condition))
             for condition in self.conditions[unknown.slot]
@@ -246,39 +194,11 @@ class Search:
         return [(self.slots[s], sympy.Add(*parts)) for s, parts in sorted(functions.items())]
 
 
-def _is_product(g: Expr, q: Sequence[Symbol]) -> bool:
-    """Whether each factor depends on one coordinate at most."""
-    return all(len(f.free_symbols & set(q)) < 2 for f in sympy.Mul.make_args(g))
-
-
 def _formulas(equations: SlotEquations) -> list[Expr]:
     return [*(m for row in equations.mass for m in row), *equations.forcing]
 
 
-def _space_jets(factors: Sequence[tuple[int, ...]], v: Sequence[int]) -> list[int]:
-    """g, its gradient, Dg and D^2 g at fixed time, from the factors of g."""
-    n = len(v)
-    partial = []
-    g = 1
-    for h, _, _ in factors:
-        g = g * h % PRIME
-    second = 0
-    for i in range(n):
-        if factors[i][1] == 0 and factors[i][2] == 0:
-            partial.append(0)
-            continue
-        rest = 1
-        for k in range(n):
-            if k != i:
-                rest = rest * factors[k][0] % PRIME
-        partial.append(rest * factors[i][1] % PRIME)
-        second += rest * factors[i][2] % PRIME * v[i] * v[i]
-        for j in range(i):
-            if factors[j][1]:
-                mixed = factors[i][1] * factors[j][1] % PRIME
-                for k in range(n):
-                    if k not in (i, j):
-                        mixed = mixed * factors[k][0] % PRIME
-                second += 2 * mixed * v[i] * v[j]
-    first = sum(x * y for x, y in zip(partial, v, strict=True))
-    return [g, *partial, first % PRIME, second % PRIME]
+def _jets(g: Expr, equations: SlotEquations) -> list[Expr]:
+    """g, its gradient, Dg and D^2 g."""
+    rate = equations.convected(g)
+    return [g, *(g.diff(x) for x in equations.q), rate, equations.convected(rate)]

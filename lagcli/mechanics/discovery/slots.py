@@ -40,6 +40,8 @@ from dataclasses import dataclass
 import sympy
 from sympy import Expr, Symbol
 
+from lagcli.algebra import dot
+
 #: (index of the jet of f, expression): jets are f, f,q_1 … f,q_n, Df, D^2 f.
 Condition = list[tuple[int, Expr]]
 
@@ -73,16 +75,11 @@ class Slot:
 
     def a(self, equations: SlotEquations) -> tuple[Expr, ...]:
         """a_i = sum_j u_j M_ji."""
-        return tuple(
-            sympy.Add(*(u * row[i] for u, row in zip(self.vector, equations.mass, strict=True)))
-            for i in range(len(equations.q))
-        )
+        return tuple(dot(self.vector, column) for column in zip(*equations.mass, strict=True))
 
     def b(self, equations: SlotEquations) -> Expr:
         """b = -sum_j u_j forcing_j."""
-        return -sympy.Add(
-            *(u * force for u, force in zip(self.vector, equations.forcing, strict=True))
-        )
+        return -dot(self.vector, equations.forcing)
 
     def conditions(self, equations: SlotEquations) -> list[Condition]:
         """The conditions (1), (2), (3), in an order that is the same for all slots."""
@@ -122,9 +119,7 @@ def point_slots(equations: SlotEquations) -> list[Slot]:
 def quadratic_slots(equations: SlotEquations) -> list[Slot]:
     """u = p_i e_j + p_j e_i (e_i p_i for i = j), p = M q': f is K^ij of Q = K^ij p_i p_j / 2."""
     n = len(equations.q)
-    p = [
-        sympy.Add(*(m * v for m, v in zip(row, equations.v, strict=True))) for row in equations.mass
-    ]
+    p = [dot(row, equations.v) for row in equations.mass]
     slots = []
     for i in range(n):
         for j in range(i + 1):

@@ -27,7 +27,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.modular import NoPoint, pivot_columns
+from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.spectrum import Exponent
@@ -96,10 +96,10 @@ def new_charges(
     """Those that are no combinations of the known ones, over the constants."""
     vectors = [[x] for x in (*known, *(c.charge for c in found))]
     try:
-        rows = Relation(vectors, variables, allowed).rows(len(vectors) + 4)
+        kept = Relation(vectors, variables, allowed).independent()
     except (NoPoint, ZeroDivisionError):
         return ()
-    return tuple(found[k - len(known)] for k in pivot_columns(rows) if k >= len(known))
+    return tuple(found[k - len(known)] for k in kept if k >= len(known))
 
 
 def linear_powers(equations: SlotEquations) -> list[Expr]:

@@ -18,13 +18,12 @@ from collections.abc import Sequence
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import simplify
+from lagcli.algebra import dot, simplify
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, quadratic
 from lagcli.mechanics.discovery.boundary import gauge_of
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.slots import SlotEquations, point_slots
 from lagcli.mechanics.noether import Noether, NoetherCharge
@@ -71,7 +70,7 @@ class TimedIntegrals(QuadraticIntegrals):
             return found
         system = self.noether.system
         left = self.noether.dynamics.lagrange.left_sides
-        along = sympy.Add(*(x * e for x, e in zip(eta, left, strict=True)))
+        along = dot(eta, left)
         change = simplify(along - system.total_derivative(moving))
         return gauge_of(change, system, self.allowed)
 
@@ -84,14 +83,9 @@ class TimedIntegrals(QuadraticIntegrals):
             return None
         gradient, rate = self._slopes(eta)
         vectors = [[c.diff(x) for x in (t, *q)] for c in candidates]
-        try:
-            relation = Relation([*vectors, [-rate, *(-x for x in gradient)]], [t, *q], self.allowed)
-            values = relation.of_last()
-        except (NoPoint, ZeroDivisionError):
-            return None
-        if values is None:
-            return None
-        return sympy.Add(*(c * x for c, x in zip(candidates, values, strict=True)))
+        whole = [-rate, *(-x for x in gradient)]
+        values = Relation([*vectors, whole], [t, *q], self.allowed).of_last()
+        return None if values is None else dot(candidates, values)
 
     def _times_of(self, functions: Slots) -> list[Expr]:
         """The functions of time of an integral, and those with the same arguments."""

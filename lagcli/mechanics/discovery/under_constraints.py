@@ -9,7 +9,7 @@ from itertools import combinations_with_replacement
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import is_zero, simplify
+from lagcli.algebra import dot, is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.admissible import Vector, admissible_fields
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, quadratic
@@ -217,10 +217,7 @@ class UnderConstraints:
     def _integrals(self, terms: Sequence[IntegralTerm], known: Sequence[Expr]) -> list[Integral]:
         search = SurfaceIntegrals(self.noether, self.fields, terms, known, self.allowed, self._same)
         found = search.found()
-        self._J = [
-            sympy.Add(*(x * p for x, p in zip(e, self.dynamics.lagrange.momenta, strict=True)))
-            for e in self.fields
-        ]
+        self._J = [dot(e, self.dynamics.lagrange.momenta) for e in self.fields]
         self.unsolved += search.unsolved
         return found
 

@@ -21,7 +21,7 @@ from functools import cached_property
 import sympy
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import is_zero, nullspace, simplify, solve_linear
+from lagcli.algebra import dot, is_zero, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at, where_positive
@@ -92,8 +92,8 @@ class Linearization:
             return {}
         rows = [self.rows[self._acting.index(k)] for k in kept]
         forces = [at(f, self.point.values) for f in self.rest.forces_at_rest]
-        gram = [[_dot(a, b) for b in rows] for a in rows]
-        solution = solve_linear(gram, [-_dot(a, forces) for a in rows])
+        gram = [[dot(a, b) for b in rows] for a in rows]
+        solution = solve_linear(gram, [-dot(a, forces) for a in rows])
         if solution is None or solution.singular:
             raise ZeroDivisionError
         return dict(zip(kept, solution.values, strict=True))
@@ -102,7 +102,7 @@ class Linearization:
     def balanced(self) -> bool:
         """Whether these constraints alone hold it at rest."""
         forces = [at(f, self.point.values) for f in self.rest.forces_at_rest]
-        return all(is_zero(_dot(vector, forces)) is True for vector in self.basis)
+        return all(is_zero(dot(vector, forces)) is True for vector in self.basis)
 
     @cached_property
     def has_kink(self) -> bool:
@@ -216,9 +216,6 @@ class Linearization:
         solution = solve_linear(self.M, [S.Zero] * len(self.M))
         return solution is not None and not solution.singular
 
-
-def _dot(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
-    return sympy.Add(*(x * y for x, y in zip(a, b, strict=True)))
 
 
 def _differs(force: Expr, u: Expr, place: Mapping[Symbol, Expr]) -> bool:
