@@ -38,6 +38,7 @@ from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.spectrum import roots_of
 
 _MOST = 260
+_HIGHEST = 5  # power of a coordinate
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 
 
@@ -46,8 +47,8 @@ def ambient_functions(metric: Metric, allowed: Allowance) -> list[Expr]:
     K = metric.curvature
     if K is None:
         return []
-    if metric.n == 1:  # X = int sqrt(g) dx
-        length = antiderivative(simplify(sympy.sqrt(metric.g[0][0])), metric.q[0], rules=False)
+    if metric.n == 1:
+        length = _arc_length(metric.g[0][0], metric.q[0])
         return [] if length is None else [length]
     factors = [*(_of_coordinate(x, metric, K) for x in metric.q), _joint(metric)]
     if prod(map(len, factors)) > _MOST:
@@ -58,6 +59,43 @@ def ambient_functions(metric: Metric, allowed: Allowance) -> list[Expr]:
         return []
     found = [X for X in found if not free_of(X, metric.q)]
     return found if len(found) == metric.n + (K != 0) else []
+
+
+# -- one coordinate --------------------------------------------------------------------------
+
+
+def _arc_length(g: Expr, x: Symbol) -> Expr | None:
+    """X = c int sqrt(g) dx, with either sign of the root: term by term, or of a quadratic."""
+    factors = sympy.Mul.make_args(sympy.factor_terms(g))
+    root = simplify(sympy.sqrt(sympy.Mul(*map(_half_angle, factors))))
+    _, function = root.replace(sympy.Abs, lambda e: e).as_independent(x, as_Add=False)
+    base, power = function.as_base_exp()
+    if abs(power) == sympy.S.Half and base.is_polynomial(x) and sympy.degree(base, x) == 2:
+        return _of_quadratic(base, x, inverse=power < 0)
+    return antiderivative(function, x, rules=False)
+
+
+def _half_angle(factor: Expr) -> Expr:
+    """a (1 + cos u) = 2 a cos^2(u/2), a (1 - cos u) = 2 a sin^2(u/2)."""
+    for wave in factor.atoms(sympy.cos):
+        a, half = factor.xreplace({wave: sympy.S.Zero}), wave.args[0] / 2
+        for sign, other in ((1, sympy.cos(half)), (-1, sympy.sin(half))):
+            if sympy.expand(factor - a * (1 + sign * wave)) == 0:
+                return 2 * a * other**2
+    return factor
+
+
+def _of_quadratic(Q: Expr, x: Symbol, *, inverse: bool) -> Expr:
+    """int dx/sqrt(Q), or int sqrt(Q) dx, for Q = a x^2 + b x + c (Dwight, 380.001 and 380.201)."""
+    a, b, c = sympy.Poly(Q, x).all_coeffs()
+    slope, D = Q.diff(x), 4 * a * c - b**2
+    if a.is_negative:
+        area = -sympy.asin(slope / sympy.sqrt(-D)) / sympy.sqrt(-a)
+    elif D.is_negative or D == 0:
+        area = sympy.log(2 * sympy.sqrt(a) * sympy.sqrt(Q) + slope) / sympy.sqrt(a)
+    else:
+        area = sympy.asinh(slope / sympy.sqrt(D)) / sympy.sqrt(a)
+    return area if inverse else slope * sympy.sqrt(Q) / (4 * a) + D * area / (8 * a)
 
 
 # -- which functions are tried ---------------------------------------------------------------
@@ -80,12 +118,18 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
         found |= dict.fromkeys(sympy.exp(a * k / 2) for k in (-2, -1, 1, 2))
     shared = [1 / J for J in _joint(metric) if x in J.free_symbols]
     if any(not free_of(_without_functions(e), [x]) for e in (*alone, *shared)):
-        found |= {x: None, x**2: None, 1 / x: None}
+        found |= {1 / x: None, **dict.fromkeys(x**k for k in range(1, _degree(alone, x) + 1))}
         sums = [b for e in alone for b in _bases(e) if b.is_Add]
         for b in dict.fromkeys(sums):
             found |= {sympy.sqrt(b): None, 1 / sympy.sqrt(b): None, 1 / b: None}
             found |= {x / sympy.sqrt(b): None, x / b: None, x**2 / b: None}
     return list(found)
+
+
+def _degree(entries: Sequence[Expr], x: Symbol) -> int:
+    """Of X in x: the metric has the squares of its slopes (x^3 where 9 x^4 + 1 stands in it)."""
+    degrees = [sympy.degree(e, x) for e in entries if e.is_polynomial(x)]
+    return min(_HIGHEST, max([2, *degrees]) // 2 + 1)
 
 
 def _along(x: Symbol, metric: Metric, K: Expr) -> Iterator[Expr]:

@@ -8,6 +8,7 @@ by t are made of (t^n, exp, sin, cos of linear arguments are closed under d/dt).
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import combinations_with_replacement
 
 import sympy
 from sympy import Expr, Symbol
@@ -28,8 +29,10 @@ _OF_EXPANSION = 100_000
 _OF_TIME = (sympy.exp, sympy.sin, sympy.cos, sympy.sinh, sympy.cosh)
 
 
-def gauge_of(change: Expr, system: System, allowed: Allowance) -> Expr | None:
-    """G with dG/dt = change, or None where none was found."""
+def gauge_of(
+    change: Expr, system: System, allowed: Allowance, lengths: Sequence[Expr] = ()
+) -> Expr | None:
+    """G with dG/dt = change, or None where none was found; that of a boost has the `lengths` X."""
     t, q, v = system.t, system.q, system.qdot
     if _vanishes(change, (t, *q, *v, *system.qddot), allowed):
         return sympy.S.Zero
@@ -40,6 +43,10 @@ def gauge_of(change: Expr, system: System, allowed: Allowance) -> Expr | None:
     if any(p.exp.is_negative and p.base.is_Add for p in by_t.atoms(sympy.Pow)):
         by_t = sympy.expand(simplify(by_t))  # b/r^2 may cancel, in terms x^2 b/r^4 it does not
     candidates = _candidates(by_t, by_q, t, q)
+    times = {term.as_independent(*q, as_Add=False)[0].as_independent(t)[1]
+             for slope in by_q for term in sympy.Add.make_args(slope) if lengths}  # fmt: skip
+    products = [X * Y for X, Y in combinations_with_replacement(lengths, 2)]
+    candidates += [T * X for T in sorted(times, key=str) for X in (*lengths, *products)]
     allowed.spend(_OF_DERIVATIVE * (1 + len(q)) * len(candidates))
     if 0 < len(candidates) <= _MOST_CANDIDATES:
         vectors = [[c.diff(x) for x in (t, *q)] for c in candidates]

@@ -139,9 +139,10 @@ class Discovery(Setting):
         if constraints:
             self._of_lagrangian = transformations
             transformations = tangent(transformations, self.dynamics, allowed)
+        lengths = self.isometries.translated if self.isometries else ()
         for transformation in transformations:
             allowed.check()
-            charge = point.charge_of(self.noether, transformation, allowed)
+            charge = point.charge_of(self.noether, transformation, allowed, lengths)
             if charge is None or is_zero(charge.charge) is True:
                 self.unproved = "a symmetry whose charge was not proved is left out"
                 self.stopped.append(self.unproved)

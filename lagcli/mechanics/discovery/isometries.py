@@ -48,10 +48,13 @@ class Isometries:
     ----------
     equations
         Of a system whose mass matrix depends on the coordinates.
+    rest
+        L at rest, -V: terms of it that are linear forces in the X_a suggest functions of time.
     """
 
-    def __init__(self, equations: SlotEquations, allowed: Allowance) -> None:
+    def __init__(self, equations: SlotEquations, rest: Expr, allowed: Allowance) -> None:
         self.equations = equations
+        self._rest = sympy.Add.make_args(sympy.expand(rest))
         self.allowed = allowed
         self.metric = Metric(equations)
 
@@ -71,6 +74,11 @@ class Isometries:
     def flat(self) -> bool:
         """Whether the X_a are Cartesian coordinates."""
         return bool(self.metric.curvature == 0)
+
+    @property
+    def translated(self) -> list[Expr]:
+        """X_a of a flat space."""
+        return self.functions if self.flat else []
 
     @cached_property
     def translations(self) -> list[Vector]:
@@ -159,25 +167,33 @@ class Isometries:
         rates = [sympy.Dummy(f"Y_{k}", real=True) for k in range(len(self.functions))]
         own = SlotEquations(equations.t, tuple(symbols), tuple(rates), (), ())
         accelerations = [self._linear(D, [*symbols, *rates]) for D in self.translations]
-        known = None if not accelerations or None in accelerations else accelerations
-        return time_functions(own, known, potential=True)
+        return time_functions(own, accelerations or None, potential=True)
 
-    def _linear(self, gradient: Vector, symbols: Sequence[Expr]) -> Expr | None:
-        """X'' = grad X . F, to first degree in q', as a combination of the X_b and X_b'."""
+    def _linear(self, gradient: Vector, symbols: Sequence[Expr]) -> Expr:
+        """X'' = grad X . F, to first degree in q', by the terms that the X_b and X_b' make up."""
+        return sympy.Add(*(self._part(dot(gradient, force), symbols) for force in self._forces))
+
+    @cached_property
+    def _forces(self) -> list[list[Expr]]:
+        """-grad V by the terms of V, and what of the forces is left to first degree in q'."""
+        q = self.equations.q
+        pushes = [[term.diff(x) for x in q] for term in self._rest]
+        rows = zip(self.equations.forcing, *pushes, strict=True)
+        left = [simplify(self._to_first(f) - sympy.Add(*parts)) for f, *parts in rows]
+        return [force for force in (left, *pushes) if any(force)]
+
+    def _part(self, force: Expr, symbols: Sequence[Expr]) -> Expr:
+        """The force as a combination of the X_b and X_b'; 0 where it is none."""
         q, v = self.equations.q, self.equations.v
-        force = sympy.Add(
-            *(g * self._to_first(f) for g, f in zip(gradient, self.equations.forcing, strict=True))
-        )
-        rates = [sympy.Add(*(X.diff(x) * y for x, y in zip(q, v, strict=True)))
-                 for X in self.functions]  # fmt: skip
+        rates = [dot([X.diff(x) for x in q], v) for X in self.functions]
         vectors = [[X] for X in (*self.functions, *rates, sympy.S.One)]
         values = Relation([*vectors, [-force]], (*q, *v), self.allowed).of_last()
-        return None if values is None else dot(values, (*symbols, sympy.S.One))
+        return sympy.S.Zero if values is None else dot(values, (*symbols, sympy.S.One))
 
     def _to_first(self, force: Expr) -> Expr:
         still = dict.fromkeys(self.equations.v, sympy.S.Zero)
-        slopes = (v * force.diff(v).xreplace(still) for v in self.equations.v)
-        return sympy.Add(force.xreplace(still), *slopes)
+        slopes = [force.diff(v).xreplace(still) for v in self.equations.v]
+        return force.xreplace(still) + dot(slopes, self.equations.v)
 
     def search(self, times: TimeFunctions, allowed: Allowance) -> Search:
         """The linear system for the point symmetries: constant factors of T(t) xi."""

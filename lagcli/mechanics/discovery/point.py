@@ -6,12 +6,14 @@ boundary term takes up what the forces do: dG/dt = K + sum_j F_j eta_j.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import replace
 
 import sympy
 from sympy import Expr, Symbol
 
+from lagcli.algebra import dot
 from lagcli.mechanics.discovery.boundary import gauge_of
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.scaling import scaled
@@ -32,10 +34,13 @@ def transformation_of(
 
 
 def charge_of(
-    noether: Noether, transformation: Transformation, allowed: Allowance
+    noether: Noether,
+    transformation: Transformation,
+    allowed: Allowance,
+    lengths: Sequence[Expr] = (),
 ) -> NoetherCharge | None:
     """The proved charge of a transformation; None where it is not proved."""
-    gauge = _gauge(noether, transformation, allowed)
+    gauge = _gauge(noether, transformation, allowed, lengths)
     if gauge is None:
         return None
     charge = _proved(noether.charge("", "discovered", transformation, gauge))
@@ -45,18 +50,15 @@ def charge_of(
     return charge
 
 
-def _gauge(noether: Noether, transformation: Transformation, allowed: Allowance) -> Expr | None:
+def _gauge(
+    noether: Noether, transformation: Transformation, allowed: Allowance, lengths: Sequence[Expr]
+) -> Expr | None:
     """G with dG/dt = K + sum F_j eta_j."""
     system = noether.system
-    change = noether.change_of_action(transformation) + sympy.Add(
-        *(
-            force * eta
-            for force, eta in zip(
-                system.applied_forces, noether.characteristic(transformation), strict=True
-            )
-        )
+    change = noether.change_of_action(transformation) + dot(
+        system.applied_forces, noether.characteristic(transformation)
     )
-    return gauge_of(change, system, allowed)
+    return gauge_of(change, system, allowed, lengths)
 
 
 def _proved(charge: NoetherCharge) -> NoetherCharge | None:

@@ -170,7 +170,8 @@ class Setting:
             return None
         if not Isometries.apply(self.equations):
             return None
-        found = Isometries(self.equations, self.allowed)
+        rest = self.system.L.xreplace(dict.fromkeys(self.system.qdot, sympy.S.Zero))
+        found = Isometries(self.equations, rest, self.allowed)
         return found if found.functions else None
 
     def _with_linear_terms(self, i: int) -> Expr:

@@ -12,7 +12,8 @@ Leach, J. Math. Phys. 18 (1977) 1608 (symmetries of the time-dependent oscillato
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import combinations_with_replacement
 
 import sympy
 from sympy import Expr, Symbol
@@ -43,57 +44,67 @@ def of_changing_coefficients(
 
 
 def _products(Y: Sequence[Expr]) -> list[Expr]:
-    """Of two Y; 1, sin and cos of twice the argument for sine and cosine."""
-    if Y[0].func is sympy.sin:
-        double = 2 * Y[0].args[0]
-        return [sympy.S.One, sympy.sin(double), sympy.cos(double)]
-    return [sympy.expand(a * b) for i, a in enumerate(Y) for b in Y[: i + 1]]
+    """Of two Y; with 1, sin and cos of twice the argument for those of sine and cosine."""
+    waves = [f for y in Y for f in sympy.Mul.make_args(y) if f.func in (sympy.sin, sympy.cos)]
+    if waves:
+        envelope, double = simplify(Y[0] / waves[0]) ** 2, 2 * waves[0].args[0]
+        return [envelope, envelope * sympy.sin(double), envelope * sympy.cos(double)]
+    return [sympy.expand(a * b) for a, b in combinations_with_replacement(Y, 2)]
 
 
 def _of_equation(
     acceleration: Expr, x: Symbol, rate: Symbol, moving: set[Symbol], t: Symbol
 ) -> tuple[Expr, list[Expr], Expr] | None:
-    """sqrt(mu), the two Y and p."""
+    """sqrt(mu), the two Y and p, by the terms of x'' that are linear in x and x'."""
     if sympy.count_ops(acceleration) > _MOST_OPERATIONS:
         return None
-    p, own = -acceleration.diff(rate), -acceleration.diff(x)
+    terms = sympy.Add.make_args(sympy.expand(acceleration))
+    p, own = (-simplify(sympy.Add(*_factors(terms, y, moving))) for y in (rate, x))
     if free_of(p, [t]) and free_of(own, [t]):
         return None
-    p, own = simplify(p), simplify(own)
-    if not (p.free_symbols | own.free_symbols).isdisjoint(moving):
-        return None
     integral = antiderivative(p, t)
-    Y = _elementary(simplify(own - p.diff(t) / 2 - p**2 / 4), t)
+    Y = _elementary(simplify(own - p.diff(t) / 2 - p**2 / 4), t, p)
     if integral is None or not Y:
         return None
     root = simplify(sympy.exp(sympy.expand(integral / 2)))
-    return (root, Y, p) if all(map(_is_plain, (root, *Y))) else None
+    return root, Y, p
 
 
-def _elementary(I: Expr, t: Symbol) -> list[Expr]:  # noqa: E741
-    """Two solutions of y'' + I y = 0."""
+def _factors(terms: Sequence[Expr], x: Symbol, moving: set[Symbol]) -> Iterator[Expr]:
+    """Of x in the terms that are x times a function of time."""
+    for factor, rest in (term.as_independent(x, as_Add=False) for term in terms):
+        if rest == x and factor.free_symbols.isdisjoint(moving):
+            yield factor
+
+
+def _elementary(I: Expr, t: Symbol, p: Expr) -> list[Expr]:  # noqa: E741
+    """Two solutions of y'' + I y = 0, with hyperbolic functions where p has some."""
     if I == 0:
         return [sympy.S.One, t]
     if free_of(I, [t]):
         if I.is_negative:
-            return [sympy.exp(sympy.sqrt(-I) * t), sympy.exp(-sympy.sqrt(-I) * t)]
+            inside = sympy.sqrt(-I) * t
+            if p.has(sympy.tanh, sympy.coth, sympy.cosh, sympy.sinh):
+                return [sympy.cosh(inside), sympy.sinh(inside)]
+            return [sympy.exp(inside), sympy.exp(-inside)]
         return [sympy.sin(sympy.sqrt(I) * t), sympy.cos(sympy.sqrt(I) * t)]
-    inverse = sympy.expand(simplify(1 / I))  # (t + b)^2/c
+    inverse = simplify(1 / I)  # (t + b)^2/c
     if not inverse.is_polynomial(t) or sympy.degree(inverse, t) != 2:
         return []
     square, linear, _ = sympy.Poly(inverse, t).all_coeffs()
-    shifted = t + simplify(linear / (2 * square))
-    s = sympy.sqrt(sympy.Rational(1, 4) - 1 / square)
-    if not s.is_Rational or s == 0 or simplify(square * shifted**2 - inverse) != 0:
+    shifted = sympy.numer(sympy.together(t + linear / (2 * square)))
+    square = simplify(inverse / shifted**2)  # 1/I = square shifted^2
+    if not free_of(square, [t]):
         return []
-    return [shifted ** (sympy.S.Half + s), shifted ** (sympy.S.Half - s)]
-
-
-def _is_plain(function: Expr) -> bool:
-    """Whether all its powers are rational numbers, as they are needed for values modulo a prime."""
-    return not function.has(sympy.log) and all(
-        p.exp.is_Rational or p.base == sympy.E for p in function.atoms(sympy.Pow)
-    )
+    slope = shifted.diff(t)
+    power = simplify(sympy.Rational(1, 4) - 1 / (square * slope**2))
+    if power == 0:
+        return [sympy.sqrt(shifted), sympy.sqrt(shifted) * sympy.log(shifted)]
+    if power.is_positive:
+        s = sympy.sqrt(power)
+        return [shifted ** (sympy.S.Half + s), shifted ** (sympy.S.Half - s)]
+    inside = sympy.sqrt(-power) * sympy.log(shifted)
+    return [sympy.sqrt(shifted) * sympy.sin(inside), sympy.sqrt(shifted) * sympy.cos(inside)]
 
 
 def _distinct(functions: Sequence[Expr], t: Symbol, time: Symbol) -> list[Expr]:
