@@ -17,13 +17,10 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero
 from lagcli.mechanics.discovery import point
-from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, point_unknowns, quadratic
+from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, point_unknowns
 from lagcli.mechanics.discovery.centralizer import centralized, without_time
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.constrained import tangent
-from lagcli.mechanics.discovery.hidden import (
-    MOST_UNKNOWNS as MOST_FOR_TENSORS,
-)
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, is_gyroscopic
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
 from lagcli.mechanics.discovery.higher_degree import DEGREES, HigherIntegrals, KillingFrame
@@ -41,11 +38,7 @@ from lagcli.mechanics.discovery.special_search import special_cases
 from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
-_MOST_COORDINATES = 9
-_DIGITS = 40
 _MOST_FOR_TENSORS = 6
-_FEW_TERMS = 3
-_MOST_IN_SPACE = 4
 
 
 class Discovery(Setting):
@@ -213,15 +206,9 @@ class Discovery(Setting):
             self.words.append(f"none of degree {degree + 1} or higher")
 
     def _by_killing_vectors(self) -> bool:
-        """All integrals of second degree of L = T - V, where the ansatz has not all of them."""
-        isometries = self.isometries
-        if isometries is None or self.system.t in self.equations_symbols:
-            return False
-        n = len(self.system.q)
-        most = MOST_FOR_TENSORS // (n * (n + 1) // 2)
-        if is_gyroscopic(self.equations) or not isometries.products_beyond(
-            quadratic(self.centred_kinds, most)
-        ):
+        """All integrals of second degree of L = T - V, where T has constant curvature."""
+        isometries, timed = self.isometries, self.system.t in self.equations_symbols
+        if isometries is None or timed or is_gyroscopic(self.equations):
             return False
         self.words.append(
             "all first integrals of second degree in the velocities without explicit time"

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from itertools import combinations, combinations_with_replacement
+from itertools import combinations
 
 import sympy
 from sympy import Expr
@@ -125,12 +125,6 @@ class Isometries:
         return bool(self.functions) and not self._within(
             [x for field in fields for x in field], affine(kinds)
         )
-
-    def products_beyond(self, known: Sequence[Expr]) -> bool:
-        """Whether their products are not all combinations of the known functions."""
-        pairs = combinations_with_replacement(self.fields, 2)
-        products = [x * y for A, B in pairs for x in A for y in B]
-        return bool(self.functions) and not self._within(products, known)
 
     def _within(self, values: Sequence[Expr], known: Sequence[Expr]) -> bool:
         """Whether each is a combination of the known functions with constant coefficients."""

@@ -22,7 +22,7 @@ from itertools import combinations, combinations_with_replacement
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import dot
+from lagcli.algebra import dot, simplify
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, expanded
 from lagcli.mechanics.discovery.isometries import Isometries, Vector
@@ -108,6 +108,13 @@ class KillingIntegrals(QuadraticIntegrals):
         charge = self._charge(functions)
         if charge is not None:
             yield functions, charge
+
+    def _kinetic(self, functions: Slots) -> tuple[Expr, Expr]:
+        """sum c (A.p)(B.p), by the products of the velocities."""
+        whole, v = super()._kinetic(functions)[0], self.equations.v
+        pairs = combinations_with_replacement(v, 2)
+        terms = (simplify(whole.diff(x, y)) * x * y / (2 if x == y else 1) for x, y in pairs)
+        return sympy.Add(*terms), sympy.S.Zero
 
     def _scalar(self, functions: Slots, eta: Sequence[Expr], _: Expr, /) -> Expr | None:
         """S from its gradient."""

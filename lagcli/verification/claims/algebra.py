@@ -203,12 +203,14 @@ def signature_of(name: str) -> Signature | None:
 
 
 def _with_heisenberg(name: str) -> Signature | None:
-    found = re.fullmatch(r"Schrödinger sch\((\d)\): .*", name)
-    if found is None:
+    pattern = r"Schrödinger sch\((\d)\): .* with Heisenberg h\(\d\)(?: \+ (.*))?"
+    found = re.fullmatch(pattern, name)
+    rest = signature_of(found[2]) if found and found[2] else (0, 0, 0)
+    if found is None or rest is None:
         return None
     d = int(found[1])
     turns = d * (d - 1) // 2
-    return (3 + turns + 2 * d, 2, 1 + turns)
+    return (3 + turns + 2 * d + rest[0], 2 + rest[1], 1 + turns + rest[2])
 
 
 def _one(name: str) -> Signature | None:
