@@ -388,4 +388,3 @@ class Noether:
         ]
         turning = [self.turning_energy] if self.turning_energy is not None else []
         return tuple(charge.charge for charge in (*evident, *joint, *turning))
-

@@ -255,7 +255,7 @@ def integral_of(noether: Noether, eta: Vector, whole: Expr) -> NoetherCharge | N
         "",
         "discovered",
         Transformation(eta, sympy.S.Zero),
-        dot(eta, lagrange.momenta) - whole,
+        sympy.expand(dot(eta, lagrange.momenta) - whole),
         whole,
         conserved=True,
         rate=sympy.S.Zero,

@@ -217,7 +217,6 @@ class Linearization:
         return solution is not None and not solution.singular
 
 
-
 def _differs(force: Expr, u: Expr, place: Mapping[Symbol, Expr]) -> bool:
     """Whether the value or the gradient depends on the side of u = 0."""
     side = sympy.Dummy("side", real=True)
