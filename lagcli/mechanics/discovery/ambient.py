@@ -129,7 +129,7 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
 def _degree(entries: Sequence[Expr], x: Symbol) -> int:
     """Of X in x: the metric has the squares of its slopes (x^3 where 9 x^4 + 1 stands in it)."""
     degrees = [sympy.degree(e, x) for e in entries if e.is_polynomial(x)]
-    return min(_HIGHEST, max([2, *degrees]) // 2 + 1)
+    return min(_HIGHEST, int(max([2, *degrees])) // 2 + 1)
 
 
 def _along(x: Symbol, metric: Metric, K: Expr) -> Iterator[Expr]:
