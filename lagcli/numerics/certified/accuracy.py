@@ -28,7 +28,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from operator import add, gt
+from itertools import islice
+from operator import add, sub
 from typing import Any
 
 from lagcli.numerics.certified.clock import clock_errors, column_changes
@@ -212,37 +213,26 @@ class Controller:
         """The difference of two runs, doubled at least, column by column and row by row."""
         count = len(fine_rows[0]) - self.charges
         factor = self.factor(tolerances[1], fine)
-        differences: list[list[float]] = []
         partner, clock = Partners(coarse, fine), clock_errors(fine, self.span)
-        for mark, fine_row in zip(fine.marks, fine_rows, strict=True):
-            other = partner(mark)
-            if other is None:
-                break
-            late = 0.0
-            if mark.sample < 0:
-                late = 2 * abs(coarse.marks[other].t - mark.t) / self.span
-            now = [
-                0.0 if a is None or b is None else factor * abs(float(a - b))
-                for a, b in zip(rows[other][:count], fine_row[:count], strict=True)
-            ]
-            if clock:
-                now = [*map(add, now, column_changes(fine, mark, clock))]
-            differences.append([*now, late])
-        bounds = [max(column) for column in zip(*differences, strict=True)][:-1]
-        bounds = bounds or [math.inf] * count
+        places = partner.places(fine.marks)
+        others = zip(*(rows[place] for place in places), strict=True)
+        pairs = zip(others, zip(*fine_rows, strict=True), strict=False)
+        differences = [_distances(a, b, factor) for a, b in islice(pairs, count)]
+        if clock:
+            moved = [column_changes(fine, mark, clock) for mark in fine.marks[: len(places)]]
+            columns = zip(differences, zip(*moved, strict=True), strict=False)
+            differences = [[*map(add, *pair)] for pair in columns]
+        bounds = list(map(max, differences)) or [math.inf] * count
+        differences += [self._late(coarse, fine, places)] if places else []
 
         def scaled(kept: int) -> list[float]:
             return self._scales(fine, fine_rows[:kept], bounds, tolerances[1])
 
         scales = scaled(len(fine_rows))
         errors = [relative(bound, scale) for bound, scale in zip(bounds, scales, strict=True)]
-        good, held, held_scales = self._held(differences, scaled)
-        lost = (
-            mark.t
-            for mark, row in zip(fine.marks, differences, strict=False)
-            if any(x > SATURATED * s for x, s in zip(row, [*scales, 1.0], strict=True))
-        )
-        lost_at = next(lost, math.inf)
+        good, held, held_scales = self._held(differences, len(places), scaled)
+        lost = _first_beyond(differences, [SATURATED * scale for scale in [*scales, 1.0]])
+        lost_at = math.inf if lost is None else fine.marks[lost].t
         same_end = (coarse.event is None) == (fine.event is None) and partner.agree
         reached = good == len(fine_rows) and same_end and fine.stop is None
         reason = "" if reached else _why(coarse, fine, good, partner)
@@ -264,21 +254,28 @@ class Controller:
             self,
         )
 
+    def _late(self, coarse: Run, fine: Run, places: Sequence[int]) -> list[float]:
+        """Twice what the rows beside events are apart in time, as parts of the span."""
+        return [
+            0.0 if mark.sample >= 0 else 2 * abs(coarse.marks[place].t - mark.t) / self.span
+            for place, mark in zip(places, fine.marks, strict=False)
+        ]
+
     def _held(
-        self, differences: list[list[float]], scaled: Callable[[int], list[float]]
+        self, differences: list[list[float]], good: int, scaled: Callable[[int], list[float]]
     ) -> tuple[int, list[float], list[float]]:
         """How many rows are within the accuracy, and the error and scale of each column over these.
 
         Where not all are, the scale of a column is that of the rows that are left.
         """
-        good = len(differences)
         while True:
             scales = [*scaled(good), 1.0]
-            allowed = [self.accuracy * scale for scale in scales]
-            worst = [max(column) for column in zip(*differences[:good], strict=True)]
-            if not any(map(gt, worst, allowed)):
+            kept = [column[:good] for column in differences]
+            beyond = _first_beyond(kept, [self.accuracy * scale for scale in scales])
+            if beyond is None:
                 break
-            good = next(k for k, row in enumerate(differences) if any(map(gt, row, allowed)))
+            good = beyond
+        worst = map(max, kept) if good else ()
         held = [relative(most, scale) for most, scale in zip(worst, scales, strict=False)][:-1]
         return good, held or [0.0] * (len(scales) - 1), scales[:-1]
 
@@ -319,9 +316,9 @@ class Controller:
             column = len(rows[0]) - self.charges + j
             values = [row[column] for row in rows]
             for where, found, scale in changes(fine, j, values):
-                drift, worst = max((abs(x), place) for place, x in zip(where, found, strict=True))
-                bound = _CHARGES * self.accuracy * scale
-                if drift > bound:
+                drift = max(map(abs, found))
+                if drift > _CHARGES * self.accuracy * scale:
+                    worst = max(k for k, x in zip(where, found, strict=True) if abs(x) == drift)
                     errors = component_scales(fine.peaks, self.span)
                     errors = [self.accuracy * peak for peak in errors]
                     felt = column_changes(fine, fine.marks[worst], errors)[column]
@@ -331,6 +328,26 @@ class Controller:
 
     def _stepped_over(self, fine: Run) -> bool:
         return fine.defect > _DEFECT * self.accuracy
+
+
+def _distances(coarse: Sequence[Any], fine: Sequence[Any], factor: float) -> list[float]:
+    """Of the values of a column in two runs, this factor times |a - b|; 0 where one has none."""
+    if None in coarse or None in fine:
+        pairs = zip(coarse, fine, strict=False)
+        return [0.0 if a is None or b is None else factor * abs(float(a - b)) for a, b in pairs]
+    return [factor * distance for distance in map(abs, map(float, map(sub, coarse, fine)))]
+
+
+def _first_beyond(columns: Sequence[Sequence[float]], limits: Sequence[float]) -> int | None:
+    """The first row in which a column is above its limit; None where there is none."""
+    return min(
+        (
+            next(row for row, x in enumerate(column) if x > limit)
+            for column, limit in zip(columns, limits, strict=False)
+            if max(column, default=0.0) > limit
+        ),
+        default=None,
+    )
 
 
 def ended(outcome: Outcome, place: RankPlace) -> Outcome:

@@ -29,8 +29,9 @@ def changes(
             if mark.phase == number and values[place] is not None
         ]
         if len(places) > 1:
-            found = [float(values[place] - values[places[0]]) for place in places]
-            peak = max(abs(float(values[place])) for place in places)
+            here = [values[place] for place in places]
+            found = [float(value - here[0]) for value in here]
+            peak = max(map(abs, map(float, here)))
             yield places, found, max(peak, phase.mode.sizes.largest(run.marks, places)[charge])
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.run import Run
 
@@ -37,6 +39,18 @@ class Partners:
         self._phases = fine.events[same][0] if same < len(fine.events) else len(fine.phases)
         if same < len(coarse.events):
             self._phases = min(self._phases, coarse.events[same][0])
+
+    def places(self, marks: Sequence[Mark]) -> list[int]:
+        """The place of each of these rows, up to the first that has none."""
+        if not self._sides and [mark.sample for mark in marks] == [*self._samples]:
+            return [*range(len(marks))]  # nothing happens on the way
+        found: list[int] = []
+        for mark in marks:
+            place = self(mark)
+            if place is None:
+                break
+            found.append(place)
+        return found
 
     def __call__(self, mark: Mark) -> int | None:
         """The place of the same row in the coarser run; None where there is none."""

@@ -142,13 +142,15 @@ def are_felt(outcome: Outcome, others: Modes, accuracy: float) -> bool:
     run = outcome.run
     if run.shortened or run.events:  # what is narrow, and an impact, is seldom met by a row
         return True
-    marks = run.marks[:: max(1, len(run.marks) // _LOOKS)]
-    marks += [run.narrowest] if run.narrowest is not None else []
+    every = max(1, len(run.marks) // _LOOKS)
+    looks = [*zip(run.marks[::every], outcome.rows[::every], strict=True)]
+    if (narrow := run.narrowest) is not None:
+        looks.append((narrow, run.phases[0].mode.tabulate(narrow.t, narrow.q, narrow.v)))
     n, columns = len(run.peaks) // 2, len(others.simulation.nodes)
     least = [peak / others.simulation.asked.until for peak in run.peaks[n:]]
     sizes, changes = least, [0.0] * n
     moves = [0.0] * columns
-    for mark in marks:
+    for mark, row in looks:
         mode = run.phases[mark.phase].mode
         beside = others.mode(*mode.key)
         state, later = (mark.t, *mark.q, *mark.v), mark.t * _LATER
@@ -163,11 +165,8 @@ def are_felt(outcome: Outcome, others: Modes, accuracy: float) -> bool:
         for j, (a, b, c) in enumerate(zip(here, there, then, strict=True)):
             sizes[j] = max(sizes[j], abs(a) + abs(c - a) / _LATER)
             changes[j] = max(changes[j], abs(b - a))
-        rows = [
-            mode.tabulate(mark.t, mark.q, mark.v)[:columns],
-            beside.tabulate(mark.t, _turned(mark.q, 1), _turned(mark.v, -1))[:columns],
-        ]
-        for j, (x, y) in enumerate(zip(*rows, strict=True)):
+        moved = beside.tabulate(mark.t, _turned(mark.q, 1), _turned(mark.v, -1))
+        for j, (x, y) in enumerate(zip(row[:columns], moved[:columns], strict=True)):
             if x is not None and y is not None:
                 moves[j] = max(moves[j], abs(y - x))
     limit = _TIMES * _CLOCK

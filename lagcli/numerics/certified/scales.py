@@ -11,9 +11,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import islice
 from typing import Any
 
 from lagcli.graph.nodes import Node, mask_of
+from lagcli.numerics.equations.columns import given
 from lagcli.numerics.hybrid.charges import Sizes
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.run import Run
@@ -64,10 +66,8 @@ class Scales:
         tolerance
             That of the run.
         """
-        peaks = [
-            max((abs(float(row[j])) for row in rows if row[j] is not None), default=0.0)
-            for j in range(len(self._places))
-        ]
+        columns = islice(zip(*rows, strict=True), len(self._places))
+        peaks = list(map(_peak, columns)) or [0.0] * len(self._places)
         if self._sizes is None or self._sizes[0] is not run:
             self._sizes = run, self._of_formulas(run)
         accuracy, until = self._simulation.asked.accuracy, self._simulation.asked.until
@@ -109,7 +109,7 @@ class Scales:
         solved = mask_of((*reading.accelerations, *reading.multipliers))
         plain = [j for j in places if not simulation.nodes[j].mask & solved]
         nodes = [*(simulation.nodes[j] for j in plain), *e.forcing]
-        sizes = Sizes(e.graph, e.state, nodes, run.phases[0].mode.modes.constants)
+        sizes = Sizes(e, nodes, run.phases[0].mode.modes.constants)
         largest = sizes.largest(run.marks, range(len(run.marks)))
         forces = max(largest[len(plain) :], default=0.0)
         found = dict.fromkeys(places, forces) | dict(zip(plain, largest, strict=False))
@@ -118,8 +118,12 @@ class Scales:
 
 def _peaks(marks: Sequence[Mark]) -> list[float]:
     """The largest magnitude of each component at some rows."""
-    columns = zip(*((*mark.q, *mark.v) for mark in marks), strict=True)
-    return [max(abs(float(x)) for x in column) for column in columns]
+    return list(map(_peak, zip(*((*mark.q, *mark.v) for mark in marks), strict=True)))
+
+
+def _peak(column: Sequence[Any]) -> float:
+    """The largest magnitude; 0 of a column that is defined nowhere."""
+    return max(map(abs, map(float, given(column))), default=0.0)
 
 
 def relative(error: float, scale: float) -> float:

@@ -6,8 +6,11 @@ solved for only where a column needs them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import cached_property
+from itertools import chain
 from typing import Any
 
 from lagcli.expression import Expression, Name
@@ -17,6 +20,9 @@ from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.motion import Function, Motion
 from lagcli.problem_data import JACOBI_FUNCTION
 from lagcli.record import record
+
+#: t, q, q'
+State = tuple[Any, Sequence[Any], Sequence[Any]]
 
 
 @record
@@ -113,6 +119,13 @@ class Values:
             found += [self._one(function, (t, *q, *v, *solved)) for function in self._single]
         return [found[place] for place in self._order]
 
+    def along(self, states: Sequence[State]) -> list[list[Any]]:
+        """The same at many states."""
+        if self._of_all is not None:
+            return [self(*state) for state in states]
+        function = self._of_state
+        return [list(function(t, *q, *v)) for t, q, v in states]
+
     def _solved(self, t: Any, q: Sequence[Any], v: Sequence[Any]) -> Sequence[Any]:
         """q'' and every multiplier: 0 where a contact is open."""
         motion = self._motion
@@ -131,6 +144,60 @@ class Values:
             return function(*arguments)[0]
         except TypeError:  # arithmetic with None
             return None
+
+
+class Rows:
+    """Nodes in order, each None where it is not defined.
+
+    Parameters
+    ----------
+    motion, reading, nodes
+        As for `Values`.
+    """
+
+    def __init__(self, motion: Motion, reading: Reading, nodes: Sequence[Node]) -> None:
+        self._values = Values(motion, reading, nodes)
+        self._arguments = motion, reading, nodes
+
+    def __call__(self, t: Any, q: Sequence[Any], v: Sequence[Any]) -> list[Any]:
+        """The row at a state."""
+        return self.along([(t, q, v)])[0]
+
+    def along(self, states: Sequence[State]) -> list[list[Any]]:
+        """The rows at many states: together where all is defined, else one by one."""
+        try:
+            found = self._values.along(states)
+            if _are_finite(found):
+                return found
+        except (ArithmeticError, ValueError):
+            pass
+        if len(states) > 1:
+            return [self(*state) for state in states]
+        return [[_one(each, state) for each in self._single] for state in states]
+
+    @cached_property
+    def _single(self) -> list[Values]:
+        motion, reading, nodes = self._arguments
+        return [Values(motion, reading, [node]) for node in nodes]
+
+
+def _are_finite(rows: Sequence[Sequence[Any]]) -> bool:
+    values = [*chain.from_iterable(rows)]
+    return all(map(math.isfinite, given(values)))
+
+
+def given(column: Sequence[Any]) -> Sequence[Any]:
+    """The values of a column where it has one."""
+    return [x for x in column if x is not None] if None in column else column
+
+
+def _one(values: Values, state: State) -> Any:
+    """A column where it is defined, else None."""
+    try:
+        [value] = values(*state)
+    except (ArithmeticError, ValueError):
+        return None
+    return value if value is None or math.isfinite(float(value)) else None
 
 
 def _order(deep: Sequence[bool]) -> list[int]:

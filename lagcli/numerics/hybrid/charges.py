@@ -15,7 +15,8 @@ from typing import Any
 
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Constant, Graph, Node, Product, Sum, Symbol
-from lagcli.graph.values import Floats, Program
+from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.mark import Mark
@@ -142,8 +143,8 @@ class Sizes:
 
     Parameters
     ----------
-    state
-        t, the coordinates and the velocities.
+    equations
+        Their graph and state.
     charges
         The formulas.
     constants
@@ -151,17 +152,14 @@ class Sizes:
     """
 
     def __init__(
-        self,
-        graph: Graph,
-        state: Sequence[Symbol],
-        charges: Sequence[Node],
-        constants: Mapping[Symbol, Any],
+        self, equations: Equations, charges: Sequence[Node], constants: Mapping[Symbol, Any]
     ) -> None:
         self._charges = len(charges)
         known: dict[Node, Node] = {}
-        self._program = Program([size(graph, each, known) for each in charges], Floats())
-        self._names = [str(symbol) for symbol in state]
-        self._known = {str(symbol): float(value) for symbol, value in constants.items()}
+        sizes = [size(equations.graph, each, known) for each in charges]
+        doubles = {symbol: float(value) for symbol, value in constants.items()}
+        motion = Motion(equations, doubles, Doubles())
+        self._sizes = motion.function(sizes)
         self._last: tuple[Sequence[Mark], list[int], list[float]] | None = None
 
     def largest(self, marks: Sequence[Mark], places: Sequence[int]) -> list[float]:
@@ -175,9 +173,8 @@ class Sizes:
         found = [0.0] * self._charges
         for place in places:
             mark = marks[place]
-            state = map(float, (mark.t, *mark.q, *mark.v))
             try:
-                now = self._program(self._known | dict(zip(self._names, state, strict=True)))
+                now = self._sizes(*map(float, (mark.t, *mark.q, *mark.v)))
             except (ArithmeticError, ValueError):
                 continue
             found = [max(pair) for pair in zip(found, now, strict=True)]

@@ -26,8 +26,9 @@ from lagcli.numerics.integrators.steps import CannotGoOn, NotPossible, Step, Tol
 from lagcli.numerics.integrators.switching import Kinks
 
 _HIGHEST = LAST - 2
-#: Steps of the first call and of any, and operations of one run: a minute or two.
-_FIRST, _CALL = 50, 20_000
+#: Steps of the first call, in quick code and in better code, and of any; operations of one run: a
+#: minute or two.
+_FIRST, _FIRST_OF_BETTER, _CALL = 50, 500, 20_000
 #: Steps one by one between the looks whether better code pays.
 _LOOK = 64
 _LIMIT = 1_000_000_000
@@ -274,7 +275,7 @@ class CompiledTaylor:
         given = [self._rows, self._small, self._other, self._signs, state, self._lost]
         given += [self._ahead, self._peaks, self._scales, self._held, self._watch]
         given += [facts, counts, asked, out]
-        status, call = k.MORE, min(_FIRST, _CALL)
+        status, call = k.MORE, _FIRST if self.machine.is_quick else _FIRST_OF_BETTER
         limit = _LIMIT // (max(10, self.machine.ops) * self.machine.numbers.cost)
         limit = run.step_limit = limit if most is None else min(limit, most)
         while status == k.MORE and counts[k.STEPS] < limit:
@@ -292,11 +293,10 @@ class CompiledTaylor:
             raise self._vanishes(state)
         done = int(counts[k.PENDING])
         whole, n = self._read(out), self.n
-        places = range(0, len(whole), both + 1)
-        run.marks = [
-            Mark(float(t), whole[j : j + n], whole[j + n : j + both], 0, sample)
-            for sample, (t, j) in enumerate(zip(times[:done], places, strict=False))
-        ]
+        rows = [whole[j :: both + 1] for j in range(both)]
+        positions, velocities = zip(*rows[:n], strict=True), zip(*rows[n:], strict=True)
+        made = zip(times[:done], map(list, positions), map(list, velocities), strict=False)
+        run.marks = [Mark(float(t), q, v, 0, sample) for sample, (t, q, v) in enumerate(made)]
         if float(facts[k.NARROWEST]) < k.LARGE:
             *narrow, t = whole[-both - 1 :]
             run.narrowest = Mark(float(t), narrow[:n], narrow[n:], 0)

@@ -12,7 +12,7 @@ from typing import Any
 
 from lagcli.graph.nodes import Node, Symbol
 from lagcli.numerics.equations.arithmetic import Arithmetic
-from lagcli.numerics.equations.columns import Values
+from lagcli.numerics.equations.columns import Rows, Values
 from lagcli.numerics.equations.motion import Function, Motion
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.charges import Sizes, conserved_charges
@@ -134,29 +134,14 @@ class Mode:
     def sizes(self) -> Sizes:
         """What the charges are measured against."""
         e, charges = self.equations, [*self.modes.simulation.charges.values()]
-        return Sizes(e.graph, e.state, charges, self.modes.constants)
+        return Sizes(e, charges, self.modes.constants)
 
     @cached_property
-    def tabulate(self) -> Callable[..., list[Any]]:
+    def tabulate(self) -> Rows:
         """The columns and then the charges at a state."""
-        simulation, motion = self.modes.simulation, self.motion
+        simulation = self.modes.simulation
         nodes = [*simulation.nodes, *simulation.charges.values()]
-        values = Values(motion, simulation.reading, nodes)
-        single: list[Values] = []
-
-        def row(t: float, q: Sequence[Any], v: Sequence[Any]) -> list[Any]:
-            try:
-                found = values(t, q, v)
-                defined = [x for x in found if x is not None] if None in found else found
-                if all(map(math.isfinite, defined)):
-                    return found
-            except (ArithmeticError, ValueError):
-                pass
-            if not single:
-                single.extend(Values(motion, simulation.reading, [node]) for node in nodes)
-            return [_one(each, t, q, v) for each in single]
-
-        return row
+        return Rows(self.motion, simulation.reading, nodes)
 
 
 class Modes:
@@ -223,12 +208,3 @@ class Modes:
         e = self.simulation.equations
         mask = e.kinks[kink].mask
         return ", ".join(f"{v.name}'" for v in e.qdot if v.mask & mask)
-
-
-def _one(values: Values, t: float, q: Sequence[Any], v: Sequence[Any]) -> Any:
-    """A column where it is defined, else None."""
-    try:
-        [value] = values(t, q, v)
-    except (ArithmeticError, ValueError):
-        return None
-    return value if value is None or math.isfinite(float(value)) else None

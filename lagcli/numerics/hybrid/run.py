@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from itertools import groupby
+from operator import attrgetter
 from typing import Any
 
 from lagcli.numerics.equations.surface import Surface
@@ -74,9 +76,7 @@ class Run:
     ) -> None:
         self.transitions = transitions
         self.tolerance = tolerance
-        transitions.rounding, transitions.moved = self._rounding, tolerance.moved
         self._allowed = allowed
-        self._watch = Watch(self._state_in, self._errors, self._rounding)
         self.marks: list[Mark] = []
         self.phases: list[Phase] = []
         self.events: list[tuple[int, Event]] = []
@@ -120,7 +120,10 @@ class Run:
 
     def rows(self) -> list[list[Any]]:
         """The columns and charges at the marks."""
-        return [self.phases[m.phase].mode.tabulate(m.t, m.q, m.v) for m in self.marks]
+        found: list[list[Any]] = []
+        for phase, marks in groupby(self.marks, key=attrgetter("phase")):
+            found += self.phases[phase].mode.tabulate.along([mark[:3] for mark in marks])
+        return found
 
     def go(
         self,
@@ -133,6 +136,10 @@ class Run:
     ) -> Run:
         """Run through the times, of which the last is the end."""
         self._times, self._pending = times, 0
+        # here, since they refer to the run: one in machine code is freed when it is done with
+        self.transitions.rounding = self._rounding
+        self.transitions.moved = self.tolerance.moved
+        self._watch = Watch(self._state_in, self._errors, self._rounding)
         self._watch.window = times[-1] / _WINDOWS
         self._probe_every, self._progress = probe_every, progress
         t = times[0]

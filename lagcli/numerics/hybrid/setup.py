@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from copy import copy
+from functools import lru_cache
 from itertools import pairwise
 from typing import Any, Self
 
@@ -80,15 +81,7 @@ class Setup:
 
     def _times(self) -> list[float]:
         """The rows, and between them what two runs are compared at as well."""
-        every, until = self.every, self.asked.until
-        # out of step with whatever the rows asked for are in step with
-        parts = [(k + (_GOLDEN * k % 1.0 - 0.5 if k else 0.0)) / every for k in range(every)]
-        given = self.asked.times
-        if given:
-            between = [a + (b - a) * part for a, b in pairwise(given) for part in parts]
-            return [*between, until]
-        count = self.asked.samples - 1
-        return [until * (k + part) / count for k in range(count) for part in parts] + [until]
+        return [*_grid(self.asked.until, self.asked.samples, self.asked.times, self.every)]
 
     def _gaps(self) -> dict[int, Node]:
         """Of the contacts that can be open."""
@@ -164,3 +157,14 @@ class Setup:
 def _parts_of_rows(asked: Asked) -> int:
     """Into how many intervals of comparison that between two rows is divided."""
     return max(1, -(-_COMPARED // (asked.samples - 1)))
+
+
+@lru_cache(maxsize=4)
+def _grid(until: float, samples: int, given: Sequence[float], every: int) -> tuple[float, ...]:
+    """The times of rows, given or evenly spread, each followed by those in between."""
+    # out of step with whatever the rows asked for are in step with
+    parts = [(k + (_GOLDEN * k % 1.0 - 0.5 if k else 0.0)) / every for k in range(every)]
+    if given:
+        return *(a + (b - a) * part for a, b in pairwise(given) for part in parts), until
+    count = samples - 1
+    return *(until * (k + part) / count for k in range(count) for part in parts), until
