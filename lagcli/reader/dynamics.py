@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.problem_data import Point, Problem
 from lagcli.reader.growth import Growth, growth
+from lagcli.reader.habits import colon_advice
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.names import depends_on_time, derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
@@ -37,7 +38,7 @@ def check_masses(sections: Sections, problem: Problem, span: Span) -> None:
     given = problem.kinetic, problem.lagrangian, problem.hamiltonian
     if any(formula is not None for formula in given):
         return
-    if not problem.points:
+    if not (problem.points or "points" in sections.scope.refused):
         hint = "give T, or points with masses, or L, or H"
         sections.error("there is no kinetic energy", span, hint)
     for point in problem.points:
@@ -61,7 +62,13 @@ def declare_definitions(
 ) -> list[tuple[Scalar, DocumentNode]]:
     """Enter the definitions into the scope in the order of the file."""
     declared: list[tuple[Scalar, DocumentNode]] = []
-    for key, value in sections.entries(node, "definitions", "write d: expression"):
+    hint = "write d: expression"
+    if isinstance(node, Scalar | Sequence):
+        lines = [node] if isinstance(node, Scalar) else node.items
+        written = [each.value for each in lines if isinstance(each, Scalar)]
+        hint = colon_advice(written[0]) if written else hint
+        sections.scope.refused += [line.partition("=")[0].strip() for line in written]
+    for key, value in sections.entries(node, "definitions", hint):
         if sections.declare(key.label, "definition", key.span):
             sections.scope.definitions[key.label] = Definition(place=len(declared))
             declared.append((key, value))
@@ -91,6 +98,7 @@ def read_points(sections: Sections, node: DocumentNode) -> tuple[Point, ...]:
     """The particles."""
     points = []
     hint = "write name: {position: [x, y], mass: m}"
+    sections.scope.refused += [] if isinstance(node, Mapping) else ["points"]
     for key, value in sections.entries(node, "points", hint):
         what = f"the point '{key.label}'"
         attributes = {
@@ -99,7 +107,8 @@ def read_points(sections: Sections, node: DocumentNode) -> tuple[Point, ...]:
         }
         if "position" not in attributes:
             if isinstance(value, Mapping):
-                sections.error(f"{what} has no position", key.span)
+                sections.error(f"{what} has no position", key.span, "write position: [x, y]")
+            sections.scope.refused.append("points")
             continue
         position = _position(sections, attributes["position"], key.label)
         mass = force = None

@@ -19,6 +19,9 @@ KEYS = {
     "damping": "dissipation", "rayleigh": "dissipation",
     "name": "title", "reference": "source", "variables": "coordinates", "coords": "coordinates",
     "generalized_coordinates": "coordinates", "q": "coordinates", "dofs": "coordinates",
+    "K": "T", "KE": "T", "PE": "V", "ics": "initial", "to": "until", "weight": "mass",
+    **dict.fromkeys(("val", "default"), "value"),
+    **dict.fromkeys(("pos", "r", "at", "location", "coords"), "position"),
     "constants": "parameters", "params": "parameters", "values": "parameters",
     "initial_conditions": "initial", "initial_state": "initial", "x0": "initial",
     "force": "forces", "external_forces": "forces", "particles": "points", "masses": "points",
@@ -99,7 +102,7 @@ def is_constant(word: str, value: str) -> bool:
 
 def name_meant(name: str) -> str:
     """A valid name for one with raised or lowered digits, LaTeX or blanks; `theta_1` for θ₁."""
-    given = re.fullmatch(r"\s*(\w+)\s*=\s*(\S+)\s*", name)
+    given = re.fullmatch(r"\s*(\w+)\s*[=:]\s*(\S+)\s*", name)
     if given:
         return f"{given[1]}: {given[2]}"
     if re.fullmatch(r"[^\W\d]\w*(\s+(-\s*)?[^\W\d]\w*)+", name):

@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 _MOMENTA = "momenta stand in H: give H, or write velocities x'"
+#: Words for a value that is left open.
+_NO_VALUE = frozenset(
+    "const constant unknown free any None null none symbolic given yes true".split()
+)
 _ORDERS = ("coordinate", "velocity", "acceleration", "third derivative")
 
 
@@ -189,11 +193,11 @@ def _other_name(node: Name, scope: Scope, role: Role, what: str) -> Iterator[Dia
             yield Diagnostic("a momentum has no primes", span)
     elif not scope.refused:  # else it may be one of those that could not be declared
         yield Diagnostic(
-            f"unknown name '{name}' in {what}", span, _advice(name, scope, role, node.primes)
+            f"unknown name '{name}' in {what}", span, _advice(name, scope, role, node.primes, what)
         )
 
 
-def _advice(name: str, scope: Scope, role: Role, primes: int) -> str:
+def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     coordinates = list(scope.of_kind("coordinate"))
     if name == "dt" and coordinates:
         return f"a time derivative is a prime: d{coordinates[0]}/dt is {coordinates[0]}'"
@@ -206,12 +210,14 @@ def _advice(name: str, scope: Scope, role: Role, primes: int) -> str:
     if name.casefold() in {"inf", "infinity", "oo"}:
         return "there is no infinity"
     hint = did_you_mean(name, scope.usable(role))
-    if not hint and name in {"v", "velocity", "speed"} and role.order > 0 and coordinates:
+    if not hint and name in {"v", "velocity", "speed", "d"} and role.order > 0 and coordinates:
         return f"the velocity of {coordinates[0]} is {coordinates[0]}'"
     if not hint and primes and role.order > 0:
         return "declare it under 'coordinates'"
     if not hint and name in {"e", "E"}:
         return "the exponential function is exp(…)"
+    if not hint and what.startswith("the value of") and name in _NO_VALUE:
+        return "a parameter without a value is written without ':', or as [m, k]"
     if not hint and name in get_args(Assumption):
         return f"an assumption is written {{assume: {name}}}"
     if not hint and name in {"I", "i", "j"}:

@@ -115,7 +115,9 @@ def _read(sections: Sections, source: Source, root: DocumentNode) -> Problem | N
         span = Span(1, 1, 1, 1)
         line = root.text.source.text.lstrip().split("\n")[0] if isinstance(root, Scalar) else ""
         message = f"a problem must be a map of keys, not {kind(root)}"
-        sections.error(message, span, colon_advice(line))
+        is_text = isinstance(root, Scalar)
+        hint = colon_advice(line) if is_text else "leave out the '-' before each key"
+        sections.error(message, span, hint)
         return None
     inner = [value for _, value in root.entries]
     if len(inner) == 1 and isinstance(inner[0], Mapping) and _is_problem(inner[0]):

@@ -142,6 +142,11 @@ def _list_advice(text: str) -> str:
     if given:
         listed = ", ".join(f"{name}: {value}" for name, value in given)
         return f"write {{{listed}}}" if "," in text else f"write {listed.split(', ')[0]}"
+    if text.strip().casefold() in {"none", "null", "no"}:
+        return "leave out the key"
+    if among := re.fullmatch(r"(\D+)(\d)\s*(?:\.{2,}|…|-|to)\s*\1(\d)", text.strip()):
+        places = range(int(among[2]), int(among[3]) + 1)
+        return f"write [{', '.join(f'{among[1]}{k}' for k in places)}]"
     names = [name for name in re.findall(r"[^\W\d]\w*", text.replace("(t)", "")) if name != "and"]
     return f"write [{', '.join(names)}]" if names else "such as [x, y]"
 
@@ -150,7 +155,7 @@ def _pairs(node: DocumentNode) -> str:
     """`m: 1, k: 2` for `[m = 1, k = 2]`, `{m 1, k 2}` and a list of maps; else nothing."""
     given = []
     if isinstance(node, Mapping) and all(_is_empty(value) for _, value in node.entries):
-        given = [re.fullmatch(r"(\w+)[\s=]+([\d.]\S*)", key.label) for key, _ in node.entries]
+        given = [re.fullmatch(r"(\w+)[\s=:]+([\d.]\S*)", key.label) for key, _ in node.entries]
     elif isinstance(node, Sequence):
         source = [item.text.source.text[item.start : item.end] for item in node.items]
         given = [re.fullmatch(r"(\w+)\s*[=:]\s*(\S.*?)\s*", text) for text in source]

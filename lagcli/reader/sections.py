@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, TypeVar, get_args
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import ZERO, Equation, Expression, Name
+from lagcli.problem_data import Assumption
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import is_constant, key_advice, key_meant, same_key, unit_behind
@@ -91,7 +92,8 @@ class Sections:
         if node.broken:
             return None
         if not node.value.strip():
-            hint = "write left = right" if what.startswith("the constraint") else ""
+            is_constraint = what.startswith("the constraint")
+            hint = "write left = right" if is_constraint else "write it, or leave out its key"
             self.error(f"{what} is empty", node.span, hint)
             return None
         return node
@@ -192,7 +194,7 @@ class Sections:
     def _read(self, node: DocumentNode, what: str, read: Callable[[Excerpt], _T]) -> _T | None:
         if not isinstance(node, Scalar):
             hint = "one function for all coordinates, such as c*x'^2/2"
-            hint = hint if what == "dissipation" else _one_sum(node)
+            hint = hint if what == "dissipation" else _one_sum(node, what)
             self.error(f"{what} must be an expression, not {kind(node)}", node.span, hint)
             return None
         if self.is_full or self.scalar(node, what) is None:
@@ -229,12 +231,14 @@ class Sections:
         return True
 
 
-def _one_sum(node: DocumentNode) -> str:
+def _one_sum(node: DocumentNode, what: str) -> str:
     """`write a + b` for the list `[a, b]` and the map `{spring: a, weight: b}`."""
     terms = node.items if isinstance(node, Sequence) else []
     if isinstance(node, Mapping):
         terms = [value for _, value in node.entries]
     written = [term.value.strip() for term in terms if isinstance(term, Scalar)]
+    if what.startswith("the initial") and len(written) == 2:
+        return "write x: {}, x': {}".format(*written)
     return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""
 
 
@@ -243,6 +247,14 @@ def _as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
     written = node.text.source.text[node.start : node.end].strip()
     if isinstance(node, Scalar) and names[0] == "where" and "=" in written:
         return f"write {{where: {written}, for: x}}"
+    if isinstance(node, Scalar) and written in get_args(Assumption) and "assume" in names:
+        return f"write {{assume: {written}}}"
+    if isinstance(node, Scalar) and unit_behind(f"1 {written}") == written and "unit" in names:
+        return f"write {{unit: {written}}}"
+    if isinstance(node, Sequence) and "value" in names:
+        return "one value each; several are run by lagcli sweep --vary"
+    if isinstance(node, Scalar) and names[0] == "position" and re.fullmatch(r"\(.*\)", written):
+        return f"write {{position: [{written[1:-1]}]}}"
     fits = {"until": Scalar, "position": Sequence}.get(names[0])
     if fits and isinstance(node, fits) and written:
         return f"write {{{names[0]}: {written}}}"

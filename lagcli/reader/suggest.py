@@ -97,6 +97,8 @@ def closest(name: str, known: Iterable[str]) -> str:
     if len(name) > _LONGEST:
         return ""
     spelled = {_spelled_out(known): known for known in reversed(names) if len(known) <= _LONGEST}
+    if len(name) == 1:  # one letter is near to those that begin with it
+        spelled = {spelling: known for spelling, known in spelled.items() if spelling[0] == name}
     near = get_close_matches(name, list(spelled)[-_MOST:], n=1, cutoff=0.6)
     return spelled[near[0]] if near else ""
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from lagcli.reader.positions import Excerpt
 
+_COMMENT = "a comment begins with '#'"
 _CASES = frozenset({"if", "for", "when", "where", "else", "otherwise"})
 _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
 _END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
@@ -38,6 +39,7 @@ _INSTEAD = {
     ".": "a number needs a digit before or after its point",
     ":": "division is written with '/'",
     "&": "write one condition",
+    "±": "write the number without its error",
     "≠": "write an equation with '='",
     "≈": "write an equation with '='",
     "∞": "there is no infinity",
@@ -99,6 +101,10 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
 def _meant(rest: str, tokens: list[Token]) -> str:
     """What was meant by LaTeX, by `math.pi`, by `10%`; nothing where that is unclear."""
     before = tokens[-1].type if tokens else ""
+    if re.match(r"%\s*[A-Za-z]", rest) and before in _END_VALUE:
+        return _COMMENT
+    if by_element := re.match(r"\.([*/^'])", rest):
+        return f"write {by_element[1]}"
     if rest[0] == "%" and before == "NUMBER":
         return f"write {tokens[-1]}/100"
     unit = re.match(r"\[([^\[\]]+)\]\s*$", rest)
@@ -191,7 +197,7 @@ def _unexpected(
         if start == "equation" and inside is not None:
             return "'=' stands inside parentheses", "is a ')' missing before it?"
         alone = len(before) == 1 and previous is not None and previous.type == "NAME"
-        hint = f"leave out '{previous} ='" if alone else ""
+        hint = f"leave out '{previous} ='" if alone else "leave out '=' and what follows it"
         return "'=' stands only in constraints and equations", hint
     if token.type == "COMPARISON":
         message = f"'{token}' stands only in 'holds_while' and in the gap of a contact, and once"
@@ -200,7 +206,8 @@ def _unexpected(
         return "a comma stands only between the arguments of a function", _comma_advice(previous)
     if previous is None:
         return f"nothing stands before '{token}'", ""
-    return f"'{token}' cannot follow '{previous}'", ""
+    hint = _COMMENT if f"{previous}{token}" == "//" else ""
+    return f"'{token}' cannot follow '{previous}'", hint
 
 
 def _contact_advice(previous: Token | None, start: str) -> str:

@@ -82,11 +82,16 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         return Diagnostic("a tab cannot indent", span, "indent with spaces")
     if at_end and "node content" in said:
         return Diagnostic("the file ends inside of a list '[' or a map '{'", span)
-    if quoted := _QUOTED.fullmatch(text.source.text.split("\n")[text.position(offset)[0] - 1]):
+    line = text.source.text.split("\n")[text.position(offset)[0] - 1]
+    if quoted := _QUOTED.fullmatch(line):
         hint = f"leave out the outer quotes: {quoted[1]}: {quoted[3]}"
         return Diagnostic("this quote ends before the text does", span, hint)
     if "mapping values are not allowed" in said:
         return _second_colon(offset, text)
+    if text.source.text.startswith("?", offset):
+        return Diagnostic("'?' is not a value", span, "leave out what is not known")
+    if index := re.search(r"(\w+?)_\{(\w+)\}", line):
+        return Diagnostic("a name has no braces", span, f"write {index[1]}_{index[2]}")
     for piece, sentence, hint in _SENTENCES:
         if piece in said:
             return Diagnostic(sentence, span, hint)
