@@ -11,7 +11,7 @@ from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.integrators.dop853 import Dop853
-from lagcli.numerics.integrators.steps import Step, Tolerance
+from lagcli.numerics.integrators.steps import Step, Stretch, Tolerance
 from lagcli.numerics.integrators.tableau_853 import DENSE, ERROR_3, ERROR_5, NODES, STAGES
 from lagcli.pipeline import with_lagrangian
 from tests.oracle.reference import Reference
@@ -53,7 +53,7 @@ def test_dop853_has_order_8_and_its_dense_output_7():
         method, inside = Dop853(motion, None), []
         q = v = None
         fine = {}
-        for step in method.steps([1.0], [0.0], 2.0, tolerance):
+        for step in method.steps(Stretch([1.0], [0.0], 2.0), tolerance):
             q, v = step.q, step.v
             inside.append((step.start + 0.3 * step.h, step.inside(step.start + 0.3 * step.h)[0][0]))
         return q[0], v[0], inside, fine
@@ -125,6 +125,6 @@ def test_a_step_that_is_not_taken_leaves_nothing_in_the_scales():
     motion = motion_of("""{coordinates: [r, a], parameters: {k: 1e4, g: 9.81}, initial: {r: 1.01},
       T: (r'^2 + r^2*a'^2)/2, V: k*(r - 1)^2/2 - g*r*cos(a)}""")
     tolerance = Tolerance(1e-4, 2, 5.0, 0.5)
-    steps = list(Dop853(motion, None).steps([1.01, 0.5], [0.0, 0.0], 5.0, tolerance))
+    steps = list(Dop853(motion, None).steps(Stretch([1.01, 0.5], [0.0, 0.0], 5.0), tolerance))
     assert steps[-1].end == 5.0
     assert tolerance.peaks == pytest.approx([1.01, 0.51, 1.0, 1.6], rel=0.2)

@@ -188,7 +188,7 @@ def refusal_of(simulation: Setup, motion: Motion, outcome: Outcome, holds_until:
 def _what_grows(outcome: Outcome) -> str:
     """Rounding, or the distance of neighbouring motions until no digit is known."""
     if outcome.lost_at < outcome.controller.span:
-        return f"motions that begin a rounding apart agree in no digit at t = {outcome.lost_at:.6g}"
+        return "motions that begin a rounding apart agree in no digit later on"
     return f"rounding leaves an error of up to {max(outcome.errors):.1e}"
 
 

@@ -22,7 +22,7 @@ from lagcli.numerics.compiled.text import exact
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.run import Run
-from lagcli.numerics.integrators.steps import CannotGoOn, NotPossible, Step, Tolerance
+from lagcli.numerics.integrators.steps import CannotGoOn, NotPossible, Step, Stretch, Tolerance
 from lagcli.numerics.integrators.switching import Kinks
 
 _HIGHEST = LAST - 2
@@ -124,24 +124,18 @@ class CompiledTaylor:
 
     # -- step by step ----------------------------------------------------------------------------
 
-    def steps(
-        self,
-        q: list[Any],
-        v: list[Any],
-        until: float,
-        tolerance: Tolerance,
-        begin: float = 0.0,
-    ) -> Iterator[Step]:
-        """Accepted steps from `begin` to `until`, or to where friction sticks (`reached`).
+    def steps(self, stretch: Stretch, tolerance: Tolerance) -> Iterator[Step]:
+        """Accepted steps to the end, or to where friction sticks (`reached`).
 
         Raises
         ------
         CannotGoOn
             Where the series has no radius of convergence left.
         """
+        q, v, until, t = stretch
         state, motion = self._prepare(q, v, until, tolerance), self.machine.motion
-        ahead, both, t = self._ahead, 2 * self.n, begin
-        state[both] = begin
+        ahead, both = self._ahead, 2 * self.n
+        state[both] = t
         kinks, self.reached = Kinks(motion, tolerance), None
         if motion.kinks:
             kinks.begin(t, q, v)

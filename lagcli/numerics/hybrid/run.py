@@ -13,7 +13,14 @@ from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.modes import Mode
 from lagcli.numerics.hybrid.transitions import Transitions, Turn
 from lagcli.numerics.integrators.sight import seen_steps
-from lagcli.numerics.integrators.steps import CannotGoOn, Method, Step, Tolerance, component_scales
+from lagcli.numerics.integrators.steps import (
+    CannotGoOn,
+    Method,
+    Step,
+    Stretch,
+    Tolerance,
+    component_scales,
+)
 from lagcli.numerics.integrators.switching import displaced, lateness, later
 from lagcli.record import record, replace
 
@@ -255,22 +262,20 @@ class Run:
         """The steps of a phase; none is longer than what a bounce takes to its highest point."""
         q, v = turn.q, turn.v
         if turn.apex < min(until, begin + self.tolerance.longest):
-            for step in self._seen(method, q, v, turn.apex, begin):
+            for step in self._seen(method, Stretch(q, v, turn.apex, begin)):
                 q, v, begin = step.q, step.v, step.end
                 yield step
             if method.reached is not None:
                 return
         if begin < until:
-            yield from self._seen(method, q, v, until, begin)
+            yield from self._seen(method, Stretch(q, v, until, begin))
 
-    def _seen(
-        self, method: Method, q: Vector, v: Vector, until: float, begin: float
-    ) -> Iterator[Step]:
+    def _seen(self, method: Method, stretch: Stretch) -> Iterator[Step]:
         """Steps that pass over nothing."""
         if method.sees:
-            return method.steps(q, v, until, self.tolerance, begin)
+            return method.steps(stretch, self.tolerance)
         sight = self.phases[-1].mode.sight
-        return seen_steps(method, sight, (q, v), until, self.tolerance, begin, self._shorter)
+        return seen_steps(method, sight, stretch, self.tolerance, self._shorter)
 
     def _shorter(self) -> None:
         self.shortened += 1

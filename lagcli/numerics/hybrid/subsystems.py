@@ -21,7 +21,7 @@ from lagcli.numerics.hybrid.compiled_taylor import CompiledTaylor
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.modes import Mode
 from lagcli.numerics.hybrid.run import Phase, Run
-from lagcli.numerics.integrators.steps import CannotGoOn, NotPossible, Tolerance
+from lagcli.numerics.integrators.steps import CannotGoOn, NotPossible, Stretch, Tolerance
 from lagcli.record import record
 
 #: Steps that are looked at.
@@ -205,7 +205,7 @@ def _pays(
     trial = Tolerance(bound.value, mode.motion.n, bound.span, bound.longest)
     rates: list[list[float]] = []
     try:
-        for _ in islice(method.steps(list(state[0]), list(state[1]), until, trial), _STEPS):
+        for _ in islice(method.steps(Stretch(list(state[0]), list(state[1]), until), trial), _STEPS):
             lengths = method.lengths([part.coordinates for part in parts])
             rates.append([1 / length for length in lengths])
     except (CannotGoOn, NotPossible):

@@ -30,6 +30,8 @@ from lagcli.numerics.integrators.steps import (
     Method,
     MotionOfMode,
     Step,
+    StepSize,
+    Stretch,
     Tolerance,
 )
 from lagcli.numerics.integrators.switching import Kinks
@@ -39,10 +41,7 @@ ORDER = 8
 State = tuple[float, list[float], list[float]]
 _END = 13  # the stage at the end of the step
 _LAST = 16
-_SAFETY, _SHRINK, _GROW = 0.9, 0.2, 6.0
 _FIRST = 1e-4  # of the longest step, for the first
-#: A step may be as short as this part of the time that has passed (or of the span).
-_SHORTEST = 4e-16
 #: So many steps that cover less than this part of the span are looked at: where a pivot of the
 #: mass matrix has lost so much they are steps of its rounding.
 _CRAWLS, _NOWHERE, _SINGULAR = 128, 1e-4, 1e-8
@@ -74,30 +73,23 @@ class Dop853:
         self.generated = generated or generated_step(motion.n, motion.accelerations)
         self._step, self._dense = self.generated
 
-    def steps(
-        self,
-        q: list[float],
-        v: list[float],
-        until: float,
-        tolerance: Tolerance,
-        begin: float = 0.0,
-    ) -> Iterator[Step]:
-        """Accepted steps from `begin` to `until`, or to where friction sticks (`reached`).
+    def steps(self, stretch: Stretch, tolerance: Tolerance) -> Iterator[Step]:
+        """Accepted steps to the end, or to where friction sticks (`reached`).
 
         Raises
         ------
         CannotGoOn
             Where the step becomes shorter than rounding, with the reason.
         """
-        t, n = begin, self.n
+        q, v, until, t = stretch
+        n = self.n
         motion, kinks = self.motion, Kinks(self.motion, tolerance)
         self.reached = None
         if motion.kinks:
             kinks.begin(t, q, v)
         rate = self._rate(t, q, v)
-        h = tolerance.first_step(q, v, rate, _FIRST, until - begin)
+        size = StepSize(tolerance.first_step(stretch, rate, _FIRST), ORDER, until)
         lost = [0.0] * (2 * n)  # what rounding takes from the sums (Kahan)
-        grow = _GROW
         attempts, since, start_of_all = 0, t, (t, q, v)
         while t < until:
             attempts += 1
@@ -105,8 +97,7 @@ class Dop853:
                 if t - since < _NOWHERE * until:
                     self._look_at_pivots(start_of_all, (t, q, v))
                 since = t
-            last = t + 1.01 * h >= until
-            h = until - t if last else h
+            h, last = size.from_time(t)
             reason = ""
             try:
                 change, end, five, three, stages = self._step(t, h, q, v, rate)
@@ -124,10 +115,7 @@ class Dop853:
             self.evaluations += 12
             if not error <= 1:
                 self.rejected += 1
-                factor = _SAFETY * error ** (-1 / ORDER) if error < math.inf else 0
-                h *= max(_SHRINK, factor)
-                grow = 1.0
-                if h <= _SHORTEST * max(t, 1e-3 * until):
+                if size.is_nothing(error, t):
                     raise CannotGoOn(t, q, v, reason)
                 if error < math.inf:
                     tolerance.rejected(five)
@@ -139,8 +127,8 @@ class Dop853:
             if motion.kinks:
                 shorter = kinks.first(t, h, end_q, end_v, inside)
                 if shorter is not None:  # the step is made again, up to the kink
-                    h = shorter
-                    if kinks.stuck(t + h, until):
+                    size.h = shorter
+                    if kinks.stuck(t + shorter, until):
                         raise CannotGoOn(t, q, v, kinks.why())
                     continue
             start = t
@@ -154,9 +142,7 @@ class Dop853:
                     return
                 v = kinks.pass_through(t, q, v)
                 rate = self._rate(t, q, v)
-            factor = _SAFETY * error ** (-1 / ORDER) if error else _GROW
-            h = min(h * min(grow, max(_SHRINK, factor)), tolerance.longest)
-            grow = _GROW
+            size.grow(error, tolerance.longest)
 
     def _look_at_pivots(self, first: State, here: State) -> None:
         """End where a pivot has vanished, beside which steps are those of rounding."""

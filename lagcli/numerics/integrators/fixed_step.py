@@ -20,7 +20,7 @@ from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import told
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.dop853 import added
-from lagcli.numerics.integrators.steps import CannotGoOn, Inside, Step, Tolerance
+from lagcli.numerics.integrators.steps import CannotGoOn, Inside, Step, Stretch, Tolerance
 
 Vector = list[float]
 
@@ -73,24 +73,18 @@ class FixedStep(ABC):
             Where it is not defined.
         """
 
-    def steps(
-        self,
-        q: Vector,
-        v: Vector,
-        until: float,
-        tolerance: Tolerance,
-        begin: float = 0.0,
-    ) -> Iterator[Step]:
-        """Steps from `begin` to `until`.
+    def steps(self, stretch: Stretch, tolerance: Tolerance) -> Iterator[Step]:
+        """Steps to the end.
 
         Raises
         ------
         CannotGoOn
             Where a step is not defined.
         """
+        q, v, until, begin = stretch
         tolerance.see(q, v, [0.0] * (2 * self.n))
         if not self._pilots:
-            self._pilots.append(self._pilot(q, v, until, tolerance, begin))
+            self._pilots.append(self._pilot(stretch, tolerance))
         length, error = self._pilots[0]
         if error > 0:
             length *= min(1.0, (tolerance.value / error) ** (1 / (self.order + 1)))
@@ -114,14 +108,13 @@ class FixedStep(ABC):
             before, q, v = (q, v), end_q, end_v
             yield Step(start, end - start, end, q, v, inside, self._sloped(start, h, *before))
 
-    def _pilot(
-        self, q: Vector, v: Vector, until: float, tolerance: Tolerance, begin: float
-    ) -> tuple[float, float]:
+    def _pilot(self, stretch: Stretch, tolerance: Tolerance) -> tuple[float, float]:
         """A length, and the largest error of a step of it."""
+        q, v, until, begin = stretch
         h = min(tolerance.longest, until - begin)
         for _ in range(_HALVINGS):
             try:
-                error = self._largest(q, v, until, begin, h)
+                error = self._largest(stretch, h)
             except (ArithmeticError, ValueError):
                 error = math.inf
             if error <= _RESOLVED:
@@ -131,7 +124,8 @@ class FixedStep(ABC):
             raise CannotGoOn(begin, q, v, "it takes steps too short for one length")
         return h, error if error > _ROUNDING else 0.0
 
-    def _largest(self, q: Vector, v: Vector, until: float, begin: float, h: float) -> float:
+    def _largest(self, stretch: Stretch, h: float) -> float:
+        q, v, until, begin = stretch
         worst, n, t = 0.0, self.n, begin
         peaks = [abs(x) for x in (*q, *v)]
         while t < until:

@@ -27,16 +27,16 @@ from lagcli.numerics.integrators.steps import (
     Method,
     MotionOfMode,
     Step,
+    StepSize,
+    Stretch,
     Tolerance,
 )
 
 ORDER = 5
 _STAGES = 3
 _ESTIMATE = 4  # the power of h in the error that is estimated
-_SAFETY, _SHRINK, _GROW = 0.9, 0.2, 6.0
 _FIRST = 1e-6  # of the longest step, for the first
 _NEWTON = 1e-3  # of the tolerance
-_SHORTEST = 4e-16
 
 Vector = list[float]
 
@@ -74,30 +74,22 @@ class Radau5:
         """Of the accelerations; a Jacobian counts as one."""
         return self._stages.evaluations - self._before + self._more
 
-    def steps(
-        self,
-        q: Vector,
-        v: Vector,
-        until: float,
-        tolerance: Tolerance,
-        begin: float = 0.0,
-    ) -> Iterator[Step]:
-        """Accepted steps from `begin` to `until`.
+    def steps(self, stretch: Stretch, tolerance: Tolerance) -> Iterator[Step]:
+        """Accepted steps to the end.
 
         Raises
         ------
         CannotGoOn
             Where the step becomes shorter than rounding, with the reason.
         """
-        t, stages = begin, self._stages
+        (q, v, until, t), stages = stretch, self._stages
         allowed = max(0.1 * tolerance.value ** (2 / 3), 1e-14)
         rate = self._rate(t, q, v)
-        h = tolerance.first_step(q, v, rate, _FIRST, until - begin)
+        size = StepSize(tolerance.first_step(stretch, rate, _FIRST), _ESTIMATE, until)
         guess = [list(rate) for _ in range(_STAGES)]
-        grow, fresh = _GROW, True
+        fresh = True
         while t < until:
-            last = t + 1.01 * h >= until
-            h = until - t if last else h
+            h, last = size.from_time(t)
             reason = ""
             try:
                 if fresh:
@@ -106,7 +98,9 @@ class Radau5:
                 k = stages.solve(t, h, q, v, guess, tolerance.scales, _NEWTON * allowed)
                 by_q, by_v = stages.changes(h, v, k)
                 tolerance.see(q, v, [*by_q, *by_v])
-                error = self._error(t, h, (q, v, rate), k, tolerance, again=grow == 1.0) / allowed
+                error = (
+                    self._error(t, h, (q, v, rate), k, tolerance, again=size.is_shortened) / allowed
+                )
                 if error <= 1:
                     end_q = [x + d for x, d in zip(q, by_q, strict=True)]
                     end_v = [x + d for x, d in zip(v, by_v, strict=True)]
@@ -117,11 +111,8 @@ class Radau5:
                 error, reason = math.inf, told(failure)
             if not error <= 1:
                 tolerance.forget()
-                factor = _SAFETY * error ** (-1 / _ESTIMATE) if error < math.inf else 0
-                h *= max(_SHRINK, factor)
-                grow = 1.0
                 guess = [list(rate) for _ in range(_STAGES)]
-                if h <= _SHORTEST * max(t, 1e-3 * until):
+                if size.is_nothing(error, t):
                     raise CannotGoOn(t, q, v, reason)
                 continue
             tolerance.accepted()
@@ -130,10 +121,8 @@ class Radau5:
             t = until if last else t + h
             q, v, rate, fresh = end_q, end_v, end, True
             yield Step(start, taken, t, q, v, inside)
-            factor = _SAFETY * error ** (-1 / _ESTIMATE) if error else _GROW
-            h = min(h * min(grow, max(_SHRINK, factor)), tolerance.longest)
-            guess = self._continued(k, h / taken)
-            grow = _GROW
+            size.grow(error, tolerance.longest)
+            guess = self._continued(k, size.h / taken)
 
     def _rate(self, t: float, q: Sequence[float], v: Sequence[float]) -> tuple[float, ...]:
         self._more += 1

@@ -16,7 +16,14 @@ from lagcli.numerics.compiled.unseen import ATTEMPTS, SHORTER, is_seen
 from lagcli.numerics.equations.arithmetic import Balls
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.straight_line import straight_line
-from lagcli.numerics.integrators.steps import CannotGoOn, Method, NotPossible, Step, Tolerance
+from lagcli.numerics.integrators.steps import (
+    CannotGoOn,
+    Method,
+    NotPossible,
+    Step,
+    Stretch,
+    Tolerance,
+)
 
 #: Of the series.
 _TERMS = 8
@@ -127,10 +134,8 @@ def _size(value: Any, k: int) -> float:
 def seen_steps(
     method: Method,
     sight: Sight,
-    state: tuple[list[Any], list[Any]],
-    until: float,
+    stretch: Stretch,
     tolerance: Tolerance,
-    begin: float,
     shortened: Callable[[], None],
 ) -> Iterator[Step]:
     """The steps of a method, none of which passes over anything.
@@ -139,7 +144,7 @@ def seen_steps(
     ----------
     method, sight
         Of one motion.
-    state, until, tolerance, begin
+    stretch, tolerance
         As for the method.
     shortened
         Called where a step is made again, shorter.
@@ -151,9 +156,9 @@ def seen_steps(
     NotPossible
         Where steps of one length would have to be shorter by far.
     """
-    (q, v), t, longest = state, begin, tolerance.longest
+    (q, v, until, t), longest = stretch, tolerance.longest
     while t < until:
-        for step in method.steps(q, v, until, tolerance, t):
+        for step in method.steps(Stretch(q, v, until, t), tolerance):
             part = sight.part(step, q, v)
             if part < 1:
                 shortened()

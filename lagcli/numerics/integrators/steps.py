@@ -15,6 +15,9 @@ SMALL = 1e-9
 #: A component that is nothing but rounding beside the others is left alone.
 _NOISE = 1e-10
 _FAILURES = 20
+_SAFETY, _SHRINK, _GROW = 0.9, 0.2, 6.0
+#: A step may be as short as this part of the time that has passed (or of the span).
+_SHORTEST = 4e-16
 _LEAST_FLOOR, _ROUNDING = 1e-6, 1e-16
 
 
@@ -40,6 +43,58 @@ class Step(NamedTuple):
     v: list[Any]
     inside: Inside
     probe: Inside | None = None
+
+
+class Stretch(NamedTuple):
+    """From a state at `begin` to a time."""
+
+    q: list[Any]
+    v: list[Any]
+    until: float
+    begin: float = 0.0
+
+
+class StepSize:
+    """The length of the next step, by the error of the last in units of the tolerance.
+
+    Parameters
+    ----------
+    h
+        Of the first step.
+    power
+        Of the length, with which the error goes.
+    until
+        The end.
+
+    References
+    ----------
+    Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., section II.4.
+    """
+
+    def __init__(self, h: float, power: int, until: float) -> None:
+        self.h, self._power, self._until = h, power, until
+        self.is_shortened = False
+
+    def from_time(self, t: float) -> tuple[float, bool]:
+        """The length of a step from t, and whether it is the last."""
+        last = t + 1.01 * self.h >= self._until
+        self.h = self._until - t if last else self.h
+        return self.h, last
+
+    def is_nothing(self, error: float, t: float) -> bool:
+        """Shorten it after an error that is too large; whether nothing is left of it."""
+        self.h *= max(_SHRINK, self._factor(error))
+        self.is_shortened = True
+        return self.h <= _SHORTEST * max(t, 1e-3 * self._until)
+
+    def grow(self, error: float, longest: float) -> None:
+        """Change it after a step that was accepted."""
+        most = 1.0 if self.is_shortened else _GROW
+        self.h = min(self.h * min(most, max(_SHRINK, self._factor(error))), longest)
+        self.is_shortened = False
+
+    def _factor(self, error: float) -> float:
+        return _SAFETY * error ** (-1 / self._power) if error else _GROW
 
 
 class CannotGoOn(ArithmeticError):
@@ -127,29 +182,21 @@ class Tolerance:
             self.scales[j] = max(peaks[j], floor, 1e-3 * self.longest * peaks[n + j])
             self.scales[n + j] = max(peaks[n + j], floor, peaks[j] / self.span)
 
-    def first_step(
-        self,
-        q: Sequence[float],
-        v: Sequence[float],
-        rate: Sequence[float],
-        least: float,
-        span: float,
-    ) -> float:
+    def first_step(self, stretch: Stretch, rate: Sequence[float], least: float) -> float:
         """A step in which the state changes by a small part of itself.
 
         Parameters
         ----------
         least
             Of the longest step, this part at least.
-        span
-            And at most this long.
         """
+        q, v, until, begin = stretch
         self.see(q, v, [0.0] * (2 * self.n))
         h = self.longest
         for x, dx in (*zip(q, v, strict=True), *zip(v, rate, strict=True)):
             if dx and x:
                 h = min(h, 0.05 * abs(x / dx))
-        return min(max(h, least * self.longest), span)
+        return min(max(h, least * self.longest), until - begin)
 
     def rejected(self, errors: Sequence[float]) -> None:
         """Note which component a step failed by; one that is rounding fails again and again."""
@@ -210,12 +257,5 @@ class Method(Protocol):
     def evaluations(self) -> int:
         """Of the accelerations, so far."""
 
-    def steps(
-        self,
-        q: list[Any],
-        v: list[Any],
-        until: float,
-        tolerance: Tolerance,
-        begin: float = 0.0,
-    ) -> Iterator[Step]:
-        """Accepted steps from `begin`."""
+    def steps(self, stretch: Stretch, tolerance: Tolerance) -> Iterator[Step]:
+        """Accepted steps."""

@@ -26,7 +26,7 @@ from typing import Any
 from lagcli.graph.nodes import mask_of
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.surface import Surface
-from lagcli.numerics.integrators.steps import CannotGoOn, Step, Tolerance
+from lagcli.numerics.integrators.steps import CannotGoOn, Step, Stretch, Tolerance
 
 _LOWEST = 8
 _LOOKED_AT = 4  # coefficients, for the length of the step
@@ -63,22 +63,15 @@ class Taylor:
         #: how many coefficients one pass gives
         self._gain = 1 if mask_of(motion.equations.dynamics) & mask else 2
 
-    def steps(
-        self,
-        q: list[Any],
-        v: list[Any],
-        until: float,
-        tolerance: Tolerance,
-        begin: float = 0.0,
-    ) -> Iterator[Step]:
-        """Accepted steps from `begin` to `until`.
+    def steps(self, stretch: Stretch, tolerance: Tolerance) -> Iterator[Step]:
+        """Accepted steps to the end.
 
         Raises
         ------
         CannotGoOn
             Where the series has no radius of convergence left.
         """
-        ball = self._ball
+        (q, v, until, begin), ball = stretch, self._ball
         t, last, order = ball(begin), ball(until), order_for(tolerance.value)
         shortest = _SHORTEST * 2.0**-self._context.prec
         while t < last:
