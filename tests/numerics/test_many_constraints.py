@@ -161,3 +161,26 @@ def test_a_row_that_follows_from_others_has_no_such_answer(weights):
     ]
     mass = [[2.0, 0.5, 0.0], [0.5, 1.0, 0.0], [0.0, 0.0, 3.0]]
     assert regular_motion(mass, [1.0, 2.0, 3.0], [one, two, third], [0.0, 0.0, 0.0]) is None
+
+
+def test_three_parallel_rods_of_which_one_is_redundant_on_the_motion_only():
+    """The platform does not turn: it moves as one pendulum; its angle is nothing but rounding."""
+    platform = """
+coordinates: [x, y, th]
+T: (x'^2+y'^2)/2 + th'^2/24
+V: "9.81*y"
+constraints:
+  a: (x - cos(th)/2)^2 + (y - sin(th)/2)^2 = 1
+  b: (x + cos(th)/2 - 1)^2 + (y + sin(th)/2)^2 = 1
+  c: (x - 0.5)^2 + y^2 = 1
+initial: {x: 1.1, y: -0.8, th: 0, x': 0, y': 0, th': 0}
+"""
+    pendulum = """
+coordinates: [u]
+T: u'^2/2
+V: "-9.81*cos(u)"
+initial: {u: atan(3/4), u': 0}
+"""
+    found, plane = simulated(platform, 3, 1e-9), simulated(pendulum, 3, 1e-12)
+    assert found.certificate.reached
+    assert last(found, "x") == pytest.approx(0.5 + math.sin(last(plane, "u")), abs=2e-9)

@@ -65,6 +65,8 @@ from lagcli.numerics.compiled.unseen import bend, reach
 PART = 0.999
 #: The first steps are short because nothing is known yet.
 STARTED = 8
+#: A velocity that is this part of the largest may be rounding.
+NOISE = 1e-9
 GOLDEN = 0.6180339887498949
 
 
@@ -233,6 +235,9 @@ def probe(
     """The defect q'' - f(t, q, q') of the series at places that no coefficient knows."""
     n = counts[N]
     both = 2 * n
+    least = 0.0
+    for j in range(n, both):
+        least = max(least, NOISE * scales[j])
     for _ in range(int(counts[PROBES] * h / facts[UNTIL] + PART)):
         counts[PROBED] += 1
         place = counts[PROBED] * GOLDEN
@@ -243,7 +248,8 @@ def probe(
         found = series(other, signs, 1)
         slopes(rows, work, n, counts[ORDER], x)
         for j in range(n):
-            defect = h * abs(other[(n + j) * STRIDE + 1] - work[j]) / scales[n + j]
+            defect = h * abs(other[(n + j) * STRIDE + 1] - work[j])
+            defect = defect / max(least, scales[n + j])
             if not defect <= facts[DEFECT]:
                 facts[DEFECT] = defect
         if found == 0 or facts[DEFECT] != facts[DEFECT]:

@@ -14,6 +14,7 @@ from lagcli.numerics.hybrid.modes import Mode
 from lagcli.numerics.hybrid.transitions import Transitions, Turn
 from lagcli.numerics.integrators.sight import seen_steps
 from lagcli.numerics.integrators.steps import (
+    SMALL,
     CannotGoOn,
     Method,
     Step,
@@ -350,8 +351,9 @@ class Run:
             self.defect = float("inf")
             return
         scales = self.tolerance.scales[len(q) :]
+        least = SMALL * max(scales, default=0.0)
         for a, b, scale in zip(rate, slope, scales, strict=True):
-            self.defect = max(self.defect, step.h * abs(float(a - b)) / scale)
+            self.defect = max(self.defect, step.h * abs(float(a - b)) / max(least, scale))
 
 
 def _shifted(mode: Mode, t: float, q: Vector, v: Vector, time: float) -> tuple[Vector, Vector]:

@@ -205,7 +205,9 @@ def _pays(
     trial = Tolerance(bound.value, mode.motion.n, bound.span, bound.longest)
     rates: list[list[float]] = []
     try:
-        for _ in islice(method.steps(Stretch(list(state[0]), list(state[1]), until), trial), _STEPS):
+        for _ in islice(
+            method.steps(Stretch(list(state[0]), list(state[1]), until), trial), _STEPS
+        ):
             lengths = method.lengths([part.coordinates for part in parts])
             rates.append([1 / length for length in lengths])
     except (CannotGoOn, NotPossible):
