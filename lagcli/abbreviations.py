@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
+from lagcli.document import Equations, Paragraph, Row
 from lagcli.expression import (
     Call,
     Expression,
@@ -24,9 +25,11 @@ from lagcli.expression import (
     postorder,
     walk,
 )
+from lagcli.letters import names_in
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt, rewritten
 from lagcli.statements.answers import Answers
+from lagcli.statements.explanation import Explanation
 from lagcli.statements.registry import in_order
 
 #: Operations beyond which a formula is not written out: it would fill some thirty pages.
@@ -39,22 +42,49 @@ _OFTEN = 3
 #: Occurrences from which a sine or cosine of a difference is named.
 _CIRCULAR = 4
 _MOST_NAMES = 12
+#: The steps of an explanation up to the equations of motion.
+_DERIVATION = 3
 
 
 def abbreviated(answers: Answers, taken: Collection[str]) -> Answers:
     """The answers with names for what recurs in long formulas of motion, H and charges."""
     given = [each.name for each in in_order(answers.sections) if each.abbreviated]
-    trees = [tree for name in given for tree in _trees(answers.sections[name])]
-    if answers.where or not any(operation_count(tree) > LONG for tree in trees):
-        return answers
-    names = _Abbreviations(trees, taken)
-    if not names.where:
+    names = None if answers.where else _found([answers.sections[name] for name in given], taken)
+    if names is None:
         return answers
     sections = {
         name: rewritten(section, names) if name in given else section
         for name, section in answers.sections.items()
     }
     return replace(answers, sections=sections, where=names.where)
+
+
+def in_steps(told: Explanation, taken: Collection[str]) -> Explanation:
+    """The explanation with such names in its results, listed where the first of them occurs.
+
+    The system, L and the equations of motion are derived from each other as they are written.
+    """
+    derived = told.steps[_DERIVATION:]
+    names = _found(derived, taken)
+    if names is None:
+        return told
+    steps = [*told.steps[:_DERIVATION], *rewritten(derived, names)]
+    first = next(
+        place for place, step in enumerate(steps) if names_in(step.blocks) & names.where.keys()
+    )
+    rows = tuple(Row(Name(name), node) for name, node in names.where.items())
+    listed = (Paragraph(("With the abbreviations",)), Equations(rows))
+    steps[first] = replace(steps[first], blocks=(*listed, *steps[first].blocks))
+    return replace(told, steps=tuple(steps))
+
+
+def _found(parts: Sequence[object], taken: Collection[str]) -> _Abbreviations | None:
+    """The names for formulas of which one is long; None where nothing is worth a name."""
+    trees = [tree for part in parts for tree in _trees(part)]
+    if not any(operation_count(tree) > LONG for tree in trees):
+        return None
+    names = _Abbreviations(trees, taken)
+    return names if names.where else None
 
 
 def _trees(section: object) -> Iterator[Expression]:
@@ -76,12 +106,14 @@ class _Abbreviations:
         self._labels: dict[Expression, str] = {}  # what is named, as it stood when it was chosen
         self._chosen: dict[str, Expression] = {}
         self._trees = list(trees)
-        self._numbered: list[str] = []  # of k1, k2, …
+        self._numbered: dict[str, list[str]] = {"k": [], "Delta": []}  # k1, k2, …, Δ, Δ2, …
         while len(self._chosen) < _MOST_NAMES and (best := self._best()) is not None:
             self._take(best)
         found = dict(self._ordered())
-        counted = (name for name in found if name in self._numbered)
-        self._final = dict(zip(counted, self._numbered, strict=True))
+        self._final: dict[str, str] = {}
+        for labels in self._numbered.values():
+            counted = (name for name in found if name in labels)
+            self._final.update(zip(counted, labels, strict=True))
         self.where = {self._final.get(n, n): self._renamed(node) for n, node in found.items()}
 
     def __call__(self, node: Expression) -> Expression:
@@ -91,7 +123,7 @@ class _Abbreviations:
         return self._renamed(node)
 
     def _renamed(self, node: Expression) -> Expression:
-        """k1, k2, … in the order in which they are listed."""
+        """k1, k2, … and Δ, Δ2, … in the order in which they are listed."""
         if isinstance(node, Name):
             return Name(self._final.get(node.name, node.name), node.primes)
         return rebuilt(node, self._renamed)
@@ -113,9 +145,10 @@ class _Abbreviations:
 
     def _take(self, whole: Expression) -> None:
         below = any(whole in set(_sums_below(tree)) for tree in self._trees)
-        label = self._new(_circular_name(whole) or ("Delta" if below else "k1"))
-        if not below and not _circular_name(whole):
-            self._numbered.append(label)
+        circular, stem = _circular_name(whole), "Delta" if below else "k"
+        label = self._new(circular or (stem if below else "k1"))
+        if not circular:
+            self._numbered[stem].append(label)
         self._labels[whole] = label
         self._trees = [_with_name(tree, whole, label) for tree in self._trees]
         self._chosen = {name: _with_name(node, whole, label) for name, node in self._chosen.items()}

@@ -311,12 +311,16 @@ def _ended(work: Callable[[], Made]) -> Made:
 
 def _in_the_manner(derivation: Derivation, told: Explanation) -> Explanation:
     """The explanation with its formulas as the file writes its own, and no letter twice."""
+    from lagcli.abbreviations import in_steps
     from lagcli.letters import settled
     from lagcli.manners import Manner
     from lagcli.rewriting import rewritten
 
-    steps = rewritten(told.steps, Manner(derivation.given))
-    return replace(told, steps=settled(steps, _names_of(derivation.given)))
+    taken = _names_of(derivation.given)
+    told = replace(told, steps=rewritten(told.steps, Manner(derivation.given)))
+    if derivation.large_form is None:
+        told = in_steps(told, taken)
+    return replace(told, steps=settled(told.steps, taken))
 
 
 def _names_of(problem: Problem) -> set[str]:

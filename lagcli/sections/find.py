@@ -216,6 +216,7 @@ SECTION = Declaration(
     unasked=asked,
     told=Told(title="Questions", blocks=tell, order=10),
     content="answers",
+    abbreviated=True,
     expected=(
         Expected(
             key="find", schema=names_to(ONE_OR_MORE), read=read, compare=compare, wanted=expects

@@ -150,6 +150,7 @@ SECTION = Declaration(
     json=json,
     large=large,
     told=Told(title="Small oscillations", blocks=tell, order=30),
+    abbreviated=True,
     expected=(
         Expected(key="modes", schema=list_of(FORMULA), read=read, compare=compare, wanted=wanted),
     ),

@@ -68,7 +68,8 @@ def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
         yield Paragraph((f"Not found: {section.reason}.",))
         return
     if section.momenta:
-        yield Paragraph(("The Routhian, the Lagrangian minus the sum of p q' of these:",))
+        words = "The Routhian, the Lagrangian minus the products of these momenta and velocities:"
+        yield Paragraph((words,))
     rows = [Row(Label("R"), section.routhian)]
     if section.effective_potential is not None:
         rows.append(Row(POTENTIAL, section.effective_potential))
@@ -208,6 +209,7 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     told=Told(title="The reduction", blocks=tell, order=40),
+    abbreviated=True,
     expected=(
         Expected(
             key="reduction",
