@@ -10,6 +10,7 @@ import re
 from collections.abc import Collection, Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any, TypeVar, cast
+from unicodedata import normalize
 
 from lagcli.document import Items, Label, Paragraph
 from lagcli.expression import FUNCTIONS, Call, Expression, Name, PartialCall, Sum, walk
@@ -123,7 +124,20 @@ def _typeset(text: str) -> list[Any]:
     return found
 
 
+def bold(letter: str) -> str:
+    """A letter in mathematical bold, such as 𝐌."""
+    first = ord("𝐀") - ord("A") if letter.isupper() else ord("𝐚") - ord("a")
+    return chr(ord(letter) + first) if letter.isascii() else letter
+
+
+def in_ascii(letter: str) -> str:
+    """The letter itself; M_sys of a bold 𝐌, where the file has an M of its own."""
+    return letter if letter == (plain := normalize("NFKC", letter)) else f"{plain}_{_INDEX}"
+
+
 def _label(label: Label, taken: frozenset[str]) -> Label:
+    if label.matrix and label.letter in taken:
+        return replace(label, letter=bold(label.letter))
     spelled = "_".join((label.letter, *label.index))
     if label.matrix or label.change or label.unit or spelled not in taken:
         return label

@@ -14,6 +14,7 @@ from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import SCHEMA, Object, Value
 from lagcli.formatters.options import Options
+from lagcli.letters import in_ascii
 from lagcli.statements.explanation import Explanation
 
 
@@ -66,6 +67,6 @@ def _sentence(parts: Sequence[str | Formula]) -> str:
 
 def _formula(formula: Formula) -> str:
     if isinstance(formula, Label):
-        letter = f"Delta_{formula.letter}" if formula.change else formula.letter
+        letter = f"Delta_{formula.letter}" if formula.change else in_ascii(formula.letter)
         return "_".join((letter, *formula.index))
     return to_grammar(formula) if isinstance(formula, Expression) else str(formula)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping
+from unicodedata import normalize
 
 from lagcli.document import Label
 from lagcli.formatters.greek import BY_NAME, LATEX, latex_of_name
@@ -74,7 +75,8 @@ class LatexNames:
         width = self.width(label.letter) + 2
         if label.change:
             return rf"\Delta {self.name(label.letter)}", width + 9
-        letter = rf"\mathbf{{{label.letter}}}" if label.matrix else self.name(label.letter)
+        plain = normalize("NFKC", label.letter)  # of a 𝐌 that stands for M
+        letter = rf"\mathbf{{{plain}}}" if label.matrix else self.name(label.letter)
         if not label.index:
             return letter, width
         index = ",".join(self.subscript(each) for each in label.index)

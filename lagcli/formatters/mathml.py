@@ -25,6 +25,7 @@ from lagcli.formatters.greek import BY_NAME
 from lagcli.formatters.naming import name_parts
 from lagcli.formatters.numbers import decimal_parts, digit_groups
 from lagcli.formatters.precedence import Level, Printer
+from lagcli.letters import bold
 from lagcli.record import replace
 
 _FUNCTIONS = {
@@ -168,7 +169,7 @@ class MathmlPrinter(Printer[str]):
             return enclosed("[", inner, "]")
         if label.change:
             return f"<mrow><mi mathvariant='normal'>Δ</mi>{mathml_name(label.letter)}</mrow>"
-        letter = f"<mi>{_bold(label.letter)}</mi>" if label.matrix else mathml_name(label.letter)
+        letter = f"<mi>{bold(label.letter)}</mi>" if label.matrix else mathml_name(label.letter)
         if not label.index:
             return letter
         index = "<mo>,</mo>".join(mathml_name(name) for name in label.index)
@@ -229,12 +230,6 @@ def _subscript(part: str) -> str:
 def _signed(exponent: int) -> str:
     sign = "<mo>−</mo>" if exponent < 0 else ""
     return f"<mrow>{sign}<mn>{abs(exponent)}</mn></mrow>"
-
-
-def _bold(letter: str) -> str:
-    """A letter in mathematical bold, such as 𝐌."""
-    first = ord("𝐀") - ord("A") if letter.isupper() else ord("𝐚") - ord("a")
-    return chr(ord(letter) + first)
 
 
 def _is_function(node: Expression) -> bool:

@@ -23,6 +23,7 @@ from lagcli.formatters.layout import PRODUCT, Layout, TextPiece, joined
 from lagcli.formatters.naming import name_parts
 from lagcli.formatters.numbers import DecimalParts, decimal_parts
 from lagcli.formatters.precedence import Level
+from lagcli.letters import in_ascii
 from lagcli.record import replace
 
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
@@ -177,7 +178,7 @@ class AsciiPrinter(GrammarPrinter):
         if label.unit:
             return text(f"[{joined(self.label(replace(label, unit=False)))}]")
         names = [romanized(name) for name in label.index]
-        letter = romanized(label.letter)
+        letter = romanized(in_ascii(label.letter))
         if label.change:
             return text(f"Delta {letter}")
         if label.matrix:

@@ -17,7 +17,7 @@ from lagcli.document import (
     Paragraph,
     Row,
 )
-from lagcli.expression import ZERO, Expression, Name, Number, Power
+from lagcli.expression import ZERO, Name, Number, Power
 from lagcli.formatters.json_values import Object, fields_of, list_or_null, place
 from lagcli.letters import own
 from lagcli.problem_data import ExpectSteady
@@ -123,15 +123,14 @@ def _any_value(motion: SteadyMotion) -> list[str | Formula]:
 def _linearized(motion: SteadyMotion) -> Iterator[Block]:
     names = tuple(str(n) for n in range(1, len(motion.mass) + 1))
     turning = any(entry != ZERO for row in motion.velocity for entry in row)
-    velocities = " + C · velocities" if turning else ""
-    yield Paragraph((f"To first order, M · accelerations{velocities} + K · displacements = 0:",))
-    pairs: tuple[tuple[str, tuple[tuple[Expression, ...], ...]], ...] = (
-        ("M", motion.mass),
-        ("C", motion.velocity),
-        ("K", motion.stiffness),
-    )
-    for letter, entries in pairs if turning else (pairs[0], pairs[2]):
-        yield Matrix(Label(letter, matrix=True), entries, names, names)
+    M, C, K = (Label(letter, matrix=True) for letter in "MCK")
+    velocities = (C, " · velocities + ") if turning else ()
+    moving = (M, " · accelerations + ", *velocities)
+    yield Paragraph(("To first order, ", *moving, K, " · displacements = 0:"))
+    yield Matrix(M, motion.mass, names, names)
+    if turning:
+        yield Matrix(C, motion.velocity, names, names)
+    yield Matrix(K, motion.stiffness, names, names)
 
 
 def json(section: SteadySection) -> Object:
@@ -173,6 +172,7 @@ SECTION = Declaration(
     json=json,
     told=Told(title="Steady motions", blocks=tell, order=50),
     content="motions",
+    abbreviated=True,
     expected=(
         Expected(
             key="steady_motions",

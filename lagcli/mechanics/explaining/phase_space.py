@@ -14,6 +14,7 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Diff, Expression, Name, Negative, Product, walk
+from lagcli.letters import own
 from lagcli.mechanics.explaining.reduction import used_to_eliminate
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
@@ -68,7 +69,7 @@ def _momentum_rates(teller: Teller) -> list[Part]:
 def brackets(_: Teller, section: Section) -> Iterator[Block]:
     """{A, B} = sum of dA/dq dB/dp - dA/dp dB/dq."""
     found = cast(BracketsSection, section)
-    A, B, q, p = Name("A"), Name("B"), Name("q_j"), Name("p_j")
+    A, B, q, p = own("A"), own("B"), own("q_j"), own("p_j")
     first, second = Product((Diff(A, q), Diff(B, p))), Product((Diff(A, p), Diff(B, q)))
     yield says(
         "The Poisson bracket ", Bracket(A, B), " is the sum of ", difference(first, second),
@@ -179,7 +180,7 @@ def _by_forces_of_time(found: HamiltonJacobiSection, rate: Expression) -> Iterat
             S,
             " with respect to its coordinate, ",
         ),
-        *("and that with respect to t is ", Negative(Name("H")), ", with"),
+        *("and that with respect to t is ", Negative(own("H")), ", with"),
     )
     yield shows(H, found.hamiltonian)
     yield says(
