@@ -110,13 +110,19 @@ class Ordering:
         ranked = sorted(factors, key=lambda pair: self.rank(pair[0]))
         letters = [self._place(base) for base, _ in ranked if isinstance(base, Name)]
         first = min(letters, default=_AFTER_NUMBERS)
-        # (m1 + m2) g l, but m g (R + h)
-        leading = [
-            pair for pair in ranked if self._is_plain(pair[0]) and self._first(pair[0]) < first
-        ]
+        # (m1 + m2) g l, but m g (R + h) and m2 (J + m1 r²)
+        leading = [pair for pair in ranked if self._leads(pair[0], first)]
         yield from (pair for pair in ranked if isinstance(pair[0], Number))
         yield from leading
         yield from (p for p in ranked if p not in leading and not isinstance(p[0], Number))
+
+    def _leads(self, node: Expression, first: int) -> bool:
+        """Whether it is a sum of parameters whose terms all begin before the first letter."""
+        return (
+            isinstance(node, Sum)
+            and self._is_plain(node)
+            and all(self._first(term) < first for term in node.terms)
+        )
 
     def _is_fast(self, node: Expression) -> bool:
         """Whether it is a velocity, an acceleration, a momentum or a multiplier."""
@@ -124,16 +130,18 @@ class Ordering:
             node.primes > 0 or self._first_fast <= self._index.get(node.name, -1)
         )
 
-    def term(self, node: Expression) -> tuple[int, int, int, tuple[int, ...], Flat]:
+    def term(self, node: Expression) -> tuple[int, int, int, tuple[int, ...], bool, Flat]:
         """Accelerations, a number, falling degree in the velocities, then by coordinate.
 
         So 1 + x², and x² + R² θ² + l²: coordinates in the order of the file, parameters alone
-        at the end.
+        at the end, and before functions: M + m cos θ.
         """
         accelerations, velocities = _degrees(node)
         variables = tuple(sorted(self._variables(node))) or (len(self._index),)
         number = _is_number(node)
-        return (-accelerations, not number, -velocities, variables, _flat(self._letters(node)))
+        letters = _flat(self._letters(node))
+        later = variables == (len(self._index),) and _has_function(node)
+        return (-accelerations, not number, -velocities, variables, later, letters)
 
     def _variables(self, node: Expression) -> Iterator[int]:
         """Positions of the coordinates among the factors, of those with the most primes."""
@@ -196,6 +204,41 @@ class Ordering:
                 return (9,)  # a constant term comes last
             case _:
                 return self.factor(node)
+
+
+def positive_first(terms: Sequence[Expression]) -> list[Expression]:
+    """The terms with one that has no minus first; of a sum of letters all that follow it.
+
+    x y' − y x' + c, but m2 + m3 − m1.
+    """
+    minus = [isinstance(term, Negative) for term in terms]
+    if all(minus) or not minus[0]:
+        return [*terms]
+    begin = minus.index(False)
+    end = begin + 1
+    while all(map(_is_letter, terms)) and end < len(terms) and not minus[end]:
+        end += 1
+    return [*terms[begin:end], *terms[:begin], *terms[end:]]
+
+
+def _is_letter(node: Expression) -> bool:
+    """Whether a term is a letter, perhaps with a number before it."""
+    match node:
+        case Negative(operand=inner) | Product(factors=(Number(), inner)):
+            return _is_letter(inner)
+        case _:
+            return isinstance(node, Name)
+
+
+def _has_function(node: Expression) -> bool:
+    """Whether a function is among the factors of a term."""
+    match node:
+        case Negative(operand=inner) | Quotient(numerator=inner) | Power(base=inner):
+            return _has_function(inner)
+        case Product(factors=factors):
+            return any(map(_has_function, factors))
+        case _:
+            return isinstance(node, (Call, PartialCall)) and node.function != "sqrt"
 
 
 def _is_number(node: Expression) -> bool:

@@ -193,7 +193,8 @@ class _Splitter:
             return single
         together = self._shape([term for group in groups for term in group], whole)
         apart = sum(map(operation_count, single)) + len(single) - 1
-        if is_flat(together) and operation_count(together) <= _WORTH_A_BRACKET * apart:
+        worth = operation_count(together) <= _WORTH_A_BRACKET * apart
+        if worth and is_flat(together) and not _holds_fraction(together):
             return [together]
         return single
 
@@ -331,6 +332,18 @@ def is_flat(node: Expression) -> bool:
             return all(_no_sum_below(part) for part in parts)
         case _:
             return True
+
+
+def _holds_fraction(node: Expression) -> bool:
+    """Whether a term of a bracket is a fraction: m l² (3 θ1'²/2 + θ1' θ2')."""
+    match node:
+        case Negative(operand=inner) | Quotient(numerator=inner):
+            return _holds_fraction(inner)
+        case Product(factors=factors):
+            terms = (term for each in _sums(factors) for term in each.terms)
+            return any(isinstance(part, Quotient) for term in terms for part in walk(term))
+        case _:
+            return False
 
 
 def _no_sum_below(node: Expression) -> bool:

@@ -19,7 +19,7 @@ from lagcli.expression import (
     Sum,
     operation_count,
 )
-from lagcli.ordering import Factor, Ordering
+from lagcli.ordering import Factor, Ordering, positive_first
 
 
 class Writer:
@@ -191,11 +191,8 @@ class Writer:
         if len(parts) == 1:
             return parts[0]
         parts.sort(key=self.ordering.term)
-        if isinstance(parts[0], Negative) and self.ordering.term(parts[0])[0] == 0:
-            for position, part in enumerate(parts):
-                if not isinstance(part, Negative):
-                    parts.insert(0, parts.pop(position))
-                    break
+        if self.ordering.term(parts[0])[0] == 0:
+            parts = positive_first(parts)
         return Sum(tuple(parts))
 
     def negative(self, node: Expression) -> Expression:

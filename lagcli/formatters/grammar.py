@@ -37,6 +37,8 @@ from lagcli.formatters.numbers import DecimalParts, decimal_parts, digit_groups
 from lagcli.formatters.precedence import Level, Printer
 
 #: Columns of a bracket that is not parted.
+#: The same of a denominator: the line breaks before its slash.
+_DENOMINATOR = 66
 _SHORT = 24
 
 
@@ -111,7 +113,8 @@ class GrammarPrinter(Printer[Layout]):
     def quotient(self, node: Quotient) -> Layout:
         over = TextPiece("/", 1, rank=QUOTIENT, broken="/ ", broken_width=2)
         numerator = self.at(node.numerator, Level.PRODUCT)
-        return (*numerator, over, *self.at(node.denominator, Level.POWER))
+        below = kept_whole(self.at(node.denominator, Level.POWER), _DENOMINATOR)
+        return (*numerator, over, *below)
 
     def power(self, node: Power) -> Layout:
         base = self.at(node.base, Level.ATOM)

@@ -87,6 +87,16 @@ class Atoms:
         expression = self._expressions.get(tree)
         return expression is not None and expression.is_nonzero is True
 
+    def is_variable(self, atom: int) -> bool:
+        """Whether it is the name of a coordinate, a velocity or a momentum."""
+        tree = self.trees[atom]
+        return isinstance(tree, Name) and not self.writer.ordering.is_parameter(tree)
+
+    def is_momentum(self, atom: int) -> bool:
+        """Whether it is the name of a momentum."""
+        tree = self.trees[atom]
+        return isinstance(tree, Name) and tree.name.startswith("p_")
+
     def generator(self, number: int) -> Term:
         """A generator of the field in atoms."""
         known = self._of_generator.get(number)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from itertools import combinations
+from itertools import chain, combinations
 from math import gcd, isqrt, lcm
 from typing import TypeAlias
 
@@ -24,6 +24,7 @@ _MAX_SHORTENED = 12  # terms
 _SHORTENINGS = 20  # attempts
 _MIN_KERNEL = 5  # terms among which (a + b)*(c + d) + rest is looked for
 _MAX_KERNEL = 60
+_FORM = 1.25  # times as long a quadratic form in the momenta may be, its terms in order
 _EFFORT = 400  # splits that are tried in all; then the most promising one only
 
 
@@ -118,7 +119,22 @@ class Grouper:
             if best is None or candidate.score < best.score:
                 best = candidate
         assert best is not None
-        return best
+        form = self._by_momenta(inner, spread)
+        return best if form is None or form.cost > _FORM * best.cost else form
+
+    def _by_momenta(self, terms: Integers, spread: bool) -> PlannedSum | None:
+        """A form a p_x² + b p_x p_y + c p_y² with each of the three collected."""
+        if not self._of_forms(terms):
+            return None
+        groups: dict[Term, Integers] = {}
+        for term, value in terms.items():
+            momenta = tuple(pair for pair in term if self.atoms.is_momentum(pair[0]))
+            groups.setdefault(momenta, {})[term] = value
+        if len(groups) < 3 or () in groups:
+            return None
+        plans = [self._group(each, spread) for each in groups.values()]
+        parts = [plan for plan in plans if isinstance(plan, PlannedProduct)]
+        return total(parts) if len(parts) == len(plans) else None
 
     def _times(
         self, number: int, common: Term, inner: Integers, spread: bool
@@ -136,10 +152,11 @@ class Grouper:
             for atom, exponent in term:
                 key = (atom, exponent > 0)
                 counts[key] = counts.get(key, 0) + 1
+        whole = self._of_forms(terms)
         weighed = sorted(
             ((n - 1) * (1 + self.atoms.costs[atom]), n, -atom, atom, positive)
             for (atom, positive), n in counts.items()
-            if n > 1
+            if n > 1 and atom not in whole
         )
         weighed.reverse()
         width = 4 if len(terms) <= 6 else 3 if len(terms) <= 12 else 2 if len(terms) <= 30 else 1
@@ -161,16 +178,23 @@ class Grouper:
         self._effort -= len(halves[:width])
         return splits + [half for half in halves[:width] if half not in splits]
 
+    def _of_forms(self, terms: Integers) -> set[int]:
+        """The variables of a x² + b x y + c y², of which none is to be taken out."""
+        variables = [[p for p in term if self.atoms.is_variable(p[0])] for term in terms]
+        squares = {a for pairs in variables for a, exponent in pairs if exponent == 2}
+        linear = [[a for a, e in pairs if e == 1 and a in squares] for pairs in variables]
+        return {atom for each in linear if len(each) > 1 for atom in each}
+
     def _squares(self, terms: Integers) -> list[tuple[Integers, Integers]]:
         """Squares (u ± v)² and (u ± v ± w)², written out among the terms, apart from the rest."""
-        roots = []
+        roots: dict[bool, list[tuple[Term, int, Term]]] = {True: [], False: []}  # by their sign
         for term, value in terms.items():
-            root = isqrt(value) if value > 0 else 0
-            if root and root * root == value and all(e % 2 == 0 for _, e in term):
-                roots.append((tuple((a, e // 2) for a, e in term), root, term))
+            root = isqrt(abs(value))
+            if root * root == abs(value) and all(e % 2 == 0 for _, e in term):
+                roots[value > 0].append((tuple((a, e // 2) for a, e in term), root, term))
         found = []
         for count in (3, 2):
-            for chosen in combinations(roots, count):
+            for chosen in chain(*(combinations(each, count) for each in roots.values())):
                 square = {own: terms[own] for *_, own in chosen}
                 for (u, a, _), (v, b, _) in combinations(chosen, 2):
                     mixed = multiply(u, v)

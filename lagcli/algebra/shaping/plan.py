@@ -129,10 +129,13 @@ def product(
 def _halved(
     atoms: Atoms, coefficient: Coefficient, parts: list[tuple[int | PlannedSum, Exponent]]
 ) -> Coefficient:
-    """(a + 2*b)/2 as a/2 + b where that shows less; the sum in `parts` is replaced."""
-    below = coefficient.denominator
+    """(a + 2*b)/2 as a/2 + b where that shows less; the sum in `parts` is replaced.
+
+    Above a denominator a sum stays free of fractions: (a + 2*b)/(2*c).
+    """
+    below, over = coefficient.denominator, any(e < 0 for _, e in parts)
     for position, (part, exponent) in enumerate(parts):
-        if not isinstance(part, PlannedSum) or exponent != 1:
+        if not isinstance(part, PlannedSum) or exponent != 1 or (over and not part.fractional):
             continue
         before = sum(abs(t.coefficient) != 1 for t in part.terms)
         divided = [Fraction(t.coefficient) / below for t in part.terms]

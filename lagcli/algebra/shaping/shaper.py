@@ -34,6 +34,8 @@ _TOGETHER = 1.35
 _TOGETHER_TERMS = 8
 #: Operations that a form of a denominator without cos 2x may have more.
 _DOUBLE = 4
+#: How many times as long the velocities may be apart where a sum below cancels.
+_APART = 1.1
 _FEW = 3  # terms that are also shown without factoring: c² - v²
 
 _CIRCULAR = ("cos", "sin")
@@ -96,14 +98,26 @@ class Shaper:
             worth = shorter or candidate.cost < best.cost
             if candidate.score < best.score and worth and not self._alike(candidate, best):
                 best = candidate
-        return best
+        apart = self._by_velocities(element) if divide else ()
+        shortest = min(apart, key=lambda each: each.score, default=best)
+        return shortest if shortest.cost <= _APART * best.cost else best
 
     @staticmethod
     def _alike(candidate: PlannedProduct | PlannedSum, whole: PlannedProduct | PlannedSum) -> bool:
-        """Whether Q and R/D share a factor, and N/D is not much longer."""
+        """Whether Q and R/D share a factor, or Q and a term of R, and N/D is not much longer."""
         if not isinstance(candidate, PlannedSum) or candidate.cost * _TOGETHER < whole.cost:
             return False
-        return bool(set.intersection(*({p for p, _ in term.parts} for term in candidate.terms)))
+        shared = [{p for p, _ in term.parts} for term in candidate.terms]
+        if set.intersection(*shared):
+            return True
+        inside = [
+            {p for p, _ in term.parts}
+            for parts in shared
+            for bracket in parts
+            if isinstance(bracket, PlannedSum)
+            for term in bracket.terms
+        ]
+        return any(parts and any(parts < term for term in inside) for parts in shared)
 
     def _by_roots(self, element: Element) -> Iterator[PlannedSum]:
         """A/r_1^3 + B/r_2^3: the parts of the numerator with different roots apart.
@@ -126,6 +140,37 @@ class Shaper:
                     self.field.element(self.field.ring.build(terms), element.denominator)
                     for terms in groups.values()
                 )
+
+    def _by_velocities(self, element: Element) -> Iterator[PlannedProduct | PlannedSum]:
+        """M r'²/(r (r − 2 M)) + (r − 2 M) φ'²: the velocities apart where a sum cancels.
+
+        What all of them have in common is in each, or in front.
+        """
+        ring, field = self.field.ring, self.field
+        moving = {g for g in ring.used(element.numerator) if self._is_velocity(g)}
+        if not moving or not _sums_of(element.denominator):
+            return
+        groups: dict[Monomial, list[tuple[Monomial, int]]] = {}
+        for monomial, coefficient in ring.terms(element.numerator):
+            key = tuple(pair for pair in monomial if pair[0] in moving)
+            groups.setdefault(key, []).append((monomial, coefficient))
+        apart: dict[frozenset[tuple[str, int]], Element] = {}  # by the sums below
+        for terms in groups.values():
+            part = field.lifted(field.element(ring.build(terms), element.denominator))
+            below = _sums_of(part.denominator)
+            apart[below] = apart[below] + part if below in apart else part
+        if len(apart) < 2:
+            return
+        yield self.together(apart.values())
+        common = field.polynomial(element.numerator.term_content())
+        if common.rational() is None:
+            outside = self._factors(common.numerator)
+            inner = self.together(each / common for each in apart.values())
+            yield product(self.atoms, outside.coefficient, [*outside.parts, (inner, 1)])
+
+    def _is_velocity(self, index: int) -> bool:
+        generator = self.field.generators[index]
+        return generator.kind == "symbol" and generator.expression.name.endswith("'")
 
     def together(self, elements: Iterable[Element]) -> PlannedSum:
         """The sum of the plans of each."""
@@ -219,6 +264,10 @@ class Shaper:
             for term, value in terms.items():
                 divided[multiply(term, divisor)] = Fraction(value) / below.coefficient
             yield self.grouper.group(divided, spread=True)
+            below_each = {tuple(pair for pair in term if pair[1] < 0) for term in divided}
+            cancels = len(below_each) > 1 and element.numerator.term_content().is_constant()
+            if cancels and len(divided) <= _FEW:  # p sin θ/(m r⁴) − 2 r' θ'/r
+                yield _expanded(self.atoms, divided)
 
     # -- polynomials ----------------------------------------------------------------------
 
@@ -259,7 +308,8 @@ class Shaper:
             for part, each in plan.parts:
                 parts[part] = parts.get(part, 0) + each * int(exponent)
         factored = product(self.atoms, number, [(p, e) for p, e in parts.items() if e])
-        if 1 < len(poly) <= _FEW and not any(isinstance(p, int) for p in parts):
+        alone = abs(number) == 1 and not any(isinstance(p, int) for p in parts)
+        if 1 < len(poly) <= _FEW and alone:
             whole = _as_product(self.atoms, _expanded(self.atoms, self.atoms.terms(poly)))
             if whole.cost <= factored.cost:
                 return whole
@@ -372,6 +422,11 @@ class Shaper:
                 best, lowest = plan, score
         assert best is not None
         return best
+
+
+def _sums_of(poly: Poly) -> frozenset[tuple[str, int]]:
+    """The factors of more than one term, with their exponents."""
+    return frozenset((str(f), int(e)) for f, e in factorization(poly)[1] if len(f) > 1)
 
 
 def _expanded(atoms: Atoms, terms: Terms) -> PlannedSum:
