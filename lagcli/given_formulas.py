@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import combinations
 
-from lagcli.expression import Expression, Name, Negative, Power, Product, Quotient, walk
+from lagcli.expression import Expression, Name, Negative, Power, Product, Quotient, Sum, walk
 from lagcli.problem_data import Problem
 
 _PARTS = (
@@ -53,8 +53,9 @@ def order_of_parameters(problem: Problem) -> list[str]:
     """
     names = [parameter.name for parameter in problem.parameters]
     before: set[tuple[str, str]] = set()
-    for product in (p for node in given(problem) for p in walk(node) if isinstance(p, Product)):
-        letters = dict.fromkeys(name for name in _letters(product) if name in names)
+    products = (p for node in given(problem) for p in walk(node) if isinstance(p, Product))
+    for row in (row for product in products for row in _multiplied(product)):
+        letters = dict.fromkeys(name for name in row if name in names)
         before.update(pair for pair in combinations(letters, 2) if pair[::-1] not in before)
     ordered: dict[str, None] = {}
     begun: set[str] = set()
@@ -82,3 +83,13 @@ def _letters(node: Expression) -> Iterator[str]:
         case Product(factors=factors):
             for factor in factors:
                 yield from _letters(factor)
+
+
+def _multiplied(node: Product) -> Iterator[list[str]]:
+    """The names that it multiplies, also into the square of a sum: k, r and k, l of k (r − l)²."""
+    yield [*_letters(node)]
+    for factor in node.factors:
+        base = factor.base if isinstance(factor, Power) else None
+        for term in base.terms if isinstance(base, Sum) else ():
+            parts = (term if part is factor else part for part in node.factors)
+            yield [name for part in parts for name in _letters(part)]

@@ -24,7 +24,7 @@ from lagcli.expression import (
     operation_count,
     walk,
 )
-from lagcli.likeness import Polynomial, multiplied_out
+from lagcli.likeness import Monomial, Polynomial, inverse, joined, multiplied_out
 from lagcli.ordering import Ordering
 from lagcli.rewriting import rebuilt
 
@@ -73,6 +73,19 @@ class GivenSums:
             }
             if alike and operation_count(given) <= _LONGER * operation_count(node) + 1:
                 return ratio, given
+        return None
+
+    def multiple(self, node: Sum) -> tuple[Fraction, Monomial, Sum] | None:
+        """(c, m, S): the node is c m S with a sum S of the file and a product m of powers."""
+        found = self._found.get(_leaves(node))
+        value = multiplied_out(node) if found else None
+        for other, given in found or () if value else ():
+            assert value is not None
+            for term, number in value.items() if len(value) == len(other) else ():
+                first = next(iter(other))
+                ratio, scale = number / other[first], joined(term, inverse(first))
+                if value == {joined(t, scale): ratio * c for t, c in other.items()}:
+                    return ratio, scale, given
         return None
 
 

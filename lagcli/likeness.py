@@ -120,9 +120,7 @@ def _times(parts: Iterable[Polynomial | None]) -> Polynomial | None:
     for part in parts:
         if part is None or len(found) * len(part) > _MOST:
             return None
-        found = _collected(
-            (_joined(a, b), x * y) for a, x in found.items() for b, y in part.items()
-        )
+        found = _collected((joined(a, b), x * y) for a, x in found.items() for b, y in part.items())
     return found
 
 
@@ -133,7 +131,13 @@ def _collected(terms: Iterable[tuple[Monomial, Fraction]]) -> Polynomial:
     return {term: value for term, value in found.items() if value}
 
 
-def _joined(a: Monomial, b: Monomial) -> Monomial:
+def inverse(term: Monomial) -> Monomial:
+    """1 over a product of powers."""
+    return frozenset((letter, -exponent) for letter, exponent in term)
+
+
+def joined(a: Monomial, b: Monomial) -> Monomial:
+    """The product of two products of powers."""
     exponents = dict(a)
     for letter, exponent in b:
         exponents[letter] = exponents.get(letter, 0) + exponent

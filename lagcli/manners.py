@@ -10,11 +10,13 @@ minus goes and whether a number comes first does not change a value, and follows
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 
 from lagcli.expression import (
     ONE,
+    ZERO,
     Call,
     Expression,
     Name,
@@ -30,11 +32,13 @@ from lagcli.expression import (
 from lagcli.given_formulas import expressions, given, order_of_names
 from lagcli.given_sums import GivenSums, arranged
 from lagcli.likeness import EVEN, ODD, Key, parity, signed_key
-from lagcli.ordering import Ordering
+from lagcli.ordering import Ordering, positive_first
 from lagcli.problem_data import Problem
 from lagcli.rewriting import rebuilt
 from lagcli.signs_of_sums import sign_at_random
 
+#: Terms of a sum of products of masses that is multiplied out.
+_MULTIPLIED = 4
 _INVERSE = {"tan": "cot", "cot": "tan"}
 
 
@@ -108,8 +112,45 @@ class Manner:
 
     def _sum(self, node: Sum) -> Expression:
         """The sum, its brackets as in the denominator above: a - b (u - v), not a + b (v - u)."""
-        first, *rest = _with_versines(_ordered(node).terms)
+        first, *rest = _with_versines(self._multiplied(_ordered(node)).terms)
         return Sum((first, *map(self._as_within, rest))) if rest else first
+
+    def _multiplied(self, node: Sum) -> Sum:
+        """m1 m2 + m1 m3 + 4 m2 m3 for m1 (m2 + m3) + 4 m2 m3, of quantities of one kind."""
+        names = {part.name for part in walk(node) if isinstance(part, Name)}
+        if len({name.rstrip("0123456789_").lower() for name in names}) != 1:
+            return node
+        terms = [each for term in node.terms for each in self._distributed(term)]
+        if not len(node.terms) < len(terms) <= _MULTIPLIED:
+            return node
+        return Sum(tuple(positive_first(sorted(terms, key=self._ordering.term))))
+
+    def _distributed(self, term: Expression) -> list[Expression]:
+        """The terms of a product with one bracket; the product itself where it is none."""
+        minus, above, below = _parts(term)
+        sums = [factor for factor in above if isinstance(factor, Sum)]
+        if len(sums) != 1 or below or len(above) == 1:
+            return [term]
+        found: list[Expression] = []
+        for each in sums[0].terms:
+            other, factors, under = _parts(each)
+            if under:
+                return [term]
+            whole = self._power_product([f for f in (*above, *factors) if f is not sums[0]])
+            found.append(Negative(whole) if minus ^ other else whole)
+        return found
+
+    def _power_product(self, factors: Iterable[Expression]) -> Expression:
+        """The product of numbers and powers, each base once."""
+        number, powers = Fraction(1), dict[Expression, Fraction]()
+        for base, exponent in map(_whole_power, factors):
+            if isinstance(base, Number):
+                number *= base.value**exponent
+            else:
+                powers[base] = powers.get(base, Fraction(0)) + exponent
+        ranked = self._ordering.arranged(powers.items())
+        shown = [base if e == 1 else Power(base, Number(e)) for base, e in ranked]
+        return _quotient([Number(number), *shown] if number != 1 else shown, [])
 
     def _as_within(self, term: Expression) -> Expression:
         minus, above, below = _parts(term)
@@ -133,8 +174,12 @@ class Manner:
         given = self._signs.get(key, 0) or (self._below.get(key, 0) if below else 0)
         if given:
             return given != sign
+        if (like := self._sums.multiple(node)) is not None:  # r − rs as 1 − rs/r
+            return like[0] < 0
         if below and (found := sign_at_random(node, self._positive)):
             return found < 0
+        if below and (positive := _determinant(node)) is not None:
+            return not positive
         number = next((t for t in node.terms if _is_number(t)), None)
         if number is not None:
             return isinstance(number, Negative)
@@ -194,11 +239,32 @@ class Manner:
         whole = _quotient(above, below)
         return Negative(whole) if minus else whole
 
+    def _divided_by_letters(
+        self, above: list[Expression], below: list[Expression]
+    ) -> tuple[Fraction, list[Expression], list[Expression]]:
+        """A number, and the factors with a sum of the file for (rs − r)/r, a/b + cos θ."""
+        number = Fraction(1)
+        for place, factor in enumerate(above):
+            like = self._sums.multiple(factor) if isinstance(factor, Sum) else None
+            if like is None or not like[1]:
+                continue
+            letters = {repr(n): n for n in walk(factor) if isinstance(n, Name)}
+            left = Counter[Expression](dict(map(_whole_power, below)))
+            for letter, exponent in like[1]:
+                left[letters.get(letter, ONE)] -= exponent
+            if ONE in left or min(left.values(), default=0) < 0:
+                continue
+            number *= like[0]
+            above[place] = like[2]
+            kept = [Power(x, Number(Fraction(e))) for x, e in left.items() if e]
+            below = _parts(self._power_product(kept))[1] if kept else []
+        return number, above, below
+
     def _with_given_sums(
         self, minus: bool, above: list[Expression], below: list[Expression]
     ) -> tuple[bool, list[Expression], list[Expression]]:
         """The sign and the factors, with the sums of the file for their multiples."""
-        number = Fraction(1)
+        number, above, below = self._divided_by_letters(above, below)
         for factors, sign in (above, 1), (below, -1):
             for place, factor in enumerate(factors):
                 base, exponent = _whole_power(factor)
@@ -222,7 +288,7 @@ class Manner:
 
 def _energies(problem: Problem) -> Iterator[Sum]:
     """T - V and T + V, as sums of the terms of the file."""
-    if problem.kinetic is None or problem.potential is None:
+    if problem.kinetic is None or problem.potential in (None, ZERO):
         return
     T, V = map(_terms, (problem.kinetic, problem.potential))
     if len(T) + len(V) > 1:
@@ -262,12 +328,7 @@ def decimals_of(problem: Problem, settings: Iterable[str] = ()) -> list[Fraction
 def negative_of(node: Sum) -> Sum:
     """The sum of the terms with their signs changed, a positive one first where there is one."""
     terms = [t.operand if isinstance(t, Negative) else Negative(t) for t in node.terms]
-    if isinstance(terms[0], Negative):
-        for place, term in enumerate(terms):
-            if not isinstance(term, Negative):
-                terms.insert(0, terms.pop(place))
-                break
-    return Sum(tuple(terms))
+    return Sum(tuple(positive_first(terms)))
 
 
 def _ordered(node: Sum) -> Sum:
@@ -275,10 +336,17 @@ def _ordered(node: Sum) -> Sum:
     terms: list[Expression] = []
     for term in node.terms:
         terms.extend(term.terms if isinstance(term, Sum) else (term,))
-    if isinstance(terms[0], Negative) and not _accelerates(terms[0]):
-        place = next((k for k, t in enumerate(terms) if not isinstance(t, Negative)), 0)
-        terms.insert(0, terms.pop(place))
+    if not _accelerates(terms[0]):
+        terms = positive_first(terms)
     return node if tuple(terms) == node.terms else Sum(tuple(terms))
+
+
+def _determinant(node: Sum) -> bool | None:
+    """Whether a two-term sum is a b − c², the determinant of T; False of c² − a b."""
+    factors = [[f for f in _parts(t)[1] if not isinstance(f, Number)] for t in node.terms]
+    squares = [all(_whole_power(f)[1] % 2 == 0 for f in each) for each in factors]
+    minus = [isinstance(term, Negative) for term in node.terms]
+    return minus == squares if len(squares) == 2 and squares[0] != squares[1] else None
 
 
 def _brackets(node: Sum) -> Iterator[Sum]:

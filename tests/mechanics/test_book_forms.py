@@ -1,0 +1,102 @@
+"""Formulas of systems that are in no library, as the books print them."""
+
+from __future__ import annotations
+
+import pytest
+
+from lagcli.formatters.grammar import to_grammar
+from lagcli.pipeline import Request, derive, explain, read, state
+
+# (coordinates, parameters, physics, {path: formula}, source)
+BOOK = [
+    (
+        "[q1, q2]", "L1 L2 M C1 C2",
+        "T: L1*q1'^2/2 + L2*q2'^2/2 + M*q1'*q2'\nV: q1^2/(2*C1) + q2^2/(2*C2)",
+        {
+            "accelerations.q1": "(M*C1*q2 - L2*C2*q1)/((L1*L2 - M^2)*C1*C2)",
+            "hamiltonian": "(L2*p_q1^2 - 2*M*p_q1*p_q2 + L1*p_q2^2)/(2*(L1*L2 - M^2)) "
+            "+ q1^2/(2*C1) + q2^2/(2*C2)",
+        },
+    ),
+    (
+        "[phi1, phi2]", "m1 m2 l1 l2 g",  # Landau and Lifshitz, Mechanics, section 5, problem 1
+        "T: (m1 + m2)*l1^2*phi1'^2/2 + m2*l2^2*phi2'^2/2 + m2*l1*l2*phi1'*phi2'*cos(phi1 - phi2)",
+        {
+            "hamiltonian": "(m2*l2^2*p_phi1^2 - 2*m2*l1*l2*p_phi1*p_phi2*cos(phi1 - phi2) "
+            "+ (m1 + m2)*l1^2*p_phi2^2)/(2*m2*l1^2*l2^2*(m1 + m2*sin(phi1 - phi2)^2))",
+        },
+    ),
+    (
+        "[x, y]", "m1 m2 m3 g",  # Marion and Thornton, example 7.8
+        "T: m1*x'^2/2 + m2*(y' - x')^2/2 + m3*(x' + y')^2/2\nV: -m1*g*x + m2*g*(x - y) + m3*g*(x + y)",
+        {
+            "accelerations.x": "(m1*m2 + m1*m3 - 4*m2*m3)*g/(m1*m2 + m1*m3 + 4*m2*m3)",
+        },
+    ),
+    (
+        "{r: {assume: positive}, theta: }", "m k",
+        "T: m*(r'^2 + r^2*theta'^2)/2\nV: -k/r",
+        {"hamiltonian": "(p_r^2 + p_theta^2/r^2)/(2*m) - k/r"},  # Goldstein, section 8.1
+    ),
+    (
+        "{r: {assume: positive}, theta: }", "m p",
+        "T: m*(r'^2 + r^2*theta'^2)/2\nV: p*cos(theta)/r^2",
+        {"accelerations.theta": "p*sin(theta)/(m*r^4) - 2*r'*theta'/r"},
+    ),
+    (
+        "{r: {assume: positive}, s: }", "M",  # Misner, Thorne, Wheeler, Gravitation, section 25.3
+        "L: -(1 - 2*M/r)*s'^2/2 + r'^2/(2*(1 - 2*M/r))",
+        {
+            "accelerations.r": "M*r'^2/(r*(r - 2*M)) - M*(1 - 2*M/r)*s'^2/r^2",
+            "momenta.s": "-(1 - 2*M/r)*s'",
+        },
+    ),
+    (
+        "[y, theta]", "M m l k g",
+        "T: (M + m)*y'^2/2 + m*l^2*theta'^2/2 - m*l*y'*theta'*sin(theta)\nV: k*y^2/2 - m*g*l*cos(theta)",
+        {
+            "accelerations.y": "-(k*y - m*l*theta'^2*cos(theta) + m*g*sin(theta)^2)"
+            "/(M + m*cos(theta)^2)",
+        },
+    ),
+    (
+        "[u, v]", "J",
+        "T: J*(u'^2 + v'^2)/2\nV: 0",
+        {"energy": "J*(u'^2 + v'^2)/2"},
+    ),
+]  # fmt: skip
+
+
+def problem_of(coordinates, parameters, physics):
+    """The problem of a row, its parameters positive."""
+    positive = ", ".join(f"{name}: {{assume: positive}}" for name in parameters.split())
+    text = f"title: t\ncoordinates: {coordinates}\nparameters: {{{positive}}}\n{physics}\n"
+    return read("t.yaml", text.encode()).problem
+
+
+@pytest.mark.parametrize("row", BOOK, ids=lambda row: row[2].split("\n")[0][:40])
+def test_the_book_s_form_is_printed(row):
+    *file, wanted = row
+    sections = ("accelerations", "momenta", "energy", "hamiltonian")
+    found = state(derive(problem_of(*file)), Request(sections=sections)).sections
+    printed = {"energy": found["energy"].function, "hamiltonian": found["hamiltonian"].hamiltonian}
+    for section in ("accelerations", "momenta"):
+        rows = getattr(found[section], section)
+        printed |= {f"{section}.{name}": formula for name, formula in rows.items()}
+    assert {name: to_grammar(printed[name]) for name in wanted} == wanted
+
+
+def test_abbreviations_reach_an_explanation_and_the_reduction():
+    file = (
+        "[x, a, b]", "M m1 m2 l1 l2 g",
+        (
+            "T: M*x'^2/2 + m1*(x'^2 + 2*l1*x'*a'*cos(a) + l1^2*a'^2)/2 + m2*(x'^2 + l1^2*a'^2 "
+            "+ l2^2*b'^2 + 2*x'*(l1*a'*cos(a) + l2*b'*cos(b)) + 2*l1*l2*a'*b'*cos(a - b))/2\n"
+            "V: -(m1 + m2)*g*l1*cos(a) - m2*g*l2*cos(b)"
+        ),
+    )  # fmt: skip
+    derivation = derive(problem_of(*file))
+    answers = state(derivation, Request(sections=("reduction",), abbreviate=True))
+    assert answers.where
+    told = repr(explain(derivation, ("reduction",)).steps)
+    assert told.count("With the abbreviations") == 1
