@@ -242,6 +242,9 @@ class Judge(Charges):
         return linear.dot(state.v, self.motion.p(state)) - self.motion.L(state)
 
     def energy(self, printed, solved, names):
+        if printed is None:
+            self.say("missing", "energy", "")
+            return
         state = solved[0]
         h = self.h(state)
         self.same("energy", printed["function"], h, names, "h =")
@@ -255,6 +258,21 @@ class Judge(Charges):
         change = rate(self.h, state)
         if printed["conserved"] and not close(h + change, h):
             self.say("wrong", "energy", f"called conserved, dh/dt = {short(change)}")
+
+    def questions(self, printed):
+        """The values and the roots, where they are known by construction."""
+        for name, known in self.system.known.get("answers", {}).items():
+            given = printed[name]
+            texts = given.get("solutions", given.get("values", [given.get("value")]))
+            if texts is None or None in texts:
+                self.say("missing", "find", f"{name}: {given}")
+                continue
+            for solved in self.states:
+                names = self.names(solved)
+                values = [self.value("find", text, names) for text in texts]
+                true = [read(text)(names) for text in known]
+                if None not in values and not _same_set(values, true):
+                    self.say("wrong", "find", f"{name}: {texts}, not {known}")
 
     def _free(self, solved):
         return any(abs(v[i]) > linear.SMALL for v in solved[1] for i in range(self.motion.n))
@@ -280,6 +298,12 @@ class Judge(Charges):
             self.same("canonical_equations", printed[name]["p"], change, table, f"p_{name}' =")
 
 
+def _same_set(values, true):
+    return len(values) == len(true) and all(
+        any(close(value, each) for value in values) for each in true
+    )
+
+
 AT_EACH_STATE = (
     "lagrangian", "equations", "matrix_form", "accelerations", "multipliers", "constraint_forces",
     "momenta", "energy", "hamiltonian", "canonical_equations",
@@ -297,5 +321,6 @@ TOGETHER = {
     "steady_motions": reduced.steady_motions,
     "hamilton_jacobi": reduced.hamilton_jacobi,
     "forces": reduced.forces,
+    "find": Judge.questions,
 }
 MAY_BE_NULL = {"equilibria", "modes", "steady_motions", "hamilton_jacobi", "forces"}

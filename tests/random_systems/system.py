@@ -18,7 +18,8 @@ class System:
 
     `known` may hold `conserved` (symmetry -> bool), `constraint_kinds`, `frequencies_squared`
     (formulas, with the equilibrium `at`), `equilibria` (a list of places), `complete`,
-    `discovered` (formulas that must be among the charges), `valid` (False: to be refused).
+    `discovered` (formulas that must be among the charges), `valid` (False: to be refused),
+    `answers` (to `find`, each a list of formulas).
     """
 
     kind: str = ""
@@ -40,6 +41,7 @@ class System:
     symmetries: dict[str, dict[str, str]] = field(default_factory=dict)
     observables: dict[str, str] = field(default_factory=dict)
     canonical: dict[str, dict[str, str]] = field(default_factory=dict)
+    more: str = ""
     sections: tuple[str, ...] = MAIN
     known: dict = field(default_factory=dict)
 
@@ -66,7 +68,7 @@ class System:
         lines += _maps("symmetries", self.symmetries)
         lines += _block("observables", self.observables)
         lines += _maps("canonical_transformations", self.canonical)
-        return "\n".join(lines) + "\n"
+        return "\n".join(lines) + "\n" + self.more
 
 
 def _block(key, entries):

@@ -83,7 +83,9 @@ class Meaning:
             n in b and self.values.parallel([a[n], "0"], [b[n], "0"]) for n in a
         ):
             return
-        if "charge" in a and a.get("conserved") and b.get("conserved") and self._same_charge(a, b):
+        if "charge" in a and a.get("conserved") and b.get("conserved") and (
+            self._same_charge(a, b, scaled=path.startswith("discovered"))
+        ):  # fmt: skip
             skipped |= {"charge", "gauge", "transformation", "name"}
         for key in sorted((a.keys() | b.keys()) - skipped):
             if key == "shape" and self._parallel(a[key], b.get(key)):
@@ -163,9 +165,10 @@ class Meaning:
             for W in forms
         )
 
-    def _same_charge(self, a: Any, b: Any) -> bool:
-        """Whether two conserved charges differ by what is constant."""
-        return bool(a["charge"] and b["charge"]) and self.values.same_rate(a["charge"], b["charge"])
+    def _same_charge(self, a: Any, b: Any, *, scaled: bool) -> bool:
+        """Whether two conserved charges differ by what is constant; or are multiples besides."""
+        same = self.values.proportional if scaled else self.values.same_rate
+        return bool(a["charge"] and b["charge"]) and same(a["charge"], b["charge"])
 
     def _parallel(self, a: Any, b: Any) -> bool:
         if not a or not b:
@@ -256,6 +259,16 @@ class _Values:
         one, other = self._of(a, 0, moving=True), self._of(b, 1, moving=True)
         gaps = [x - y for x, y in zip(one, other, strict=True) if x is not None and y is not None]
         return bool(gaps) and all(agree(gap, gaps[0]) for gap in gaps)
+
+    def proportional(self, a: str, b: str) -> bool:
+        """Whether a formula is another one times and plus what depends on parameters alone."""
+        from tests.oracle.examine import agree
+
+        pairs = zip(self._of(a, 0, moving=True), self._of(b, 1, moving=True), strict=True)
+        known = [(x, y) for x, y in pairs if x is not None and y is not None]
+        gaps = [(x - known[0][0], y - known[0][1]) for x, y in known[1:]]
+        moves = bool(gaps) and any(x for x, _ in gaps) and any(y for _, y in gaps)
+        return moves and all(agree(p * v, u * q) for p, q in gaps for u, v in gaps)
 
     def parallel(self, a: Sequence[str], b: Sequence[str]) -> bool:
         """Whether two vectors are multiples of each other."""

@@ -259,7 +259,7 @@ def _reasons(part: Any) -> Iterator[str]:
 
 #: A null here is the word "undecided", or claims nothing.
 UNDECIDED = (
-    "/stable", "/name", "/named", "/integrable", "/in_involution", "/separable", "/turning_points",
+    "/stable", "/minimum", "/hurwitz", "/spectrum", "/unstable", "/name", "/named", "/integrable", "/in_involution", "/separable", "/turning_points",
     "/generator",
 )  # fmt: skip
 

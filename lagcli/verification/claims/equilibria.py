@@ -13,6 +13,7 @@ from lagcli.statements.answers import EquilibriaSection, Equilibrium
 from lagcli.statements.motions import SteadyMotion, SteadySection, Verdict
 from lagcli.verification.claims.eliminated import reduced_momenta
 from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues, occur
+from lagcli.verification.claims.poles import refuted_at_a_pole
 from lagcli.verification.claims.rest import (
     BITS,
     RestPlace,
@@ -90,6 +91,9 @@ def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
         for each in section.motions:
             what = f"the steady motion {named(each.at, each.on)}"
             if each.rates is None:
+                if why := refuted_at_a_pole(x, what, each):
+                    x.refute(what, why)
+                    return replace(section, motions=None, reason=not_confirmed("a steady motion"))
                 found.append(each)
                 continue
             place = RestPlace(x, what, each.at, each.rates, each.on, each.where, section.eliminated)

@@ -12,7 +12,7 @@ from flint import arb
 from lagcli.expression import ZERO, Expression, Product
 from lagcli.record import replace
 from lagcli.statements.answers import ConstraintForcesSection
-from lagcli.statements.forces import ForcesSection, FrictionNeeded
+from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot
 from lagcli.verification.states import State
@@ -65,7 +65,8 @@ def forces(x: Examination, section: ForcesSection) -> ForcesSection:
         return section
     wrong = {name for name in {f.constraint for f in section.forces} if not _hold(x, name, section)}
     found = tuple(
-        replace(each, force=None) if each.constraint in wrong else each for each in section.forces
+        replace(each, force=None) if each.constraint in wrong else _as_it_acts(x, each)
+        for each in section.forces
     )
     friction = tuple(_needed(x, each, section, wrong) for each in section.friction_needed)
     torques = {n: by for n, by in section.torques.items() if _turn(x, n, by)}
@@ -90,6 +91,37 @@ def _hold(x: Examination, name: str, section: ForcesSection) -> bool:
         and _do_the_work(x, what, name, vectors)
         and x.decide(what, lambda s: _unit(s, lengths, widths))
     )
+
+
+def _as_it_acts(x: Examination, each: PointForce) -> PointForce:
+    """Without the sign that is allowed, or the point on its line, where that is not so."""
+    what = f"how '{each.constraint}' acts on '{each.point}'"
+    condition = next(c.holds_while for c in x.problem.constraints if c.name == each.constraint)
+    places = x.places(what, [each.force or ZERO, *each.direction])
+    if places is None:
+        return replace(each, allowed=None, towards=None, away_from=None)
+    if each.allowed is not None and each.force is not None and condition is not None:
+        larger, smaller = map(x.reference.place, condition.larger_first)
+
+        def signs(s: State) -> tuple[list[arb], list[arb]]:
+            margin, force = s.at(larger) - s.at(smaller), s.at(places[0])
+            return [margin.sgn()], [each.allowed * force.sgn()]
+
+        if not x.decide(what, signs):
+            each = replace(each, allowed=None)
+    end = each.towards if each.away_from is None else each.away_from
+    if end is None or each.fixed:
+        return each
+    side, position = 1 if each.away_from is None else -1, _positions(x)
+
+    def along(s: State) -> tuple[list[arb], list[arb]]:
+        """The direction, and the unit vector to the point (or the origin) or from it."""
+        far = [s.at(place) for place in position[end]] if end else [arb(0)] * len(places)
+        gap = [side * (b - s.at(a)) for a, b in zip(position[each.point], far, strict=False)]
+        length = dot(gap, gap).sqrt()
+        return [s.at(place) * length for place in places[1:]], gap
+
+    return each if x.decide(what, along) else replace(each, towards=None, away_from=None)
 
 
 def _unit(s: State, places: Sequence[int], widths: Sequence[int]) -> tuple[list[arb], list[arb]]:

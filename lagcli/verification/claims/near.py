@@ -30,11 +30,12 @@ class LinearMotion:
     def __init__(self, x: Examination, environment: Environment) -> None:
         self.x = x
         self.environment = environment
-        self.laws = self._laws(environment)
+        self.laws = self.laws_at(environment)
         self.at = self.laws.at
         self.size = len(x.reference.names)
 
-    def _laws(self, environment: Environment) -> DynamicsAtState:
+    def laws_at(self, environment: Environment) -> DynamicsAtState:
+        """The laws at another state."""
         reference = self.x.reference
         return DynamicsAtState(reference, reference.values(environment))
 
@@ -87,7 +88,7 @@ class LinearMotion:
             for name in self.x.reference.names:
                 moved = {**self.environment}
                 moved[name, primes] = moved[name, primes] + _STEP
-                there = self._laws(moved).accelerations
+                there = self.laws_at(moved).accelerations
                 gaps = [(b - a) / _STEP for a, b in zip(here, there, strict=True)]
                 columns[primes].append(gaps)
         by_q, by_v = ([list(r) for r in zip(*c, strict=True)] for c in columns)
@@ -151,7 +152,7 @@ class LinearMotion:
         here, columns = self.laws.drift, []
         for name in self.x.reference.names:
             moved = {**self.environment, (name, 0): self.environment[name, 0] + _STEP}
-            pairs = zip(here, self._laws(moved).drift, strict=True)
+            pairs = zip(here, self.laws_at(moved).drift, strict=True)
             columns.append([(b - a) / _STEP for a, b in pairs])
         return [z.real for z in eigenvalues(list(zip(*columns, strict=True)))]
 
@@ -161,7 +162,7 @@ class LinearMotion:
 
     def _static(self, environment: Environment) -> list[arb]:
         """d(V - T_0)/dq - Q - sum lambda a with the multipliers of the state of rest."""
-        laws = self._laws(environment)
+        laws = self.laws_at(environment)
         found = [e - f for e, f in zip(laws.drift, laws.applied, strict=True)]
         for m, row in zip(self.laws.multipliers, laws.jacobian, strict=True):
             found = [r - m * a for r, a in zip(found, row, strict=True)]
