@@ -7,11 +7,14 @@ back, the formatters print them.  So neither reading nor printing imports SymPy.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
+from typing import TypeVar
 
 from lagcli.diagnostics import NOWHERE, Span
 from lagcli.record import field, record
+
+Value = TypeVar("Value")
 
 #: Functions of the grammar with a fixed meaning, and their number of arguments.
 FUNCTIONS: dict[str, int] = {
@@ -187,6 +190,17 @@ def postorder(node: Expression) -> list[Expression]:
         stack.extend(children(top))
     order.reverse()
     return order
+
+
+def folded(root: Expression, combine: Callable[[Expression, list[Value]], Value]) -> Value:
+    """The value of a tree, that of each node from the values of its parts."""
+    values: list[Value] = []
+    for node in postorder(root):
+        first = len(values) - len(children(node))
+        parts = values[first:]
+        del values[first:]
+        values.append(combine(node, parts))
+    return values[0]
 
 
 def operation_count(node: Expression) -> int:

@@ -21,7 +21,7 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
-    children,
+    folded,
     postorder,
 )
 from lagcli.reader.builder import mistake
@@ -84,20 +84,17 @@ def _follow(
     expression: Expression, known: Mapping[str, Fraction], wrong: list[Diagnostic]
 ) -> _Constant:
     """What is known of the whole, and in `wrong` the parts that have no value."""
-    values: list[_Constant] = []
-    for node in postorder(expression):
-        count = len(children(node))
-        parts = values[len(values) - count :]
-        del values[len(values) - count :]
+
+    def value(node: Expression, parts: list[_Constant]) -> _Constant:
         if isinstance(node, Name) and node.primes == 0 and node.name in known:
-            values.append(_Constant.of(known[node.name]))
-            continue
+            return _Constant.of(known[node.name])
         try:
-            values.append(_evaluated(node, parts))
+            return _evaluated(node, parts)
         except Mistake as error:
-            wrong += error.diagnostics
-            values.append(_NOTHING)
-    return values[0]
+            wrong.extend(error.diagnostics)
+            return _NOTHING
+
+    return folded(expression, value)
 
 
 def _evaluated(node: Expression, parts: list[_Constant]) -> _Constant:

@@ -122,13 +122,17 @@ def read_points(sections: Sections, node: DocumentNode) -> tuple[Point, ...]:
     return tuple(points)
 
 
-def _position(sections: Sections, node: DocumentNode, name: str) -> tuple[Expression, ...]:
-    what = f"the position of '{name}'"
+def _components(sections: Sections, node: DocumentNode, what: str, hint: str) -> list[DocumentNode]:
     if isinstance(node, Scalar) and not node.is_empty:
         sections.error(f"{what} must be a list of components", node.span,
                        f"write [{_shown(node.value)}]")  # fmt: skip
-        return ()
-    items = sections.items(node, what, "write [x, y]")
+        return []
+    return sections.items(node, what, hint)
+
+
+def _position(sections: Sections, node: DocumentNode, name: str) -> tuple[Expression, ...]:
+    what = f"the position of '{name}'"
+    items = _components(sections, node, what, "write [x, y]")
     if isinstance(node, Sequence) and not 1 <= len(items) <= 3:
         sections.error(f"{what} has {len(items)} components, it may have 1 to 3", node.span)
     return tuple(sections.expression(item, what, POSITION) for item in items)
@@ -138,11 +142,7 @@ def _force(
     sections: Sections, node: DocumentNode, name: str, length: int
 ) -> tuple[Expression, ...]:
     what = f"the force on '{name}'"
-    if isinstance(node, Scalar) and not node.is_empty:
-        sections.error(f"{what} must be a list of components", node.span,
-                       f"write [{_shown(node.value)}]")  # fmt: skip
-        return ()
-    items = sections.items(node, what, "one component for each of the position's")
+    items = _components(sections, node, what, "one component for each of the position's")
     if isinstance(node, Sequence) and length and len(items) != length:
         message = f"{what} has {len(items)} components, its position has {length}"
         sections.error(message, node.span)

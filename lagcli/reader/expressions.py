@@ -6,7 +6,7 @@ The text is read once.  Names are not looked up here: see `lagcli.reader.scope`.
 from __future__ import annotations
 
 from contextlib import suppress
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, TypeVar, cast
 
 from lagcli.diagnostics import ProblemError, Source
 from lagcli.reader.automaton import GaveUp
@@ -18,10 +18,15 @@ from lagcli.reader.positions import Excerpt
 from lagcli.reader.text import Mistake
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from lark.lexer import Token
 
     from lagcli.expression import Equation, Expression
     from lagcli.problem_data import Inequality
+
+
+Tree = TypeVar("Tree")
 
 
 def read_expression(excerpt: Excerpt) -> Expression:
@@ -53,11 +58,7 @@ def parse_text(text: str, source_name: str = "<expression>") -> Expression:
     ProblemError
         If the text is no expression.
     """
-    source = Source(source_name, text)
-    try:
-        return read_expression(Excerpt.whole(source))
-    except Mistake as error:
-        raise ProblemError(source, error.diagnostics) from None
+    return _read_back(text, source_name, read_expression)
 
 
 def parse_equation_text(text: str, source_name: str = "<equation>") -> Equation:
@@ -68,9 +69,13 @@ def parse_equation_text(text: str, source_name: str = "<equation>") -> Equation:
     ProblemError
         If the text is no equation.
     """
+    return _read_back(text, source_name, read_equation)
+
+
+def _read_back(text: str, source_name: str, read: Callable[[Excerpt], Tree]) -> Tree:
     source = Source(source_name, text)
     try:
-        return read_equation(Excerpt.whole(source))
+        return read(Excerpt.whole(source))
     except Mistake as error:
         raise ProblemError(source, error.diagnostics) from None
 

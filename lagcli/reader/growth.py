@@ -19,14 +19,14 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
-    children,
+    folded,
     postorder,
 )
 from lagcli.reader.constants import magnitude
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS, thousands
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from lagcli.reader.scope import Scope
 
@@ -45,31 +45,28 @@ SMALL = Growth()
 
 def growth(expression: Expression, scope: Scope) -> tuple[Growth, Diagnostic | None]:
     """The growth of an expression with its definitions, and what is too much."""
-    values: list[Growth] = []
-    wrong = None
-    for node in postorder(expression):
-        count = len(children(node))
-        parts = values[len(values) - count :]
-        del values[len(values) - count :]
+    wrong: list[Diagnostic] = []
+
+    def grown(node: Expression, parts: list[Growth]) -> Growth:
         found = Growth(_levels(node, parts, scope), _degree(node, parts, scope))
-        wrong = wrong or _excess(node, found)
-        values.append(found)
-    return values[0], wrong
+        wrong.extend(_excess(node, found))
+        return found
+
+    return folded(expression, grown), next(iter(wrong), None)
 
 
-def _excess(node: Expression, found: Growth) -> Diagnostic | None:
+def _excess(node: Expression, found: Growth) -> Iterator[Diagnostic]:
     if found.exponentials > EXPONENTIAL_LEVELS:
-        return Diagnostic(
+        yield Diagnostic(
             f"more than {EXPONENTIAL_LEVELS} exponentials inside each other",
             node.span,
             f"the limit is {EXPONENTIAL_LEVELS} levels",
         )
     if found.degree > DEGREE:
         bound = thousands(DEGREE)
-        return Diagnostic(
+        yield Diagnostic(
             f"an expression of a degree beyond {bound}", node.span, f"the limit is {bound}"
         )
-    return None
 
 
 def _levels(node: Expression, parts: Sequence[Growth], scope: Scope) -> int:

@@ -102,6 +102,19 @@ def _order(node: Expression, scope: Scope) -> int:
     return CONSTANT
 
 
+#: Kind -> the role's permission, what it is called, and a hint where it is not allowed.
+_WITHOUT_PRIMES = {
+    "multiplier": ("multipliers", "a multiplier", ""),
+    "contact force": (
+        "contact_forces", "a multiplier",
+        "the forces of contacts are known along a numerical run only",
+    ),
+    "observable": (
+        "observables", "an observable", "an observable stands in other observables and in brackets"
+    ),
+}  # fmt: skip
+
+
 def _name(
     node: Name, scope: Scope, role: Role, what: str, before: int | None
 ) -> Iterator[Diagnostic]:
@@ -127,23 +140,13 @@ def _name(
                 yield Diagnostic(f"'{name}' cannot stand in {what}", node.span, role.why)
             elif node.primes:
                 yield Diagnostic(f"{node} is 0: a parameter is constant", node.span)
-        case "multiplier":
-            if not role.multipliers:
-                yield Diagnostic(f"the multiplier '{name}' cannot stand in {what}", node.span)
+        case "multiplier" | "contact force" | "observable" as kind:
+            allowed, thing, hint = _WITHOUT_PRIMES[kind]
+            if not getattr(role, allowed):
+                article = "the multiplier " if kind == "multiplier" else ""
+                yield Diagnostic(f"{article}'{name}' cannot stand in {what}", node.span, hint)
             elif node.primes:
-                yield Diagnostic("a multiplier has no primes", node.span)
-        case "contact force":
-            if not role.contact_forces:
-                hint = "the forces of contacts are known along a numerical run only"
-                yield Diagnostic(f"'{name}' cannot stand in {what}", node.span, hint)
-            elif node.primes:
-                yield Diagnostic("a multiplier has no primes", node.span)
-        case "observable":
-            if not role.observables:
-                hint = "an observable stands in other observables and in brackets"
-                yield Diagnostic(f"'{name}' cannot stand in {what}", node.span, hint)
-            elif node.primes:
-                yield Diagnostic("an observable has no primes", node.span)
+                yield Diagnostic(f"{thing} has no primes", node.span)
         case "function":
             hint = f"write {node}(…)"
             yield Diagnostic(f"'{name}' is a function and needs arguments", node.span, hint)

@@ -82,6 +82,22 @@ class Reference:
             return self.program.of(self.problem.lagrangian)
         return self.program.sum(self.kinetic, self.program.negative(self.potential))
 
+    @cached_property
+    def momenta(self) -> list[int]:
+        """dL/dq_j'."""
+        return [self.by(self.lagrangian, v) for v in self.v]
+
+    @cached_property
+    def energy(self) -> int:
+        """h = sum q' p - L."""
+        program = self.program
+        products = map(program.product, self.v, self.momenta)
+        return program.sum(*products, program.negative(self.lagrangian))
+
+    def by(self, place: int, symbol: int) -> int:
+        """The partial derivative of a formula."""
+        return self.program.derivative(place, {symbol: self.program.one})
+
     # -- forces -----------------------------------------------------------------------------
 
     @cached_property
@@ -93,12 +109,9 @@ class Reference:
             for component, x in zip(point.force or (), point.position, strict=False):
                 force, place = program.of(component), program.of(x)
                 for j, q in enumerate(self.q):
-                    arm = program.derivative(place, self._only(q))
+                    arm = self.by(place, q)
                     total[j] = program.sum(total[j], program.product(force, arm))
         return total
-
-    def _only(self, symbol: int) -> dict[int, int]:
-        return {symbol: self.program.one}
 
     @cached_property
     def dissipation(self) -> int | None:

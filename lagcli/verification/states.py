@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import cached_property
+from math import inf
 from random import Random
 
 from flint import arb, ctx
@@ -17,10 +18,11 @@ from flint import arb, ctx
 from lagcli.expression import Expression
 from lagcli.problem_data import Coordinate, Parameter, Problem
 from lagcli.verification.functions import ball
-from lagcli.verification.linear import Unclear, least_step, size
+from lagcli.verification.linear import Unclear
+from lagcli.verification.newton import settled
 from lagcli.verification.phase_points import PhasePoint, PhaseState, with_momenta
 from lagcli.verification.reference import DynamicsAtState, Reference
-from lagcli.verification.sweeps import Unknown, column
+from lagcli.verification.sweeps import Unknown
 
 _NEWTON_STEPS = 40
 #: Attempts for each state: a linkage closes for some one in five of random lengths.
@@ -224,41 +226,14 @@ def _onto_constraints(reference: Reference, environment: Environment) -> bool:
     """Move q and q' onto the constraints; whether that worked."""
     positions = [row.value for row in reference.rows if row.holonomic]
     velocities = [row.velocity for row in reference.rows]
-    for places, symbols, primes in (
-        (positions, reference.q, 0),
-        (velocities, reference.v, 1),
-    ):
-        if places and not _settled(reference, environment, places, symbols, primes):
+    near = 2.0 ** (24 - ctx.prec)
+    for primes, places, far in ((0, positions, 1e9), (1, velocities, inf)):
+        keys = [(name, primes) for name in reference.names]
+        if not settled(
+            reference, environment, places, keys, steps=_NEWTON_STEPS, near=near, far=far
+        ):
             return False
     return all(_allowed(c, environment[c.name, 0]) for c in reference.problem.coordinates)
-
-
-def _settled(
-    reference: Reference,
-    environment: Environment,
-    places: list[int],
-    symbols: list[int],
-    primes: int,
-) -> bool:
-    near = 2.0 ** (24 - ctx.prec)
-    for _ in range(_NEWTON_STEPS):
-        at = reference.values(environment)
-        residual = [at(place) for place in places]
-        largest = max(map(size, residual))
-        if largest < near:
-            return True
-        rows = [column(at.gradient(place), symbols) for place in places]
-        try:
-            step = least_step(rows, residual)
-        except Unclear:
-            return False
-        longest = max(map(size, step))
-        if not longest < 1e9:
-            return False
-        shorter = arb(1 / longest) if longest > 1 and not primes else arb(1)
-        for name, d in zip(reference.names, step, strict=True):
-            environment[name, primes] = (environment[name, primes] + d * shorter).mid()
-    return False
 
 
 def _allowed(coordinate: Coordinate, x: arb) -> bool:

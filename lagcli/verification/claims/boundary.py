@@ -61,14 +61,11 @@ def change_of_action(x: Examination, changes: Sequence[int], time: int) -> int:
     program, reference = x.reference.program, x.reference
     L = reference.lagrangian
     stretch = program.rate(time)
-
-    def slope(symbol: int) -> int:
-        return program.derivative(L, {symbol: program.one})
-
-    terms = [program.product(slope(reference.time), time), program.product(L, stretch)]
-    for q, v, change in zip(reference.q, reference.v, changes, strict=True):
+    drift = reference.by(L, reference.time)
+    terms = [program.product(drift, time), program.product(L, stretch)]
+    for q, v, p, change in zip(reference.q, reference.v, reference.momenta, changes, strict=True):
         growth = program.sum(program.rate(change), program.negative(program.product(v, stretch)))
-        terms += [program.product(slope(q), change), program.product(slope(v), growth)]
+        terms += [program.product(reference.by(L, q), change), program.product(p, growth)]
     return program.sum(*terms)
 
 
@@ -77,7 +74,7 @@ def euler_operator(x: Examination, change: int) -> list[int]:
     program, reference = x.reference.program, x.reference
     residuals = []
     for q, v, a in zip(reference.q, reference.v, reference.a, strict=True):
-        parts = [program.derivative(change, {each: program.one}) for each in (q, v, a)]
+        parts = [reference.by(change, each) for each in (q, v, a)]
         rates = program.rate(parts[1]), program.rate(program.rate(parts[2]))
         residuals.append(program.sum(parts[0], program.negative(rates[0]), rates[1]))
     return residuals

@@ -60,14 +60,14 @@ def _is_independent(x: Examination, place: int, known: Sequence[int]) -> bool:
 
 def evident(x: Examination) -> Iterator[tuple[str, int, Callable[[Sequence[State]], bool]]]:
     """p_j where L does not contain q_j, and the energy function where it does not contain t."""
-    program, reference = x.reference.program, x.reference
-    L, momenta = reference.lagrangian, _momenta(x)
-    h = program.sum(*map(program.product, reference.v, momenta), program.negative(L))
-    named = [
-        (f"p_{n}", q, p) for n, q, p in zip(reference.names, reference.q, momenta, strict=True)
-    ]
-    for what, symbol, place in (*named, ("the energy function", reference.time, h)):
-        slope = program.derivative(L, {symbol: program.one})
+    reference = x.reference
+    named = zip(reference.names, reference.q, reference.momenta, strict=True)
+    moving = [(f"p_{n}", q, p) for n, q, p in named]
+    for what, symbol, place in (
+        *moving,
+        ("the energy function", reference.time, reference.energy),
+    ):
+        slope = reference.by(reference.lagrangian, symbol)
 
         def conserved(states: Sequence[State], place: int = place, slope: int = slope) -> bool:
             """Whether the slope and the rate are 0."""
@@ -78,11 +78,6 @@ def evident(x: Examination) -> Iterator[tuple[str, int, Callable[[Sequence[State
             )
 
         yield what, place, conserved
-
-
-def _momenta(x: Examination) -> list[int]:
-    program, reference = x.reference.program, x.reference
-    return [program.derivative(reference.lagrangian, {v: program.one}) for v in reference.v]
 
 
 def _charge(x: Examination, charge: Charge) -> Charge:
@@ -121,7 +116,7 @@ def _is_trivial(x: Examination, charge: Charge) -> bool:
         program.sum(change, program.negative(program.product(v, time)))
         for change, v in zip(changes, x.reference.v, strict=True)
     ]
-    work = map(program.product, _momenta(x), moved)
+    work = map(program.product, x.reference.momenta, moved)
     stretch = program.product(x.reference.lagrangian, time)
     Q = program.sum(*work, stretch, program.negative(gauge))
     if _is_independent(x, Q, []):

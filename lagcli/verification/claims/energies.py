@@ -40,10 +40,10 @@ def momenta(x: Examination, section: MomentaSection) -> MomentaSection:
 
 def _all_cyclic(x: Examination, listed: Sequence[str]) -> None:
     """Note a coordinate that L does not contain and that is not called cyclic."""
-    program, reference = x.reference.program, x.reference
+    reference = x.reference
     for name, q in zip(reference.names, reference.q, strict=True):
         if name not in listed and x.states():
-            slope = program.derivative(reference.lagrangian, {q: program.one})
+            slope = reference.by(reference.lagrangian, q)
             values = [s.loose.at(slope) for s in x.states()]
             if all(value == 0 for value in values):
                 x.refute("which coordinates are cyclic", f"L does not depend on {name}")

@@ -64,9 +64,8 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
 
 def _cyclic(x: Examination) -> int:
     """How many coordinates do not occur in L."""
-    program, L = x.reference.program, x.reference.lagrangian
-    slopes = (program.derivative(L, {q: program.one}) for q in x.reference.q)
-    return sum(slope == program.zero for slope in slopes)
+    slopes = (x.reference.by(x.reference.lagrangian, q) for q in x.reference.q)
+    return sum(slope == x.reference.program.zero for slope in slopes)
 
 
 def _another(x: Examination, found: list[Equilibrium]) -> str:

@@ -18,7 +18,9 @@ from lagcli.statements.answers import Charge, ChargesSection
 from lagcli.statements.questions import Answer, FindSection, Ranges, Rewritten, Solutions
 from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.examination import Examination
-from lagcli.verification.linear import Unclear, least_step, rank, size
+from lagcli.verification.linear import Unclear, rank
+from lagcli.verification.newton import settled
+from lagcli.verification.program import Key
 from lagcli.verification.states import Environment, State
 from lagcli.verification.sweeps import Unknown, column
 
@@ -102,15 +104,12 @@ class Reached:
     def _evident(self) -> list[int]:
         """The energy function and the momenta that are conserved."""
         program, reference = self.reference.program, self.reference
-        L = reference.lagrangian
-        momenta = [program.derivative(L, {v: program.one}) for v in reference.v]
-        energy = [program.product(v, p) for v, p in zip(reference.v, momenta, strict=True)]
-        h = program.sum(*energy, program.negative(L))
+        h, p, v = reference.energy, reference.momenta, reference.v
         states = self.x.states()
-        driven = (program.negative(energy[j]) for j in self._driven(states))
+        driven = (program.negative(program.product(v[j], p[j])) for j in self._driven(states))
         return [
             place
-            for place in dict.fromkeys((h, *momenta, program.sum(h, *driven)))
+            for place in dict.fromkeys((h, *p, program.sum(h, *driven)))
             if states
             and all(compare(s.laws.rate(place), arb(0)) is ComparisonVerdict.EQUAL for s in states)
         ]
@@ -177,29 +176,10 @@ class Reached:
             if self._solved(there, places, [*self.everything, *moments]):
                 yield State(self.reference, there)
 
-    def _solved(
-        self, environment: Environment, places: Sequence[int], free: list[tuple[str, int]]
-    ) -> bool:
-        symbols = [self.reference.program.symbol(*key) for key in free]
-        for _ in range(_STEPS if places else 0):
-            at = self.reference.values(environment)
-            residual = [at(place) for place in places]
-            if max(map(size, residual)) < _ARRIVED:
-                return True
-            if not free or not all(r.is_finite() for r in residual):
-                return False
-            rows = [column(at.gradient(place), symbols) for place in places]
-            try:
-                step = least_step(rows, residual)
-            except Unclear:
-                return False
-            longest = max(map(size, step))
-            if not longest < 1e6:
-                return False
-            shorter = arb(1 / longest) if longest > 1 else arb(1)
-            for key, d in zip(free, step, strict=True):
-                environment[key] = (environment[key] + d * shorter).mid()
-        return not places
+    def _solved(self, environment: Environment, places: Sequence[int], free: Sequence[Key]) -> bool:
+        return settled(
+            self.reference, environment, places, free, steps=_STEPS, near=_ARRIVED, far=1e6
+        )
 
 
 def _is_value(

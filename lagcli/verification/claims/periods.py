@@ -45,14 +45,13 @@ class Well:
     """The energy E(q, q') = M q'^2/2 + U of one degree of freedom at random parameters."""
 
     def __init__(self, x: Examination, one: OneFreedom, energy: int) -> None:
-        program = x.reference.program
+        program, by = x.reference.program, x.reference.by
         self.x, self.one = x, one
         self.q, self.v = (program.symbol(one.coordinate, k) for k in (0, 1))
-        unit = {self.v: program.one}
-        self.M = program.derivative(program.derivative(energy, unit), unit)
+        self.M = by(by(energy, self.v), self.v)
         self.U = energy  # where q' = 0
-        self.slope = program.derivative(energy, {self.q: program.one})
-        self.curvature = program.derivative(self.slope, {self.q: program.one})
+        self.slope = by(energy, self.q)
+        self.curvature = by(self.slope, self.q)
 
     def scenes(self) -> Iterator[Environment]:
         """The parameters and momenta of random states."""
@@ -182,8 +181,7 @@ class Well:
         )
 
     def _root(self, known: Environment, place: int, q: arb | None = None) -> arb | None:
-        program = self.x.reference.program
-        slope = program.derivative(place, {self.q: program.one})
+        slope = self.x.reference.by(place, self.q)
         q = known[self.one.coordinate, 0] if q is None else q
         for _ in range(_STEPS):
             step = (self._value(known, place, q) / self._value(known, slope, q)).mid()

@@ -102,7 +102,7 @@ class PassingMotion:
             held = [each for each in held if each != question.condition]
             self.sought = self._margin(question.condition)
         self.ends = [self._margin(each) for each in held]
-        still = program.derivative(reference.lagrangian, {reference.time: program.one})
+        still = reference.by(reference.lagrangian, reference.time)
         freedom = len(self.names) - len(reference.rows)
         self.periodic = freedom == 1 and still == program.zero and not x.problem.dissipation
 

@@ -13,9 +13,10 @@ from lagcli.record import replace
 from lagcli.statements.motions import Above
 from lagcli.verification.claims.near import NOTHING, LinearMotion
 from lagcli.verification.examination import PRECISIONS, Examination
-from lagcli.verification.linear import Unclear, least_step, size
+from lagcli.verification.linear import size
+from lagcli.verification.newton import settled
+from lagcli.verification.program import Key
 from lagcli.verification.states import Environment
-from lagcli.verification.sweeps import column
 
 #: States looked at until the printed conditions hold at `WANTED` of them.
 LOOKED_AT = 24
@@ -132,9 +133,9 @@ class RestPlace:
     def _tied(self, environment: Environment) -> bool:
         """Move the coordinates without values of their own onto the equation and constraints."""
         reference = self.x.reference
-        free = [n for n in reference.names if (n, 0) not in self.values]
+        free = [(n, 0) for n in reference.names if (n, 0) not in self.values]
         places = self.on + [row.value for row in reference.rows if row.holonomic]
-        return not free or self._solved(environment, places, [(n, 0) for n in free])
+        return not free or self._solved(environment, places, free)
 
     def _carried(self, environment: Environment) -> bool:
         """Give the velocities that are not given the values that the constraints leave them.
@@ -147,27 +148,9 @@ class RestPlace:
         free = [(n, 1) for n in reference.names if n not in given]
         return not free or self._solved(environment, places, free)
 
-    def _solved(
-        self, environment: Environment, places: list[int], free: list[tuple[str, int]]
-    ) -> bool:
-        """Newton's method for what is free."""
-        reference = self.x.reference
-        symbols = [reference.program.symbol(*key) for key in free]
-        if not places:
-            return True
-        for _ in range(_NEWTON_STEPS):
-            at = reference.values(environment)
-            residual = [at(place) for place in places]
-            if max(map(size, residual)) < NOTHING**3:
-                return True
-            rows = [column(at.gradient(place), symbols) for place in places]
-            try:
-                step = least_step(rows, residual)
-            except Unclear:
-                return False
-            for key, d in zip(free, step, strict=True):
-                environment[key] = (environment[key] + d).mid()
-        return False
+    def _solved(self, environment: Environment, places: list[int], free: list[Key]) -> bool:
+        steps, near = _NEWTON_STEPS, NOTHING**3
+        return settled(self.x.reference, environment, places, free, steps=steps, near=near)
 
 
 def without_open(x: Examination, names: Sequence[str]) -> Examination:

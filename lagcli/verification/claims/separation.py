@@ -22,7 +22,8 @@ from lagcli.statements.motions import Above, HamiltonJacobiSection
 from lagcli.verification.claims.driven import solves_in_time
 from lagcli.verification.claims.rest import conditions
 from lagcli.verification.examination import Examination
-from lagcli.verification.linear import Unclear, dot, least_step, rank, size, solve
+from lagcli.verification.linear import Unclear, dot, rank, solve
+from lagcli.verification.newton import settled
 from lagcli.verification.states import Environment, State
 from lagcli.verification.sweeps import StepValues, column
 
@@ -222,21 +223,11 @@ class Action:
             return None
         sought = [key for key in self.constants if key not in known]
         known |= {key: self.energy_of(s) if key == self.energy else arb(1) for key in sought}
-        symbols = [self.x.reference.program.symbol(*key) for key in sought]
-        for _ in range(_STEPS if self.equations and sought else 0):
-            at = self.x.reference.values(known)
-            residual = [at(place) for place in self.equations]
-            if not all(r.is_finite() for r in residual):
-                return None
-            if max(map(size, residual)) < _NEAR:
-                break
-            rows = [column(at.gradient(place), symbols) for place in self.equations]
-            try:
-                step = least_step(rows, residual)
-            except Unclear:
-                return None
-            for key, d in zip(sought, step, strict=True):
-                known[key] = (known[key] + d).mid()
+        if self.equations and sought:
+            found = settled(
+                self.x.reference, known, self.equations, sought, steps=_STEPS, near=_NEAR
+            )
+            return known if found else None
         return known
 
     def _moved(self, known: Environment) -> Iterator[Environment]:

@@ -49,26 +49,24 @@ class Balance:
         self.x, self.turning = x, tuple(turning)
         program, reference = x.reference.program, x.reference
         forces = list(reference.forces)
-        momenta = []
         for j, (q, v) in enumerate(zip(reference.q, reference.v, strict=True)):
-            p = program.derivative(reference.lagrangian, {v: program.one})
+            p = reference.momenta[j]
             seeds = {
                 **dict(zip(reference.q, reference.v, strict=True)),
                 reference.time: program.one,
             }
-            slope = program.derivative(reference.lagrangian, {q: program.one})
+            slope = reference.by(reference.lagrangian, q)
             terms = [slope, program.negative(program.derivative(p, seeds)), forces[j]]
             if reference.dissipation is not None:
-                drag = program.derivative(reference.dissipation, {v: program.one})
+                drag = reference.by(reference.dissipation, v)
                 terms.append(program.negative(drag))
             for row in reference.rows:
-                arm = program.derivative(row.velocity, {v: program.one})
+                arm = reference.by(row.velocity, v)
                 terms.append(program.product(program.symbol(row.constraint.multiplier), arm))
-            momenta.append(p)
             forces[j] = program.sum(*terms)
         names = reference.names
         self.conditions = [f for n, f in zip(names, forces, strict=True) if n not in self.turning]
-        for name, p in zip(names, momenta, strict=True):
+        for name, p in zip(names, reference.momenta, strict=True):
             if name in self.turning:
                 given = program.negative(program.symbol(f"p_{name}"))
                 self.conditions.append(program.sum(p, given))

@@ -122,10 +122,9 @@ def _of_points(x: Examination) -> list[Change]:
 def _of_second_degree(x: Examination) -> list[Change]:
     """eta_i = f p_j, eta_j = f p_i, with f up to second degree in lengths; none for L of t."""
     program, reference = x.reference.program, x.reference
-    L = reference.lagrangian
-    if program.derivative(L, {reference.time: program.one}) != program.zero:
+    if reference.by(reference.lagrangian, reference.time) != program.zero:
         return []
-    momenta = [program.derivative(L, {v: program.one}) for v in reference.v]
+    momenta = reference.momenta
     factors = [program.one, *_lengths(x)]
     functions = [program.product(a, b) for a, b in combinations_with_replacement(factors, 2)]
     found = []
