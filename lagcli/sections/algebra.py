@@ -28,8 +28,9 @@ def derive(statements: Statements) -> AlgebraSection | None:
     from lagcli.mechanics.discovery.summary import algebra_section, summary
 
     discovery = statements.derivation.discovery
-    if discovery.unproved:
-        statements.lacks("the algebra of all symmetries", discovery.unproved)
+    listed = (*discovery.charges, *discovery.momentum_equations)
+    if missing := discovery.unproved or (not listed and "; ".join(discovery.stopped)):
+        statements.lacks("the algebra of all symmetries", missing)
         return None
     found = summary(discovery)  # before the special values, which take the work that is left
     special = tuple(

@@ -259,3 +259,46 @@ def test_a_defective_frequency_has_one_shape() -> None:
     assert answers.complete
     [mode] = answers.sections["modes"].modes
     assert (mode.multiplicity, mode.shape["y"]) == (2, parse_text("0"))
+
+
+@pytest.mark.parametrize("name", ["classics/spherical-pendulum", "steady/sleeping-top"])
+def test_frequencies_and_verdicts_at_a_pole_are_examined(name: str) -> None:
+    problem, answers = derived(name, ("steady_motions",))
+    assert verified(problem, answers) is answers
+    section = answers.sections["steady_motions"]
+    for each in (m for m in section.motions if m.rates is None):
+        square = each.frequencies_squared[0]
+        spoiled = [replace(each, frequencies_squared=(Product((number(2, 1), square)),))]
+        if each.verdict.stable is not None:
+            other = Verdict(stable=not each.verdict.stable)
+            spoiled.append(replace(each, verdict=other))
+        for wrong in spoiled:
+            sheet = {"steady_motions": replace(section, motions=(wrong,))}
+            assert not verified(problem, replace(answers, sections=sheet)).complete
+
+
+@pytest.mark.parametrize(
+    ("name", "changed"),
+    [
+        ("pulleys/atwood-tension", {"allowed": -1}),
+        ("contact/mass-sliding-off-sphere", {"allowed": -1}),
+        ("contact/mass-sliding-off-sphere", {"away_from": None, "towards": ""}),
+    ],
+)
+def test_how_a_force_acts_on_a_point_is_examined(name: str, changed: dict[str, object]) -> None:
+    problem, answers = derived(name, ("forces",))
+    assert verified(problem, answers) is answers
+    section = answers.sections["forces"]
+    wrong = tuple(replace(each, **changed) for each in section.forces)
+    sheet = {"forces": replace(section, forces=wrong)}
+    assert not verified(problem, replace(answers, sections=sheet)).complete
+
+
+def test_a_charge_that_moves_is_not_called_constant() -> None:
+    problem, answers = derived("symmetry/projectile", ("charges",))
+    section = answers.sections["charges"]
+    moving = next(each for each in section.charges if each.source == "candidate")
+    wrong = replace(moving, charge=None, trivial=True)
+    sheet = {"charges": replace(section, charges=(wrong,))}
+    found = verified(problem, replace(answers, sections=sheet))
+    assert not found.complete
