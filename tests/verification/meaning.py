@@ -127,8 +127,8 @@ class Meaning:
                 left.remove(best[1])
             else:
                 alone.append(number)
-        if path in {"discovered", "charges"}:  # another one that is conserved is as true
-            left = [each for each in left if not self._is_conserved(each)]
+        if path in {"discovered", "charges"}:  # another one with its rate is as true
+            left = [each for each in left if not self._has_its_rate(each)]
         if alone or left:
             yield Difference(
                 f"{path}: {len(alone)} of {len(a)} missing, {len(left)} others", "wrong"
@@ -144,15 +144,15 @@ class Meaning:
             )
         return self.values.equal(a, b)
 
-    def _is_conserved(self, charge: Any) -> bool:
-        """Whether its rate is 0 on the motion; a charge that is withheld claims nothing."""
+    def _has_its_rate(self, charge: Any) -> bool:
+        """Whether its rate on the motion is the printed one; a withheld charge claims nothing."""
         Q = charge["charge"]
-        if Q is None:
+        if Q is None or charge["conserved"] is None:
             return True
         rate = f"diff({Q}, t)" + "".join(
             f" + diff({Q}, {x})*{x}' + diff({Q}, {x}')*{x}''" for x in self.values.reference.names
         )
-        return self.values.equal("0", rate)
+        return self.values.equal(charge["rate"] or "0", rate)
 
     def _same_action(self, a: Any, b: Any) -> bool:
         """Whether each W that the second gives has the derivative W' of the first."""

@@ -16,6 +16,7 @@ from lagcli.expression import ONE, ZERO
 from lagcli.record import replace
 from lagcli.statements.answers import Charge, ChargesSection
 from lagcli.verification.claims.boundary import boundary_term
+from lagcli.verification.claims.rest import conditions
 from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, dot, rank
@@ -91,6 +92,8 @@ def _charge(x: Examination, charge: Charge) -> Charge:
     tried = len(x.unchecked)
     if places is None or not _is_noethers(x, what, charge) or not boundary_term(x, charge):
         return _without(charge)
+    if not _is_real_where(x, charge, places[0]):
+        return _without(charge)
     rate = _rate(x, charge, places[0])
     if rate is None:
         x.unchecked.append(what)
@@ -123,6 +126,18 @@ def _is_trivial(x: Examination, charge: Charge) -> bool:
         x.refute(what, "it changes between random states")
         return False
     return True
+
+
+def _is_real_where(x: Examination, charge: Charge, place: int) -> bool:
+    """Whether the printed conditions for it to be real hold just where it is."""
+    what = f"where the charge '{charge.name}' is real"
+    above = conditions(x, what, charge.where)
+
+    def real(s: State) -> tuple[list[arb], list[arb]]:
+        holds = all(s.at(condition) > 0 for condition in above)
+        return [arb(int(holds))], [arb(int(s.at(place).is_finite()))]
+
+    return not above or x.decide(what, real)
 
 
 def _without(charge: Charge) -> Charge:

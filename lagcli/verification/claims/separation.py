@@ -48,6 +48,9 @@ def hamilton_jacobi(x: Examination, section: HamiltonJacobiSection) -> HamiltonJ
         return _nothing(section)
     if section.derivatives is None:
         return section
+    if not action.independent():
+        x.refute("the separated equations", "their constants are not independent")
+        return _nothing(section)
     if not action.solves():
         return _nothing(section)
     return action.with_functions()
@@ -203,6 +206,21 @@ class Action:
                 left.append(self.x.reference.values({**there, **named})(self.H))
                 right.append(E)
         return (left, right) if len(left) > 1 else None
+
+    def independent(self) -> bool:
+        """Whether the separated equations determine the constants, at some state."""
+        known = next(filter(None, map(self.environment, self.x.states())), None)
+        if known is None or not self.equations:
+            return True
+        symbols = [self.x.reference.program.symbol(*key) for key in self.constants]
+        at = self.x.reference.values(
+            {**known, **{key: arb(5 + 3 * k) / 8 for k, key in enumerate(self.constants)}}
+        )
+        rows = [column(at.gradient(place), symbols) for place in self.equations]
+        try:
+            return rank(rows, len(symbols)) == len(rows)
+        except Unclear:
+            return True
 
     def _complete(self, s: State) -> tuple[list[arb], list[arb]] | None:
         """The number of constants on which the W' depend independently: one for each."""

@@ -9,20 +9,24 @@ eta_j = Delta q_j - q_j' Delta t, and Q eta' + Q' eta of the product of two char
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from itertools import combinations_with_replacement
 from random import Random
 
-from flint import arb
+from flint import arb, arb_mat, ctx
 
 from lagcli.expression import ZERO
 from lagcli.statements.answers import ChargesSection
 from lagcli.verification.claims.boundary import change_of_action, euler_operator
-from lagcli.verification.examination import Examination
-from lagcli.verification.linear import Unclear, dot, rank, solve
+from lagcli.verification.claims.near import LinearMotion
+from lagcli.verification.examination import PRECISIONS, Examination
+from lagcli.verification.linear import Unclear, dot, rank, size, solve
 from lagcli.verification.states import Environment, State
 
 #: More coordinates make too many functions: 3 (n^2 + n + 1) of them, n (n + 1)^2 (n + 2)/4.
 _MOST = 3
+#: Entries and squared rates of a linear motion that differ by less are the same.
+_SAME = 1e-20
 _CIRCULAR = {"sin", "cos", "tan", "cot", "sec", "csc"}
 _LENGTHS = {None, "m"}
 #: One function of the search: the steps of eta by coordinate.
@@ -112,10 +116,40 @@ def _of_points(x: Examination) -> list[Change]:
     t = reference.time
     powers = [program.one, t, program.product(t, t)]
     found = [[program.product(T, v) for v in reference.v] for T in powers]
+    exponentials = _exponentials(x)
     for j in range(len(reference.names)):
         for T in powers:
             made = [program.product(T, g) for g in (program.one, *_lengths(x))]
             found += [_only(x, j, f) for f in made]
+        found += [_only(x, j, T) for T in exponentials]
+    return found
+
+
+def _exponentials(x: Examination) -> list[int]:
+    """cos(w t) and sin(w t), or exp(r t) and exp(-r t), of the motions of q'' = K q."""
+    program, t, found = x.reference.program, x.reference.time, []
+    with ctx.workprec(PRECISIONS[1]):
+        here = dict(x.states()[0].environment)
+        near, other = (LinearMotion(x, each) for each in (here, _jet(x, here, Random(4))))
+        K, L = near.slopes[0], other.slopes[0]
+        same = all(
+            size(a - b) < _SAME
+            for p, q in zip(K, L, strict=True)
+            for a, b in zip(p, q, strict=True)
+        )
+        if not (near.still and other.still and same):
+            return []
+        roots = [z.real for z in arb_mat(K).mid().eig(algorithm="approx", nonstop=True)]
+        for k, square in enumerate(roots):
+            if size(square) < _SAME or any(size(square - r) < _SAME for r in roots[:k]):
+                continue
+            mantissa, exponent = abs(square).sqrt().mid().man_exp()
+            rate = program.number(Fraction(int(mantissa)) * Fraction(2) ** int(exponent))
+            turn = program.product(rate, t)
+            if square > 0:
+                found += [program.call("exp", part) for part in (turn, program.negative(turn))]
+            else:
+                found += [program.call("cos", turn), program.call("sin", turn)]
     return found
 
 
