@@ -102,7 +102,7 @@ class LargeCharges:
     @property
     def energy_reason(self) -> str:
         """Why h is (not) conserved and is (not) T + V."""
-        causes = " and ".join(self.powers)
+        causes = enumerated(list(self.powers))
         conserved = {
             True: f"conserved: {CONSERVED}",
             False: f"not conserved: {causes}",
@@ -138,7 +138,7 @@ class LargeCharges:
             self.energy_conserved,
             rate,
             "50 digits" if self.energy_conserved is not None else None,
-            "" if self.energy_conserved is not False else " and ".join(self.powers),
+            "" if self.energy_conserved is not False else enumerated(list(self.powers)),
         )
         return (*candidates, *cyclic, energy)
 

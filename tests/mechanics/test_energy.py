@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from lagcli.statements.wording import enumerated
+
 from .derived import derive, same
 
 
@@ -70,3 +72,13 @@ def test_the_ordinary_case(potential: str):
     energy = derive(f"coordinates: [x]\nparameters: [m, k]\nT: m*x'^2/2\n{potential}").energy
     assert energy.conserved is True
     assert energy.is_total_energy is True
+
+
+def test_constraints_of_one_kind_are_named_together():
+    moving = [f"the constraint '{name}' moves and does work" for name in "abc"]
+    words = ["the applied forces do work", *moving]
+    together = "the constraints 'a', 'b' and 'c' move and do work"
+    assert enumerated(words) == f"the applied forces do work and {together}"
+    assert enumerated(moving[:1]) == moving[0]
+    of_both = ["the moving constraint 'a'", "the constraint 'b'", "the moving constraint 'c'"]
+    assert enumerated(of_both) == "the moving constraints 'a' and 'c' and the constraint 'b'"

@@ -14,7 +14,7 @@ from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, listed, says, shows
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.noether import NoetherCharge
-from lagcli.statements.wording import TRIVIAL, enumerated
+from lagcli.statements.wording import TRIVIAL, enumerated, together
 
 
 def energy(teller: Teller) -> Iterator[Block]:
@@ -86,8 +86,12 @@ def _rate(teller: Teller) -> Iterator[Block]:
         yield says(*_unchanged(teller), " So ", h, *_conserved(teller), ".")
         yield from _work_of_drive(teller)
         return
-    deeds = [(letters.L, " ", p.deed) if p.of_lagrangian else (p.deed,) for p in function.powers]
-    changes = listed(deeds)
+    changes = listed(
+        [
+            *((letters.L, " ", p.deed) for p in function.powers if p.of_lagrangian),
+            *together(p.deed for p in function.powers if not p.of_lagrangian),
+        ]
+    )
     total = sympy.Add(*(power.value for power in function.powers))
     yield says("It can change because ", changes, ". Its rate is")
     yield shows(Name(h.name, 1), teller.readable.by_terms(total))
