@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import mpmath
 import pytest
@@ -75,6 +76,17 @@ def test_kepler_comes_back_to_its_beginning():
     row = proof(problem, until, samples=2).rows[-1]
     for ball, begin in zip(row[1:], (0.5, 0, 0, mpmath.sqrt(3)), strict=True):
         assert abs(float(ball.mid()) - begin) < 1e-14 + float(ball.rad())
+
+
+@pytest.mark.long
+def test_a_stiff_mechanism_with_three_loops_is_proved():
+    """Andrews' squeezer, whose inertias of 1e-6 make the derivatives of its accelerations large."""
+    problem = lagcli.load(Path(__file__).parents[1] / "benchmarks" / "andrews-squeezer.yaml")
+    motion = lagcli.simulate(problem, 0.005, samples=2, accuracy=1e-10)
+    found = proof(problem, 0.005, samples=2)
+    assert found.reached
+    for name, x, ball in zip(motion.columns, motion.rows[-1], found.rows[-1], strict=True):
+        assert abs(float(ball.mid()) - x) <= 1e-9 * max(abs(value) for value in motion[name])
 
 
 @pytest.mark.long

@@ -4,8 +4,11 @@ The motion obeys x' = f(t, x), x = (q, v).  A step of length h starts from the s
 point, B a matrix of points, r a box.
 
 1. p(s) = sum_{k<=K} c_k s^k is the Taylor polynomial of the solution from m, its coefficients
-   enclosed.  Its defect p' - f(p) vanishes to the order s^(K-1), so |p' - f(p)| <= |F_K| s^K, where
-   F_K encloses the K-th Taylor coefficient of the defect at every s of the step: one evaluation.
+   enclosed.  Its defect p' - f(p) vanishes to the order s^(K-1), so
+
+       |p' - f(p)| <= F s^K,    F = sum_{k=K}^{L-1} |F_k| h^(k-K) + |F_L| h^(L-K),
+
+   F_k the Taylor coefficients of the defect at the beginning of the step, F_L at every s of it.
 2. The error e = x - p of any solution from the set obeys e' = A(s) e - (p' - f(p)), where A(s) is a
    mean of J = df/dx on the segment from p to x.  With E the box in which e is supposed to stay,
 
@@ -13,7 +16,7 @@ point, B a matrix of points, r a box.
 
    J_k from p + E at the beginning of the step, J_Q from p + E at every s of it.
 3. With N >= |A| entry by entry, from J of p + E at every s of the step,
-   |e(s)| <= exp(N h) (|B r| + h^(K+1)/(K+1) |F_K|).  Where that lies inside E, the solutions exist
+   |e(s)| <= exp(N h) (|B r| + h^(K+1)/(K+1) F).  Where that lies inside E, the solutions exist
    on the whole step and the supposition was right.
 4. The flow of A is P(s) = sum_{k<=Q} P_k s^k up to h exp(N h) max |A P - P'|, so that
 
@@ -40,7 +43,7 @@ from typing import Any
 from lagcli.numerics.integrators.taylor import log2_size
 from lagcli.numerics.rigorous.field import VectorField
 from lagcli.numerics.rigorous.sets import LohnerSet
-from lagcli.numerics.rigorous.solution import convolved
+from lagcli.numerics.rigorous.solution import convolved, horner, precision, sizes
 from lagcli.record import record
 
 #: Of the length at which the last coefficients say that the remainder is small enough.
@@ -48,10 +51,12 @@ _FIRST_TRY = 0.9
 #: Bounds over a step are wide: they need no more bits.
 _WIDE_BITS = 64
 #: Q beside K.  The flow multiplies radii only: at the usual lengths its remainder is 1e-6 of it.
-_FLOW_ORDER = 2 / 7
+_FLOW_ORDER = 0.4
 #: E beside the error at the beginning, at first, and then beside the growth in the last step.
 _ROOM, _GROWN = 1e3, 2.0
 _TUBES = 4
+#: L - K beside K: what F_L overestimates weighs little then, and steps are nearly twice as long.
+_AHEAD = 0.6
 #: What D may be of P, on the errors at hand: 1000 steps widen them by a percent.
 _LOST = 1e-5
 _LEAST_SCALE = 1e-6
@@ -116,11 +121,11 @@ class Piece:
     def middle(self, t: Any) -> list[Any]:
         """Where the middle of the set goes, with the defect of its polynomial."""
         s, defect = t - self.begin, self.flow.defect
-        return [_horner(c, s) + defect[i, 0] for i, c in enumerate(self.centre)]
+        return [horner(c, s) + defect[i, 0] for i, c in enumerate(self.centre)]
 
     def derivative(self, t: Any) -> Any:
         """An enclosure of the derivative of the flow over the set."""
-        return _horner(self.flow.coefficients, t - self.begin) + self.flow.error
+        return horner(self.flow.coefficients, t - self.begin) + self.flow.error
 
     def at(self, t: Any) -> list[Any]:
         """An enclosure of (q, v) at a time of the step, or at all times of a ball."""
@@ -188,17 +193,27 @@ class Enclosures:
         self._peaks[:] = [
             max(peak, abs(float(each[0]))) for peak, each in zip(self._peaks, centre, strict=True)
         ]
+        with precision(_WIDE_BITS):
+            end, flow = self._longest(t, start, until, centre)
+        return Piece(t, end, centre, flow, start)
+
+    def _longest(
+        self, t: Any, start: LohnerSet, until: Any, centre: Sequence[Sequence[Any]]
+    ) -> tuple[Any, StepFlow]:
+        """The end of a step for which bounds are found, and these."""
+        polynomials = [*centre, *self.field.forces(t, centre)]
+        ahead = self.field.left([t, 1], polynomials, self.order, round((1 + _AHEAD) * self.order))
         h = self._part * self._length(centre)
         for attempt in range(_HALVINGS):
             if h < _SHORTEST * float(until):
                 break
             end = until if t + 1.05 * h >= until else self._ball(float(t + h))
-            flow = self._wide(t, end, centre, start)
+            flow = self._wide(t, end, polynomials, ahead, start)
             if flow is not None:
                 self._part = min(1.0, self._part * (_LONGER if attempt == 0 else 1.0))
                 if self._part < self._least:
                     raise ShortSteps("the steps become too short")
-                return Piece(t, end, centre, flow, start)
+                return end, flow
             h, self._part = _SHORTER * h, max(_LEAST_PART, _SHORTER * self._part)
         raise NotEnclosed(
             "no enclosure was found over any step: the set has grown too wide, or the motion "
@@ -221,26 +236,28 @@ class Enclosures:
         return math.exp2(min(exponent, _LONGEST))
 
     def _wide(
-        self, t: Any, end: Any, centre: Sequence[Sequence[Any]], start: LohnerSet
+        self,
+        t: Any,
+        end: Any,
+        polynomials: Sequence[Sequence[Any]],
+        ahead: Sequence[Any],
+        start: LohnerSet,
     ) -> StepFlow | None:
         """What bounds the errors over a step; None where it is too long."""
-        context = self._context
-        usual, context.prec = context.prec, _WIDE_BITS
         try:
             h = (end - t).abs_upper() * _BEYOND
-            forces = self.field.forces(t, centre)
-            times, along = self.field.shifted(t, h, [*centre, *forces])
-            last = self.field.defect(times, along)
-            power = h ** (self.order + 1) / (self.order + 1)
-            defect = [x.abs_upper() * power for x in last]
+            times, along = self.field.shifted(t, h, polynomials)
+            defect = self.field.defect(times, along, ahead, h)
             small = all(
                 d < 8 * self.target * scale for d, scale in zip(defect, self.scales, strict=True)
             )
-            return self._flow(t, h, centre, (times, along), start, defect) if small else None
+            return (
+                self._flow(t, h, polynomials[: len(defect)], (times, along), start, defect)
+                if small
+                else None
+            )
         except (ZeroDivisionError, ValueError):
             return None
-        finally:
-            context.prec = usual
 
     def _flow(
         self,
@@ -290,7 +307,7 @@ class Enclosures:
         slopes = self.field.system.slopes
         found = slopes([t, 1], at_start, order)
         first, *_, last = slopes([times, 1], anywhere, order + 1)
-        return [*found, last], self._sizes(self.field.jacobian(first))
+        return [*found, last], sizes(self.field.jacobian(first))
 
     def _bounded(
         self, slopes: Sequence[Any], grown: Any, h: Any, defect: Sequence[Any], whole: Any
@@ -308,10 +325,10 @@ class Enclosures:
             for k in range(2 * order + 1)
         ]
         over = self._ball(0, h)
-        error = grown * self._sizes(_horner(rest, over)) * h
+        error = grown * sizes(horner(rest, over)) * h
         lost, kept = (
             (error * whole).entries(),
-            (self._sizes(_horner(found, over)) * whole).entries(),
+            (sizes(horner(found, over)) * whole).entries(),
         )
         least = self.target * max(self.scales)
         kinds = (slice(0, n), slice(n, None))
@@ -326,11 +343,6 @@ class Enclosures:
         above = flow[k].entries()[size * size // 2 :] if k < len(flow) else [0] * (size * size // 2)
         return self._matrix(size, size, above + convolved(slopes, flow, k).entries())
 
-    def _sizes(self, matrix: Any) -> Any:
-        """|M|, rounded up."""
-        bounds = [x.abs_upper() for x in matrix.entries()]
-        return self._matrix(matrix.nrows(), matrix.ncols(), bounds)
-
     def _around_zero(self, bound: Any) -> Any:
         """A matrix of balls around 0."""
         entries = [self._ball(0, x.abs_upper()) for x in bound.entries()]
@@ -342,10 +354,3 @@ def _largest(bounds: Sequence[Any]) -> Any:
     for x in bounds[1:]:
         found = found.max(x)
     return found
-
-
-def _horner(coefficients: Sequence[Any], s: Any) -> Any:
-    value = coefficients[-1]
-    for c in reversed(coefficients[:-1]):
-        value = c + value * s
-    return value

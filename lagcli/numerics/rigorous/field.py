@@ -7,7 +7,7 @@ from typing import Any
 
 from lagcli.graph.nodes import mask_of
 from lagcli.numerics.equations.motion import Motion
-from lagcli.numerics.rigorous.solution import LinearSystem, Solution, convolved
+from lagcli.numerics.rigorous.solution import LinearSystem, Solution, convolved, horner, sizes
 
 #: Coefficients found one by one; from there on each step of Newton's method doubles them.
 _BASE = 7
@@ -111,20 +111,38 @@ class VectorField:
         held = range(self.n, self.system.size)
         return self.system.solution([t, 1], x, len(x[0]) - 1).components(held) if held else []
 
-    def defect(self, times: Any, along: Sequence[Sequence[Any]]) -> list[Any]:
-        """Bounds of the K-th Taylor coefficient of x' - f(x) along polynomials of degree K.
+    def left(self, time: Sequence[Any], x: Sequence[Any], first: int, length: int) -> list[Any]:
+        """Coefficients of what polynomials leave of the equations of motion, with a = v'.
 
-        With a = v' and lambda polynomials, too, what they leave of the equations of motion is
-        divided by the matrix of these equations over the whole step.
+        Parameters
+        ----------
+        time : sequence of arb
+        x : sequence of sequences of arb
+            q, v and lambda.
+        first, length : int
+            Of the coefficients.
+        """
+        n = self.n
+        a = [[k * c[k] for k in range(1, len(c))] for c in x[n : 2 * n]]
+        return self.system.left(time, x[: 2 * n], [*a, *x[2 * n :]], first, length)
+
+    def defect(self, times: Any, along: Sequence[Any], ahead: Sequence[Any], h: Any) -> list[Any]:
+        """Bounds of the integral of |x' - f(x)| along polynomials of degree K over a step h.
 
         Parameters
         ----------
         times : arb
+            All those of the step.
         along : sequence of sequences of arb
             q, v and lambda about every time of the step.
+        ahead : sequence of arb_mat
+            Coefficients K, K + 1, ... of what they leave, about its beginning.
+        h : arb
         """
         n, order = self.n, len(along[0]) - 1
-        x = along[: 2 * n]
-        a = [[k * c[k] for k in range(1, order + 1)] for c in x[n:]]
-        found = self.system.defect(times, x, [*a, *along[2 * n :]], order)
-        return [*(c[order] for c in x[n:]), *found[:n]]
+        last = order + len(ahead)
+        left = [*ahead, *self.left([times, 1], along, last, last + 1)]
+        inverse = self.system.inverse(times, [c[0] for c in along[: 2 * n]])
+        found = sizes(inverse) * horner([sizes(each) for each in left], h)
+        rates = [*(c[order].abs_upper() for c in along[n : 2 * n]), *found.entries()[:n]]
+        return [(x * h ** (order + 1) / (order + 1)).abs_upper() for x in rates]

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from lagcli.numerics.certified.simulate import Simulation
@@ -19,12 +18,13 @@ from lagcli.numerics.rigorous.enclosure import NotEnclosed, Piece, ShortSteps
 from lagcli.numerics.rigorous.initial import initial_state
 from lagcli.numerics.rigorous.modes import ProofMode, ProofModes
 from lagcli.numerics.rigorous.sets import LohnerSet, around
+from lagcli.numerics.rigorous.solution import precision
 from lagcli.problem_data import Problem
 from lagcli.record import record, replace
 
 #: Bits of the first attempt and of the last; the order in proportion, from a scan of costs.
-_BITS, _MOST_BITS, _ORDER = 80, 640, 0.36
-#: Entries of f and J that are evaluated to order 28, all attempts together: some 10 minutes.
+_BITS, _MOST_BITS, _ORDER = 80, 640, 0.3
+#: Nodes of f and J that are evaluated to order 28, all attempts together: some 10 minutes.
 _WORK = 2e6
 #: With fewer bits than _PATIENT an attempt ends where the width of the set makes steps shorter
 #: than _SHORT of what the Taylor series allows: Andrews' squeezer takes 10 times as many in 80.
@@ -461,15 +461,3 @@ def _good(rows: Sequence[Enclosure], accuracy: float) -> int:
 def _radius(x: Any) -> float:
     found = float(x.rad())
     return found if math.isfinite(found) else math.inf
-
-
-@contextmanager
-def precision(bits: int) -> Iterator[None]:
-    """Arithmetic with these bits."""
-    from flint import ctx
-
-    usual, ctx.prec = ctx.prec, bits
-    try:
-        yield
-    finally:
-        ctx.prec = usual

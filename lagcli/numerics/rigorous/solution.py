@@ -18,7 +18,8 @@ A. Neumaier, *Interval Methods for Systems of Equations* (1990), section 4.1.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from itertools import chain
 from typing import Any
 
@@ -149,22 +150,19 @@ class LinearSystem:
             return found
         return [self._matrix(n, width, each.entries()[: n * width]) for each in found]
 
-    def defect(self, time: Any, x: Sequence[Series], z: Sequence[Series], order: int) -> list[Any]:
-        """The coefficient of an order of what polynomials x and z leave of z.
+    def left(
+        self, time: Series, x: Sequence[Series], z: Sequence[Series], first: int, length: int
+    ) -> list[Any]:
+        """Coefficients of r - K z along polynomials x and z, from the first of them on."""
+        left = self.evaluated(self._left, time, [*x, *z], length)
+        return [
+            self._matrix(self.size, 1, [each[k] for each in left]) for k in range(first, length)
+        ]
 
-        Parameters
-        ----------
-        time : arb
-        x, z : sequences of series
-            About every time of a ball.
-        """
-        size = self.size
-        left = self.evaluated(self._left, [time, 1], [*x, *z], order + 1)
-        last = self._matrix(size, 1, [each[order] for each in left])
-        entries = self.evaluated(self._entries, [time], [each[:1] for each in x], 1)
-        inverse = inverted(self._matrix(size, size, [each[0] for each in entries]))
-        found: list[Any] = (inverse * last).entries()
-        return found
+    def inverse(self, time: Any, x: Sequence[Any]) -> Any:
+        """K^-1 at balls."""
+        entries = self.evaluated(self._entries, [time], [[each] for each in x], 1)
+        return inverted(self._matrix(self.size, self.size, [each[0] for each in entries]))
 
     def evaluated(self, function: Any, time: Series, x: Sequence[Series], length: int) -> list[Any]:
         """The values of a function as series of a length."""
@@ -199,3 +197,29 @@ def convolved(left: Sequence[Any], right: Sequence[Any], k: int) -> Any:
     for a, b in pairs[1:]:
         total += a * b
     return total
+
+
+def horner(coefficients: Sequence[Any], s: Any) -> Any:
+    """sum_k c_k s^k."""
+    value = coefficients[-1]
+    for c in reversed(coefficients[:-1]):
+        value = c + value * s
+    return value
+
+
+def sizes(matrix: Any) -> Any:
+    """|M|, rounded up."""
+    bounds = [x.abs_upper() for x in matrix.entries()]
+    return type(matrix)(matrix.nrows(), matrix.ncols(), bounds)
+
+
+@contextmanager
+def precision(bits: int) -> Iterator[None]:
+    """Arithmetic with these bits."""
+    from flint import ctx
+
+    usual, ctx.prec = ctx.prec, bits
+    try:
+        yield
+    finally:
+        ctx.prec = usual

@@ -7,7 +7,8 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from lagcli.numerics.rigorous.proof import Proof, precision
+from lagcli.numerics.rigorous.proof import Proof
+from lagcli.numerics.rigorous.solution import precision
 
 #: Digits of a midpoint and of a radius in JSON and CSV.
 _DIGITS = 30
