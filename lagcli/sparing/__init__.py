@@ -3,9 +3,8 @@
 `import sympy` imports four hundred modules, of which a derivation uses some hundred and
 fifty: two thirds of its time are matrices, integrals, sets of solutions, geometry, plots.
 A process that derives one small system spends most of its life there.  So SymPy's packages
-hand out their names when these are asked for (`packages`), and a few names that its own
-core asks for at the first sum, product or derivative are stood in for (`stand_ins`).
-Whatever is really used is imported the moment it is used, and is SymPy's own.
+hand out their names when these are used, and whatever is used is SymPy's own.  `lagcli solve
+hoop` then takes 1.2 times the processor time of `import sympy`, and 1.5 times without.
 """
 
 from __future__ import annotations
@@ -27,14 +26,10 @@ def spare_sympy() -> None:
         serve_names_lazily,
         serve_singletons_lazily,
     )
-    from lagcli.sparing.stand_ins import give_way, import_functions, stand_in
 
-    if os.environ.get("LAGCLI_WHOLE_SYMPY") or not known_sympy():
-        return
-    serve_names_lazily(give_way)
-    serve_singletons_lazily()
-    stand_in()
-    import_functions()
+    if not os.environ.get("LAGCLI_WHOLE_SYMPY") and known_sympy():
+        serve_names_lazily()
+        serve_singletons_lazily()
 
 
 def collect_rarely() -> None:

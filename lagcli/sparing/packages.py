@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import cache
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
@@ -26,13 +26,6 @@ _RUN = frozenset(
 )
 #: Its modules import each other in circles, and come well out of it in its own order only.
 _ONE_PIECE = "sympy.matrices"
-#: What a derivation imports on its way; whoever imports more is given no stand-ins.
-_USUAL = re.compile(
-    r"sympy\.(core|external|utilities|multipledispatch|logic|ntheory|polys|printing|sets|"
-    r"strategies|functions\.(elementary|combinatorial)|series\.order|simplify\.(fu|radsimp|sqrtdenest|powsimp|trigsimp|simplify|cse_main|cse_opts)|"
-    r"assumptions\.(wrapper|assume)|tensor\.array)\b"
-)
-
 _IMPORT = re.compile(r"^from (\S+) import (\([^)]*\)|[^\n(]*)", re.MULTILINE)
 _ALIAS = re.compile(r"^(\w+) = ([A-Za-z]\w*)(?:\.(\w+))?$", re.MULTILINE)
 _COMMENT = re.compile(r"#[^\n]*")
@@ -56,33 +49,19 @@ def _version(init: Path) -> str:
     return found[1] if found else ""
 
 
-def serve_names_lazily(before_more: Callable[[], None]) -> None:
-    """Let SymPy's packages be found as lazy ones.
-
-    Parameters
-    ----------
-    before_more
-        Called before the first module that a plain derivation does not need.
-    """
-    sys.meta_path.insert(0, _Finder(before_more))
+def serve_names_lazily() -> None:
+    """Let SymPy's packages be found as lazy ones."""
+    sys.meta_path.insert(0, _Finder())
 
 
 class _Finder(MetaPathFinder):
-    def __init__(self, before_more: Callable[[], None]) -> None:
-        self.before_more: Callable[[], None] | None = before_more
-
     def find_spec(self, fullname: str, path: Any, target: Any = None) -> ModuleSpec | None:
         del target
         parts = fullname.split(".")
         if parts[0] != "sympy" or ".".join(parts[:2]) in _RUN:
             return None
         found = PathFinder.find_spec(fullname, path)
-        if found is None or found.origin is None:
-            return None
-        if found.submodule_search_locations is None:
-            if self.before_more and not _USUAL.match(fullname):
-                self.before_more()
-                self.before_more = None
+        if found is None or found.origin is None or found.submodule_search_locations is None:
             return None
         return spec_from_file_location(
             fullname,
@@ -96,8 +75,8 @@ class _Loader(Loader):
     def __init__(self, path: Path) -> None:
         self.path = path
 
-    def create_module(self, spec: ModuleSpec) -> LazyPackage:
-        return LazyPackage(spec.name, self.path)
+    def create_module(self, spec: ModuleSpec) -> _LazyPackage:
+        return _LazyPackage(spec.name, self.path)
 
     def exec_module(self, module: ModuleType) -> None:
         """Nothing is run; SymPy's own start does two things beside importing."""
@@ -106,7 +85,7 @@ class _Loader(Loader):
             module.__dict__["SYMPY_DEBUG"] = False
 
 
-class LazyPackage(ModuleType):
+class _LazyPackage(ModuleType):
     """A package that knows where its names are."""
 
     def __init__(self, name: str, path: Path) -> None:
@@ -118,10 +97,7 @@ class LazyPackage(ModuleType):
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        value = self._found(name)
-        if self.__name__ == "sympy":  # nobody but a user of SymPy asks here
-            value = getattr(value, "real_thing", value)
-        self.__dict__[name] = value
+        value = self.__dict__[name] = self._found(name)
         return value
 
     def _found(self, name: str) -> Any:
@@ -139,7 +115,7 @@ class LazyPackage(ModuleType):
                 raise AttributeError(message) from None
         module, original = places[name]
         if f"{module}.".startswith(f"{_ONE_PIECE}.") and module not in sys.modules:
-            import_matrices()
+            _import_matrices()
         if module == self.__name__:  # from . import original
             return import_module(f"{module}.{original}")
         return getattr(import_module(module), original)
@@ -169,13 +145,14 @@ def serve_singletons_lazily() -> None:
 
     def served(self: Any, name: str) -> Any:
         if name in _SINGLETONS:
-            import_module(_SINGLETONS[name])  # which registers it
-        return known(self, name)
+            import_module(_SINGLETONS[name])  # which registers it, or has used it already
+        found = vars(type(self)).get(name)
+        return known(self, name) if found is None else found
 
     registry.__getattr__ = served
 
 
-def import_matrices() -> None:
+def _import_matrices() -> None:
     """Import SymPy's matrices as SymPy does, before any one of them is used."""
     for module, _ in import_module(_ONE_PIECE).__dict__["_places"].values():
         import_module(module)
