@@ -2,20 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
-import pytest
-
 from lagcli.algebra import is_zero, shape
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.reader import parse_text, read_problem
-
-
-def mostly_long(values: Iterable[str], *ordinary: str) -> list[object]:
-    """Parameters that are `long` but for some, which stand for their kind before a commit."""
-    return [v if v in ordinary else pytest.param(v, marks=pytest.mark.long) for v in values]
 
 
 def derive(text: str) -> Derivation:

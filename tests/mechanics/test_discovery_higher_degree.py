@@ -8,8 +8,9 @@ Ramani, Dorizzi, Grammaticos, Phys. Rev. Lett. 49 (1982) 1539 (fourth degree).
 import pytest
 
 from lagcli.mechanics.discovery.summary import summary
+from tests.marks import mostly_long
 
-from .derived import derive, mostly_long
+from .derived import derive
 from .test_discovery_literature import kept, problem
 
 T2, T3 = "m*(x'^2 + y'^2)/2", "m*(x'^2 + y'^2 + z'^2)/2"

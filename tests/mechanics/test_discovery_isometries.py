@@ -9,8 +9,9 @@ Acta 45 (1972) 802 (free particles).
 import pytest
 
 from lagcli.mechanics.discovery.summary import summary
+from tests.marks import mostly_long
 
-from .derived import derive, mostly_long
+from .derived import derive
 from .test_discovery_literature import POS, kept, problem
 
 RADIAL = f"{{r: {POS}, phi: {{}}}}"

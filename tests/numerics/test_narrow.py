@@ -15,6 +15,7 @@ from lagcli.numerics.compiled.layout import DIVIDES, FLAT, GROWS, HIGH, JUMPS
 from lagcli.numerics.compiled.narrow import narrow_parts
 from lagcli.numerics.equations.arithmetic import Doubles
 from lagcli.numerics.equations.straight_line import straight_line
+from tests.marks import mostly_long
 from tests.numerics.running import column, last, simulated
 
 BY_TIME = """
@@ -103,7 +104,7 @@ HILLS = {
 }
 
 
-@pytest.mark.parametrize("text", HILLS)
+@pytest.mark.parametrize("text", mostly_long(HILLS, "{h}*(x - {c})^2/((x - {c})^2 + {w}^2)"))
 def test_a_hill_is_not_stepped_over(text):
     h, c, w = drawn(text)
     mpmath.mp.dps = 25
@@ -209,7 +210,7 @@ def test_what_is_divided_by_0_is_passed_where_it_is_regular():
     assert result.certificate.reached
 
 
-@pytest.mark.parametrize("method", ["dop853", "radau5", "taylor"])
+@pytest.mark.parametrize("method", mostly_long(["dop853", "radau5", "taylor"], "dop853", "taylor"))
 def test_methods_whose_steps_come_without_series_pass_over_nothing(method):
     h, c, w = drawn(method, -4, -2)
     mpmath.mp.dps = 25

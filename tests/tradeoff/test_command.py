@@ -59,6 +59,7 @@ def test_certificates_keep_their_promise_and_auto_is_judged(made):
     assert {trade["name"] for trade in document["trades"]} == {"digits", "proof"}
 
 
+@pytest.mark.long
 def test_the_plot_is_a_picture(made):
     _, plot = made
     assert ET.fromstring(plot).tag == "{http://www.w3.org/2000/svg}svg"
