@@ -288,7 +288,7 @@ class Manner:
 
 def _energies(problem: Problem) -> Iterator[Sum]:
     """T - V and T + V, as sums of the terms of the file."""
-    if problem.kinetic is None or problem.potential in (None, ZERO):
+    if problem.kinetic is None or problem.potential is None:
         return
     T, V = map(_terms, (problem.kinetic, problem.potential))
     if len(T) + len(V) > 1:
@@ -299,7 +299,7 @@ def _energies(problem: Problem) -> Iterator[Sum]:
 def _terms(node: Expression) -> tuple[Expression, ...]:
     """The terms of a sum; V: 0 has none."""
     terms = node.terms if isinstance(node, Sum) else (node,)
-    return tuple(term for term in terms if term != Number(Fraction(0)))
+    return tuple(term for term in terms if term != ZERO)
 
 
 _DECIMAL = re.compile(r"(?<![\w.])(\d+\.\d*|\.\d+)(?![\w.])")
