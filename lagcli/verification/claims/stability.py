@@ -117,8 +117,8 @@ def _positive(z: complex) -> bool:
 def _all_hold(
     x: Examination, what: str, near: LinearMotion, where: Sequence[Above] | None
 ) -> bool | None:
-    """Whether all inequalities hold; None where there are none, or one is not decided."""
-    if not where:
+    """Whether all inequalities hold; None where nothing is claimed, or one is not decided."""
+    if where is None:
         return None
     values = [near.at(place) for place in conditions(x, what, where)]
     if any(v < 0 for v in values):
