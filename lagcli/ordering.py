@@ -93,14 +93,15 @@ class Ordering:
     def rank(self, node: Expression) -> Flat:
         """Where a factor stands in a product: brackets at rest before the velocities.
 
-        (J + m r²) φ'²/2, m g (R + h) cos θ, m l (x' cos θ + l θ').
+        (J + m r²) φ'²/2, m g (R + h) cos θ, m l (x' cos θ + l θ'), k (y − b) ((x − a)² + (y − b)²).
         """
         base = node.base if isinstance(node, Power) else node
         if isinstance(base, Call) and base.function == "sqrt":
             (base,) = base.arguments
         key = self._term(base if isinstance(base, Sum) else node)
         if isinstance(base, Sum) and not any(self._is_fast(part) for part in walk(base)):
-            key = (1, 0, _AFTER_NUMBERS, self._first(base), *self._parts(base))
+            nested = any(isinstance(part, Sum) for term in base.terms for part in walk(term))
+            key = (1, 0, _AFTER_NUMBERS, nested, self._first(base), *self._parts(base))
         elif isinstance(base, Name) and not base.primes and self._is_fast(base):
             key = (1, 1, *key[2:])
         return _flat(key)

@@ -109,3 +109,14 @@ def test_no_energy_ends_with_nothing(potential):
     text = f"{{coordinates: [x, y], parameters: [m, I, k], V: {potential}, T: m*x'^2/2 + I*y'^2/2}}"
     answer = solve(loads(text), ["energy"])
     assert "0" not in str(answer).partition("Conserved")[0]
+
+
+def test_rows_that_differ_by_a_coordinate_have_their_factors_in_one_order():
+    near = "((a - b)^2 + (c - d)^2)"
+    parameters = "{k: , a: , b: , c: , d: }"
+    text = f"{{coordinates: [x, y], parameters: {parameters}, T: x'^2/2 + y'^2/2, V: 0}}"
+    write = Manner(read("file.yaml", text.encode()).problem)
+    rows = [f"k*{near}*({first})" for first in ("a - b", "c - d")]
+    assert [to_grammar(write(parse_text(row))) for row in rows] == [
+        f"k*({first})*{near}" for first in ("a - b", "c - d")
+    ]
