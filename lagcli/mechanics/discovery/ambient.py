@@ -67,7 +67,8 @@ def ambient_functions(metric: Metric, allowed: Allowance) -> list[Expr]:
 def _arc_length(g: Expr, x: Symbol) -> Expr | None:
     """X = c int sqrt(g) dx, with either sign of the root: term by term, or of a quadratic."""
     factors = sympy.Mul.make_args(sympy.factor_terms(g))
-    root = simplify(sympy.sqrt(sympy.Mul(*map(_half_angle, factors))))
+    above, below = sympy.fraction(sympy.together(sympy.Mul(*map(_half_angle, factors))))
+    root = simplify(sympy.sqrt(above)) / simplify(sympy.sqrt(below))
     _, function = root.replace(sympy.Abs, lambda e: e).as_independent(x, as_Add=False)
     base, power = function.as_base_exp()
     if abs(power) == sympy.S.Half and base.is_polynomial(x) and sympy.degree(base, x) == 2:

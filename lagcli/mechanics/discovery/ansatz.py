@@ -102,7 +102,9 @@ def affine(found: Kinds) -> list[Expr]:
         by_angle = []
     x = [y - found.centre.get(y, 0) for y in found.lengths]
     lengths = [one, *x, *(1 / r for r in found.radii), *found.exponentials]
-    if found.curved and len(x) <= _MOST_CURVED:
+    if found.powers:
+        lengths += [x[0] ** k for k in (-2, -1, 2, 3)]
+    elif found.curved and len(x) <= _MOST_CURVED:
         lengths += [a * b for i, a in enumerate(x) for b in x[: i + 1]]
     if _size([lengths, *by_angle]) > _MOST_FUNCTIONS:
         lengths = [one, *(x for x in found.lengths if x in found.radii)]

@@ -238,7 +238,9 @@ class Discovery(Setting):
             not self.coordinate_kinds.angles
         ):
             second = any(x**2 in spaces for x in self.coordinate_kinds.lengths)
-            shapes.append(f"{'of second degree' if second else 'affine'} in the coordinates")
+            degree = f"{'of second degree' if second else 'affine'} in the coordinates"
+            powers = "with powers -2 to 3 of the coordinate"
+            shapes.append(powers if self.coordinate_kinds.powers else degree)
         if self.coordinate_kinds.angles and len(spaces) > 1 + len(self.coordinate_kinds.lengths):
             shapes.append("with sines and cosines of the angles")
         space = " ".join(shapes) or "constant in the coordinates"

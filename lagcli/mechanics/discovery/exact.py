@@ -163,7 +163,7 @@ class ExactSolver:
             return None
         matrix = [[self.field.polynomial_to_sympy(x) for x in row] for row in rows]
         kernel = nullspace(matrix) if matrix else [[sympy.S.One]]
-        return [simplify(x) for x in kernel[0]] if len(kernel) == 1 else None
+        return [_with_inverse_roots(simplify(x)) for x in kernel[0]] if len(kernel) == 1 else None
 
     def collected(self, entries: Sequence[Expr]) -> list[dict[int, Poly]]:
         """sum c_a entry_a = 0 as one sparse row of constants for each monomial in t, q, q'."""
@@ -182,3 +182,11 @@ class ExactSolver:
                 groups.setdefault(moving, {}).setdefault(index, []).append((fixed, coefficient))
         rows = [{k: ring.build(terms) for k, terms in row.items()} for row in groups.values()]
         return [{k: x for k, x in row.items() if x != 0} for row in rows]
+
+
+def _with_inverse_roots(value: Expr) -> Expr:
+    """1/sqrt(a) for sqrt(1/a): where a charge with sqrt(a) is real they are the same."""
+    return value.replace(
+        lambda e: e.is_Pow and e.exp == sympy.S.Half and e.base.is_Pow and e.base.exp == -1,
+        lambda e: 1 / sympy.sqrt(e.base.base),
+    )

@@ -35,6 +35,7 @@ class Kinds:
     latitudes: list[Symbol] = field(default_factory=list)  # angles in the inertia of others
     alone: list[Symbol] = field(default_factory=list)  # cyclic, in no inertia with a latitude
     curved: bool = False
+    powers: bool = False  # of one length whose inertia depends on its velocity: -2 to 3
     exponentials: list[Expr] = field(default_factory=list)  # of lengths, in the inertia
     centre: Mapping[Symbol, Expr] = field(default_factory=dict)  # of rotations, where not at 0
 
@@ -78,6 +79,9 @@ def kinds(
     in_inertia = {s for row in equations.mass for m in row for s in m.free_symbols}
     found.curved = set(found.angles) <= set(found.lengths) and not in_inertia.isdisjoint(
         found.lengths
+    )
+    found.powers = len(found.lengths) == len(equations.q) == 1 and not free_of(
+        equations.mass[0][0], equations.v
     )
     found.exponentials = _exponentials(equations)
     found.latitudes = [x for x in found.angles if _in_determinant(x, equations)]

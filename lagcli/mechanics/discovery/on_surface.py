@@ -41,7 +41,9 @@ def search_on_surface(
     listing.add(search.new(_values(setting), momenta.conserved))
     setting.words.append(_sentence(times))
     freedom = setting.dynamics.degrees_of_freedom
-    if freedom > 1 and rank_on_surface(setting.dynamics, _values(setting)) == 2 * freedom:
+    holonomic = sum(e.holonomic for e in setting.dynamics.constraints.equations)
+    states = len(setting.system.q) - holonomic + freedom
+    if rank_on_surface(setting.dynamics, _values(setting)) == states:
         setting.words.append("all others are functions of these")
     elif freedom > 1 and setting.system.t not in setting.equations_symbols:
         found = search.quadratic(listing.points)

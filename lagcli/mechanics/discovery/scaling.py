@@ -26,7 +26,7 @@ def scaled(values: Sequence[Expr], constants: AbstractSet[Symbol]) -> tuple[Expr
 
 
 def _common(terms: Sequence[Expr], constants: AbstractSet[Symbol]) -> Expr:
-    """gcd of numbers and of powers of constants over all terms."""
+    """gcd of numbers, of powers of constants and of inverse roots of their sums, over all terms."""
     number: Expr | None = None
     powers: dict[Expr, Expr] | None = None
     for term in terms:
@@ -39,7 +39,9 @@ def _common(terms: Sequence[Expr], constants: AbstractSet[Symbol]) -> Expr:
         own = {
             base: exponent
             for base, exponent in (f.as_base_exp() for f in sympy.Mul.make_args(rest))
-            if exponent.is_Integer and base.free_symbols and base.free_symbols <= constants
+            if base.free_symbols
+            and base.free_symbols <= constants
+            and (exponent.is_Integer or (exponent.is_Rational and base.is_Add and exponent < 0))
         }
         if powers is None:
             powers = own

@@ -66,7 +66,9 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
                 continue
             known = [
                 part for c in discovery.charges
-                for part in _real_parts(_at_value(c.charge, (parameter, value), variables))
+                for part in _real_parts(
+                    _at_value(c.charge, (parameter, value), variables), c.charge
+                )
             ]  # fmt: skip
             charges = new_charges(known, there.charges, variables, allowed)
             if charges:
@@ -82,11 +84,18 @@ def _at_value(charge: Expr, value: Value, moving: Sequence[Symbol]) -> Expr:
     return there.xreplace({x: x.args[0] for x in there.atoms(sympy.Abs) if free_of(x, moving)})
 
 
-def _real_parts(charge: Expr) -> list[Expr]:
-    """Both are conserved: exp(a t) with a^2 < 0 at the value has a cosine and a sine."""
-    if not charge.has(sympy.I):
-        return [charge]
-    return [part for part in charge.expand(complex=True).as_real_imag() if part != 0]
+def _real_parts(charge: Expr, given: Expr) -> list[Expr]:
+    """Both are conserved: exp(a t) with a^2 < 0 at the value has a cosine and a sine.
+
+    The cosine of an imaginary argument is one of exponentials, as the search there has them.
+    """
+    parts = charge.expand(complex=True).as_real_imag() if charge.has(sympy.I) else (charge,)
+    waves = (sympy.sinh, sympy.cosh)
+    return [
+        part.xreplace({f: f.rewrite(sympy.exp) for f in part.atoms(*waves) - given.atoms(*waves)})
+        for part in parts
+        if part != 0
+    ]
 
 
 def _exponents(discovery: Discovery) -> tuple[Exponent, ...]:

@@ -102,7 +102,8 @@ def _elementary(I: Expr, t: Symbol, p: Expr) -> list[Expr]:  # noqa: E741
         return [sympy.sqrt(shifted), sympy.sqrt(shifted) * sympy.log(shifted)]
     if power.is_positive:
         s = sympy.sqrt(power)
-        return [shifted ** (sympy.S.Half + s), shifted ** (sympy.S.Half - s)]
+        rational = s.is_Rational  # as the values modulo a prime need it
+        return [shifted ** (sympy.S.Half + e) for e in (s, -s)] if rational else []
     inside = sympy.sqrt(-power) * sympy.log(shifted)
     return [sympy.sqrt(shifted) * sympy.sin(inside), sympy.sqrt(shifted) * sympy.cos(inside)]
 
