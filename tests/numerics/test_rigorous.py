@@ -123,6 +123,16 @@ def test_a_collision_ends_the_proof_before_it(capsysbinary):
     assert content["rows"][-1][0] == 1.0
 
 
+def test_rows_where_a_column_is_next_to_0_get_the_bits_that_they_need():
+    """At half a period x' = -sin(t) is the distance of the double from pi."""
+    oscillator = lagcli.loads("{coordinates: [x], L: x'^2/2 - x^2/2, initial: {x: 1}}")
+    found = proof(oscillator, 3.141592653589793, 1e-12, samples=2)
+    assert found.reached
+    with mpmath.workdps(40):
+        assert contains(found.rows[-1][2], -mpmath.sin(mpmath.mpf("3.141592653589793")))
+    assert found.rows[-1][2].rel_accuracy_bits() > 39
+
+
 def test_json_has_an_enclosure_for_each_number(capsysbinary):
     assert run(["simulate", "plane-pendulum", "--until", "1", "--samples", "3", "--rigorous", "-f",
                 "json"]) == 0  # fmt: skip

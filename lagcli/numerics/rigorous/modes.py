@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from lagcli.graph.derivative import partial
-from lagcli.graph.nodes import Node
+from lagcli.graph.nodes import Call, Node, ancestry, mask_of
 from lagcli.graph.substitution import Substitution
 from lagcli.numerics.equations.columns import Values
 from lagcli.numerics.equations.equations import Equations
@@ -158,6 +158,12 @@ class ProofMode:
 
     def _watch(self, kind: str, index: int, name: str, sign: int, node: Node) -> Watched:
         node = self._of_state(node)
+        kinks, mask = self.equations.kinks, mask_of(self.equations.state)
+        for each in ancestry([node]):
+            jumps = isinstance(each, Call) and each.function == "sign" and each.mask & mask
+            if jumps and each.parts[0] not in kinks:
+                message = f"not enclosed: where {name} jumps with a sign is not found"
+                raise Refusal(message, mistake=False)
         roots = [node, *(partial(self.equations.graph, x)(node) for x in self.equations.state)]
         return Watched(kind, index, name, sign, self.motion.function(roots, frozen=True))
 

@@ -162,7 +162,7 @@ def prove(problem: Problem, asked: Asked, progress: Progress | None = None) -> P
         bits = attempt.bits_needed()
         if found.reached or not 0 < bits <= _MOST_BITS or work <= 0 or attempt.last < _GAIN * last:
             return best
-        last = 0.0 if attempt.short else attempt.last
+        last = 0.0 if attempt.short or attempt.excess > 1 else attempt.last
 
 
 def _setup(problem: Problem, asked: Asked) -> tuple[Simulation, frozenset[int]]:
@@ -213,7 +213,7 @@ class Attempt:
         #: radius beside the scale of a component, the largest, at the last time
         self.width = 0.0
         self.last = 0.0
-        self.short = False
+        self.short, self.excess = False, 0.0
         self.times = self._times()
 
     def proof(self) -> Proof:
@@ -225,10 +225,9 @@ class Attempt:
         except (ArithmeticError, ValueError, OverflowError) as reason:
             self.refusal = f"the equations are not defined on the enclosure: {reason}"
         asked = self.setup.asked
-        good = _good(self.rows, asked.accuracy)
+        good, self.excess = _good(self.rows, asked.accuracy)
         reached = good == len(self.times)
-        self.too_wide = good < len(self.rows)
-        if self.too_wide:
+        if good < len(self.rows):
             self.refusal = _WIDE.format(asked.accuracy)
         holds = float(self.times[good - 1]) if good else 0.0
         return Proof(
@@ -250,7 +249,9 @@ class Attempt:
         accuracy, until = self.setup.asked.accuracy, self.setup.asked.until
         if self.short:
             return self.bits + _MORE_BITS
-        if not (self.too_wide or self.width > _NARROW * accuracy):
+        if len(self.rows) == len(self.times) and 1 < self.excess < math.inf:
+            return self.bits + math.ceil(math.log2(self.excess)) + 2 * _SPARE
+        if not (self.excess > 1 or self.width > _NARROW * accuracy):
             return 0
         lost = max(1.0, self.bits + math.log2(max(self.width, 2.0**-self.bits)))
         share = until / max(self.last, until / _FARTHEST)
@@ -440,10 +441,11 @@ def _order(each: Watched, crossed: Watched) -> int:
     return 1 if each.kind == crossed.kind else 0
 
 
-def _good(rows: Sequence[Enclosure], accuracy: float) -> int:
+def _good(rows: Sequence[Enclosure], accuracy: float) -> tuple[int, float]:
     """How many rows are as thin as asked for, beside the largest magnitude of their column.
 
-    A column whose enclosures all contain 0 is compared with the largest of the others.
+    A column whose enclosures all contain 0 is compared with the largest of the others.  The second
+    number is by how much the first row that is wider exceeds that; 0 where there is none.
     """
     scales: list[float] = []
     for good, row in enumerate(rows):
@@ -451,11 +453,10 @@ def _good(rows: Sequence[Enclosure], accuracy: float) -> int:
         scales = [max(pair) for pair in zip(sizes, scales or sizes, strict=True)]
         largest = max(scales[1:], default=0.0) or 1.0
         for x, scale in zip(row[1:], scales[1:], strict=True):
-            if x is not None and not (
-                x.is_finite() and _radius(x) <= accuracy * (scale or largest)
-            ):
-                return good
-    return len(rows)
+            allowed = accuracy * (scale or largest)
+            if x is not None and not (x.is_finite() and _radius(x) <= allowed):
+                return good, _radius(x) / allowed
+    return len(rows), 0.0
 
 
 def _radius(x: Any) -> float:
