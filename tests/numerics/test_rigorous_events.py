@@ -158,3 +158,18 @@ def test_a_sign_that_makes_a_condition_jump_is_not_followed():
         prove(problem, asked_of(problem, until=3, stop_when=stop))
     continuous = prove(problem, asked_of(problem, until=3, stop_when="abs(x - 1/2) - 1/10"))
     assert float(continuous.events[0].t) == pytest.approx(0.4, rel=1e-15)
+
+
+@pytest.mark.parametrize("restitution", ["0", "1/2"])
+def test_a_contact_that_is_closed_at_the_beginning_acts_until_its_force_is_lost(restitution):
+    """V = y - t^2 y: the force of the floor, 1 - t^2, is lost at t = 1, and y'' = t^2 - 1 from then."""
+    ball = lagcli.loads(
+        "{coordinates: [y], T: y'^2/2, V: y - t^2*y, contacts: {floor: {gap: y >= 0, "
+        f"restitution: {restitution}}}}}, initial: {{y: 0}}}}"
+    )
+    found = proof(ball, 2.0, samples=2)
+    assert found.reached
+    assert [(event.name, event.what) for event in found.events] == [("floor", "contact lost")]
+    assert contains(found.events[0].t, mpmath.mpf(1))
+    with mpmath.workdps(40):  # y' = t^3/3 - t + 2/3
+        assert contains(found.rows[-1][2], mpmath.mpf(8) / 3 - 2 + mpmath.mpf(2) / 3)

@@ -50,27 +50,33 @@ def initial_state(
         When no state on the constraints is proved to be there.
     """
     equations = motion.equations
-    graph, number = equations.graph, motion.arithmetic.number
+    number = motion.arithmetic.number
     symbols = (*equations.q, *equations.qdot)
     doubles = dict(zip(symbols, (*start[0], *start[1]), strict=True))
     state = given_values(motion)
     assumed: list[str] = []
-    formulas = {
-        graph.symbol(name.name, name.primes): equations.form.read(value)
-        for name, value in equations.problem.initial.items()
-    }
-    known = Substitution(graph, {**formulas, equations.t: graph.zero})
     for kind, rows in ((equations.q, equations.positions), (equations.qdot, equations.rates)):
         unknown = [s for s in kind if s not in state]
         state |= {s: number(Fraction(doubles[s])) for s in unknown}
         used = _solve(motion, symbols, state, unknown, rows)
         rest = [row for k, row in enumerate(rows) if k not in used]
-        open_ = [row for row in rest if known(row) is not graph.zero]
-        assumed += _residual(motion, [state.get(s, number(Fraction(0))) for s in symbols], open_)
+        assumed += vanishing(motion, [state.get(s, number(Fraction(0))) for s in symbols], rest)
     return [state[s] for s in symbols], list(dict.fromkeys(assumed))
 
 
-def _residual(motion: Motion, state: Sequence[Any], rows: Sequence[Node]) -> list[str]:
+def vanishing(motion: Motion, state: Sequence[Any], nodes: Sequence[Node]) -> list[str]:
+    """What is assumed for nodes to be 0 at the beginning.
+
+    Raises
+    ------
+    Refusal
+        Where one of them is not.
+    """
+    equations = motion.equations
+    graph, read = equations.graph, equations.form.read
+    given = {graph.symbol(x.name, x.primes): read(y) for x, y in equations.problem.initial.items()}
+    known = Substitution(graph, {**given, equations.t: graph.zero})
+    rows = [node for node in nodes if known(node) is not graph.zero]
     found = motion.function(rows)(motion.arithmetic.number(Fraction(0)), *state) if rows else ()
     if not all(abs(r) < _RESIDUAL for r in found):
         message = "the initial state is not on the constraints as exactly as a proof needs it"

@@ -18,6 +18,7 @@ from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.rigorous.crossings import Restart, Watched
 from lagcli.numerics.rigorous.enclosure import Enclosures, NotEnclosed
 from lagcli.numerics.rigorous.field import VectorField
+from lagcli.numerics.rigorous.initial import vanishing
 from lagcli.numerics.rigorous.solution import LinearSystem
 
 Key = tuple[frozenset[int], tuple[int, ...]]
@@ -49,6 +50,8 @@ class ProofModes:
     ) -> None:
         self.setup, self.constants, self.arithmetic = setup, constants, arithmetic
         self.implied, self.order, self.target, self.least = implied, order, target, least
+        #: that what is closed at the beginning is closed exactly
+        self.assumed: list[str] = []
         #: of what `--stop-when` compares with 0, at the beginning
         self.stop_sign = 0
         self.peaks = [0.0] * (2 * len(setup.equations.q))
@@ -73,6 +76,7 @@ class ProofModes:
         trial = self(setup.given, [1] * len(setup.equations.kinks))
         signs = [_sign_of(each.at(t, x)) for each in trial.watched if each.kind == "kink"]
         mode = self(setup.given, self._leaving(t, x, signs) if 0 in signs else signs)
+        mode = self._resting(t, x, mode)
         leaving = {each: 1 for each in mode.watched if not each.at(t, x) > 0}
         for each in leaving:
             if not (each.at(t, x).contains(0) and each.rate(mode.field, t, x) > 0):
@@ -80,6 +84,23 @@ class ProofModes:
                     f"{each.name} is at its edge at the beginning, and may stay there"
                 )
         return mode, leaving
+
+    def _resting(self, t: Any, x: Sequence[Any], mode: ProofMode) -> ProofMode:
+        """The mode in which contacts act that are closed at the beginning, without speed."""
+        gaps = self.setup.gaps
+        closed = frozenset(
+            each.index
+            for each in mode.watched
+            if each.kind == "gap"
+            and each.at(t, x).contains(0)
+            and each.rate(mode.field, t, x).contains(0)
+        )
+        if not closed:
+            return mode
+        together = self.setup.equations.holding(mode.held | closed)
+        rates = [together.rates[together.place[k]] for k in closed]
+        self.assumed += vanishing(mode.motion, x, [*(gaps[k] for k in closed), *rates])
+        return self(mode.held | closed, mode.signs)
 
     def _leaving(self, t: Any, x: Sequence[Any], signs: Sequence[int]) -> list[int]:
         """The signs just after the beginning, where some are 0 there."""

@@ -279,6 +279,7 @@ class Attempt:
             modes.stop_sign = first.sign_of_stop(t, state)
             first.__dict__.pop("watched")
         found = modes.at_first(t, state)
+        self.assumed += modes.assumed
         self._take(found[0], t, state)
         following: Following | None = (t, start, *found)
         while following is not None and len(self.rows) < len(self.times):
