@@ -34,6 +34,9 @@ _PROVED = 1e-9
 #: Wall time that a process is given for each second of its processor time.
 _PATIENCE = 20.0
 
+#: Runs that take the limit of one are this many at most: what is left of the table stays empty.
+_RUNS = 20
+
 #: Told of each run before it is made: how many are made, of how many.
 Progress = Callable[[int, int], None]
 
@@ -131,6 +134,8 @@ def study(
     """
     methods = [name for name in METHODS if name in methods]
     problem, asked = asked_of(given)
+    if progress is not None:
+        progress(0, 1)
     known = reference(problem, asked, _reference_limit(given))
     maker = _RunMaker(given, known, repeat, progress, methods)
     points: list[RunPoint] = []
@@ -182,6 +187,7 @@ class _RunMaker:
         self.made = 0
         self.total = len(methods) * len(_TOLERANCES) + len(ACCURACIES) * (1 + len(methods)) + 1
         self.unsuited = False
+        self._spent = 0.0  # seconds of processor time
         self._too_long: dict[str, float] = {}  # the accuracy that took too long
 
     def sweep(self, entry: MethodEntry, *, whole: bool = False) -> Iterator[RunPoint]:
@@ -218,12 +224,16 @@ class _RunMaker:
         if self.progress is not None:
             self.progress(self.made, self.total)
         self.made += 1
+        asked = RunPoint(method=given.method, tolerance=given.tolerance, accuracy=given.accuracy)
+        self.unsuited, most = False, _RUNS * given.limit
+        if self._spent > most:
+            return replace(asked, why=f"not made: the runs before took {most:g} s")
         found = [answer(given)]
         while len(found) < self.repeat and "why" not in found[0]:
             found.append(answer(given))
         first = found[0]
+        self._spent += sum(given.limit if x.get("long") else x.get("total", 0.0) for x in found)
         self.unsuited = bool(first.get("unsuited"))
-        asked = RunPoint(method=given.method, tolerance=given.tolerance, accuracy=given.accuracy)
         good = [each for each in found if "why" not in each]
         if not good:
             return replace(asked, why=first["why"])
