@@ -49,7 +49,12 @@ Repeat = Annotated[
 ]
 Limit = Annotated[
     float,
-    typer.Option("--limit", metavar="SECONDS", min=0.1, help="Processor time of one run; all together take 20 times as much."),
+    typer.Option(
+        "--limit",
+        metavar="SECONDS",
+        min=0.1,
+        help="Processor time of one run; all together take 20 times as much.",
+    ),
 ]
 
 

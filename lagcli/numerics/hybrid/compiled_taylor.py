@@ -34,6 +34,9 @@ _LOOK = 64
 _LIMIT = 1_000_000_000
 #: Of the order in the logarithm of the tolerance, by what was measured.
 _ORDER, _LOWEST = 0.7, 8
+#: Roundings of the time over which a place without a series is passed, in one run and the other;
+#: so often at most within so many of them.
+_NARROW, _WIDE, _AT_ONE_PLACE, _NEARBY = 16, 32, 8, 1e4
 #: Constraints are held to so many roundings, and one that the others imply must be to this.
 _HELD, _IMPLIED = 3.6, 1e-12
 
@@ -70,6 +73,8 @@ class CompiledTaylor:
         self.n = machine.motion.n
         self.evaluations = 0
         self.reached: int | None = None
+        #: when what has values and no series was stepped over
+        self._leaps: list[float] = []
         self._array = machine.numbers.array
         both, motion = 2 * self.n, machine.motion
         self._rows, self._other = (self._zeros(machine.rows * k.STRIDE) for _ in range(2))
@@ -142,19 +147,24 @@ class CompiledTaylor:
         while t < until:
             for i, sign in enumerate(motion.signs):
                 self._signs[i] = sign
-            if self._expand(state) != k.MORE:
-                raise CannotGoOn(t, q, v, "")
-            h = float(self._facts[k.H])
+            move = self._move
+            if self._expand(state) == k.MORE:
+                h = float(self._facts[k.H])
+                inside = self._inside(t)
+            else:
+                h, move = self._across(t), self._leap
+                if not h:
+                    raise CannotGoOn(t, q, v, "")
+                inside = self._straight(t, q, v)
             end = until if t + 1.01 * h >= until else t + h
-            inside = self._inside(t)
-            q_end, v_end = self._move(state, end, q, v)
+            q_end, v_end = move(state, end, q, v)
             if motion.kinks:
                 shorter = kinks.first(t, end - t, q_end, v_end, inside)
                 if shorter is not None:
                     end = t + shorter
                     if kinks.stuck(end, until):
                         raise CannotGoOn(t, q, v, kinks.why())
-                    q_end, v_end = self._move(state, end, q, v)
+                    q_end, v_end = move(state, end, q, v)
             tolerance.peaks[:] = [float(x) for x in self._peaks]
             tolerance.scales[:] = [float(x) for x in self._scales]
             for i in range(both):
@@ -199,6 +209,56 @@ class CompiledTaylor:
             raise CannotGoOn(float(state[2 * self.n]), q, v, "")
         n = self.n
         return list(self._ahead[:n]), list(self._ahead[n : 2 * n])
+
+    # -- over a place where the equations have values and no series --------------------------------
+
+    def _across(self, t: float) -> float:
+        """How long a step over it is, where a root or an inverse function blocks the way; or 0."""
+        blocked, machine = self._counts[k.BLOCKED], self.machine
+        if not blocked or machine.numbers.type != "double":
+            return 0.0
+        argument = machine.narrow[blocked - 1].argument
+        if not all(each.is_finite for each in machine.narrow if each.argument is argument):
+            return 0.0
+        self._leaps = [*self._leaps[-_AT_ONE_PLACE:], t]
+        unit = 2 * machine.numbers.rounding * max(t, 1e-3 * float(self._facts[k.UNTIL]))
+        if len(self._leaps) > _AT_ONE_PLACE and t - self._leaps[0] < _NEARBY * unit:
+            return 0.0
+        return unit * (_WIDE if self._facts[k.KICK] else _NARROW)
+
+    def _straight(self, start: float, q: Any, v: Any) -> Any:
+        """The state a time after another one, under the accelerations there."""
+        a = self.machine.motion.accelerations(start, *q, *v)
+
+        def inside(t: float) -> tuple[list[Any], list[Any], list[Any]]:
+            h = t - start
+            places = [x + h * (u + h * b / 2) for x, u, b in zip(q, v, a, strict=True)]
+            return places, [u + h * b for u, b in zip(v, a, strict=True)], list(a)
+
+        return inside
+
+    def _leap(self, state: Any, end: float, q: Any, v: Any) -> tuple[list[Any], list[Any]]:
+        """As `_move`."""
+        both, ahead = 2 * self.n, self._ahead
+        places, speeds, _ = self._straight(float(state[both]), q, v)(end)
+        for i, x in enumerate((*places, *speeds)):
+            ahead[i], ahead[both + 1 + i] = x, 0.0
+        return places, speeds
+
+    def _goes_across(self, state: Any) -> bool:
+        """Whether the state of a whole run could be carried over what blocks the way."""
+        n, both = self.n, 2 * self.n
+        t = float(state[both])
+        h = self._across(t)
+        if not h or t + h >= float(self._facts[k.UNTIL]):
+            return False
+        try:
+            places, speeds = self._leap(state, t + h, list(state[:n]), list(state[n:both]))
+        except (ArithmeticError, ValueError):
+            return False
+        for i, x in enumerate((*places, *speeds, t + h)):
+            state[i], self._lost[min(i, both - 1)] = x, 0.0
+        return True
 
     def _vanishes(self, state: Any) -> PivotVanishes:
         return PivotVanishes(float(state[2 * self.n]), self.machine.motion.m)
@@ -276,6 +336,8 @@ class CompiledTaylor:
             counts[k.LIMIT] = min(call, limit - counts[k.STEPS])
             status = self.machine.kernel("drive")(*map(pointer, given))
             call = min(2 * call, _CALL)
+            if status == k.STOPPED and self._goes_across(state):
+                status = k.MORE
             part = float(state[both]) / times[-1]
             if part > 0:
                 self.machine.improve(counts[k.STEPS] / part, self.order)

@@ -135,7 +135,11 @@ class Kinks:
         """
         assert self.reached is not None
         motion, k, self.reached = self.motion, self.reached, None
-        before = motion.accelerations(t, *q, *v)
+        try:
+            before = motion.accelerations(t, *q, *v)
+        except (ArithmeticError, ValueError):  # a root of what is |u| on this side
+            motion.signs[k] *= -1
+            return list(v)
         u = motion.exact_kink_arguments(t, *q, *v)[k]
         rate = float(motion.kink_rates(t, *q, *v, *before)[k])
         motion.signs[k] *= -1
