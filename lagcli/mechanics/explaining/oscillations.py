@@ -37,20 +37,30 @@ def oscillations(teller: Teller, section: Section) -> Iterator[Block]:
         return
     small = SmallOscillations(teller.dynamics)
     by_place = {(tuple(mode.at.items()), mode.on): (mode.at, mode.on) for mode in found}
+    alike: dict[tuple[Block, ...], list[tuple[Row, ...]]] = {}
     for at, on in by_place.values():
         place = next(
             p
             for p in small.places or ()
             if (small.equilibrium(p).at, small.equilibrium(p).on) == (at, on)
         )
-        yield says("To first order in the displacements from the equilibrium")
-        yield Equations(place_rows(at, on))
-        yield from _linear(teller, *place.matrices)
         here = [mode for mode in found if (mode.at, mode.on) == (at, on)]
-        if place.characteristic.in_square is None:
-            yield from _damped(teller, place)
-        else:
-            yield from _undamped(teller, here, gyroscopic=_moving(place.matrices[1]))
+        alike.setdefault(tuple(_near(teller, place, here)), []).append(place_rows(at, on))
+    for blocks, places in alike.items():
+        for k, rows in enumerate(places):
+            lead = "and from" if k else "To first order in the displacements from"
+            yield says(f"{lead} the equilibrium" if rows else f"{lead} rest")
+            yield from [Equations(rows)] if rows else []
+        yield from blocks
+
+
+def _near(teller: Teller, place: Place, modes: Sequence[ModesOfFrequency]) -> Iterator[Block]:
+    """The linear equations and their solutions."""
+    yield from _linear(teller, *place.matrices)
+    if place.characteristic.in_square is None:
+        yield from _damped(teller, place)
+    else:
+        yield from _undamped(teller, modes, gyroscopic=_moving(place.matrices[1]))
 
 
 def _moving(velocity: Sequence[Sequence[Expr]]) -> bool:
@@ -106,6 +116,9 @@ def _undamped(
 
 def _mode(mode: ModesOfFrequency, omega: Name) -> Iterator[Block]:
     value = mode.frequency if mode.frequency is not None else mode.frequency_squared
+    if value is None and mode.negative:
+        yield says("No other root is real: the amplitudes of some displacements grow.")
+        return
     if value is None:
         count = mode.multiplicity
         roots = "one root" if count == 1 else f"{count} roots"

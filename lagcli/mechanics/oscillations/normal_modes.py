@@ -16,6 +16,7 @@ from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.parameter_values import admissible_values
+from lagcli.mechanics.reduction.readable import without_moduli
 from lagcli.record import record
 
 _DIGITS = 60
@@ -28,8 +29,8 @@ _ROUNDED = mpf(10) ** -10  # for squared frequencies given as decimals
 class NormalMode:
     """`square` is omega^2; `frequency` None where it is not real, no `shapes` where complex.
 
-    `negative`: the square is, for all values.  Both are None, without shapes, for a frequency that
-    was not found, or not undamped.
+    `negative`: the square is, for all values, or is not real.  Both are None, without shapes, for a
+    frequency that was not found, or not undamped.
     """
 
     square: Expr | None
@@ -40,20 +41,24 @@ class NormalMode:
 
 
 def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[NormalMode]:
-    """The modes by rising frequency."""
+    """The modes by rising frequency; none where no square is real."""
     factors = characteristic.squares
     if factors is None:
         return [NormalMode(None, None, (), len(linear.M))]
     choices = _choices(linear)
     values = choices[0]
     modes: list[NormalMode] = []
-    unknown = 0
+    unknown, complex_ = 0, True
     for roots, multiplicity, degree in factors:
         if roots is None or not all(
             _is_root(characteristic, r, values) and not r.has(sympy.I) for r in roots
         ):
             unknown += multiplicity * degree
+            values_of = [(r, each) for r in roots or () for each in choices]
+            complex_ &= bool(values_of) and all(_is_complex(*pair) for pair in values_of)
             continue
+        plain = [without_moduli(root, linear.point.positive) for root in roots]
+        given, roots = roots, plain
         pair = _beats(roots, values)
         for k, root in enumerate(roots):
             if pair:
@@ -62,11 +67,11 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
                 frequency = _frequency(linear, root, choices)
                 square = shorter(simplify(root), root)
             falls = frequency is None and sign(square, linear.point.positive) == -1
-            shapes = _shapes(linear, square, values)
+            shapes = _shapes(linear, square, values) or _shapes(linear, given[k], values)
             modes.append(NormalMode(square, frequency, shapes, multiplicity, falls))
     modes.sort(key=lambda mode: _number(mode.square, values))
-    if unknown:
-        modes.append(NormalMode(None, None, (), unknown))
+    if unknown and (modes or not complex_):
+        modes.append(NormalMode(None, None, (), unknown, complex_))
     return modes
 
 

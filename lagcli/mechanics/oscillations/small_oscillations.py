@@ -118,7 +118,7 @@ def _why_none(places: Sequence[Place]) -> str:
     if any(place.linear.has_kink for place in places):
         return _NO_LINEAR_PART
     squares = [each for place in places for each in place.characteristic.squares or ()]
-    if squares and all(roots == [] for roots, *_ in squares):
+    if squares and all(roots is not None for roots, *_ in squares):
         return _NO_REAL_SQUARE
     return _NO_MODES
 

@@ -166,9 +166,20 @@ def opposites(
     expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
 ) -> tuple[Above, ...]:
     """The opposite inequalities of `conditions`, those that can hold."""
-    kept = _without_implied(expressions, order, positive)
+    plain = [_without_zeros(each, expressions) for each in expressions]
+    kept = _without_implied(plain, order, positive)
     possible = [each for each, rest in kept if weak_sign(rest, positive) != 1]
     return tuple(dict.fromkeys(Above(each.right, each.left) for each in possible))
+
+
+def _without_zeros(expression: Expr, all_: Sequence[Expr]) -> Expr:
+    """The expression over x² where at x = 0 another one is negative."""
+    for factor, power in factors_of(expression):
+        if factor.is_Symbol and power > 0 and power % 2 == 0:
+            others = [e.xreplace({factor: S.Zero}) for e in all_ if e is not expression]
+            if -1 in map(sign, others):
+                expression = simplify(expression / factor**power)
+    return expression
 
 
 def _without_implied(
