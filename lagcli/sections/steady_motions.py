@@ -12,8 +12,6 @@ from lagcli.document import (
     Equations,
     Formula,
     Heading,
-    Label,
-    Matrix,
     Paragraph,
     Row,
 )
@@ -30,6 +28,8 @@ from lagcli.statements.plus_minus import once, single
 from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     conditions,
+    linear_equations,
+    listed,
     none_found,
     place_rows,
     there_may_be_others,
@@ -54,7 +54,7 @@ def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
         yield Paragraph(
             (
                 "The constraints give ",
-                *_listed(section.eliminated),
+                *listed(section.eliminated, 1),
                 " in terms of the other velocities.",
             )
         )
@@ -102,14 +102,8 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
         squared = Power(own("omega"), Number(Fraction(2)))
         yield Equations(tuple(Row(squared, square) for square in squares))
     if len(motion.mass) > 1:
-        yield from _linearized(motion)
-
-
-def _listed(names: Sequence[str]) -> list[str | Formula]:
-    parts: list[str | Formula] = []
-    for position, name in enumerate(names):
-        parts += [", " if position else "", Name(name, 1)]
-    return parts
+        matrices = (motion.mass, motion.velocity, motion.stiffness)
+        yield from linear_equations("To first order, ", *matrices, end=":")
 
 
 def _any_value(motion: SteadyMotion) -> list[str | Formula]:
@@ -118,19 +112,6 @@ def _any_value(motion: SteadyMotion) -> list[str | Formula]:
         variable = name.rstrip("'")
         parts += [", " if position else "For any ", Name(variable, len(name) - len(variable))]
     return [*parts, "; " if motion.where else ". "] if parts else []
-
-
-def _linearized(motion: SteadyMotion) -> Iterator[Block]:
-    names = tuple(str(n) for n in range(1, len(motion.mass) + 1))
-    turning = any(entry != ZERO for row in motion.velocity for entry in row)
-    M, C, K = (Label(letter, matrix=True) for letter in "MCK")
-    velocities = (C, " · velocities + ") if turning else ()
-    moving = (M, " · accelerations + ", *velocities)
-    yield Paragraph(("To first order, ", *moving, K, " · displacements = 0:"))
-    yield Matrix(M, motion.mass, names, names)
-    if turning:
-        yield Matrix(C, motion.velocity, names, names)
-    yield Matrix(K, motion.stiffness, names, names)
 
 
 def json(section: SteadySection) -> Object:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 
-from lagcli.document import Block, Equations, Formula, Label, Paragraph, Row
+from lagcli.document import Block, Equations, Formula, Label, Matrix, Paragraph, Row
 from lagcli.expression import (
     ZERO,
     Expression,
@@ -66,12 +66,10 @@ def with_names(text: str) -> list[Part]:
     return [Name(part) if k % 2 else part for k, part in enumerate(text.split("`")) if part]
 
 
-def listed(names: Iterable[str]) -> list[Part]:
+def listed(names: Iterable[str], primes: int = 0) -> list[Part]:
     """Names between commas."""
-    parts: list[Part] = []
-    for name in names:
-        parts += [", ", Name(name)] if parts else [Name(name)]
-    return parts
+    parts: list[Part] = [part for name in names for part in (", ", Name(name, primes))]
+    return parts[1:]
 
 
 def substituted(level: Verification | None, symbols: Iterable[str] = ()) -> Iterator[Paragraph]:
@@ -268,6 +266,24 @@ def unless(
     for position, each in enumerate(vanishing):
         parts += [" and " if position else " unless ", *_compared(each, " = ")]
     return parts
+
+
+def linear_equations(
+    lead: str, *matrices: Sequence[Sequence[Expression]], end: str = " with"
+) -> Iterator[Block]:
+    """M x'' + C x' + K x = 0 of the matrices M, C and K, without C where it is 0."""
+    given = dict(zip("MCK", matrices, strict=True))
+    if not any(entry != ZERO for row in given["C"] for entry in row):
+        del given["C"]
+    terms = {"M": " · accelerations", "C": " · velocities", "K": " · displacements = 0"}
+    parts: list[Part] = [lead]
+    for letter in given:
+        parts += [" + " if letter != "M" else "", Label(letter, matrix=True), terms[letter]]
+    yield Paragraph((*parts, end))
+    tags = tuple(str(n) for n in range(1, len(given["M"]) + 1))
+    for letter, entries in given.items():
+        label, rows = Label(letter, matrix=True), tuple(map(tuple, entries))
+        yield one_row(label, rows[0][0]) if len(rows) == 1 else Matrix(label, rows, tags, tags)
 
 
 def there_may_be_others(section: SteadySection) -> Paragraph:

@@ -10,12 +10,12 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, shape, simplify
 from lagcli.algebra.signs import sign
-from lagcli.document import Block, Equations, Label, Matrix, Row
+from lagcli.document import Block, Equations, Label, Row
 from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, Sum, operation_count
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, says, shows
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
-from lagcli.statements.wording import place_rows
+from lagcli.statements.wording import linear_equations, place_rows
 
 if TYPE_CHECKING:
     from lagcli.mechanics.oscillations.small_oscillations import Place
@@ -56,7 +56,7 @@ def oscillations(teller: Teller, section: Section) -> Iterator[Block]:
 
 def _near(teller: Teller, place: Place, modes: Sequence[ModesOfFrequency]) -> Iterator[Block]:
     """The linear equations and their solutions."""
-    yield from _linear(teller, *place.matrices)
+    yield from _linear(teller, place)
     if place.characteristic.in_square is None:
         yield from _damped(teller, place)
     else:
@@ -67,27 +67,11 @@ def _moving(velocity: Sequence[Sequence[Expr]]) -> bool:
     return any(is_zero(entry) is not True for row in velocity for entry in row)
 
 
-def _linear(
-    teller: Teller,
-    mass: Sequence[Sequence[Expr]],
-    velocity: Sequence[Sequence[Expr]],
-    stiffness: Sequence[Sequence[Expr]],
-) -> Iterator[Block]:
+def _linear(teller: Teller, place: Place) -> Iterator[Block]:
     """M x'' + C x' + K x = 0."""
-    moving = _moving(velocity)
-    M, C, K = (Label(letter, matrix=True) for letter in "MCK")
-    parts: list[Part] = ["the equations of motion are ", M, " · accelerations + "]
-    parts += [C, " · velocities + "] if moving else []
-    yield says(*parts, K, " · displacements = 0 with")
-    tags = tuple(str(n) for n in range(1, len(mass) + 1))
-    for letter, entries in (("M", mass), ("C", velocity), ("K", stiffness)):
-        if letter == "C" and not moving:
-            continue
-        trees = tuple(tuple(map(teller.readable.as_written, row)) for row in entries)
-        if len(trees) == 1:
-            yield shows(Label(letter, matrix=True), trees[0][0])
-        else:
-            yield Matrix(Label(letter, matrix=True), trees, tags, tags)
+    write = teller.readable.as_written
+    matrices = ([[write(e) for e in row] for row in matrix] for matrix in place.matrices)
+    yield from linear_equations("the equations of motion are ", *matrices)
     if teller.dynamics.constraints.equations:
         yield says("restricted to the displacements that the constraints allow.")
 

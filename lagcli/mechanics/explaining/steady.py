@@ -10,14 +10,12 @@ from lagcli.document import (
     Block,
     Equations,
     Heading,
-    Label,
-    Matrix,
     Row,
 )
 from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.mechanics.explaining.given_momenta import two_rates
 from lagcli.mechanics.explaining.teller import Teller
-from lagcli.mechanics.explaining.words import Part, listed, names, says, shows
+from lagcli.mechanics.explaining.words import Part, listed, names, says
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import Section
 from lagcli.statements.motions import SteadyMotion, SteadySection
@@ -26,6 +24,7 @@ from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     POTENTIAL,
     conditions,
+    linear_equations,
     place_rows,
     there_may_be_others,
     unless,
@@ -181,23 +180,9 @@ def _rolling(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
 
 def _displaced(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
     """M x'' + C x' + K x = 0 and the squares of the frequencies."""
-    M, C, K = (Label(letter, matrix=True) for letter in "MCK")
-    turning = any(entry != ZERO for row in motion.velocity for entry in row)
-    velocities: list[Part] = [C, " · velocities + "] if turning else []
     unchanged = " at unchanged momenta" if motion.momenta else ""
-    yield says(
-        f"Small displacements{unchanged} obey to first order ",
-        *(M, " · accelerations + ", *velocities, K, " · displacements = 0 with"),
-    )
-    tags = tuple(str(n) for n in range(1, len(motion.mass) + 1))
-    for letter, entries in (("M", motion.mass), ("C", motion.velocity), ("K", motion.stiffness)):
-        label = Label(letter, matrix=True)
-        if any(entry != ZERO for row in entries for entry in row):
-            yield (
-                shows(label, entries[0][0])
-                if len(entries) == 1
-                else Matrix(label, entries, tags, tags)
-            )
+    lead = f"Small displacements{unchanged} obey to first order "
+    yield from linear_equations(lead, motion.mass, motion.velocity, motion.stiffness)
     squares = dict.fromkeys(motion.frequencies_squared)
     if squares:
         yield says("The squares of the frequencies are the roots of the determinant:")
