@@ -197,6 +197,9 @@ def _without_implied(
             found = [(a, e) for a, e in found if not _implies(rest, e)]
             found.append((each, rest))
             known.append(rest)
+    for k, (each, rest) in enumerate(found):
+        others = [*positive, *(e for _, e in found[:k] + found[k + 1 :])]
+        found[k] = above(rest, order, others) or each, deciding(rest, others)
     return found
 
 

@@ -130,10 +130,10 @@ class _SteadyStatement:
                     judged = undecided("a force without a potential acts")
         except ZeroDivisionError:
             pass
+        potential = potential_of(self.steady.rest, "U_eff")
         if self.steady.grazes(motion):
             judged = undecided(GRAZES)
-        potential = potential_of(self.steady.rest, "U_eff")
-        if judged.is_open and (resting := self._at_rest(motion)) is not None:
+        elif judged.is_open and (resting := self._at_rest(motion)) is not None:
             judged, potential = resting, potential_of(RestPoints(self.routh.full.dynamics))
         system, names = self.steady.system, self.steady.full.names
         rates = motion.rates
