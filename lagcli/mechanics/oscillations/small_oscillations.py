@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 
-from sympy import Expr, S, Symbol
+from sympy import Expr, I, S, Symbol
 
 from lagcli.algebra.equations import written
 from lagcli.expression import Expression
@@ -118,7 +118,7 @@ def _why_none(places: Sequence[Place]) -> str:
     if any(place.linear.has_kink for place in places):
         return _NO_LINEAR_PART
     squares = [each for place in places for each in place.characteristic.squares or ()]
-    if squares and all(roots is not None for roots, *_ in squares):
+    if squares and all(r is not None and all(W.has(I) for W in r) for r, *_ in squares):
         return _NO_REAL_SQUARE
     return _NO_MODES
 
