@@ -15,7 +15,7 @@ Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., sections 6.1 and 6.2.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 
 import sympy
@@ -105,20 +105,21 @@ class Linearization:
         return all(is_zero(dot(vector, forces)) is True for vector in self.basis)
 
     @cached_property
-    def has_kink(self) -> bool:
-        """Whether a force has no linear part there: on the two sides of u = 0 another one.
-
-        |x| in V has none at 0, quadratic drag v |v| has one at v = 0.
-        """
-        forcing = self.dynamics.lagrange.forcing
-        corners = {f.args[0] for force in forcing for f in force.atoms(sympy.sign, sympy.Abs)}
-        place = {**self.point.values, **dict.fromkeys(self.system.qdot, S.Zero)}
-        return any(
-            _differs(force, u, place)
-            for u in sorted(corners, key=str)
-            if is_zero(at(u, place)) is True
-            for force in forcing
+    def smooth(self) -> bool:
+        """Whether the forces have a derivative there: |v| v has one at 0, |x| has none."""
+        state = (*self.system.q, *self.system.qdot)
+        return all(
+            self._vanish([node.args[0]]) is False or self._vanish(_steps(force, node, state))
+            for force in self.dynamics.lagrange.forcing
+            for node in force.atoms(sympy.sign, sympy.Abs)
+            if not free_of(node, state)
         )
+
+    def _vanish(self, expressions: Sequence[Expr]) -> bool | None:
+        """Whether all are 0 in this state."""
+        values = {**dict.fromkeys(self.system.qdot, S.Zero), **self.point.values}
+        known = [is_zero(at(e, values)) for e in expressions]
+        return False if False in known else None if None in known else True
 
     @cached_property
     def drifts(self) -> bool:
@@ -217,9 +218,11 @@ class Linearization:
         return solution is not None and not solution.singular
 
 
-def _differs(force: Expr, u: Expr, place: Mapping[Symbol, Expr]) -> bool:
-    """Whether the value or the gradient depends on the side of u = 0."""
-    side = sympy.Dummy("side", real=True)
-    open_ = force.xreplace({sympy.sign(u): side, sympy.Abs(u): side * u})
-    parts = [open_, *(open_.diff(x) for x in place)]
-    return any(is_zero(at(part.diff(side), place)) is not True for part in parts)
+def _steps(force: Expr, node: Expr, state: Sequence[Symbol]) -> list[Expr]:
+    """The jump of the force and of its derivatives where the argument changes its sign."""
+    argument = node.args[0]
+    left, right = (
+        force.xreplace({sympy.Abs(argument): s * argument, sympy.sign(argument): S(s)})
+        for s in (-1, 1)
+    )
+    return [left - right, *((left - right).diff(x) for x in state)]

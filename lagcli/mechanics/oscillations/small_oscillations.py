@@ -115,7 +115,7 @@ def _why_none(places: Sequence[Place]) -> str:
         return DRIFTS
     if all(place.at_singular_coordinates for place in places):
         return _SINGULAR
-    if any(place.linear.has_kink for place in places):
+    if not all(place.linear.smooth for place in places):
         return _NO_LINEAR_PART
     squares = [each for place in places for each in place.characteristic.squares or ()]
     if squares and all(r is not None and all(W.has(I) for W in r) for r, *_ in squares):
@@ -182,7 +182,7 @@ class Place:
             if (
                 self.held.rest.depends_on_time
                 or not self.linear.regular
-                or self.linear.has_kink
+                or not self.linear.smooth
                 or self.linear.drifts
             ):
                 return []

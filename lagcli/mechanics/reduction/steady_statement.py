@@ -116,7 +116,7 @@ class _SteadyStatement:
             if not motion.derivatives:
                 linear = Linearization(self.steady.rest, self.steady.point(motion))
                 judged = judge(linear)
-                if not (linear.drifts or linear.has_kink or self.steady.grazes(motion)):
+                if not (linear.drifts or not linear.smooth or self.steady.grazes(motion)):
                     matrices = (linear.M, linear.C, linear.K)
                     squares, turning = squares_of(linear), held_by_gyroscopic_terms(linear)
                 if motion.family is not None:

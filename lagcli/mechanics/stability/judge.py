@@ -178,7 +178,7 @@ def judge_on_meridians(linear: OnMeridians) -> Stability:
     """The stability where only the coordinates are singular, by the potential alone."""
     near = Near(linear)
     try:
-        if not (near.has_energy and near.smooth and linear.regular):
+        if not (near.has_energy and linear.smooth and linear.regular):
             return undecided("the coordinates are singular there")
         if not near.inertia_is_definite:
             return undecided(NOT_DEFINITE)
@@ -198,7 +198,7 @@ def _not_to_be_judged(near: Near) -> str:
         return DRIFTS
     if not near.linear.regular:
         return "the mass matrix is singular there"
-    if not near.smooth:
+    if not near.linear.smooth:
         return "a force jumps there, or its derivative does"
     if near.powers is None:
         return "the characteristic polynomial was not found"

@@ -12,7 +12,7 @@ from mpmath import mpf
 from sympy import Expr, S, Symbol
 from sympy.core.function import AppliedUndef
 
-from lagcli.algebra import is_zero, nullspace, rank, simplify
+from lagcli.algebra import nullspace, rank, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.oscillations.characteristic import (
@@ -28,7 +28,6 @@ from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
 from lagcli.mechanics.stability.signs import is_positive, sign_of, weak_sign
 from lagcli.mechanics.stability.spectrum import real_and_distinct
 
-_CORNERS = (sympy.sign, sympy.Abs)
 _DRAWS = 400  # a region that takes a hundredth of the values is missed once in 50 times
 _DIGITS = 15
 
@@ -272,25 +271,6 @@ class Near:
         }
         return all(free_of(root, self.linear.system.q) for root in roots)
 
-    # -- smoothness --------------------------------------------------------------------------------
-
-    @cached_property
-    def smooth(self) -> bool:
-        """Whether the forces have a derivative there: |v| v has one, |x| and sign(v) have none."""
-        state = (*self.linear.system.q, *self.linear.system.qdot)
-        return all(
-            self._vanish([node.args[0]]) is False or self._vanish(_steps(force, node, state))
-            for force in self.linear.dynamics.lagrange.forcing
-            for node in force.atoms(*_CORNERS)
-            if not free_of(node, state)
-        )
-
-    def _vanish(self, expressions: Sequence[Expr]) -> bool | None:
-        """Whether all are 0 in this state."""
-        values = {**dict.fromkeys(self.linear.system.qdot, S.Zero), **self.linear.point.values}
-        known = [is_zero(at(e, values)) for e in expressions]
-        return False if False in known else None if None in known else True
-
     @cached_property
     def semisimple_zeros(self) -> bool:
         """Whether no displacement drifts away: as many null vectors of K as roots 0."""
@@ -307,16 +287,6 @@ class Near:
         real = [[*block[i], *(-x for x in turned[i])] for i in range(n)]
         real += [[*turned[i], *block[i]] for i in range(n)]
         return len(nullspace(real)) == 2 * multiplicity
-
-
-def _steps(force: Expr, node: Expr, state: Sequence[Symbol]) -> list[Expr]:
-    """The jump of the force and of its derivatives where the argument changes its sign."""
-    argument = node.args[0]
-    left, right = (
-        force.xreplace({sympy.Abs(argument): s * argument, sympy.sign(argument): S(s)})
-        for s in (-1, 1)
-    )
-    return [left - right, *((left - right).diff(x) for x in state)]
 
 
 def positive_definite(
