@@ -109,23 +109,11 @@ def _charge(x: Examination, charge: Charge) -> Charge:
 
 def _is_trivial(x: Examination, charge: Charge) -> bool:
     """Whether Noether's Q depends on the constraints alone."""
-    what, program = f"that the charge of '{charge.name}' is constant", x.reference.program
-    transformation = [charge.transformation.get(n, ZERO) for n in (*x.reference.names, "t")]
-    places = x.places(what, [*transformation, charge.gauge or ZERO])
-    if places is None or not x.states() or x.reference.of_phase_space:
-        return places is not None
-    *changes, time, gauge = places
-    moved = [
-        program.sum(change, program.negative(program.product(v, time)))
-        for change, v in zip(changes, x.reference.v, strict=True)
-    ]
-    work = map(program.product, x.reference.momenta, moved)
-    stretch = program.product(x.reference.lagrangian, time)
-    Q = program.sum(*work, stretch, program.negative(gauge))
-    if _is_independent(x, Q, []):
-        x.refute(what, "it changes between random states")
+    Q = _noether(x, charge)
+    if Q is not None and x.states() and _is_independent(x, Q, []):
+        x.refute(f"that the charge of '{charge.name}' is constant", "it changes between states")
         return False
-    return True
+    return Q is not None
 
 
 def _is_real_where(x: Examination, charge: Charge, place: int) -> bool:
@@ -171,8 +159,10 @@ def _as_given(x: Examination, charge: Charge) -> Charge:
 def _is_noethers(x: Examination, what: str, charge: Charge) -> bool:
     """Whether Q is that of the transformation and of the boundary term."""
     assert charge.charge is not None
-    truth = _noether(x, what, charge)
-    return truth is None or x.holds(what, charge.charge, truth)
+    if not charge.transformation:
+        return True
+    Q = _noether(x, charge)
+    return Q is not None and x.holds(what, charge.charge, lambda s: s.at(Q))
 
 
 def _sign(charge: Charge) -> int:
@@ -181,23 +171,28 @@ def _sign(charge: Charge) -> int:
     return -1 if shift and charge.source in {"time", "discovered"} else 1
 
 
-def _noether(x: Examination, what: str, charge: Charge) -> Callable[[State], arb] | None:
-    if not charge.transformation:
+def _noether(x: Examination, charge: Charge) -> int | None:
+    """The step of Q; None where what is printed cannot be read back."""
+    program, changed = x.reference.program, change_in_form(x, charge)
+    gauge = x.places(f"the charge '{charge.name}'", [charge.gauge or ZERO])
+    if changed is None or gauge is None:
         return None
-    transformation = [charge.transformation.get(n, ZERO) for n in (*x.reference.names, "t")]
-    gauge = ZERO if charge.gauge is None else charge.gauge
-    places = x.places(what, [*transformation, gauge])
+    work = map(program.product, x.reference.momenta, changed[0])
+    stretch = program.product(x.reference.lagrangian, changed[1])
+    Q = program.sum(*work, stretch, program.negative(gauge[0]))
+    return Q if _sign(charge) > 0 else program.negative(Q)
+
+
+def change_in_form(x: Examination, charge: Charge) -> tuple[list[int], int] | None:
+    """The steps of Dq_j - q_j' Dt, and that of Dt."""
+    program, names = x.reference.program, (*x.reference.names, "t")
+    printed = [charge.transformation.get(n, ZERO) for n in names]
+    places = x.places(f"the charge '{charge.name}'", printed)
     if places is None:
         return None
-    sign = _sign(charge)
-
-    def truth(s: State) -> arb:
-        *changes, time, boundary = (s.at(place) for place in places)
-        laws = s.laws
-        moved = [d - v * time for d, v in zip(changes, laws.velocities, strict=True)]
-        return sign * (dot(laws.momenta, moved) + laws.lagrangian * time - boundary)
-
-    return truth
+    *changes, time = places
+    back = [program.negative(program.product(v, time)) for v in x.reference.v]
+    return list(map(program.sum, changes, back)), time
 
 
 def _rate(x: Examination, charge: Charge, place: int) -> Callable[[State], arb] | None:
@@ -207,16 +202,13 @@ def _rate(x: Examination, charge: Charge, place: int) -> Callable[[State], arb] 
     """
     if x.regular:
         return lambda s: s.laws.rate(place)
-    changes = x.places("", [charge.transformation.get(n, ZERO) for n in x.reference.names])
-    time = x.places("", [charge.transformation.get("t", ZERO)])
-    if x.reference.rows or not charge.transformation or changes is None or time is None:
+    changed = change_in_form(x, charge)
+    if x.reference.rows or not charge.transformation or changed is None:
         return None
     sign = _sign(charge)
 
     def off_the_motion(s: State) -> arb:
         """dQ/dt - sum_j (d/dt(dL/dq_j') - dL/dq_j - Q_j) (Dq_j - q_j' Dt)."""
-        stretch = s.at(time[0])
-        moved = [s.at(d) - v * stretch for d, v in zip(changes, s.laws.velocities, strict=True)]
-        return s.loose.rate(place) - sign * dot(s.loose.residuals, moved)
+        return s.loose.rate(place) - sign * dot(s.loose.residuals, list(map(s.at, changed[0])))
 
     return off_the_motion

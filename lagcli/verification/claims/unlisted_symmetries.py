@@ -15,9 +15,9 @@ from random import Random
 
 from flint import arb, arb_mat, ctx
 
-from lagcli.expression import ZERO
 from lagcli.statements.answers import ChargesSection
 from lagcli.verification.claims.boundary import change_of_action, euler_operator
+from lagcli.verification.claims.charges import change_in_form
 from lagcli.verification.claims.near import LinearMotion
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear, dot, rank, size, solve
@@ -59,17 +59,13 @@ def symmetries_are_listed(x: Examination, section: ChargesSection) -> bool:
 
 def _listed(x: Examination, section: ChargesSection) -> list[tuple[Change, int]] | None:
     """eta and Q of each; None where one cannot be read."""
-    program, reference = x.reference.program, x.reference
-    names, found = (*reference.names, "t"), []
+    found = []
     for each in section.charges:
         if each.transformation and each.charge is not None:
-            changes = [each.transformation.get(n, ZERO) for n in names]
-            places = x.places("", [*changes, each.charge])
-            if places is None:
+            changed, charge = change_in_form(x, each), x.places("", [each.charge])
+            if changed is None or charge is None:
                 return None
-            *moved, time, charge = places
-            back = [program.negative(program.product(v, time)) for v in reference.v]
-            found.append((list(map(program.sum, moved, back)), charge))
+            found.append((changed[0], charge[0]))
     return found
 
 
