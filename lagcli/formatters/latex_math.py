@@ -25,6 +25,7 @@ from lagcli.expression import (
     Rate,
     Sum,
 )
+from lagcli.formatters.functions import FIXED, ON_PAPER, TRIGONOMETRIC
 from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.latex_width import BINARY, SCRIPT, THIN_SPACE, text_width
 from lagcli.formatters.layout import (
@@ -46,22 +47,14 @@ from lagcli.record import record
 #: Nothing that cannot be broken is wider, in points.
 WIDEST = 205.0
 
+#: Functions that LaTeX has no macro for.
+_OPERATORS = ("arsinh", "arcosh", "artanh", "sgn", "atan2")
 _FUNCTIONS = {
-    **{f: rf"\{f}" for f in ("sin", "cos", "tan", "cot", "sec", "csc")},
-    **{f: rf"\{f}" for f in ("sinh", "cosh", "tanh", "exp")},
-    "log": r"\ln",
-    "asin": r"\arcsin",
-    "acos": r"\arccos",
-    "atan": r"\arctan",
-    "asinh": r"\operatorname{arsinh}",
-    "acosh": r"\operatorname{arcosh}",
-    "atanh": r"\operatorname{artanh}",
-    "sign": r"\operatorname{sgn}",
-    "atan2": r"\operatorname{atan2}",
+    name: rf"\operatorname{{{shown}}}" if shown in _OPERATORS else rf"\{shown}"
+    for name, shown in ((name, ON_PAPER.get(name, name)) for name in FIXED)
 }
-#: Functions that may go without brackets, and whose powers stand behind their names.
-_TRIGONOMETRIC = ("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh")
-_BARE = (*_TRIGONOMETRIC, "log")
+#: Functions that may go without brackets.
+_BARE = (*TRIGONOMETRIC, "log")
 
 #: Brackets by the height of what is in them.
 _SIZES = (("", ""), (r"\bigl", r"\bigr"), (r"\Bigl", r"\Bigr"), (r"\biggl", r"\biggr"))
@@ -222,7 +215,7 @@ class LatexPrinter(Printer[Box]):
         raised = TextPiece(f"^{{{exponent.text}}}", SCRIPT * exponent.width + 1)
         base = node.base
         is_natural = isinstance(node.exponent, Number) and node.exponent.value.denominator == 1
-        if isinstance(base, Call) and base.function in _TRIGONOMETRIC and is_natural:
+        if isinstance(base, Call) and base.function in TRIGONOMETRIC and is_natural:
             return self._function(base, raised)
         box = self.at(base, Level.ATOM)
         return Box((*box.pieces, raised), Level.POWER, box.height)

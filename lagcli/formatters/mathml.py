@@ -21,6 +21,7 @@ from lagcli.expression import (
     Rate,
     Sum,
 )
+from lagcli.formatters.functions import FIXED, ON_PAPER, TRIGONOMETRIC
 from lagcli.formatters.greek import BY_NAME
 from lagcli.formatters.naming import name_parts
 from lagcli.formatters.numbers import decimal_parts, digit_groups
@@ -28,20 +29,6 @@ from lagcli.formatters.precedence import Level, Printer
 from lagcli.letters import bold
 from lagcli.record import replace
 
-_FUNCTIONS = {
-    "log": "ln",
-    "sign": "sgn",
-    "asin": "arcsin",
-    "acos": "arccos",
-    "atan": "arctan",
-    "asinh": "arsinh",
-    "acosh": "arcosh",
-    "atanh": "artanh",
-}
-_FIXED = frozenset(
-    ("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "exp", "atan2")
-).union(_FUNCTIONS)
-_TRIGONOMETRIC = _FIXED - {"exp", "atan2", *_FUNCTIONS}
 _DOTS = {1: "˙", 2: "¨"}
 #: A function applied to its argument, and a product of factors side by side.
 _APPLIED, _TIMES = "<mo>&#x2061;</mo>", "<mo>&#x2062;</mo>"
@@ -115,7 +102,7 @@ class MathmlPrinter(Printer[str]):
         exponent = _on_one_line(node.exponent) or self.show(node.exponent)
         base = node.base
         natural = isinstance(node.exponent, Number) and node.exponent.value.denominator == 1
-        if isinstance(base, Call) and base.function in _TRIGONOMETRIC and natural:
+        if isinstance(base, Call) and base.function in TRIGONOMETRIC and natural:
             head = f"<msup><mi>{base.function}</mi>{exponent}</msup>"
             return f"<mrow>{head}{_APPLIED}{self.arguments(base.arguments)}</mrow>"
         shown = self.at(base, Level.ATOM)
@@ -130,8 +117,8 @@ class MathmlPrinter(Printer[str]):
             return enclosed("|", self.show(node.arguments[0]), "|")
         if node.function == "integral":
             return self._integral(node)
-        if node.function in _FIXED:
-            head = f"<mi>{_FUNCTIONS.get(node.function, node.function)}</mi>"
+        if node.function in FIXED:
+            head = f"<mi>{ON_PAPER.get(node.function, node.function)}</mi>"
         else:
             head = _primed(mathml_name(node.function), node.primes)
         return f"<mrow>{head}{_APPLIED}{self.arguments(node.arguments)}</mrow>"
@@ -236,7 +223,7 @@ def _is_function(node: Expression) -> bool:
     """Whether a name such as `sin` begins it, which would run into the factor before."""
     while isinstance(node, Power):
         node = node.base
-    return isinstance(node, Call) and node.function in _FIXED
+    return isinstance(node, Call) and node.function in FIXED
 
 
 def _on_one_line(exponent: Expression) -> str:

@@ -17,6 +17,7 @@ from lagcli.expression import (
     Power,
     Product,
 )
+from lagcli.formatters.functions import ON_PAPER, TRIGONOMETRIC
 from lagcli.formatters.grammar import GrammarPrinter, text
 from lagcli.formatters.greek import BY_NAME, romanized
 from lagcli.formatters.layout import PRODUCT, Layout, TextPiece, joined
@@ -30,20 +31,8 @@ _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _SUPERSCRIPTS = str.maketrans("0123456789−n", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿ")
 _RAISABLE = frozenset("0123456789−n")
 _DOTS = {1: "\N{COMBINING DOT ABOVE}", 2: "\N{COMBINING DIAERESIS}"}
+_NAMES = {"sqrt": "√", **ON_PAPER}
 _FRACTIONS = {(1, 2): "½", (1, 4): "¼", (3, 4): "¾"}
-_ORDINARY_FUNCTIONS = {
-    "sqrt": "√",
-    "log": "ln",
-    "sign": "sgn",
-    "asin": "arcsin",
-    "acos": "arccos",
-    "atan": "arctan",
-    "asinh": "arsinh",
-    "acosh": "arcosh",
-    "atanh": "artanh",
-}
-#: sin²(x): functions whose powers are written behind their names.
-_RAISED_BY_NAME = frozenset(("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh"))
 
 
 class UnicodePrinter(GrammarPrinter):
@@ -83,15 +72,15 @@ class UnicodePrinter(GrammarPrinter):
         base = node.base
         if (
             isinstance(base, Call)
-            and base.function in _RAISED_BY_NAME
+            and base.function in TRIGONOMETRIC
             and not exponent.startswith("−")
         ):
             return (*text(base.function), *raised, *self.arguments(base.arguments))
         return (*self.at(base, Level.ATOM), *raised)
 
     def call(self, node: Call) -> Layout:
-        if node.function in _ORDINARY_FUNCTIONS:
-            return (*text(_ORDINARY_FUNCTIONS[node.function]), *self.arguments(node.arguments))
+        if node.function in _NAMES:
+            return (*text(_NAMES[node.function]), *self.arguments(node.arguments))
         if node.function == "integral":
             return self._definite(node)
         return (

@@ -1,0 +1,21 @@
+"""The names of functions on paper."""
+
+from __future__ import annotations
+
+#: Functions whose powers stand behind their names: sin²(x).
+TRIGONOMETRIC = frozenset(("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh"))
+
+#: Those that have another name on paper than in the grammar.
+ON_PAPER = {
+    "log": "ln",
+    "sign": "sgn",
+    "asin": "arcsin",
+    "acos": "arccos",
+    "atan": "arctan",
+    "asinh": "arsinh",
+    "acosh": "arcosh",
+    "atanh": "artanh",
+}
+
+#: Functions whose names are set upright.
+FIXED = TRIGONOMETRIC | {"exp", "atan2", *ON_PAPER}
