@@ -132,6 +132,8 @@ class _Abbreviations:
         counts: Counter[Expression] = Counter()
         for tree in (*self._trees, *self._chosen.values()):
             counts.update(part for part in walk(tree) if isinstance(part, (Sum, Call)))
+        for tree in self._trees:  # a result is no abbreviation of itself
+            counts.pop(tree, None)
         below = {f for tree in self._trees for f in _sums_below(tree)}
         for part in list(counts):  # an angle has no name of its own
             if isinstance(part, Call):
@@ -166,7 +168,8 @@ class _Abbreviations:
     def _ordered(self) -> Iterator[tuple[str, Expression]]:
         """The names, each after those that it uses."""
         done: set[str] = set()
-        left = dict(reversed(self._chosen.items()))
+        left = {n: node for n, node in sorted(self._chosen.items()) if _circular_name(node)}
+        left |= dict(reversed(self._chosen.items()))
         while left:
             for name, node in list(left.items()):
                 used = {p.name for p in walk(node) if isinstance(p, Name) and not p.primes}

@@ -118,12 +118,14 @@ class Ordering:
         yield from (p for p in ranked if p not in leading and not isinstance(p[0], Number))
 
     def _leads(self, node: Expression, first: int) -> bool:
-        """Whether it is a sum of parameters whose terms all begin before the first letter."""
-        return (
-            isinstance(node, Sum)
-            and self._is_plain(node)
-            and all(self._first(term) < first for term in node.terms)
-        )
+        """Whether it is a sum of parameters that begins before the first letter.
+
+        All of its terms do, where they are not letters alone.
+        """
+        if not isinstance(node, Sum) or not self._is_plain(node):
+            return False
+        which = any if all(map(_is_letter, node.terms)) else all
+        return which(self._first(term) < first for term in node.terms)
 
     def _is_fast(self, node: Expression) -> bool:
         """Whether it is a velocity, an acceleration, a momentum or a multiplier."""

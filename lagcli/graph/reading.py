@@ -40,9 +40,12 @@ class GraphReader:
             flow |= {graph.symbol(q, order): graph.symbol(q, order + 1) for q in coordinates}
         #: d/dt along any motion
         self.total_derivative = Differentiation(graph, flow)
+        self._coordinates = frozenset(coordinates)
         self._velocities = 0
+        self._changing = graph.symbol("t").mask
         for q in coordinates:
             self._velocities |= graph.symbol(q, 1).mask
+            self._changing |= graph.symbol(q, 0).mask | graph.symbol(q, 1).mask
         self._definitions: dict[tuple[str, bool], Node] = {}
         #: the symbol of a rate -> the node whose rate it is
         self.rates: dict[Symbol, Node] = {}
@@ -88,6 +91,8 @@ class GraphReader:
                     self._node(numerator, opaque), self._node(denominator, opaque)
                 )
             case tree.Power(base=base, exponent=exponent):
+                if opaque and (rate := self._typed_rate(base)) is not None:
+                    return graph.power(rate, self._node(exponent, opaque))
                 return graph.power(self._node(base, opaque), self._node(exponent, opaque))
             case tree.Call(function=function, arguments=arguments, primes=primes):
                 return graph.call(
@@ -105,6 +110,39 @@ class GraphReader:
                 assert isinstance(by, Symbol)
                 return partial(graph, by)(self._node(operand, opaque=False))
         raise TypeError(f"not an expression: {node!r}")
+
+    def _typed_rate(self, node: Expression) -> Symbol | None:
+        """The rate of l sin θ for l θ' cos θ + …, a velocity of a point that is written out."""
+        terms = node.terms if isinstance(node, tree.Sum) else (node,)
+        parts = [part for term in terms if (part := self._integrated(term)) is not None]
+        if len(parts) < len(terms):
+            return None
+        position = self.graph.sum(parts)
+        # no name of a file has brackets
+        name = next((s.name for s, r in self.rates.items() if r is position), "")
+        return self.rate_symbol(name or f"[{len(self.rates)}]", position)
+
+    def _integrated(self, term: Expression) -> Node | None:
+        """l sin θ of l θ' cos θ, -l cos θ of l θ' sin θ, a x of a x'; None of anything else."""
+        if isinstance(term, tree.Negative):
+            inner = self._integrated(term.operand)
+            return None if inner is None else self.graph.scaled(inner, -1)
+        factors = term.factors if isinstance(term, tree.Product) else (term,)
+        moving = [f for f in factors if isinstance(f, tree.Name) and f.primes == 1]
+        if len(moving) != 1 or moving[0].name not in self._coordinates:
+            return None
+        q = tree.Name(moving[0].name)
+        functions = {tree.Call("cos", (q,)): ("sin", 1), tree.Call("sin", (q,)): ("cos", -1)}
+        turning = [f for f in factors if f in functions]
+        rest = [self._node(f, False) for f in factors if f not in (*moving, *turning)]
+        if len(turning) > 1 or any(each.mask & self._changing for each in rest):
+            return None
+        whole = self._node(q, False)
+        sign = 1
+        if turning:
+            function, sign = functions[turning[0]]
+            whole = self.graph.call(function, (whole,), ())
+        return self.graph.scaled(self.graph.product(*rest, whole), sign)
 
     def _term(self, term: Expression, opaque: bool) -> tuple[Node, Fraction]:
         if isinstance(term, tree.Negative):

@@ -61,7 +61,9 @@ class LargeCharges:
         if self.is_total_energy:
             assert form.kinetic is not None
             assert form.potential is not None
-            return form.expand_rates(graph.sum([form.kinetic, form.potential]))
+            T, *_ = form.collected_lagrangian
+            T = T if T is not form.written_lagrangian else form.expand_rates(form.kinetic)
+            return graph.sum([T, form.expand_rates(form.potential)])
         return self._jacobi
 
     @cached_property

@@ -117,6 +117,25 @@ class MatrixForm:
         return self.expand_rates(self.lagrangian)
 
     @cached_property
+    def collected_lagrangian(self) -> tuple[Node, ...]:
+        """q'ᵀ M q'/2 and −V, where T is a quadratic form; L as the file types it elsewhere."""
+        graph, M = self.graph, self.mass_matrix
+        if self.kinetic is None or self.potential is None:
+            return (self.written_lagrangian,)
+        rest = Substitution(graph, dict.fromkeys(self.qdot, graph.zero))
+        still = (rest(self.expand_rates(self.kinetic)), *map(rest, self.momenta))
+        fast = self.expand_rates(self.potential).mask | mask_of([x for row in M for x in row])
+        if any(x is not graph.zero for x in still) or any(v.mask & fast for v in self.qdot):
+            return (self.written_lagrangian,)
+        terms = [
+            (graph.product(M[i][j], v, w), Fraction(1, 1 + (i == j)))
+            for i, v in enumerate(self.qdot)
+            for j, w in enumerate(self.qdot[: i + 1])
+        ]
+        potential = graph.scaled(self.expand_rates(self.potential), -1)
+        return (graph.combination(terms), *([potential] if potential is not graph.zero else []))
+
+    @cached_property
     def momenta(self) -> tuple[Node, ...]:
         """p_i = L_q_i' + sum_a J_ai L_w_a."""
         along: list[list[tuple[Node, Node]]] = [[] for _ in self.q]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block, Equations, Paragraph, Row
+from lagcli.document import Block, Equations, Row
 from lagcli.expression import ZERO, Equation, Expression, Name, operation_count, walk
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
 from lagcli.formatters.json_values import FORMULA, Object, list_or_null, record_of
@@ -13,7 +13,7 @@ from lagcli.reader.schema_parts import list_of, ref
 from lagcli.reader.scope import EQUATION
 from lagcli.statements.answers import Answers, EquationsSection, LagrangeEquation
 from lagcli.statements.declaration import Declaration, Expected, always
-from lagcli.statements.wording import not_found
+from lagcli.statements.wording import not_found, with_constraints
 
 if TYPE_CHECKING:
     from lagcli.mechanics.constraints import ConstraintEquation
@@ -121,11 +121,7 @@ def blocks(section: EquationsSection, _: Answers) -> Iterator[Block]:
         yield not_found()
         return
     yield Equations(tuple(Row(each.left, each.right) for each in section.equations))
-    if section.constraints:
-        yield Paragraph(("with the constraints",))
-        yield Equations(
-            tuple(Row(left, right, name) for name, (left, right) in section.constraints.items())
-        )
+    yield from with_constraints(section.constraints)
 
 
 def equation_json(equation: LagrangeEquation) -> Object:

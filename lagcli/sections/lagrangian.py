@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Label
+from lagcli.expression import Sum
 from lagcli.formatters.json_values import OR_NULL
 from lagcli.statements.answers import Answers, LagrangianSection
 from lagcli.statements.declaration import Declaration, always
@@ -24,9 +25,11 @@ def derive(statements: Statements) -> LagrangianSection:
 
 
 def large(statements: LargeStatements) -> LagrangianSection:
-    """As the structure has it, unless that is too long."""
-    found = statements.written("the Lagrangian", [statements.form.written_lagrangian])
-    return LagrangianSection(lagrangian=None if found is None else found[0])
+    """With T by the mass matrix, unless that is too long."""
+    found = statements.written("the Lagrangian", statements.form.collected_lagrangian)
+    if found is None:
+        return LagrangianSection(lagrangian=None)
+    return LagrangianSection(lagrangian=found[0] if len(found) == 1 else Sum(found))
 
 
 def phase_space(statements: PhaseSpaceStatements) -> LagrangianSection:

@@ -32,6 +32,7 @@ from lagcli.statements.wording import (
     irreducible,
     state_blocks,
     turning_contacts,
+    with_constraints,
 )
 
 if TYPE_CHECKING:
@@ -78,11 +79,7 @@ def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
     if section.equations:
         yield Paragraph(("Its equations of motion:",))
         yield Equations(tuple(Row(each.left, each.right) for each in section.equations))
-    if section.constraints:
-        yield Paragraph(("with the constraints",))
-        yield Equations(
-            tuple(Row(left, right, name) for name, (left, right) in section.constraints.items())
-        )
+    yield from with_constraints(section.constraints)
     if section.reconstruction:
         yield Paragraph(("The cyclic coordinates follow from",))
         yield Equations(

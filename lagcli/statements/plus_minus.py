@@ -92,6 +92,8 @@ def _both(a: Expression, b: Expression) -> Expression | None:
     if key == its_key:
         return a
     match a, b:
+        case (Negative(), _) | (_, Negative()) if not (_inward(a) is a and _inward(b) is b):
+            return _both(_inward(a), _inward(b))
         case Sum(terms=one), Sum(terms=other) if len(one) == len(other):
             return _sum(one, other)
         case (Product() | Quotient() | Power() | Negative() | Call(), _) if _alike(a, b):
@@ -104,6 +106,20 @@ def _both(a: Expression, b: Expression) -> Expression | None:
             return None
 
 
+def _inward(node: Expression) -> Expression:
+    """(b − a) g/c for −(a − b) g/c; the node where no bracket takes its sign."""
+    match node:
+        case Negative(operand=Sum(terms=terms)):
+            return Sum(tuple(t.operand if isinstance(t, Negative) else Negative(t) for t in terms))
+        case Negative(operand=Quotient(numerator=above, denominator=below)):
+            inner = _inward(Negative(above))
+            return node if isinstance(inner, Negative) else Quotient(inner, below)
+        case Negative(operand=Product(factors=(*first, Sum() as last))):
+            return Product((*first, _inward(Negative(last))))
+        case _:
+            return node
+
+
 def _alike(a: Expression, b: Expression) -> bool:
     same = type(a) is type(b) and len(children(a)) == len(children(b))
     return same and getattr(a, "function", "") == getattr(b, "function", "")
@@ -111,8 +127,9 @@ def _alike(a: Expression, b: Expression) -> bool:
 
 def _sum(one: Sequence[Expression], other: Sequence[Expression]) -> Expression | None:
     """a + b and a - b, in whatever order the terms stand."""
-    left = [term for term in other if term not in one]
-    differ = [place for place, term in enumerate(one) if term not in other]
+    keys, its_keys = set(map(signed_key, one)), set(map(signed_key, other))
+    left = [term for term in other if signed_key(term) not in keys]
+    differ = [place for place, term in enumerate(one) if signed_key(term) not in its_keys]
     if len(left) != 1 or len(differ) != 1:
         return None
     (place,) = differ

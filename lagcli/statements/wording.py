@@ -66,6 +66,13 @@ def with_names(text: str) -> list[Part]:
     return [Name(part) if k % 2 else part for k, part in enumerate(text.split("`")) if part]
 
 
+def with_constraints(sides: Mapping[str, tuple[Expression, Expression]]) -> Iterator[Block]:
+    """The constraints that hold besides the equations of motion."""
+    if sides:
+        yield Paragraph((f"with the constraint{'s' if len(sides) > 1 else ''}",))
+        yield Equations(tuple(Row(left, right, name) for name, (left, right) in sides.items()))
+
+
 def listed(names: Iterable[str], primes: int = 0) -> list[Part]:
     """Names between commas."""
     parts: list[Part] = [part for name in names for part in (", ", Name(name, primes))]

@@ -60,7 +60,8 @@ _END = """</body>
 </html>
 """
 _DISPLAY = (
-    '<div class="display" style="overflow-x: auto; margin-bottom: 0.9em"><math display="block">'
+    '<div class="display" style="overflow: auto hidden; padding: 0.2em 0; margin-bottom: 0.7em">'
+    '<math display="block">'
     '<mtable displaystyle="true" columnalign="right center left">'
 )
 _END_DISPLAY = "</mtable></math></div>"
