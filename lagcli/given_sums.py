@@ -61,16 +61,14 @@ class GivenSums:
             self._found.setdefault(_leaves(node), []).append((value, shown))
 
     def like(self, node: Sum) -> tuple[Fraction, Sum] | None:
-        """(c, S), c = ±1/n: the node is c S with a sum S of the file that is not much longer."""
+        """(c, S): the node is c S with a sum S of the file that is not much longer."""
         found = self._found.get(_leaves(node))
         value = multiplied_out(node) if found else None
         for other, given in found or () if value else ():
             assert value is not None
             first = next(iter(other))
             ratio = value.get(first, Fraction(0)) / other[first]
-            alike = abs(ratio.numerator) == 1 and value == {
-                term: ratio * c for term, c in other.items()
-            }
+            alike = value == {term: ratio * c for term, c in other.items()}
             if alike and operation_count(given) <= _LONGER * operation_count(node) + 1:
                 return ratio, given
         return None
