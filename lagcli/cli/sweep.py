@@ -84,9 +84,9 @@ def sweep(
     \b
     Examples:
       lagcli sweep plane-pendulum --vary theta=0.1:3:30 --until 10 --show theta,energy
-      lagcli sweep plane-pendulum --vary l=0.5,1,2 --vary theta=0.1:3:300 -o swings.parquet
-      lagcli sweep kepler --random 1000 --seed 7 --vary "y'=0.5:1.2" -o orbits.csv
-      lagcli sweep plane-pendulum --vary theta=-3:3:99 --vary "theta'=-9:9:99" -o map.png
+      lagcli sweep plane-pendulum --vary l=0.5,1,2 --vary theta=0.1:3:20 -o swings.csv
+      lagcli sweep kepler --random 20 --seed 7 --vary "y'=0.5:1.2" -o orbits.npz
+      lagcli sweep plane-pendulum --vary theta=-3:3:9 --vary "theta'=-9:9:9" -o map.png
       lagcli sweep kepler --vary "y'=0.5:1.2:900" -o o.csv --scheduler tcp://host:8786
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import PICTURES, TABLES, format_of

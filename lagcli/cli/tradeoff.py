@@ -78,15 +78,15 @@ def tradeoff(
     Each run is made in a fresh process; times are the processor's.  The error is the
     largest of any coordinate or velocity, relative to its largest magnitude.  For 1e-3,
     1e-6, 1e-9 and 1e-12 it names the cheapest method with its certificate, and the one
-    that lagcli simulate takes by itself.
+    that lagcli simulate takes by itself.  All methods take a minute or more.
 
     The exit status is 0; 1 when there is no reference to measure against, or a certificate
     promises more than is true; 2 when the command line or the file is wrong.
 
     \b
     Examples:
-      lagcli tradeoff plane-pendulum
-      lagcli tradeoff kepler --until 60 --plot kepler.svg -f csv -o kepler.csv
+      lagcli tradeoff plane-pendulum --methods dop853
+      lagcli tradeoff kepler --methods taylor64 --plot kepler.svg -o kepler.csv
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import STUDIES, format_of
     from lagcli.cli.weighing import TradeoffOptions, weigh_file

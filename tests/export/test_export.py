@@ -283,7 +283,7 @@ def test_mathematica_is_read_back_by_sympys_parser(problem, tmp_path, capsysbina
 
 OPERATORS = {
     "+": operator.add, "-": lambda *x: x[0] - x[1] if len(x) > 1 else -x[0], "*": operator.mul,
-    "/": operator.truediv, "^": operator.pow, "abs": abs, "sign": lambda x: (x > 0) - (x < 0),
+    "/": operator.truediv, "//": operator.truediv, "^": operator.pow, "abs": abs, "sign": lambda x: (x > 0) - (x < 0),
 }  # fmt: skip
 
 
@@ -325,6 +325,70 @@ def test_modelica_gives_what_python_gives(problem, tmp_path, capsysbinary):
     assert [rates[name] for name in code["STATE"]] == pytest.approx(
         list(code["rhs"](t, y, p)), rel=1e-11
     )
+
+
+class Julia:
+    """A function of a module as tree-sitter's grammar of Julia reads it, on numbers."""
+
+    def __init__(self, text):
+        import tree_sitter
+        import tree_sitter_julia
+
+        language = tree_sitter.Language(tree_sitter_julia.language())
+        root = tree_sitter.Parser(language).parse(text.encode()).root_node
+        assert not root.has_error
+        [module] = root.named_children[-1:]
+        self.functions = {
+            each.named_children[0].named_children[0].named_children[0].text.decode(): each
+            for each in module.named_children
+            if each.type == "function_definition"
+        }
+
+    def __call__(self, name, t, y, p):
+        values = {"t": t, "y": y, "p": p, "pi": math.pi}
+        _, *steps, last = self.functions[name].named_children
+        for step in steps:
+            place, _, formula = step.named_children
+            values[place.text.decode()] = self.value(formula, values)
+        return self.value(last.named_children[0], values)
+
+    def value(self, node, values):
+        parts = [each for each in node.named_children if each.type != "operator"]
+        text = node.text.decode()
+        match node.type:
+            case "identifier":
+                return values[text]
+            case "integer_literal" | "float_literal":
+                return float(text)
+            case "parenthesized_expression":
+                return self.value(parts[0], values)
+            case "matrix_expression" | "vector_expression" | "matrix_row" | "argument_list":
+                return [self.value(part, values) for part in parts]
+            case "index_expression":
+                [place] = self.value(parts[1], values)
+                return self.value(parts[0], values)[int(place) - 1]
+            case "call_expression":
+                name = node.named_children[0].text.decode()
+                function = OPERATORS.get(name) or getattr(math, name)
+                return function(*self.value(parts[-1], values))
+            case "unary_expression" | "binary_expression":
+                [operator] = [each for each in node.named_children if each.type == "operator"]
+                given = (self.value(part, values) for part in parts)
+                return OPERATORS[operator.text.decode()](*given)
+        raise AssertionError(node.type)
+
+
+@pytest.mark.long
+def test_julia_gives_what_python_gives(problem, tmp_path, capsysbinary):
+    """Read by a grammar of Julia that editors use, evaluated step by step."""
+    code = module_of(exported(problem, "python", tmp_path, capsysbinary))
+    julia = Julia(exported(problem, "julia", tmp_path, capsysbinary).read_text())
+    t, y, p = random_arguments(len(code["STATE"]), len(code["PARAMETERS"]))
+    for name in julia.functions:
+        expected, found = code[name](t, y, p), julia(name, t, y, p)
+        assert len(found) == len(expected)
+        entries = [x for row in found for x in (row if isinstance(row, list) else [row])]
+        assert entries == pytest.approx(list(expected.ravel()), rel=1e-11, abs=1e-12)
 
 
 @pytest.mark.long
