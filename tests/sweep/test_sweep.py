@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import time
+import types
 
 import pytest
 
@@ -229,3 +230,15 @@ def test_a_sweep_that_is_killed_goes_on_to_the_same_bytes(tmp_path):
     subprocess.run([*command, "-o", str(cut)], check=True, env=environment)
     assert cut.read_bytes() == whole.read_bytes()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["cut.csv", "whole.csv"]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("platform", ["darwin", "win32"])
+def test_processes_that_are_started_anew_give_the_same_bytes(platform, tmp_path, monkeypatch):
+    """As on macOS and Windows, where nothing is forked."""
+    arguments = ["sweep", "plane-pendulum", "--vary", "theta=0.5:2:4", "--until", "2", "-j", "2"]
+    assert run([*arguments, "-o", str(tmp_path / "forked.csv")]) == 0
+    there = types.SimpleNamespace(platform=platform)
+    monkeypatch.setattr("lagcli.studies.sweep.workers.sys", there)
+    assert run([*arguments, "-o", str(tmp_path / "anew.csv")]) == 0
+    assert (tmp_path / "anew.csv").read_bytes() == (tmp_path / "forked.csv").read_bytes()

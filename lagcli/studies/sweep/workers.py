@@ -28,6 +28,8 @@ Made = TypeVar("Made")
 
 #: Parts that wait for a worker, for each worker.
 _AHEAD = 4
+#: Processes that Windows waits for at once.
+_MOST = 61
 #: Seconds in which a scheduler answers.
 _ANSWERS = 10
 #: python-flint's precision is one for all threads of a process.
@@ -58,6 +60,7 @@ def in_order_of_arrival(
 def cores(jobs: int) -> Iterator[Executor]:
     """Processes of this machine."""
     context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
+    jobs = min(jobs, _MOST) if sys.platform == "win32" else jobs
     with ProcessPoolExecutor(jobs, mp_context=context, initializer=_leave_signals) as pool:
         yield pool
 
