@@ -10,7 +10,7 @@ referred to one time s near tau: the map psi from the state that the old equatio
 one that the new equations have at s is, up to the flows over |tau - s|,
 
     psi(x) = R(tau, x + (tau - s) f-) - (tau - s) f+,
-    Dpsi = DR - (dR/dt + DR f- - f+) grad g / (dg/dt + grad g . f-),
+    Dpsi = dR/dt dtau + DR (1 + f- dtau) - f+ dtau,    dtau = -grad g / (dg/dt + grad g . f-),
 
 the saltation matrix.
 
@@ -93,10 +93,9 @@ class UndecidedCrossing(NotEnclosed):
 
 @record
 class Restart:
-    """What follows a crossing at once: R, dR/dt and DR, as functions of t and the state."""
+    """What follows a crossing at once: R and (dR/dt, DR), as functions of t and the state."""
 
     state: Callable[[Any, Sequence[Any]], list[Any]]
-    explicit: Callable[[Any, Sequence[Any]], Any]
     slope: Callable[[Any, Sequence[Any]], Any]
 
 
@@ -187,10 +186,11 @@ def behind(
         raise NotEnclosed(f"the time of the event near t = {float(tau):.6g} is not enclosed")
     struck = restart.state(times, box)
     after, back = _moved(new, times, struck, late)
-    slope = restart.slope(times, box)
-    jump = matrix(n, 1, restart.explicit(times, box)) + slope * column
     f = matrix(n, 1, new.rate(times, after))
-    derivative = back * (slope - (jump - f) * row / rate) * flow
+    delayed = row / -rate  # dtau/dx
+    places = column * delayed + matrix(n, n, [int(i == j) for i in range(n) for j in range(n)])
+    along = matrix(n + 1, n, [*delayed.entries(), *places.entries()])
+    derivative = back * (restart.slope(times, box) * along - f * delayed) * flow
     delay = -watched.value(s, *before.middle)[0] / rate
     middle = matrix(n, 1, before.middle) + column * delay
     ends = matrix(n, 1, restart.state(s + delay, middle.entries())) - f * delay

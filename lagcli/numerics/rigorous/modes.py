@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -214,7 +213,7 @@ class ProofMode:
         """
         if watched.kind == "gap":
             return self._struck(watched, t, x)
-        same = Restart(lambda _, y: list(y), self._nothing, self._identity)
+        same = Restart(lambda _, y: list(y), self._unmoved)
         if watched.kind == "force":
             return self.modes(self.held - {watched.index}, self.signs), same, "contact lost"
         signs = [-s if k == watched.index else s for k, s in enumerate(self.signs)]
@@ -269,35 +268,22 @@ class ProofMode:
             jumps = system.solution([t], [[each] for each in x], 1).found[0].entries()[:n]
             return [*x[:n], *(v + d for v, d in zip(x[n:], jumps, strict=True))]
 
-        def slopes(t: Any, x: Sequence[Any]) -> Any:
-            return system.slopes([t], [[each] for each in x], 1)[0]
-
-        def explicit(t: Any, x: Sequence[Any]) -> Any:
-            found = slopes(t, x)
-            return [self._zero] * n + [found[i, 0] for i in range(n)]
-
         def slope(t: Any, x: Sequence[Any]) -> Any:
-            whole, found = self._identity(t, x), slopes(t, x)
+            whole, found = self._unmoved(t, x), system.slopes([t], [[each] for each in x], 1)[0]
             for i in range(n):
-                for j in range(2 * n):
-                    whole[n + i, j] += found[i, 1 + j]
+                for j in range(2 * n + 1):
+                    whole[n + i, j] += found[i, j]
             return whole
 
-        return Restart(state, explicit, slope)
-
-    @property
-    def _zero(self) -> Any:
-        return self.modes.arithmetic.number(Fraction(0))
-
-    def _nothing(self, _: Any, x: Sequence[Any]) -> list[Any]:
-        return [self._zero] * len(x)
+        return Restart(state, slope)
 
     @staticmethod
-    def _identity(_: Any, x: Sequence[Any]) -> Any:
+    def _unmoved(_: Any, x: Sequence[Any]) -> Any:
+        """d/dt and d/dx of x itself."""
         from flint import arb_mat
 
         n = len(x)
-        return arb_mat(n, n, [int(i == j) for i in range(n) for j in range(n)])
+        return arb_mat(n, n + 1, [int(j == i + 1) for i in range(n) for j in range(n + 1)])
 
 
 def _sign_of(x: Any) -> int:
