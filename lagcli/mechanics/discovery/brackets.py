@@ -275,13 +275,26 @@ def _less(rows: list[Vector], f: int, along: mpmath.matrix, surface: range) -> V
 
 
 def nullspace(rows: Sequence[Vector]) -> list[Vector]:
-    """A basis of the c with rows c = 0, by elimination with pivots."""
-    left, width = [list(row) for row in rows], len(rows[0])
-    scale = max((abs(x) for row in left for x in row), default=mpf(1))
+    """A basis of the c with rows c = 0."""
+    width = len(rows[0])
+    solved = dict(_pivots(rows, mpf(1)))
+    free = [k for k in range(width) if k not in solved]
+    return [[-solved[k][j] if k in solved else mpf(k == j) for k in range(width)] for j in free]
+
+
+def rank(rows: Sequence[Vector]) -> int:
+    """The rank, with what is small beside the largest entry taken for 0."""
+    return len(_pivots(rows, mpf(0)))
+
+
+def _pivots(rows: Sequence[Vector], least: mpf) -> list[tuple[int, Vector]]:
+    """Reduced rows by their columns, by elimination with the largest pivot of all."""
+    left = [list(row) for row in rows if any(row)]
+    scale = max((abs(x) for row in left for x in row), default=mpf(0))
     pivots: list[tuple[int, Vector]] = []
     while left:
         size, r, c = max((abs(x), r, c) for r, row in enumerate(left) for c, x in enumerate(row))
-        if size < _SMALL * max(scale, mpf(1)):
+        if size < _SMALL * max(scale, least):
             break
         pivot = left.pop(r)
         pivot = [x / pivot[c] for x in pivot]
@@ -290,30 +303,4 @@ def nullspace(rows: Sequence[Vector]) -> list[Vector]:
             (k, [x - row[c] * y for x, y in zip(row, pivot, strict=True)]) for k, row in pivots
         ]
         pivots.append((c, pivot))
-    solved = dict(pivots)
-    free = [k for k in range(width) if k not in solved]
-    return [[-solved[k][j] if k in solved else mpf(k == j) for k in range(width)] for j in free]
-
-
-def rank(rows: Sequence[Vector]) -> int:
-    """The rank by elimination with pivots."""
-    left = [list(row) for row in rows if any(row)]
-    result = 0
-    width = len(left[0]) if left else 0
-    scale = max((abs(x) for row in left for x in row), default=mpf(1))
-    used: set[int] = set()
-    for _ in range(width):
-        best = max(
-            ((abs(row[c]), r, c) for r, row in enumerate(left) for c in range(width)
-             if c not in used),
-            default=None,
-        )  # fmt: skip
-        if best is None or best[0] < _SMALL * scale:
-            break
-        _, r, c = best
-        pivot = left.pop(r)
-        used.add(c)
-        result += 1
-        left = [[x - row[c] / pivot[c] * y for x, y in zip(row, pivot, strict=True)]
-                for row in left]  # fmt: skip
-    return result
+    return pivots

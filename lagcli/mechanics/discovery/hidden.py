@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations_with_replacement
+from operator import mul
 
 import sympy
 from sympy import Expr, Symbol
@@ -25,7 +26,7 @@ from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.ansatz import ordered, quadratic, quadratic_unknowns
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.modular import PRIME, NoPoint, pivot_columns
+from lagcli.mechanics.discovery.modular import PRIME, NoPoint, independent
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.search import Search, SlotSolution
@@ -127,28 +128,22 @@ class QuadraticIntegrals:
     ) -> list[dict[int, int]]:
         """The vectors of the kernel that are no combinations of the products and of earlier."""
         rows: list[list[int]] = []
+        times, spaces = zip(*((u.time, u.space) for u in search.unknowns), strict=True)
         while len(rows) < len(products) + len(kernel) + len(self.equations.q):
             self.allowed.check()
             point = search.points.point()
             try:
                 columns = [search.values(p, point) for p in products]
-                columns += [self._multiplier(search, v, point) for v in kernel]
+                vectors = [search.values(slot.vector, point) for slot in search.slots]
+                factors = map(mul, search.values(times, point), search.values(spaces, point))
             except NoPoint:
                 continue
+            columns += [
+                [f * x % PRIME for x in vectors[u.slot]]
+                for f, u in zip(factors, search.unknowns, strict=True)
+            ]
             rows += [list(row) for row in zip(*columns, strict=True)]
-        start = len(products)
-        return [kernel[k - start] for k in pivot_columns(rows) if k >= start]
-
-    def _multiplier(
-        self, search: Search, vector: dict[int, int], point: Sequence[int]
-    ) -> list[int]:
-        total = [0] * len(self.equations.q)
-        for index, value in vector.items():
-            unknown = search.unknowns[index]
-            factor = value * search.function_value(unknown, point) % PRIME
-            for j, u in enumerate(search.values(search.slots[unknown.slot].vector, point)):
-                total[j] = (total[j] + factor * u) % PRIME
-        return total
+        return independent(rows, len(products), kernel)
 
     def _scaled(self, search: Search, solution: SlotSolution) -> Slots:
         parts = search.combination(solution)
@@ -163,7 +158,10 @@ class QuadraticIntegrals:
         scalar = self._scalar(functions, eta, second + first)
         if scalar is None:
             return None
-        return integral_of(self.noether, eta, second + first + scalar)
+        # p = M q' + A: sum p_j eta_j = 2 (second degree) + (first degree) + A . eta
+        at_rest = [p.xreplace(self._still) for p in self.noether.dynamics.lagrange.momenta]
+        gauge = second - scalar + dot(at_rest, eta)
+        return integral_of(self.noether, eta, second + first + scalar, gauge)
 
     def _scalar(self, functions: Slots, eta: Sequence[Expr], _: Expr, /) -> Expr | None:
         """S(q) from its gradient."""
@@ -245,17 +243,17 @@ class QuadraticIntegrals:
         return sorted({m for m in made if not free_of(m, q)}, key=_length)
 
 
-def integral_of(noether: Noether, eta: Vector, whole: Expr) -> NoetherCharge | None:
+def integral_of(noether: Noether, eta: Vector, whole: Expr, gauge: Expr) -> NoetherCharge | None:
     """Q where dQ/dt = sum eta_j (d/dt dL/dq_j' - dL/dq_j) identically: then 0 on the motion."""
-    lagrange = noether.dynamics.lagrange
-    left = noether.system.total_derivative(whole) - dot(eta, lagrange.left_sides)
+    left_sides = noether.dynamics.lagrange.left_sides
+    left = noether.system.total_derivative(whole) - dot(eta, left_sides)
     if is_zero(left) is not True:
         return None
     return NoetherCharge(
         "",
         "discovered",
         Transformation(eta, sympy.S.Zero),
-        sympy.expand(dot(eta, lagrange.momenta) - whole),
+        gauge,
         whole,
         conserved=True,
         rate=sympy.S.Zero,

@@ -214,6 +214,7 @@ class HigherIntegrals:
         inverse = sympy.Matrix([list(row) for row in self.equations.mass]).inv(method="ADJ")
         slopes = [whole.diff(v) for v in self.equations.v]
         eta = tuple(dot(inverse.row(i), slopes) for i in range(len(slopes)))  # dQ/dp
-        charge = integral_of(self.noether, eta, whole)
+        gauge = dot(eta, self.noether.dynamics.lagrange.momenta) - whole
+        charge = integral_of(self.noether, eta, whole, gauge)
         if charge is not None:
             yield charge

@@ -94,11 +94,6 @@ class Search:
         self.points = self.tree.points
         self._exact = ExactSolver(self.points)
 
-    def function_value(self, unknown: SlotUnknown, point: Sequence[int]) -> int:
-        """T g at a point."""
-        time, space = self.values([unknown.time, unknown.space], point)
-        return time * space % PRIME
-
     # -- modulo a prime -----------------------------------------------------------------
 
     def values(self, expressions: Sequence[Expr], point: Sequence[int]) -> list[int]:

@@ -291,26 +291,6 @@ def _compositions(total: int) -> Iterator[tuple[int, ...]]:
     yield from sorted(found, key=lambda sizes: (-len(sizes), sizes))
 
 
-def _sampled(
-    vectors: Sequence[Sequence[Expr]], count: int, surface: FormulaSurface
-) -> list[list[int]]:
-    """At least so many rows of values at points of the surface; columns are the vectors."""
-    rows: list[list[int]] = []
-    bad = 0
-    while len(rows) < count:
-        try:
-            point = surface.point()
-            memo: Memo = {}
-            columns = [[surface.tree.value(e, point, memo) for e in v] for v in vectors]
-        except NoPoint:
-            bad += 1
-            if bad > _TRIES:
-                raise
-            continue
-        rows += [list(row) for row in zip(*columns, strict=True)]
-    return rows
-
-
 def independent_on_surface(
     charges: Sequence[Expr], dynamics: Dynamics, allowed: Allowance, same: Sequence[Expr] = ()
 ) -> list[int]:
@@ -321,7 +301,7 @@ def independent_on_surface(
     assert relations is not None
     values = [[relations.substitute(Q)] for Q in charges]
     surface = FormulaSurface(dynamics, [e for v in values for e in v], allowed, same)
-    rows = _sampled(values, len(values) + 4, surface)
+    rows = surface.tree.rows(values, len(values) + 4, surface.point)
     return [k - 1 for k in pivot_columns([[1, *row] for row in rows]) if k]
 
 
@@ -340,7 +320,8 @@ def relations_on_surface(
     order = list(reversed(range(len(vectors))))
     values = [[relations.substitute(e) for e in vectors[k]] for k in order]
     surface = FormulaSurface(dynamics, [e for v in values for e in v], allowed)
-    _, kernel = kernel_modulo(_sampled(values, len(values) + 8, surface), len(values))
+    rows = surface.tree.rows(values, len(values) + 8, surface.point)
+    _, kernel = kernel_modulo(rows, len(values))
     exact = ExactSolver(surface.points)
     found = []
     for combination in kernel:

@@ -6,7 +6,7 @@ are elements of a field, whose rules their values obey.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from sympy import Expr, Symbol
 
@@ -74,8 +74,15 @@ class Tree:
         memo[expression] = result = result % PRIME
         return result
 
-    def rows(self, columns: Sequence[Sequence[Expr]], count: int) -> list[list[int]]:
+    def rows(
+        self,
+        columns: Sequence[Sequence[Expr]],
+        count: int,
+        draw: Callable[[], list[int]] | None = None,
+    ) -> list[list[int]]:
         """Rows of values of vectors of functions at random points, at least a given number.
+
+        Points are drawn from the whole space, or as `draw` gives them.
 
         Raises
         ------
@@ -86,9 +93,9 @@ class Tree:
         bad = 0
         while len(rows) < count:
             self.allowed.check()
-            point = self.points.point()
             memo: Memo = {}
             try:
+                point = draw() if draw else self.points.point()
                 values = [[self.value(e, point, memo) for e in column] for column in columns]
             except NoPoint:
                 bad += 1
