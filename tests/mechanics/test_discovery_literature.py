@@ -126,7 +126,10 @@ LIOUVILLE = (
 )
 
 
-@pytest.mark.parametrize(("F", "G", "U", "W"), LIOUVILLE)
+@pytest.mark.parametrize(
+    ("F", "G", "U", "W"),
+    [LIOUVILLE[0], *(pytest.param(*each, marks=pytest.mark.long) for each in LIOUVILLE[1:])],
+)
 def test_systems_of_liouvilles_form_have_an_integral_of_second_degree(F, G, U, W):
     """Whittaker, *Analytical Dynamics*, section 43; Perelomov, vol. I, section 2.2."""
     text = problem(f"({F} + {G})*(x'^2 + y'^2)/2 - ({U} + {W})/({F} + {G})", parameters="a b k")

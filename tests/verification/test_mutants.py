@@ -27,7 +27,10 @@ def site(file: str, text: str, change: str) -> Site:
     return next(each for each in sites({file: numbers}) if each.change == change)
 
 
-@pytest.mark.parametrize(("file", "text", "change"), KNOWN)
+@pytest.mark.parametrize(
+    ("file", "text", "change"),
+    [*KNOWN[:2], *(pytest.param(*each, marks=pytest.mark.long) for each in KNOWN[2:])],
+)
 def test_a_known_change_is_noticed(file: str, text: str, change: str) -> None:
     before = in_a_process(lambda: ((name, solved(name)) for name in QUICK))
     found = outcome(site(f"lagcli/{file}", text, change), before, QUICK)
