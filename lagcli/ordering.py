@@ -143,7 +143,8 @@ class Ordering:
         variables = tuple(sorted(self._variables(node))) or (len(self._index),)
         number = _is_number(node)
         letters = _flat(self._letters(node))
-        later = variables == (len(self._index),) and _has_function(node)
+        timed = any(part == Name("t") for part in _factor_names(node))
+        later = variables == (len(self._index),) and (timed or _has_function(node))
         return (-accelerations, not number, -velocities, variables, later, letters)
 
     def _variables(self, node: Expression) -> Iterator[int]:

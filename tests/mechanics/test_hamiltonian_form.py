@@ -157,5 +157,5 @@ def test_denominators_are_positive_and_numbers_stay_in_the_fraction():
                     T="m1*x'^2/2 + m2*(y' - x')^2/2 + m3*(x' + y')^2/2",
                     V="-m1*g*x - m2*g*(y - x) + m3*g*(x + y)")  # fmt: skip
     assert formula(atwood["accelerations"].accelerations["x"]) == (
-        "(m1*(m2 + m3) - 4*m2*m3)*g/(m1*(m2 + m3) + 4*m2*m3)"
+        "(m1*m2 + m1*m3 - 4*m2*m3)*g/(m1*m2 + m1*m3 + 4*m2*m3)"
     )
