@@ -60,13 +60,9 @@ def animate(
         samples=samples,
         settings=tuple(settings or ()),
         state=tuple(state or ()),
-        show=(),
-        format_name="table",
         output=output,
         project=project,
-        precision=None,
         method=method,
         stop_when=stop_when,
-        whole=False,
     )
     return animate_file(AnimationWish(run=run, forces=forces, dark=dark))

@@ -6,8 +6,8 @@ import shutil
 from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import ANIMATIONS
-from lagcli.cli.delivering import has_place, place
-from lagcli.cli.plotting import attempted, ending, is_drawn_as
+from lagcli.cli.delivering import has_place
+from lagcli.cli.plotting import drawn, ending, is_drawn_as
 from lagcli.cli.running import shared, understood
 from lagcli.cli.simulating import SimulateOptions, asked_of
 from lagcli.cli.status import Status
@@ -53,16 +53,7 @@ def _animate(problem: Problem, asked: Asked, wish: AnimationWish) -> Status:
             made, refusal = scene(problem, asked, progress, forces=wish.forces)
         return _written(made, wish), refusal
 
-    found = attempted(problem, work)
-    if isinstance(found, Status):
-        return found
-    data, refusal = found
-    if not place(data, wish.run.output):
-        return Status.USAGE
-    if refusal:
-        tell_line(f"{problem.source.name}: {refusal}")
-        return Status.NOT_FOUND
-    return Status.WELL
+    return drawn(problem, work, wish.run.output)
 
 
 def _written(scene: Scene, wish: AnimationWish) -> bytes:

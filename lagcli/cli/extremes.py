@@ -57,7 +57,7 @@ def extremes(
     \b
     Examples:
       lagcli extremes plane-pendulum
-      lagcli extremes kepler --cases 'ratios,k = 0' -f csv
+      lagcli extremes kepler --cases 'k = 0' -f csv
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import STUDIES, format_of
     from lagcli.cli.stretching import ExtremesOptions, stretch_file

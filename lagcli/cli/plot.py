@@ -98,13 +98,10 @@ def plot(
         settings=tuple(settings or ()),
         state=tuple(state or ()),
         show=tuple(show or ()),
-        format_name="table",
         output=output,
         project=project,
-        precision=None,
         method=method,
         stop_when=stop_when,
-        whole=False,
     )
     wish = PlotWish(
         run=run,

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import KINDS, PICTURES
 from lagcli.cli.delivering import has_place, place
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from lagcli.numerics.hybrid.request import Asked
     from lagcli.pictures.drawing import Picture
     from lagcli.problem_data import Problem
-
-Made = TypeVar("Made")
 
 #: What is drawn without an end: states, not a motion.
 _WITHOUT_MOTION = ("phase", "potential")
@@ -69,26 +67,17 @@ def _draw(problem: Problem, asked: Asked, wish: PlotWish) -> Status:
             picture, refusal = picture_of(problem, asked, request, progress)
         return _written(picture, wish), refusal
 
-    found = attempted(problem, work)
-    if isinstance(found, Status):
-        return found
-    data, refusal = found
-    if not place(data, wish.run.output):
-        return Status.USAGE
-    if refusal:
-        tell_line(f"{problem.source.name}: {refusal}")
-        return Status.NOT_FOUND
-    return Status.WELL
+    return drawn(problem, work, wish.run.output)
 
 
-def attempted(problem: Problem, work: Callable[[], Made]) -> Made | Status:
-    """What the work gives; the exit status where it cannot be done, once that is told."""
+def drawn(problem: Problem, work: Callable[[], tuple[bytes, str]], output: Path | None) -> Status:
+    """Write the picture that the work makes, and report why its motion ends early, or is not."""
     from lagcli.diagnostics import ProblemError
     from lagcli.numerics.equations.refusal import Refusal
     from lagcli.pictures.drawing import CannotDraw
 
     try:
-        return work()
+        data, refusal = work()
     except Refusal as mistake:
         tell(problem.source, mistake.diagnostics)
         return Status.USAGE if mistake.mistake else Status.NOT_FOUND
@@ -96,6 +85,12 @@ def attempted(problem: Problem, work: Callable[[], Made]) -> Made | Status:
         tell(mistakes.source, mistakes.diagnostics)
     except CannotDraw as reason:
         tell_line(f"{problem.source.name}: error: {reason}")
+    else:
+        if not place(data, output):
+            return Status.USAGE
+        if refusal:
+            tell_line(f"{problem.source.name}: {refusal}")
+        return Status.NOT_FOUND if refusal else Status.WELL
     return Status.USAGE
 
 

@@ -37,14 +37,14 @@ class SimulateOptions:
     samples: int
     settings: tuple[str, ...]
     state: tuple[str, ...]
-    show: tuple[str, ...]
-    format_name: str
+    show: tuple[str, ...] = ()
+    format_name: str = "table"
     output: Path | None
-    project: bool
-    precision: int | None
+    project: bool = False
+    precision: int | None = None
     method: str
     stop_when: str | None
-    whole: bool
+    whole: bool = False
     rigorous: bool = False
     beyond: bool = False
 

@@ -103,11 +103,8 @@ def sweep(
         show=tuple(show or ()),
         format_name=format_of(format_name, output, TABLES | PICTURES, "table"),
         output=output,
-        project=False,
-        precision=None,
         method=method,
         stop_when=stop_when,
-        whole=False,
     )
     drawn = tuple(vary or ()), random, seed
     return sweep_file(wish, *drawn, along=along, times=times, jobs=jobs, scheduler=scheduler)
