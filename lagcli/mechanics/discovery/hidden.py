@@ -28,7 +28,7 @@ from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, independent
 from lagcli.mechanics.discovery.relation import Relation
-from lagcli.mechanics.discovery.scaling import scaled
+from lagcli.mechanics.discovery.scaling import bare_terms, scaled
 from lagcli.mechanics.discovery.search import Search, SlotSolution
 from lagcli.mechanics.discovery.slots import (
     Slot,
@@ -67,7 +67,7 @@ class QuadraticIntegrals:
         if not self.functions and n * (n + 1) // 2 <= MOST_UNKNOWNS:
             self.functions = [sympy.S.One]
         self.shared = _of_liouville(equations)
-        self.functions += [x / w for w in self.shared for x in _terms(w, equations.q)]
+        self.functions += [x / w for w in self.shared for x in bare_terms(w, equations.q)]
         self.of_field = _of_field(equations) if self.linear else []
 
     def found(self, known: Sequence[NoetherCharge]) -> list[tuple[Slots, NoetherCharge]]:
@@ -199,9 +199,7 @@ class QuadraticIntegrals:
         """The terms of L at rest without their constant factors."""
         q = self.equations.q
         rest = self.noether.system.L.xreplace(self._still)
-        return {
-            t.as_independent(*q, as_Add=False)[1] for t in sympy.Add.make_args(sympy.expand(rest))
-        } - {sympy.S.One}
+        return set(bare_terms(rest, q)) - {sympy.S.One}
 
     def _potential(self, force: Sequence[Expr], functions: Slots) -> Expr | None:
         """S(q) with the gradient `force`, from functions like those of L and of the tensor."""
@@ -222,12 +220,8 @@ class QuadraticIntegrals:
         terms = self._of_rest()
         monomials = [sympy.S.One, *q]
         monomials += [x * y for i, x in enumerate(q) for y in q[: i + 1]]
-        monomials += [x for w in self.shared for x in _terms(w, q)]
-        inside = {
-            t.as_independent(*q, as_Add=False)[1]
-            for _, f in functions
-            for t in sympy.Add.make_args(sympy.expand(f))
-        }
+        monomials += [x for w in self.shared for x in bare_terms(w, q)]
+        inside = {t for _, f in functions for t in bare_terms(f, q)}
         roots = sorted(
             _roots(sympy.Tuple(*terms), q), key=sympy.default_sort_key
         )  # such as r in b sqrt(r + x)/r
@@ -293,16 +287,10 @@ def _of_field(equations: SlotEquations) -> list[Expr]:
     q, v = equations.q, equations.v
     still = dict.fromkeys(v, sympy.S.Zero)
     slopes = [simplify(f.diff(x).xreplace(still)) for f in equations.forcing for x in v]
-    terms = dict.fromkeys(t for s in slopes for t in _terms(sympy.expand(s), q))
+    terms = dict.fromkeys(t for s in slopes for t in bare_terms(s, q))
     monomials = [sympy.S.One, *q, *(x * y for x, y in combinations_with_replacement(q, 2))]
     made = dict.fromkeys(t * m for t in terms for m in monomials)
     return list(made) if len(made) <= _MOST_OF_FIELD else []
-
-
-def _terms(expression: Expr, q: Sequence[Symbol]) -> list[Expr]:
-    """Terms without their constant factors."""
-    parts = (t.as_independent(*q, as_Add=False)[1] for t in sympy.Add.make_args(expression))
-    return list(dict.fromkeys(t for t in parts if t != 0))
 
 
 def is_gyroscopic(equations: SlotEquations) -> bool:

@@ -31,7 +31,7 @@ from lagcli.mechanics.discovery.hidden import integral_of, is_gyroscopic
 from lagcli.mechanics.discovery.isometries import Isometries
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import independent, kernel_modulo
-from lagcli.mechanics.discovery.scaling import scaled
+from lagcli.mechanics.discovery.scaling import bare_terms, scaled
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.tree import Tree
 from lagcli.mechanics.noether import Noether, NoetherCharge
@@ -168,11 +168,7 @@ class HigherIntegrals:
         if len(q) == 2:
             monomials += [x * y for x, y in combinations_with_replacement(X, 2)]
         slopes = [dot(A, self._slopes) for A in self.frame.spanning]
-        terms = [
-            term.as_independent(*q, as_Add=False)[1]
-            for each in (self._rest, *slopes)
-            for term in sympy.Add.make_args(sympy.expand(each))
-        ]
+        terms = [term for each in (self._rest, *slopes) for term in bare_terms(each, q)]
         made = dict.fromkeys(a * b for a in dict.fromkeys(terms) for b in monomials)
         return sorted(made, key=lambda e: (sympy.count_ops(e), str(e)))
 

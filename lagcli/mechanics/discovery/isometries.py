@@ -33,6 +33,7 @@ from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import Relation
+from lagcli.mechanics.discovery.scaling import bare_terms
 from lagcli.mechanics.discovery.search import Search, SlotUnknown
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 
@@ -129,11 +130,7 @@ class Isometries:
     def _within(self, values: Sequence[Expr], known: Sequence[Expr]) -> bool:
         """Whether each is a combination of the known functions with constant coefficients."""
         q = self.equations.q
-        terms = [
-            term.as_independent(*q, as_Add=False)[1]
-            for x in dict.fromkeys(values)
-            for term in sympy.Add.make_args(sympy.expand(x))
-        ]
+        terms = [term for x in dict.fromkeys(values) for term in bare_terms(x, q)]
         new = [x for x in dict.fromkeys(terms) if x not in {*known, sympy.S.Zero}]
         if not new:
             return True

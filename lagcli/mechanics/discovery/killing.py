@@ -29,7 +29,7 @@ from lagcli.mechanics.discovery.isometries import Isometries, Vector
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.modular import independent, kernel_modulo
 from lagcli.mechanics.discovery.relation import Relation
-from lagcli.mechanics.discovery.scaling import scaled
+from lagcli.mechanics.discovery.scaling import bare_terms, scaled
 from lagcli.mechanics.discovery.slots import Slot
 from lagcli.mechanics.discovery.tree import Tree
 from lagcli.mechanics.noether import Noether, NoetherCharge
@@ -128,8 +128,6 @@ class KillingIntegrals(QuadraticIntegrals):
         monomials = [sympy.S.One, *X, *(x * y for x, y in combinations_with_replacement(X, 2))]
         made = [a * b for a in self._of_rest() for b in (*monomials, *self.equations.q)]
         terms = {
-            term.as_independent(*self.equations.q, as_Add=False)[1]
-            for each in (*made, *monomials)
-            for term in sympy.Add.make_args(sympy.expand(each))
+            term for each in (*made, *monomials) for term in bare_terms(each, self.equations.q)
         }
         return sorted((m for m in terms if m != 1), key=sympy.default_sort_key)

@@ -54,3 +54,10 @@ def _common(terms: Sequence[Expr], constants: AbstractSet[Symbol]) -> Expr:
     for base, exponent in (powers or {}).items():
         factor *= base**exponent
     return factor
+
+
+def bare_terms(expression: Expr, q: Sequence[Symbol]) -> list[Expr]:
+    """The terms of an expression, each once without its factors that no coordinate is in."""
+    terms = sympy.Add.make_args(sympy.expand(expression))
+    parts = (term.as_independent(*q, as_Add=False)[1] for term in terms if term != 0)
+    return list(dict.fromkeys(parts))

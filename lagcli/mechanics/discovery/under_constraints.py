@@ -16,7 +16,7 @@ from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, quadratic
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.momentum_equation import Momenta, MomentumEquations
-from lagcli.mechanics.discovery.scaling import scaled
+from lagcli.mechanics.discovery.scaling import bare_terms, scaled
 from lagcli.mechanics.discovery.surface import independent_on_surface
 from lagcli.mechanics.discovery.surface_integrals import Integral, IntegralTerm, SurfaceIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
@@ -201,9 +201,7 @@ class UnderConstraints:
         """The terms of L at rest with monomials and with the functions of the tensor."""
         q = self.system.q
         rest = self.system.L.xreplace(dict.fromkeys(self.system.qdot, sympy.S.Zero))
-        terms = {
-            t.as_independent(*q, as_Add=False)[1] for t in sympy.Add.make_args(sympy.expand(rest))
-        } - {sympy.S.One}
+        terms = set(bare_terms(rest, q)) - {sympy.S.One}
         monomials = [sympy.S.One, *q, *(x * y for i, x in enumerate(q) for y in q[: i + 1])]
         # z/sqrt(x^2 + y^2) of Kepler's problem on a sphere suggests x/sqrt(x^2 + y^2)
         cores = [t / m for t in terms for m in [_monomial(t, q)] if m not in (1, t)]
