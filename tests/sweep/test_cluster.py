@@ -89,12 +89,14 @@ def whole(tmp_path_factory):
     return path.read_bytes()
 
 
+@pytest.mark.long
 def test_a_cluster_gives_the_same_bytes(address, whole, tmp_path):
     path = tmp_path / "there.csv"
     assert run([*SWEEP, "-o", str(path), "--scheduler", address]) == 0
     assert path.read_bytes() == whole
 
 
+@pytest.mark.long
 def test_a_member_that_cannot_be_run_is_a_row_without_numbers(address, tmp_path, capsysbinary):
     """At r = 0 the potential of Kepler is not defined."""
     arguments = ["sweep", "kepler", "--vary", "x=0,1", "--at", "y=0", "--until", "1", "-f", "csv"]
@@ -120,6 +122,7 @@ def test_without_a_scheduler_one_sentence_and_no_file(there, said, tmp_path, cap
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.long
 def test_a_cluster_without_workers(tmp_path, capsys):
     with cluster(0) as (address, *_):
         assert run([*SWEEP, "--scheduler", address]) == 2
