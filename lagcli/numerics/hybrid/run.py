@@ -253,7 +253,7 @@ class Run:
         try:
             rate = (at(h) - at(-h)) / (2 * h)
             late = lateness(t, condition.exactly(t, q, v), rate)
-            noise = self._watch.felt(condition, t, q, v, [_EPSILON * x for x in self.peaks])
+            noise = self._watch.felt(condition, t, q, v, self._rounding_since(t, q, v))
             late += displaced(self.tolerance, t, len(self.events), noise, rate)
         except (ArithmeticError, ValueError):
             return 0.0
@@ -329,6 +329,12 @@ class Run:
             _EPSILON * (max(peak, t * peaks[n + j]) if j < n else peak)
             for j, peak in enumerate(peaks)
         ]
+
+    def _rounding_since(self, t: float, q: Vector, v: Vector) -> list[float]:
+        """Of each component, of its size since the last event: low bounces are rounded less."""
+        time = t - self.phases[-1].begin
+        sizes = [*(abs(x) + time * abs(u) for x, u in zip(q, v, strict=True)), *map(abs, v)]
+        return [_EPSILON * min(pair) for pair in zip(sizes, self.peaks, strict=True)]
 
     def _state_in(self, step: Step, t: float) -> tuple[Vector, Vector]:
         """The state at a time of the step, on the constraints."""
