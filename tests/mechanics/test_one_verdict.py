@@ -1,0 +1,64 @@
+"""One verdict for a place in every section, and no step that its own verification retracts."""
+
+from __future__ import annotations
+
+import pytest
+
+from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
+from lagcli.mechanics.reduction.steady_statement import steady_motions
+from lagcli.pipeline import explain
+
+from .derived import derive
+from .test_explanation import words
+
+_M = "m: {assume: positive}, k: {assume: positive}"
+
+
+@pytest.mark.parametrize("V", ["k*abs(x)", "k*abs(x) + m*x^2", "2*k*abs(x - 1)"])
+def test_rest_at_a_kink_has_one_verdict_as_a_steady_motion_too(V):
+    derivation = derive(f"{{coordinates: [x], parameters: {{{_M}}}, T: m*x'^2/2, V: {V}}}")
+    [rest] = equilibria(derivation.dynamics).equilibria or ()
+    [motion] = steady_motions(derivation)[0].motions or ()
+    assert (rest.verdict.stable, rest.verdict.reason) == (True, motion.verdict.reason)
+    assert motion.verdict.stable
+    assert not motion.frequencies_squared
+
+
+def test_two_equilibria_with_the_same_linear_motion_have_one_text():
+    text = f"{{coordinates: [x], parameters: {{{_M}}}, T: m*x'^2/2, V: k*(x^2 - 1)^2/4}}"
+    told = words(explain(derive(text), ["modes"]), "Small oscillations")
+    assert told.count("To first order") == told.count("and from the equilibrium") == 1
+
+
+def test_roots_that_are_not_real_are_called_so():
+    text = (
+        f"{{coordinates: [x, y, z], parameters: {{{_M}, c: {{assume: positive}}}}, "
+        "T: m*(x'^2 + y'^2 + z'^2)/2, V: k*(x^2 + y^2 + z^2)/2, forces: {x: c*y, y: -c*x}}"
+    )
+    told = words(explain(derive(text), ["modes"]), "Small oscillations")
+    assert "No other root is real" in told
+    found = modes(derive(text).dynamics).modes or ()
+    assert [m.frequency and to_grammar(m.frequency) for m in found] == ["sqrt(k/m)", None]
+
+
+def test_the_hamiltonian_of_what_a_constraint_leaves_is_confirmed():
+    text = (
+        f"{{coordinates: [a, b, c], parameters: {{{_M}}}, T: (a'^2 + b'^2 + c'^2)/2, "
+        "V: k*((a - b)^2 + (b - c)^2 + (c - a)^2)/2, constraints: {s: a + b + c = 0}}"
+    )
+    told = words(explain(derive(text), ["hamilton_jacobi"]), "The Hamilton-Jacobi equation")
+    assert "used to eliminate" in told
+    assert "left out" not in told
+
+
+def test_a_condition_is_short_where_another_one_holds():
+    """Stable where q² B² > 4 m k, unstable for the opposite inequality alone."""
+    text = (
+        "{coordinates: [x, y, z], parameters: {m: {assume: positive}, q: {}, "
+        "B: {assume: positive}, k: {assume: positive}}, L: m*(x'^2 + y'^2 + z'^2)/2 "
+        "+ q*B*(x*y' - y*x')/2 - k*(2*z^2 - x^2 - y^2)/2}"
+    )
+    [rest] = equilibria(derive(text).dynamics).equilibria or ()
+    [opposite] = rest.verdict.unstable
+    assert (to_grammar(opposite.left), to_grammar(opposite.right)) == ("4*m*k", "q^2*B^2")
