@@ -109,6 +109,12 @@ def test_polar_coordinates_change_nothing_where_an_oscillator_is_part_of_the_pot
     assert (algebra.name, algebra.independent, algebra.integrable) == ("sl(2,R)", 4, True)
 
 
+def test_an_oscillator_in_parabolic_coordinates_keeps_all():
+    L = "m*(u^2 + v^2)*(u'^2 + v'^2)/2 - k*(u^2 + v^2)^2/8"
+    found = derive(problem(L, "[u, v]", "m k")).discovery
+    assert (len(found.charges), summary(found).independent) == (10, 4)
+
+
 def test_an_inverse_square_on_the_sphere_leaves_neumanns_integral():
     V = "(a*sin(u)^2*cos(v)^2 + b*sin(u)^2*sin(v)^2 + c*cos(u)^2)/2 + p/(sin(u)^2*cos(v)^2)"
     found = derive(problem(f"(u'^2 + sin(u)^2*v'^2)/2 - {V}", "[u, v]", "p | a b c")).discovery

@@ -22,7 +22,7 @@ from functools import cached_property
 from itertools import combinations
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.build import free_of
@@ -55,7 +55,7 @@ class Isometries:
 
     def __init__(self, equations: SlotEquations, rest: Expr, allowed: Allowance) -> None:
         self.equations = equations
-        self._rest = sympy.Add.make_args(sympy.expand(rest))
+        self._rest = _by_parameters(rest, equations.q)
         self.allowed = allowed
         self.metric = Metric(equations)
 
@@ -162,7 +162,12 @@ class Isometries:
 
     def _linear(self, gradient: Vector, symbols: Sequence[Expr]) -> Expr:
         """X'' = grad X . F, to first degree in q', by the terms that the X_b and X_b' make up."""
-        return sympy.Add(*(self._part(dot(gradient, force), symbols) for force in self._forces))
+        whole = [self._to_first(f) for f in self.equations.forcing]
+        linear = self._part(dot(gradient, whole), symbols)
+        if linear is not None:
+            return linear
+        parts = (self._part(dot(gradient, force), symbols) for force in self._forces)
+        return sympy.Add(*(part for part in parts if part is not None))
 
     @cached_property
     def _forces(self) -> list[list[Expr]]:
@@ -173,13 +178,13 @@ class Isometries:
         left = [simplify(self._to_first(f) - sympy.Add(*parts)) for f, *parts in rows]
         return [force for force in (left, *pushes) if any(force)]
 
-    def _part(self, force: Expr, symbols: Sequence[Expr]) -> Expr:
-        """The force as a combination of the X_b and X_b'; 0 where it is none."""
+    def _part(self, force: Expr, symbols: Sequence[Expr]) -> Expr | None:
+        """The force as a combination of the X_b and X_b'; None where it is none."""
         q, v = self.equations.q, self.equations.v
         rates = [dot([X.diff(x) for x in q], v) for X in self.functions]
         vectors = [[X] for X in (*self.functions, *rates, sympy.S.One)]
         values = Relation([*vectors, [-force]], (*q, *v), self.allowed).of_last()
-        return sympy.S.Zero if values is None else dot(values, (*symbols, sympy.S.One))
+        return None if values is None else dot(values, (*symbols, sympy.S.One))
 
     def _to_first(self, force: Expr) -> Expr:
         still = dict.fromkeys(self.equations.v, sympy.S.Zero)
@@ -200,3 +205,12 @@ class Isometries:
             for T in (times.translations if k in shifts else times.others)
         ]
         return Search(self.equations, slots, ordered(unknowns), allowed)
+
+
+def _by_parameters(rest: Expr, q: Sequence[Symbol]) -> list[Expr]:
+    """The terms of L at rest, those with the same parameters together."""
+    found: dict[Expr, Expr] = {}
+    for term in sympy.Add.make_args(sympy.expand(rest)):
+        key = term.as_independent(*q, as_Add=False)[0].as_coeff_Mul()[1]
+        found[key] = found.get(key, sympy.S.Zero) + term
+    return list(found.values())
