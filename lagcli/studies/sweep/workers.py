@@ -18,6 +18,7 @@ from concurrent.futures import (
     ProcessPoolExecutor,
     wait,
 )
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
 from itertools import islice
 from threading import Lock
@@ -37,7 +38,7 @@ _ONE_AT_A_TIME = Lock()
 
 
 class NoCluster(Exception):
-    """A scheduler cannot be reached, or was lost; the sentence says what to do."""
+    """Processes or a scheduler cannot be reached, or were lost; the sentence says which."""
 
 
 def in_order_of_arrival(
@@ -62,7 +63,10 @@ def cores(jobs: int) -> Iterator[Executor]:
     context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
     jobs = min(jobs, _MOST) if sys.platform == "win32" else jobs
     with ProcessPoolExecutor(jobs, mp_context=context, initializer=_leave_signals) as pool:
-        yield pool
+        try:
+            yield pool
+        except BrokenProcessPool:
+            raise NoCluster("a process of this sweep was killed, or had no memory left") from None
 
 
 def _leave_signals() -> None:
