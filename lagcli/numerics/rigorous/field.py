@@ -7,7 +7,7 @@ from typing import Any
 
 from lagcli.graph.nodes import mask_of
 from lagcli.numerics.equations.motion import Motion
-from lagcli.numerics.rigorous.solution import LinearSystem, Solution, convolved, horner, sizes
+from lagcli.numerics.rigorous.solution import LinearSystem, convolved, horner, sizes
 
 #: Coefficients found one by one; from there on each step of Newton's method doubles them.
 _BASE = 7
@@ -56,8 +56,9 @@ class VectorField:
 
     def _first(self, t: Any, x: Sequence[Any], order: int) -> list[list[Any]]:
         """The coefficients one after the other: k v_k = a_(k-1)."""
-        n, known = self.n, Solution()
+        n = self.n
         q, v = [[c] for c in x[:n]], [[c] for c in x[n:]]
+        known = self.system.begun([t], [*q, *v])
         while len(v[0]) <= order:
             for c, rate in zip(q, v, strict=True):
                 c.append(rate[-1] / len(rate))

@@ -109,27 +109,44 @@ class LinearSystem:
         self._left = motion.function(left, z, frozen=True)
         self._partials = motion.function(partials, z, frozen=True)
         self._steady = not mask_of(entries) & mask_of(equations.state)
+        #: K and its inverse where they are constant, by the bits
+        self._constant: dict[int, tuple[list[Any], Any]] = {}
         #: what an evaluation costs, in nodes
         self.cost = len(ancestry([*entries, *right, *partials]))
 
     def solution(self, time: Series, x: Sequence[Series], length: int) -> Solution:
         """The first coefficients of z along power series x."""
-        return self.continued(Solution(), time, x, length)
+        return self.continued(self.begun(time, x), time, x, length)
+
+    def begun(self, time: Series, x: Sequence[Series]) -> Solution:
+        """No coefficients yet; K and its inverse where they are constant."""
+        found, bits = Solution(), self._context.prec
+        if self._steady:
+            if bits not in self._constant:
+                matrix = self._matrices(time, x, 0, 1)
+                self._constant[bits] = matrix, inverted(matrix[0])
+            matrices, found.inverse = self._constant[bits]
+            found.matrices = [*matrices]
+        return found
+
+    def _matrices(self, time: Series, x: Sequence[Series], first: int, length: int) -> list[Any]:
+        """Coefficients of K from the first of them on."""
+        entries = self.evaluated(self._entries, time, x, length)
+        return [
+            self._matrix(self.size, self.size, [each[k] for each in entries])
+            for k in range(first, length)
+        ]
 
     def continued(
         self, known: Solution, time: Series, x: Sequence[Series], length: int
     ) -> Solution:
         """The same with more coefficients of x."""
-        size, begin = self.size, len(known.rights)
-        if not (known.matrices and self._steady):
-            entries = self.evaluated(self._entries, time, x, 1 if self._steady else length)
-            known.matrices += [
-                self._matrix(size, size, [each[k] for each in entries])
-                for k in range(begin, 1 if self._steady else length)
-            ]
+        begin = len(known.rights)
+        if not self._steady:
+            known.matrices += self._matrices(time, x, begin, length)
         rights = self.evaluated(self._rights, time, x, length)
         known.rights += [
-            self._matrix(size, 1, [each[k] for each in rights]) for k in range(begin, length)
+            self._matrix(self.size, 1, [each[k] for each in rights]) for k in range(begin, length)
         ]
         known.solve(known.rights, known.found)
         return known
@@ -138,9 +155,12 @@ class LinearSystem:
         self, time: Series, x: Sequence[Series], length: int, known: Solution | None = None
     ) -> list[Any]:
         """The first coefficients of da/dx, shape (n, symbols), along power series x."""
-        at = known or self.solution(time, x, length)
         n, width = self.n, self._width
-        z = [each[:length] for each in at.components(range(self.size))]
+        if self._steady:  # then they do not depend on z
+            at, z = self.begun(time, x), [[0]] * self.size
+        else:
+            at = known or self.solution(time, x, length)
+            z = [each[:length] for each in at.components(range(self.size))]
         entries = self.evaluated(self._partials, time, [*x, *z], length)
         rights = [
             self._matrix(self.size, width, [each[k] for each in entries]) for k in range(length)
@@ -161,8 +181,8 @@ class LinearSystem:
 
     def inverse(self, time: Any, x: Sequence[Any]) -> Any:
         """K^-1 at balls."""
-        entries = self.evaluated(self._entries, [time], [[each] for each in x], 1)
-        return inverted(self._matrix(self.size, self.size, [each[0] for each in entries]))
+        at = [time], [[each] for each in x]
+        return self.begun(*at).inverse if self._steady else inverted(self._matrices(*at, 0, 1)[0])
 
     def evaluated(self, function: Any, time: Series, x: Sequence[Series], length: int) -> list[Any]:
         """The values of a function as series of a length."""
