@@ -10,7 +10,7 @@ from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.rigorous.solution import LinearSystem, convolved, horner, sizes
 
 #: Coefficients found one by one; from there on each step of Newton's method doubles them.
-_BASE = 7
+_BASE = 12
 
 
 class VectorField:
