@@ -2,6 +2,7 @@
 
 import signal
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 # a run in the background ignores Ctrl-C, and so would the commands that it starts
@@ -10,3 +11,13 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 settings.register_profile("busy", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("busy")
+
+
+@pytest.fixture(autouse=True)
+def precision_of_mpmath():
+    """What a test sets it to ends with the test: the judge of random systems has its own."""
+    from mpmath import mp
+
+    usual = mp.prec
+    yield
+    mp.prec = usual

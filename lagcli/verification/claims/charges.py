@@ -117,13 +117,13 @@ def _is_trivial(x: Examination, charge: Charge) -> bool:
 
 
 def _is_real_where(x: Examination, charge: Charge, place: int) -> bool:
-    """Whether the printed conditions for it to be real hold just where it is."""
+    """Whether the printed conditions hold wherever it is real; ln t has a domain of its own."""
     what = f"where the charge '{charge.name}' is real"
     above = conditions(x, what, charge.where)
 
     def real(s: State) -> tuple[list[arb], list[arb]]:
         holds = all(s.at(condition) > 0 for condition in above)
-        return [arb(int(holds))], [arb(int(s.at(place).is_finite()))]
+        return [arb(int(holds))], [arb(int(holds or s.at(place).is_finite()))]
 
     return not above or x.decide(what, real)
 

@@ -127,6 +127,8 @@ def _exponentials(x: Examination) -> list[int]:
     with ctx.workprec(PRECISIONS[1]):
         here = dict(x.states()[0].environment)
         near, other = (LinearMotion(x, each) for each in (here, _jet(x, here, Random(4))))
+        if not (near.regular and other.regular):  # faster than light, for instance
+            return []
         K, L = near.slopes[0], other.slopes[0]
         same = all(
             size(a - b) < _SAME
