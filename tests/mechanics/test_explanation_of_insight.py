@@ -127,5 +127,5 @@ def test_a_hoop_that_rolls_straight_on_has_the_frequency_that_its_stability_is_r
     title = "Steady motions"
     shown = [to_grammar(row.right) for row in rows(told, title) if row.left != Name("psi", 1)]
     assert "8*psi'^2/3 - 2*g/(3*R)" in shown
-    assert "The constraints give x' and y' in terms of the other velocities." in words(told, title)
+    assert "The constraints give x' and y' in terms of the other velocities" in words(told, title)
     assert "cyclic" not in words(told, title)
