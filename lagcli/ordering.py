@@ -225,6 +225,18 @@ def positive_first(terms: Sequence[Expression]) -> list[Expression]:
     return [*terms[begin:end], *terms[:begin], *terms[end:]]
 
 
+def bases(term: Expression) -> Iterator[Expression]:
+    """What is multiplied, or raised to a power and multiplied, above the denominator of a term."""
+    match term:
+        case Negative(operand=inner) | Quotient(numerator=inner) | Power(base=inner):
+            yield from bases(inner)
+        case Product(factors=factors):
+            for factor in factors:
+                yield from bases(factor)
+        case _:
+            yield term
+
+
 def _is_letter(node: Expression) -> bool:
     """Whether a term is a letter, perhaps with a number before it."""
     match node:
@@ -236,13 +248,8 @@ def _is_letter(node: Expression) -> bool:
 
 def _has_function(node: Expression) -> bool:
     """Whether a function is among the factors of a term."""
-    match node:
-        case Negative(operand=inner) | Quotient(numerator=inner) | Power(base=inner):
-            return _has_function(inner)
-        case Product(factors=factors):
-            return any(map(_has_function, factors))
-        case _:
-            return isinstance(node, (Call, PartialCall)) and node.function != "sqrt"
+    found = (f for f in bases(node) if isinstance(f, (Call, PartialCall)))
+    return any(each.function != "sqrt" for each in found)
 
 
 def _is_number(node: Expression) -> bool:

@@ -187,8 +187,9 @@ class _Splitter:
 
     def _bracketed(self, groups: list[list[Term]], whole: Element) -> list[Expression]:
         """One expression for each group, or one bracket where that is flat and much shorter."""
-        alike = self._with_equal_factors(groups, whole)
-        single = [part for some in alike for part in self._alike(some, whole)]
+        shapes = [self._shape(group, whole) for group in groups]
+        alike = self._with_equal_factors(groups, shapes)
+        single = [part for places in alike for part in self._alike(places, groups, shapes, whole)]
         if len(groups) < 2:
             return single
         together = self._shape([term for group in groups for term in group], whole)
@@ -199,18 +200,18 @@ class _Splitter:
         return single
 
     def _with_equal_factors(
-        self, groups: list[list[Term]], whole: Element
-    ) -> list[list[list[Term]]]:
-        """The groups that share a bracket: c (x'² + y'²), m (x y' - y x')."""
-        found: dict[object, list[list[Term]]] = {}
+        self, groups: list[list[Term]], shapes: list[Expression]
+    ) -> list[list[int]]:
+        """The places of groups that share a bracket: c (x'² + y'²), m (x y' - y x')."""
+        found: dict[object, list[int]] = {}
         for place, group in enumerate(groups):
             fast, _ = self._factor(group[0][0])
             key: object = place
             if len(fast) == 1 and fast[0][1] == 2:
                 key = frozenset((self._factor(monomial)[1], c) for monomial, c in group)
             elif self._degree(fast) == (0, 1):
-                key = self._parameters(self._shape(group, whole)) or place
-            found.setdefault(key, []).append(group)
+                key = self._parameters(shapes[place]) or place
+            found.setdefault(key, []).append(place)
         return list(found.values())
 
     def _parameters(self, term: Expression) -> frozenset[Expression]:
@@ -234,9 +235,15 @@ class _Splitter:
         fast = tuple(pair for pair in monomial if self._is_leading(pair[0]))
         return fast, tuple(pair for pair in monomial if pair not in fast)
 
-    def _alike(self, groups: list[list[Term]], whole: Element) -> list[Expression]:
-        """The shape of groups that share a bracket."""
-        apart = [self._shape(group, whole) for group in groups]
+    def _alike(
+        self,
+        places: list[int],
+        every: list[list[Term]],
+        shapes: list[Expression],
+        whole: Element,
+    ) -> list[Expression]:
+        """The shape of the groups at these places, which share a bracket."""
+        groups, apart = [every[place] for place in places], [shapes[place] for place in places]
         if len(groups) == 1:
             return apart
         if self._factor(groups[0][0][0])[0][0][1] == 1:

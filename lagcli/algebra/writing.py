@@ -19,7 +19,7 @@ from lagcli.expression import (
     Sum,
     operation_count,
 )
-from lagcli.ordering import Factor, Ordering, positive_first
+from lagcli.ordering import Factor, Ordering, bases, positive_first
 
 
 class Writer:
@@ -218,13 +218,7 @@ def _is_exponential(node: Expression) -> bool:
 
 def _grows(node: Expression) -> bool:
     """Whether an exponential is among the factors of a term."""
-    match node:
-        case Negative(operand=inner) | Quotient(numerator=inner) | Power(base=inner):
-            return _grows(inner)
-        case Product(factors=factors):
-            return any(map(_grows, factors))
-        case _:
-            return _is_exponential(node)
+    return any(map(_is_exponential, bases(node)))
 
 
 def _product(factors: list[Expression]) -> Expression:

@@ -137,7 +137,7 @@ def compare(check: Expectations, section: ModesSection, expected: Sequence[Expre
 
 
 def wanted(expect: Expect) -> bool:
-    """Whether the file states the frequencies, or that there are none."""
+    """Whether the file states the frequencies, or that none exists."""
     return expect.modes is not None
 
 

@@ -30,11 +30,7 @@ _LOOKS, _LATER = 50, 1e-9
 
 def clock_errors(run: Run, span: float) -> list[float]:
     """What every component of the state may err by; nothing where the time acts on none."""
-    if (
-        not run.marks
-        or not run.steps
-        or not any(phase.mode.equations.depends_on_time for phase in run.phases)
-    ):
+    if not run.marks or not run.steps or not _is_driven(run):
         return []
     bits = BITS.get(run.method_name, DOUBLES)
     squares = [0.0] * len(run.marks[0].q)

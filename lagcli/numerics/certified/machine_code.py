@@ -293,8 +293,5 @@ def precision() -> Iterator[None]:
     """The bits of what stands behind numbers of 80 and 128."""
     from flint import ctx
 
-    usual, ctx.prec = ctx.prec, _BITS
-    try:
+    with ctx.workprec(_BITS):
         yield
-    finally:
-        ctx.prec = usual

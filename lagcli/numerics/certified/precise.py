@@ -28,15 +28,11 @@ _UNASKED, _ASKED = 20_000, 500_000
 
 @contextmanager
 def precision(digits: int) -> Iterator[None]:
-    """So many digits, and some more for rounding."""
+    """Arithmetic with these digits, and some more for rounding."""
     from flint import ctx
 
-    usual = ctx.prec
-    ctx.prec = math.ceil(digits * math.log2(10)) + _GUARD_BITS
-    try:
+    with ctx.workprec(math.ceil(digits * math.log2(10)) + _GUARD_BITS):
         yield
-    finally:
-        ctx.prec = usual
 
 
 def prepared(simulation: Setup, doubles: Modes, digits: int | None = None) -> Prepared | str:

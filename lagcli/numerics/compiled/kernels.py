@@ -273,7 +273,7 @@ def drive(
     times: Reals,
     out: Reals,
 ) -> int:
-    """Steps until the end, or until so many have been made; the rows asked for into `out`.
+    """Steps until the end, or until there are counts[LIMIT] of them; the requested rows into `out`.
 
     The state before the shortest step stands behind them.
     """

@@ -198,22 +198,15 @@ class Motion:
 
         equations, arithmetic = self.equations, Balls()
 
-        def made() -> Function:
+        with ctx.workprec(_BITS):
             constants = constants_of(equations, list(nodes), arithmetic)
-            return straight_line(equations.state, nodes, constants, arithmetic)
-
-        def with_bits(call: Callable[[], Any]) -> Any:
-            usual, ctx.prec = ctx.prec, _BITS
-            try:
-                return call()
-            finally:
-                ctx.prec = usual
-
-        function = with_bits(made)
+            function = straight_line(equations.state, nodes, constants, arithmetic)
 
         def at(*state: float) -> tuple[float, ...]:
             balls = [*map(arithmetic.ball, state)]
-            return tuple(map(float, with_bits(lambda: function(*balls))))
+            with ctx.workprec(_BITS):
+                found = function(*balls)
+            return tuple(map(float, found))
 
         return at
 

@@ -35,9 +35,9 @@ _LIMIT = 1_000_000_000
 #: Of the order in the logarithm of the tolerance, by what was measured.
 _ORDER, _LOWEST = 0.7, 8
 #: Roundings of the time over which a place without a series is passed, in one run and the other;
-#: so often at most within so many of them.
+#: at most _AT_ONE_PLACE times within _NEARBY of them.
 _NARROW, _WIDE, _AT_ONE_PLACE, _NEARBY = 16, 32, 8, 1e4
-#: Constraints are held to so many roundings, and one that the others imply must be to this.
+#: Constraints are held to _HELD roundings, and one that the others imply to _IMPLIED.
 _HELD, _IMPLIED = 3.6, 1e-12
 
 

@@ -24,8 +24,8 @@ _AT_ONCE = 1e-9
 _AGAIN = 8
 #: Roundings of the time within which a crossing is found; near a touch it is farther away.
 _ULPS = 1e5
-#: In a run that is moved an event is so many roundings of the time and the state away; fewer at
-#: tolerances whose differences are taken many times.
+#: In a run that is moved an event is _AWAY roundings of the time and the state away, and _NEARER
+#: at tolerances up to _FINE, whose differences are taken many times.
 _AWAY, _NEARER, _FINE = 8, 1, 1e-13
 _GOLDEN = 0.6180339887498949
 

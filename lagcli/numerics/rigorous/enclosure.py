@@ -43,7 +43,7 @@ from typing import Any
 from lagcli.numerics.integrators.taylor import log2_size
 from lagcli.numerics.rigorous.field import VectorField
 from lagcli.numerics.rigorous.sets import LohnerSet
-from lagcli.numerics.rigorous.solution import convolved, horner, precision, sizes
+from lagcli.numerics.rigorous.solution import convolved, horner, sizes
 from lagcli.record import record
 
 #: Of the length at which the last coefficients say that the remainder is small enough.
@@ -193,7 +193,7 @@ class Enclosures:
         self._peaks[:] = [
             max(peak, abs(float(each[0]))) for peak, each in zip(self._peaks, centre, strict=True)
         ]
-        with precision(_WIDE_BITS):
+        with self._context.workprec(_WIDE_BITS):
             end, flow = self._longest(t, start, until, centre)
         return Piece(t, end, centre, flow, start)
 

@@ -18,7 +18,6 @@ from lagcli.numerics.rigorous.enclosure import NotEnclosed, Piece, ShortSteps
 from lagcli.numerics.rigorous.initial import initial_state
 from lagcli.numerics.rigorous.modes import ProofMode, ProofModes
 from lagcli.numerics.rigorous.sets import LohnerSet, around
-from lagcli.numerics.rigorous.solution import precision
 from lagcli.problem_data import Problem
 from lagcli.record import record, replace
 
@@ -149,12 +148,14 @@ def prove(problem: Problem, asked: Asked, progress: Progress | None = None) -> P
     Refusal
         When the motion is of a kind that is not enclosed.
     """
+    from flint import ctx
+
     setup, implied = _setup(problem, asked)
     best: Proof | None = None
     bits = _BITS
     work, last = _WORK, 0.0
     while True:
-        with precision(bits):
+        with ctx.workprec(bits):
             attempt = Attempt(setup, implied, bits, work, progress)
             found = attempt.proof()
         best = found if best is None or found.holds_until >= best.holds_until else best

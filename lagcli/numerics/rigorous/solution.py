@@ -18,8 +18,7 @@ A. Neumaier, *Interval Methods for Systems of Equations* (1990), section 4.1.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from itertools import chain
 from typing import Any
 
@@ -31,7 +30,7 @@ Series = Sequence[Any]
 
 
 class Solution:
-    """z of one power series x, as far as it is known.
+    """z of one power series x, the coefficients that are known.
 
     Attributes
     ----------
@@ -231,15 +230,3 @@ def sizes(matrix: Any) -> Any:
     """|M|, rounded up."""
     bounds = [x.abs_upper() for x in matrix.entries()]
     return type(matrix)(matrix.nrows(), matrix.ncols(), bounds)
-
-
-@contextmanager
-def precision(bits: int) -> Iterator[None]:
-    """Arithmetic with these bits."""
-    from flint import ctx
-
-    usual, ctx.prec = ctx.prec, bits
-    try:
-        yield
-    finally:
-        ctx.prec = usual

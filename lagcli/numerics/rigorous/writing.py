@@ -8,7 +8,6 @@ from collections.abc import Callable
 from typing import Any
 
 from lagcli.numerics.rigorous.proof import Proof
-from lagcli.numerics.rigorous.solution import precision
 
 #: Digits of a midpoint and of a radius in JSON and CSV.
 _DIGITS = 30
@@ -59,7 +58,9 @@ def _ball(x: Any) -> dict[str, str] | None:
     """A decimal midpoint, and a radius that contains its rounding as well."""
     if x is None:
         return None
-    with precision(_BITS):
+    from flint import ctx
+
+    with ctx.workprec(_BITS):
         middle = x.mid().str(_DIGITS, radius=False)
         return {"midpoint": middle, "radius": _above(abs(x - type(x)(middle)).upper())}
 
