@@ -29,6 +29,15 @@ from lagcli.expression import (
     Sum,
     walk,
 )
+from lagcli.factors import (
+    odd_base,
+    parts_of,
+    quotient,
+    whole_power,
+    with_base,
+    with_last,
+    with_whole_powers,
+)
 from lagcli.given_formulas import expressions, given, order_of_names
 from lagcli.given_sums import GivenSums, arranged
 from lagcli.likeness import EVEN, ODD, Key, parity, signed_key
@@ -39,7 +48,6 @@ from lagcli.signs_of_sums import sign_at_random
 
 #: Terms of a sum of products of masses that is multiplied out.
 _MULTIPLIED = 4
-_INVERSE = {"tan": "cot", "cot": "tan"}
 
 
 class Manner:
@@ -85,10 +93,10 @@ class Manner:
         match node:
             case Product(factors=(*_, Sum(terms=(first, *_)) as series)) if first == ONE:
                 # a period, 2 pi sqrt(l/g) (1 + a²/16): what stands before the series stays there
-                before = _quotient(list(node.factors[:-1]), [])
-                return _joined(self._written(before, inside=inside), series)
+                before = quotient(list(node.factors[:-1]), [])
+                return with_last(self._written(before, inside=inside), series)
             case Product() | Quotient():
-                return self._signed(_with_whole_powers(node), inside=inside)
+                return self._signed(with_whole_powers(node), inside=inside)
             case Power():
                 return self._power(node)
             case Call(function=function, arguments=(Sum() as inner,)) if function in ODD | EVEN:
@@ -127,13 +135,13 @@ class Manner:
 
     def _distributed(self, term: Expression) -> list[Expression]:
         """The terms of a product with one bracket; the product itself where it is none."""
-        minus, above, below = _parts(term)
+        minus, above, below = parts_of(term)
         sums = [factor for factor in above if isinstance(factor, Sum)]
         if len(sums) != 1 or below or len(above) == 1:
             return [term]
         found: list[Expression] = []
         for each in sums[0].terms:
-            other, factors, under = _parts(each)
+            other, factors, under = parts_of(each)
             if under:
                 return [term]
             whole = self._power_product([f for f in (*above, *factors) if f is not sums[0]])
@@ -143,26 +151,26 @@ class Manner:
     def _power_product(self, factors: Iterable[Expression]) -> Expression:
         """The product of numbers and powers, each base once."""
         number, powers = Fraction(1), dict[Expression, Fraction]()
-        for base, exponent in map(_whole_power, factors):
+        for base, exponent in map(whole_power, factors):
             if isinstance(base, Number):
                 number *= base.value**exponent
             else:
                 powers[base] = powers.get(base, Fraction(0)) + exponent
         ranked = self._ordering.arranged(powers.items())
         shown = [base if e == 1 else Power(base, Number(e)) for base, e in ranked]
-        return _quotient([Number(number), *shown] if number != 1 else shown, [])
+        return quotient([Number(number), *shown] if number != 1 else shown, [])
 
     def _as_within(self, term: Expression) -> Expression:
-        minus, above, below = _parts(term)
+        minus, above, below = parts_of(term)
         for place, factor in enumerate(above):
-            base, odd = _odd_base(factor)
+            base, odd = odd_base(factor)
             if base is None or not odd or self._wrong(base) is not None:
                 continue
             sign, key = signed_key(base)
             if self._within.get(key, sign) != sign:
-                above[place] = _with_base(factor, negative_of(base))
+                above[place] = with_base(factor, negative_of(base))
                 minus = not minus
-        whole = _quotient(above, below)
+        whole = quotient(above, below)
         return Negative(whole) if minus else whole
 
     def _wrong(self, node: Sum, *, below: bool = False) -> bool | None:
@@ -201,42 +209,42 @@ class Manner:
             wrong = self._wrong(base)
             if wrong or (wrong is None and _begins_better(base)):
                 return Power(negative_of(base), node.exponent)
-        return _with_whole_powers(node)
+        return with_whole_powers(node)
 
     def _signed(self, node: Expression, *, inside: bool) -> Expression:
         """A product or quotient with every sum in its right sign, the sign of all before it."""
-        minus, above, below = self._with_given_sums(*_parts(node))
+        minus, above, below = self._with_given_sums(*parts_of(node))
         free: list[tuple[list[Expression], int]] = []  # sums that may stand either way
         for factors in (above, below):
             for place, factor in enumerate(factors):
-                base, odd = _odd_base(factor)
+                base, odd = odd_base(factor)
                 if base is None or not odd:
                     continue
                 wrong = self._wrong(base, below=factors is below and not inside)
                 if wrong:
                     turned = self._in_manner(negative_of(base), inside=inside)
-                    factors[place] = _with_base(factor, turned)
+                    factors[place] = with_base(factor, turned)
                     minus = not minus
                 elif wrong is None:
                     free.append((factors, place))
         for factors, place in free if minus else ():
-            base, _ = _odd_base(factors[place])
+            base, _ = odd_base(factors[place])
             assert base is not None
             if 2 * sum(isinstance(t, Negative) for t in base.terms) >= len(base.terms):
-                factors[place] = _with_base(factors[place], negative_of(base))
+                factors[place] = with_base(factors[place], negative_of(base))
                 minus = False
                 break
         for factor in () if inside else below:
-            base, _ = _odd_base(factor)
+            base, _ = odd_base(factor)
             if base is not None:
                 sign, key = signed_key(base)
                 self._below.setdefault(key, sign)
                 self._within.update(
                     {k: s for s, k in map(signed_key, _brackets(base)) if k not in self._within}
                 )
-        if any(_odd_base(factor)[0] is not None for factor in above):
+        if any(odd_base(factor)[0] is not None for factor in above):
             above = [*arranged(above, self._ordering)]
-        whole = _quotient(above, below)
+        whole = quotient(above, below)
         return Negative(whole) if minus else whole
 
     def _divided_by_letters(
@@ -249,7 +257,7 @@ class Manner:
             if like is None or not like[1]:
                 continue
             letters = {repr(n): n for n in walk(factor) if isinstance(n, Name)}
-            left = Counter[Expression](dict(map(_whole_power, below)))
+            left = Counter[Expression](dict(map(whole_power, below)))
             for letter, exponent in like[1]:
                 left[letters.get(letter, ONE)] -= exponent
             if ONE in left or min(left.values(), default=0) < 0:
@@ -257,7 +265,7 @@ class Manner:
             number *= like[0]
             above[place] = like[2]
             kept = [Power(x, Number(Fraction(e))) for x, e in left.items() if e]
-            below = _parts(self._power_product(kept))[1] if kept else []
+            below = parts_of(self._power_product(kept))[1] if kept else []
         return number, above, below
 
     def _with_given_sums(
@@ -267,11 +275,11 @@ class Manner:
         number, above, below = self._divided_by_letters(above, below)
         for factors, sign in (above, 1), (below, -1):
             for place, factor in enumerate(factors):
-                base, exponent = _whole_power(factor)
+                base, exponent = whole_power(factor)
                 like = self._sums.like(base) if isinstance(base, Sum) else None
                 if like is not None and like[0] != 1:
                     number *= like[0] ** (sign * exponent)
-                    factors[place] = _with_base(factor, like[1])
+                    factors[place] = with_base(factor, like[1])
         if number == 1:
             return minus, above, below
         for factors, sign in (above, 1), (below, -1):
@@ -343,8 +351,8 @@ def _ordered(node: Sum) -> Sum:
 
 def _determinant(node: Sum) -> bool | None:
     """Whether a two-term sum is a b − c², the determinant of T; False of c² − a b."""
-    factors = [[f for f in _parts(t)[1] if not isinstance(f, Number)] for t in node.terms]
-    squares = [all(_whole_power(f)[1] % 2 == 0 for f in each) for each in factors]
+    factors = [[f for f in parts_of(t)[1] if not isinstance(f, Number)] for t in node.terms]
+    squares = [all(whole_power(f)[1] % 2 == 0 for f in each) for each in factors]
     minus = [isinstance(term, Negative) for term in node.terms]
     return minus == squares if len(squares) == 2 and squares[0] != squares[1] else None
 
@@ -352,8 +360,8 @@ def _determinant(node: Sum) -> bool | None:
 def _brackets(node: Sum) -> Iterator[Sum]:
     """The sums among the factors of the terms."""
     for term in node.terms:
-        for factor in _parts(term)[1]:
-            base, _ = _odd_base(factor)
+        for factor in parts_of(term)[1]:
+            base, _ = odd_base(factor)
             if base is not None:
                 yield base
 
@@ -362,15 +370,15 @@ def _with_versines(terms: Sequence[Expression]) -> list[Expression]:
     """a (1 - cos x) for a - a cos x among other terms."""
     found = list(terms)
     for term in terms:
-        minus, above, below = _parts(term)
+        minus, above, below = parts_of(term)
         cosines = [f for f in above if isinstance(f, Call) and f.function == "cos"]
         if len(cosines) != 1 or len(above) == 1:
             continue
-        rest = _quotient([f for f in above if f is not cosines[0]], below)
+        rest = quotient([f for f in above if f is not cosines[0]], below)
         other = rest if minus else Negative(rest)
         if other in found and len(found) > 2:
             versine = Sum((ONE, Negative(cosines[0])))
-            joined = _quotient([*(f for f in above if f is not cosines[0]), versine], below)
+            joined = quotient([*(f for f in above if f is not cosines[0]), versine], below)
             found[found.index(other)] = joined if minus else Negative(joined)
             found.remove(term)
     return found
@@ -410,64 +418,9 @@ def _accelerates(node: Expression) -> bool:
     return any(isinstance(part, Name) and part.primes > 1 for part in walk(node))
 
 
-def _parts(node: Expression) -> tuple[bool, list[Expression], list[Expression]]:
-    """Whether there is a minus, the factors above and those below."""
-    match node:
-        case Negative(operand=inner):
-            minus, above, below = _parts(inner)
-            return not minus, above, below
-        case Quotient(numerator=numerator, denominator=denominator):
-            one, above, under = _parts(numerator)
-            other, below, over = _parts(denominator)
-            return one ^ other, [*above, *over], [*under, *below]
-        case Product(factors=factors):
-            found = [_parts(factor) for factor in factors]
-            minus = sum(m for m, _, _ in found) % 2 == 1
-            above = [f for _, parts, _ in found for f in parts if f != ONE]
-            return minus, above or [ONE], [f for _, _, parts in found for f in parts]
-        case _:
-            return False, [node], []
-
-
-def _joined(before: Expression, last: Sum) -> Expression:
-    if isinstance(before, Negative):
-        return Negative(_joined(before.operand, last))
-    factors = before.factors if isinstance(before, Product) else (before,)
-    return Product((*factors, last))
-
-
-def _quotient(above: list[Expression], below: list[Expression]) -> Expression:
-    whole = above[0] if len(above) == 1 else Product(tuple(above))
-    if not below:
-        return whole
-    return Quotient(whole, below[0] if len(below) == 1 else Product(tuple(below)))
-
-
-def _odd_base(node: Expression) -> tuple[Sum | None, bool]:
-    """The sum that a factor is, or is an odd whole power of."""
-    if isinstance(node, Sum):
-        return node, True
-    if isinstance(node, Power) and isinstance(node.base, Sum):
-        return node.base, parity(node.exponent) == 1
-    return None, False
-
-
-def _whole_power(node: Expression) -> tuple[Expression, int]:
-    """Base and exponent, which is a whole number."""
-    if isinstance(node, Power) and parity(node.exponent) is not None:
-        exponent = node.exponent
-        assert isinstance(exponent, Number)
-        return node.base, int(exponent.value)
-    return node, 1
-
-
-def _with_base(node: Expression, base: Expression) -> Expression:
-    return Power(base, node.exponent) if isinstance(node, Power) else base
-
-
 def _sums(node: Expression) -> bool:
-    _, above, below = _parts(node)
-    return any(_odd_base(factor)[0] is not None for factor in (*above, *below))
+    _, above, below = parts_of(node)
+    return any(odd_base(factor)[0] is not None for factor in (*above, *below))
 
 
 def _is_number(node: Expression) -> bool:
@@ -477,56 +430,3 @@ def _is_number(node: Expression) -> bool:
 
 def _constant(node: Expression) -> bool:
     return not any(isinstance(part, Name) for part in walk(node))
-
-
-# -- powers of letters ----------------------------------------------------------------------
-
-
-def _with_whole_powers(node: Expression) -> Expression:
-    """l^(3/2) as l sqrt(l), 1/tan as cot, in a product, a quotient or alone."""
-    if isinstance(node, Power):
-        return _quotient(_whole(node), [])
-    minus, above, below = _parts(node)
-    turned = {id(f): other for f in below if (other := _reciprocal(f)) is not None}
-    if turned:
-        below = [f for f in below if id(f) not in turned]
-        above = [*(f for f in above if f != ONE), *turned.values()]
-    above = [part for factor in above for part in _whole(factor)]
-    below = [part for factor in below for part in _whole(factor)]
-    whole = _quotient(above or [ONE], below)
-    return Negative(whole) if minus else whole
-
-
-def _reciprocal(node: Expression) -> Expression | None:
-    """cot for 1/tan, also of powers; None of anything else."""
-    match node:
-        case Call(function=function, arguments=arguments, primes=0) if function in _INVERSE:
-            return Call(_INVERSE[function], arguments)
-        case Power(base=base, exponent=exponent):
-            inner = _reciprocal(base)
-            return None if inner is None else Power(inner, exponent)
-        case _:
-            return None
-
-
-def _whole(node: Expression) -> list[Expression]:
-    """The factors x^n, sqrt(x) of x^(n + 1/2)."""
-    if not isinstance(node, Power) or not isinstance(node.base, (Name, Call)):
-        return [node]
-    exponent = _half(node.exponent)
-    if exponent is None or exponent < 1:
-        return [node]
-    whole = Number(Fraction(exponent.numerator // 2))
-    power = node.base if whole == ONE else Power(node.base, whole)
-    return [power, Call("sqrt", (node.base,))]
-
-
-def _half(node: Expression) -> Fraction | None:
-    """n/2 of an exponent that is one, n odd."""
-    match node:
-        case Number(value=value) if value.denominator == 2:
-            return value
-        case Quotient(numerator=Number(value=a), denominator=Number(value=b)) if b == 2:
-            return Fraction(a, 2) if a.denominator == 1 else None
-        case _:
-            return None

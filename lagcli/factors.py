@@ -1,0 +1,129 @@
+"""A term as its sign, the factors above and those below; powers of a letter as books have them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from lagcli.expression import (
+    ONE,
+    Call,
+    Expression,
+    Name,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+)
+from lagcli.likeness import parity
+
+_INVERSE = {"tan": "cot", "cot": "tan"}
+
+
+def parts_of(node: Expression) -> tuple[bool, list[Expression], list[Expression]]:
+    """Whether there is a minus, the factors above and those below."""
+    match node:
+        case Negative(operand=inner):
+            minus, above, below = parts_of(inner)
+            return not minus, above, below
+        case Quotient(numerator=numerator, denominator=denominator):
+            one, above, under = parts_of(numerator)
+            other, below, over = parts_of(denominator)
+            return one ^ other, [*above, *over], [*under, *below]
+        case Product(factors=factors):
+            found = [parts_of(factor) for factor in factors]
+            minus = sum(m for m, _, _ in found) % 2 == 1
+            above = [f for _, parts, _ in found for f in parts if f != ONE]
+            return minus, above or [ONE], [f for _, _, parts in found for f in parts]
+        case _:
+            return False, [node], []
+
+
+def quotient(above: list[Expression], below: list[Expression]) -> Expression:
+    """The product of the factors above over that of those below."""
+    whole = above[0] if len(above) == 1 else Product(tuple(above))
+    if not below:
+        return whole
+    return Quotient(whole, below[0] if len(below) == 1 else Product(tuple(below)))
+
+
+def with_last(before: Expression, last: Sum) -> Expression:
+    """The product with one more factor, its sign in front."""
+    if isinstance(before, Negative):
+        return Negative(with_last(before.operand, last))
+    factors = before.factors if isinstance(before, Product) else (before,)
+    return Product((*factors, last))
+
+
+def odd_base(node: Expression) -> tuple[Sum | None, bool]:
+    """The sum that a factor is, or is an odd whole power of."""
+    if isinstance(node, Sum):
+        return node, True
+    if isinstance(node, Power) and isinstance(node.base, Sum):
+        return node.base, parity(node.exponent) == 1
+    return None, False
+
+
+def whole_power(node: Expression) -> tuple[Expression, int]:
+    """Base and exponent, which is a whole number."""
+    if isinstance(node, Power) and parity(node.exponent) is not None:
+        exponent = node.exponent
+        assert isinstance(exponent, Number)
+        return node.base, int(exponent.value)
+    return node, 1
+
+
+def with_base(node: Expression, base: Expression) -> Expression:
+    """The same power of another base."""
+    return Power(base, node.exponent) if isinstance(node, Power) else base
+
+
+def with_whole_powers(node: Expression) -> Expression:
+    """l^(3/2) as l sqrt(l), 1/tan as cot, in a product, a quotient or alone."""
+    if isinstance(node, Power):
+        return quotient(_whole(node), [])
+    minus, above, below = parts_of(node)
+    turned = {id(f): other for f in below if (other := _reciprocal(f)) is not None}
+    if turned:
+        below = [f for f in below if id(f) not in turned]
+        above = [*(f for f in above if f != ONE), *turned.values()]
+    above = [part for factor in above for part in _whole(factor)]
+    below = [part for factor in below for part in _whole(factor)]
+    whole = quotient(above or [ONE], below)
+    return Negative(whole) if minus else whole
+
+
+def _reciprocal(node: Expression) -> Expression | None:
+    """cot for 1/tan, also of powers; None of anything else."""
+    match node:
+        case Call(function=function, arguments=arguments, primes=0) if function in _INVERSE:
+            return Call(_INVERSE[function], arguments)
+        case Power(base=base, exponent=exponent):
+            inner = _reciprocal(base)
+            return None if inner is None else Power(inner, exponent)
+        case _:
+            return None
+
+
+def _whole(node: Expression) -> list[Expression]:
+    """The factors x^n, sqrt(x) of x^(n + 1/2)."""
+    if not isinstance(node, Power) or not isinstance(node.base, (Name, Call)):
+        return [node]
+    exponent = _half(node.exponent)
+    if exponent is None or exponent < 1:
+        return [node]
+    whole = Number(Fraction(exponent.numerator // 2))
+    power = node.base if whole == ONE else Power(node.base, whole)
+    return [power, Call("sqrt", (node.base,))]
+
+
+def _half(node: Expression) -> Fraction | None:
+    """n/2 of an exponent that is one, n odd."""
+    match node:
+        case Number(value=value) if value.denominator == 2:
+            return value
+        case Quotient(numerator=Number(value=a), denominator=Number(value=b)) if b == 2:
+            return Fraction(a, 2) if a.denominator == 1 else None
+        case _:
+            return None
