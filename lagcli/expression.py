@@ -203,6 +203,11 @@ def folded(root: Expression, combine: Callable[[Expression, list[Value]], Value]
     return values[0]
 
 
+def opposite(node: Expression) -> Expression:
+    """-a of a, and a of -a."""
+    return node.operand if isinstance(node, Negative) else Negative(node)
+
+
 def operation_count(node: Expression) -> int:
     """How many operations a formula shows: signs, sums, products, powers, calls.
 

@@ -27,6 +27,7 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    opposite,
     walk,
 )
 from lagcli.factors import (
@@ -301,7 +302,7 @@ def _energies(problem: Problem) -> Iterator[Sum]:
     T, V = map(_terms, (problem.kinetic, problem.potential))
     if len(T) + len(V) > 1:
         yield Sum((*T, *V))
-        yield Sum((*T, *(t.operand if isinstance(t, Negative) else Negative(t) for t in V)))
+        yield Sum((*T, *map(opposite, V)))
 
 
 def _terms(node: Expression) -> tuple[Expression, ...]:
@@ -335,8 +336,7 @@ def decimals_of(problem: Problem, settings: Iterable[str] = ()) -> list[Fraction
 
 def negative_of(node: Sum) -> Sum:
     """The sum of the terms with their signs changed, a positive one first where there is one."""
-    terms = [t.operand if isinstance(t, Negative) else Negative(t) for t in node.terms]
-    return Sum(tuple(positive_first(terms)))
+    return Sum(tuple(positive_first([*map(opposite, node.terms)])))
 
 
 def _ordered(node: Sum) -> Sum:

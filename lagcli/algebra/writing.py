@@ -18,6 +18,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
     operation_count,
+    opposite,
 )
 from lagcli.ordering import Factor, Ordering, bases, positive_first
 
@@ -209,7 +210,7 @@ class Writer:
 
     def negative_sum(self, node: Sum) -> Expression:
         """The sum of the terms with their signs changed."""
-        return self.sum([t.operand if isinstance(t, Negative) else Negative(t) for t in node.terms])
+        return self.sum(map(opposite, node.terms))
 
 
 def _is_exponential(node: Expression) -> bool:

@@ -208,7 +208,7 @@ class GraphWriter:
     def _multiple(self, number: Fraction, term: Node) -> Expression:
         if abs(number) == 1:
             shown = self._at(term)
-            return shown if number > 0 else _negative(shown)
+            return shown if number > 0 else tree.opposite(shown)
         if isinstance(term, Product) and term not in self.names:
             return self._product(number, term)
         return self._quotient(number, [(self._key(term), self._at(term), _UNIT)])
@@ -271,10 +271,6 @@ def _number(value: Fraction) -> Expression:
     if size.denominator != 1:
         shown = tree.Quotient(shown, tree.Number(Fraction(size.denominator)))
     return tree.Negative(shown) if value < 0 else shown
-
-
-def _negative(node: Expression) -> Expression:
-    return node.operand if isinstance(node, tree.Negative) else tree.Negative(node)
 
 
 def _raised(base: Expression, exponent: Fraction) -> Expression:

@@ -15,6 +15,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
     children,
+    opposite,
     walk,
 )
 from lagcli.likeness import signed_key
@@ -110,7 +111,7 @@ def _inward(node: Expression) -> Expression:
     """(b − a) g/c for −(a − b) g/c; the node where no bracket takes its sign."""
     match node:
         case Negative(operand=Sum(terms=terms)):
-            return Sum(tuple(t.operand if isinstance(t, Negative) else Negative(t) for t in terms))
+            return Sum(tuple(map(opposite, terms)))
         case Negative(operand=Quotient(numerator=above, denominator=below)):
             inner = _inward(Negative(above))
             return node if isinstance(inner, Negative) else Quotient(inner, below)
