@@ -25,7 +25,7 @@ from lagcli.expression import (
     postorder,
     walk,
 )
-from lagcli.letters import names_in
+from lagcli.notation.letters import names_in
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt, rewritten
 from lagcli.statements.answers import Answers

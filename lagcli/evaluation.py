@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from functools import reduce
 from operator import add, mul
-from typing import Any
+from random import Random
+from typing import Any, TypeAlias
 
 from lagcli.expression import (
     Call,
@@ -18,7 +20,27 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    walk,
 )
+
+Constant: TypeAlias = Fraction | float
+
+#: The functions of the grammar, of doubles.
+FUNCTIONS: dict[str, Callable[..., float]] = {
+    **{
+        name: getattr(math, name)
+        for name in (
+            "sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh"
+        ).split()
+    },
+    "abs": abs,
+    "sign": lambda x: (x > 0) - (x < 0),
+    "cot": lambda x: 1 / math.tan(x),
+    "sec": lambda x: 1 / math.cos(x),
+    "csc": lambda x: 1 / math.sin(x),
+}
+#: Random states at which the sign of a formula is looked at.
+_STATES = 24
 
 
 def evaluated(
@@ -43,9 +65,9 @@ def evaluated(
     Raises
     ------
     KeyError
-        For a name or a function that has no numbers.
+        For a name, a function or another node that has no numbers.
     ArithmeticError, ValueError
-        Where the formula is not defined, or holds a node that has no numbers.
+        Where the formula is not defined.
     """
 
     def value(part: Expression) -> Any:
@@ -72,4 +94,61 @@ def evaluated(
             return value(base) ** value(exponent)
         case Call(function=function, arguments=arguments, primes=0):
             return functions[function](*map(value, arguments))
-    raise ValueError(f"no numbers for {type(node).__name__}")
+    raise KeyError(f"no numbers for {type(node).__name__}")
+
+
+def value_of(node: Expression) -> Constant | None:
+    """The number that an expression without names is, exact where it is rational.
+
+    Raises
+    ------
+    ArithmeticError, ValueError
+        Where it has none: 1/0, sqrt(-1).
+    """
+    try:
+        value: Constant = evaluated(node, {"pi": math.pi}, _EXACT, lambda exact: exact)
+    except KeyError:
+        return None
+    return value
+
+
+def _power(base: Constant, exponent: Constant) -> Constant:
+    if isinstance(exponent, Fraction) and exponent.denominator == 1 and abs(exponent) < 1000:
+        return base ** int(exponent)
+    result: float | complex = float(base) ** float(exponent)
+    if isinstance(result, complex):
+        raise ValueError("not real")  # noqa: TRY004 - as math.sqrt(-1) says it
+    return result
+
+
+_EXACT = FUNCTIONS | {"power": _power}
+
+
+def sign_at_random(node: Expression, positive: Iterable[str]) -> int:
+    """1 or -1 where the formula has this sign at all random states, else 0.
+
+    For the shape of a formula, never for a claim.
+
+    Parameters
+    ----------
+    node
+        The formula.
+    positive
+        The names that are positive; others are of either sign.
+    """
+    names = {part for part in walk(node) if isinstance(part, Name) and part.name != "pi"}
+    known, draw = frozenset(positive), Random(len(names))
+    signs = set()
+    for _ in range(_STATES):
+        values = {"pi": math.pi} | {
+            str(name): draw.uniform(0.1, 2) if name.name in known and not name.primes
+            else draw.uniform(-2, 2)
+            for name in sorted(names, key=str)
+        }  # fmt: skip
+        try:
+            signs.add(math.copysign(1, evaluated(node, values, FUNCTIONS)))
+        except (ArithmeticError, ValueError, KeyError, TypeError):
+            return 0
+        if len(signs) > 1:
+            return 0
+    return int(signs.pop())

@@ -7,7 +7,7 @@ back, the formatters print them.  So neither reading nor printing imports SymPy.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from fractions import Fraction
 from typing import TypeVar
 
@@ -201,6 +201,23 @@ def folded(root: Expression, combine: Callable[[Expression, list[Value]], Value]
         del values[first:]
         values.append(combine(node, parts))
     return values[0]
+
+
+def sum_of(terms: Iterable[Expression]) -> Expression:
+    """The sum of some terms; a single one is its own, none are 0."""
+    kept = tuple(terms)
+    return Sum(kept) if len(kept) > 1 else (*kept, ZERO)[0]
+
+
+def product_of(factors: Iterable[Expression]) -> Expression:
+    """The product of some factors; a single one is its own, none are 1."""
+    kept = tuple(factors)
+    return Product(kept) if len(kept) > 1 else (*kept, ONE)[0]
+
+
+def quotient_of(above: Iterable[Expression], below: Collection[Expression]) -> Expression:
+    """The product of the factors above over that of those below, where there are any."""
+    return Quotient(product_of(above), product_of(below)) if below else product_of(above)
 
 
 def opposite(node: Expression) -> Expression:

@@ -134,7 +134,7 @@ def state(derivation: Derivation, request: Request) -> Answers:
     TimeoutError
         When the equations take more work than they are allowed.
     """
-    from lagcli.manners import Manner
+    from lagcli.notation.manner import Manner
     from lagcli.rewriting import rewritten
     from lagcli.verification import verified
 
@@ -159,7 +159,7 @@ def state(derivation: Derivation, request: Request) -> Answers:
         answers = _without_charges(request, _ended(lambda: verified(problem, unverified)))
     if not request.numeric:
         return _with_given_decimals(derivation.given, request, answers)
-    from lagcli.decimals import with_decimals
+    from lagcli.notation.decimals import with_decimals
 
     return replace(
         answers,
@@ -185,7 +185,7 @@ def _without_charges(request: Request, answers: Answers) -> Answers:
 
 def _with_words(problem: Problem, sections: Mapping[str, Section]) -> Mapping[str, Section]:
     """The reason of the energy without the letters that mean something else in the file."""
-    from lagcli.letters import sentence
+    from lagcli.notation.letters import sentence
     from lagcli.statements.answers import EnergySection
 
     energy = sections.get("energy")
@@ -197,12 +197,12 @@ def _with_words(problem: Problem, sections: Mapping[str, Section]) -> Mapping[st
 
 def _with_given_decimals(problem: Problem, request: Request, answers: Answers) -> Answers:
     """981/500 as 1.962, where 9.81 was given."""
-    from lagcli.manners import decimals_of
+    from lagcli.notation.given_formulas import decimals_of
 
     given = decimals_of(problem, request.settings)
     if not given:
         return answers
-    from lagcli.decimals import GivenDecimals
+    from lagcli.notation.decimals import GivenDecimals
     from lagcli.rewriting import rewritten
 
     write = GivenDecimals(given)
@@ -312,8 +312,8 @@ def _ended(work: Callable[[], Made]) -> Made:
 def _in_the_manner(derivation: Derivation, told: Explanation) -> Explanation:
     """The explanation with its formulas as the file writes its own, and no letter twice."""
     from lagcli.abbreviations import in_steps
-    from lagcli.letters import settled
-    from lagcli.manners import Manner
+    from lagcli.notation.letters import settled
+    from lagcli.notation.manner import Manner
     from lagcli.rewriting import rewritten
 
     taken = _names_of(derivation.given)

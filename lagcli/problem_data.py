@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from fractions import Fraction
 from pathlib import Path
 from typing import Any, Literal
 
 from lagcli.diagnostics import NOWHERE, Source, Span
-from lagcli.expression import Equation, Expression, Name, Negative, Number, Product, Sum
+from lagcli.expression import Equation, Expression, Name, Negative, Number, Product, sum_of
 from lagcli.platform.rooms import modules_in
 from lagcli.record import field, record
 
@@ -35,12 +36,30 @@ class Coordinate(Quantity):
     """A generalized coordinate q; its velocity is written q', its acceleration q''."""
 
 
+#: The values that break what is said of a quantity.
+_BREAKS: dict[str, Callable[[Fraction | float], bool]] = {
+    "positive": lambda value: value <= 0,
+    "nonnegative": lambda value: value < 0,
+    "nonzero": lambda value: value == 0,
+    "negative": lambda value: value >= 0,
+    "real": lambda _: False,
+}
+
+
 @record(kw_only=True)
 class Parameter(Quantity):
     """A constant; `value` may use other parameters (earlier or later, no cycle)."""
 
     integer: bool = False
     value: Expression | None = None
+
+    def mistake_of(self, value: Fraction | float) -> str | None:
+        """The mistake where the value is not what the parameter is said to be, else None."""
+        if _BREAKS[self.assume](value):
+            return f"'{self.name}' is {self.assume}, and its value is not"
+        if self.integer and value != int(value):
+            return f"'{self.name}' is an integer, and its value is not"
+        return None
 
 
 @record(kw_only=True)
@@ -179,7 +198,7 @@ def charge_of(symmetry: Symmetry) -> Expression:
         terms.append(Negative(Product((JACOBI_FUNCTION, symmetry.time))))
     if symmetry.gauge is not None:
         terms.append(Negative(symmetry.gauge))
-    return terms[0] if len(terms) == 1 else Sum(tuple(terms))
+    return sum_of(terms)
 
 
 @record(kw_only=True)

@@ -6,9 +6,8 @@ from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import TypeVar
 
-from lagcli.assumptions import broken
-from lagcli.decimals import Constant, number, value_of
 from lagcli.diagnostics import Diagnostic
+from lagcli.evaluation import Constant, value_of
 from lagcli.expression import (
     ZERO,
     Diff,
@@ -21,6 +20,7 @@ from lagcli.expression import (
     Sum,
     walk,
 )
+from lagcli.notation.decimals import number
 from lagcli.problem_data import Lasting, Parameter, Problem, Question, Reaching, Rewrite
 from lagcli.rewriting import rebuilt, rewritten
 
@@ -199,7 +199,7 @@ def _wrong_number(parameter: Parameter, formula: Expression) -> Diagnostic | Non
         return Diagnostic(f"the value of '{parameter.name}' is not a real number")
     if value is None:
         return None
-    mistake = broken(parameter, value)
+    mistake = parameter.mistake_of(value)
     return None if mistake is None else Diagnostic(mistake)
 
 

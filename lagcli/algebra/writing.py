@@ -19,8 +19,9 @@ from lagcli.expression import (
     Sum,
     operation_count,
     opposite,
+    product_of,
 )
-from lagcli.ordering import Factor, Ordering, bases, positive_first
+from lagcli.notation.ordering import Factor, Ordering, bases, positive_first
 
 
 class Writer:
@@ -226,7 +227,7 @@ def _product(factors: list[Expression]) -> Expression:
     flat: list[Expression] = []
     for factor in factors:
         flat.extend(factor.factors if isinstance(factor, Product) else (factor,))
-    return flat[0] if len(flat) == 1 else Product(tuple(flat))
+    return product_of(flat)
 
 
 def _merged(pairs: Iterable[Factor]) -> list[Factor]:
@@ -287,10 +288,9 @@ def _without_moduli(pairs: list[Factor]) -> list[Factor]:
         for factor in base.factors:
             modulus = Call("abs", (factor,))
             if exponents.get(modulus) == -2 * exponent:
-                rest = tuple(f for f in base.factors if f is not factor)
+                rest = product_of(f for f in base.factors if f is not factor)
                 del exponents[modulus], exponents[base]
-                above = rest[0] if len(rest) == 1 else Product(rest)
-                exponents[Quotient(above, factor)] = exponent
+                exponents[Quotient(rest, factor)] = exponent
                 break
     return list(exponents.items())
 

@@ -10,8 +10,8 @@ from typing import TypeVar
 
 from lagcli.cli.files import read_input, reason
 from lagcli.cli.telling import tell, tell_line
-from lagcli.decimals import value_of
 from lagcli.diagnostics import Diagnostic, ProblemError, Source
+from lagcli.evaluation import value_of
 from lagcli.expression import Expression
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.problem_data import Problem

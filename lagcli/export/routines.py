@@ -239,7 +239,7 @@ def _matrix(name: str, meaning: str, rows: Any, formulas: _Formulas) -> Routine:
 
 
 def _values(problem: Problem, words: Mapping[str, str]) -> dict[str, float]:
-    from lagcli.decimals import value_of
+    from lagcli.evaluation import value_of
     from lagcli.values import numbers_of_parameters
 
     numbers = numbers_of_parameters(problem)

@@ -14,7 +14,7 @@ from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import SCHEMA, Object, Value
 from lagcli.formatters.options import Options
-from lagcli.letters import in_ascii
+from lagcli.notation.letters import in_ascii
 from lagcli.statements.explanation import Explanation
 
 

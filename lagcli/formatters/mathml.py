@@ -26,7 +26,7 @@ from lagcli.formatters.greek import BY_NAME
 from lagcli.formatters.naming import name_parts
 from lagcli.formatters.numbers import decimal_parts, digit_groups
 from lagcli.formatters.precedence import Level, Printer
-from lagcli.letters import bold
+from lagcli.notation.letters import bold
 from lagcli.record import replace
 
 _DOTS = {1: "˙", 2: "¨"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lagcli.document import Block, Document, Heading, Paragraph
 from lagcli.expression import Expression, Name, walk
-from lagcli.letters import names_in, settled
+from lagcli.notation.letters import names_in, settled
 from lagcli.rewriting import rewritten
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration

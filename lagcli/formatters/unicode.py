@@ -24,7 +24,7 @@ from lagcli.formatters.layout import PRODUCT, Layout, TextPiece, joined
 from lagcli.formatters.naming import name_parts
 from lagcli.formatters.numbers import DecimalParts, decimal_parts
 from lagcli.formatters.precedence import Level
-from lagcli.letters import in_ascii
+from lagcli.notation.letters import in_ascii
 from lagcli.record import replace
 
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")

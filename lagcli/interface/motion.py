@@ -225,7 +225,7 @@ def _number(
     problem: Problem, formula: Expression | None, what: str, usual: float | None = None
 ) -> float:
     """Its value."""
-    from lagcli.decimals import value_of
+    from lagcli.evaluation import value_of
 
     if formula is None:
         if usual is None:

@@ -30,7 +30,6 @@ from functools import cached_property
 from itertools import combinations_with_replacement
 
 from lagcli.expression import Expression
-from lagcli.given_formulas import order_of_parameters
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node, Symbol, mask_of
 from lagcli.graph.sharing import operations
@@ -40,6 +39,7 @@ from lagcli.mechanics.abbreviation import PartLabels, Written, abbreviated
 from lagcli.mechanics.gathering import gathered
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.mechanics.symbolic_elimination import StepNames, SymbolicElimination
+from lagcli.notation.given_formulas import order_of_parameters
 from lagcli.problem_data import Problem
 from lagcli.record import record
 

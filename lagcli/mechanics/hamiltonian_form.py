@@ -23,6 +23,7 @@ from lagcli.expression import (
     Sum,
     has_nested_fraction,
     operation_count,
+    sum_of,
     walk,
 )
 from lagcli.mechanics.hamiltonian import Hamiltonian
@@ -114,8 +115,7 @@ def _kinetic(
     yield readable.as_written(whole)
     beside = readable.as_written(sympy.Add(*halves) + _OTHER)
     if isinstance(beside, Sum) and (mark := Name(_OTHER.name)) in beside.terms:
-        rest = tuple(term for term in beside.terms if term != mark)
-        yield rest[0] if len(rest) == 1 else Sum(rest)
+        yield sum_of(term for term in beside.terms if term != mark)
     blocks = list(_blocks(momenta, flow))
     if len(blocks) > 1:
         sums = (sympy.Add(*(halves[j] for j in block)) for block in blocks)

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 from sympy import Expr
 
 from lagcli.expression import Expression, operation_count
-from lagcli.manners import Manner
 from lagcli.mechanics.branches import of_another_rank, sentence
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import SolvedMotion
 from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
+from lagcli.notation.manner import Manner
 from lagcli.record import replace
 from lagcli.statements.answers import (
     Answers,

@@ -14,7 +14,7 @@ from lagcli.algebra.build import TIME, Builder, symbol, without_jumps
 from lagcli.algebra.jumps import is_continuous
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.expression import Call, Expression
-from lagcli.given_formulas import order_of_names
+from lagcli.notation.given_formulas import order_of_names
 from lagcli.problem_data import Point, Problem
 from lagcli.record import record
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagcli.assumptions import broken
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import Name, Sum, walk
 from lagcli.reader.constants import rational_value
@@ -57,7 +56,7 @@ def check_values(sections: Sections, problem: Problem) -> None:
         value = known.get(parameter.name)
         if value is None or parameter.value is None:
             continue
-        mistake = broken(parameter, value)
+        mistake = parameter.mistake_of(value)
         if mistake is not None:
             sections.error(mistake, parameter.value.span)
     _check_masses(sections, problem, known)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row
 from lagcli.expression import ZERO, Expression, Name
 from lagcli.formatters.json_values import FORMULA, OR_NULL, Object, fields_of, map_of, record_of
-from lagcli.letters import own
+from lagcli.notation.letters import own
 from lagcli.problem_data import NOT_CONSERVED
 from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.schema_parts import FORMULAS

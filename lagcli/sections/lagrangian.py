@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Label
-from lagcli.expression import Sum
+from lagcli.expression import sum_of
 from lagcli.formatters.json_values import OR_NULL
 from lagcli.statements.answers import Answers, LagrangianSection
 from lagcli.statements.declaration import Declaration, always
@@ -29,7 +29,7 @@ def large(statements: LargeStatements) -> LagrangianSection:
     found = statements.written("the Lagrangian", statements.form.collected_lagrangian)
     if found is None:
         return LagrangianSection(lagrangian=None)
-    return LagrangianSection(lagrangian=found[0] if len(found) == 1 else Sum(found))
+    return LagrangianSection(lagrangian=sum_of(found))
 
 
 def phase_space(statements: PhaseSpaceStatements) -> LagrangianSection:

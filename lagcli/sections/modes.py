@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Equations, Label, Paragraph, Row
 from lagcli.expression import Expression, Number, Power
 from lagcli.formatters.json_values import Object, fields_of, list_or_null, place
-from lagcli.letters import own
+from lagcli.notation.letters import own
 from lagcli.problem_data import Expect
 from lagcli.reader.schema_parts import FORMULA, list_of
 from lagcli.reader.scope import CONSTANTS

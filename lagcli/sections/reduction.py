@@ -17,7 +17,7 @@ from lagcli.document import (
 )
 from lagcli.expression import ZERO, Name
 from lagcli.formatters.json_values import Object, fields_of
-from lagcli.letters import own
+from lagcli.notation.letters import own
 from lagcli.problem_data import ExpectReduction
 from lagcli.reader.expected_reduction import read_reduction
 from lagcli.reader.schema_parts import FORMULA, FORMULAS, list_of, record_of

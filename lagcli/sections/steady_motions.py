@@ -17,7 +17,7 @@ from lagcli.document import (
 )
 from lagcli.expression import ZERO, Name, Number, Power
 from lagcli.formatters.json_values import Object, fields_of, list_or_null, place
-from lagcli.letters import own
+from lagcli.notation.letters import own
 from lagcli.problem_data import ExpectSteady
 from lagcli.reader.expected_reduction import read_steady_motions
 from lagcli.reader.schema_parts import FORMULA, FORMULAS, STABLE, list_of, record_of

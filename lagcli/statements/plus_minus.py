@@ -18,7 +18,7 @@ from lagcli.expression import (
     opposite,
     walk,
 )
-from lagcli.likeness import signed_key
+from lagcli.notation.likeness import signed_key
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt
 

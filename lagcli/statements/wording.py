@@ -17,6 +17,7 @@ from lagcli.expression import (
     Product,
     Sum,
     operation_count,
+    sum_of,
 )
 from lagcli.statements.answers import QuantityUnit, Verification
 from lagcli.statements.motions import (
@@ -172,8 +173,7 @@ def _compared(difference: Expression, sign: str) -> list[Part]:
     minus = [term.operand for term in terms if isinstance(term, Negative)]
     plus = [term for term in terms if not isinstance(term, Negative)]
     if minus and plus:
-        sides = (side[0] if len(side) == 1 else Sum(tuple(side)) for side in (plus, minus))
-        return [next(sides), sign, next(sides)]
+        return [sum_of(plus), sign, sum_of(minus)]
     return [difference, f"{sign}0"]
 
 

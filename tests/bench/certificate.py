@@ -23,8 +23,8 @@ from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from lagcli.decimals import value_of
 from lagcli.diagnostics import ProblemError
+from lagcli.evaluation import value_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pipeline import Request, read

@@ -26,8 +26,8 @@ from time import process_time
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from lagcli.decimals import value_of
 from lagcli.diagnostics import ProblemError
+from lagcli.evaluation import value_of
 from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.equations.refusal import Refusal

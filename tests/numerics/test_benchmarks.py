@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from lagcli import load
-from lagcli.decimals import value_of
+from lagcli.evaluation import value_of
 from lagcli.expression import operation_count
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.studies.check.trajectory import TrajectoryCheck

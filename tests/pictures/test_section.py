@@ -100,7 +100,7 @@ def problem_names(name):
 
 
 def number_of(entry):
-    from lagcli.decimals import value_of
+    from lagcli.evaluation import value_of
 
     return entry[0], float(value_of(entry[1]))
 

@@ -33,7 +33,7 @@ from lagcli.expression import (
     Sum,
     operation_count,
 )
-from lagcli.ordering import Flat
+from lagcli.notation.ordering import Flat
 
 Exponent: TypeAlias = int | Fraction
 Term: TypeAlias = tuple[tuple[int, Exponent], ...]  # (atom, exponent), ascending

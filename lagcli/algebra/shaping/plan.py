@@ -9,7 +9,7 @@ from math import lcm
 from lagcli.algebra.shaping.atoms import Atoms, Coefficient, Exponent
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression
-from lagcli.ordering import Factor
+from lagcli.notation.ordering import Factor
 
 #: One operation less is worth brackets around this many operations.
 OPERATION = 6

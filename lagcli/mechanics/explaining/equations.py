@@ -8,7 +8,7 @@ import sympy
 
 from lagcli.algebra import is_zero
 from lagcli.document import Block, Equations, Heading, Label, Row
-from lagcli.expression import ZERO, Diff, Expression, Name, Negative, Product, Rate, Sum
+from lagcli.expression import Diff, Expression, Name, Negative, Product, Rate, sum_of
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
@@ -42,7 +42,7 @@ def _law(teller: Teller) -> Iterator[Block]:
     for equation in teller.dynamics.constraints.equations:
         gradient = Diff(letters.f(equation.name), _variable(letters.q, equation))
         right.append(Product((Name(equation.multiplier.name), gradient)))
-    yield shows(left, Sum(tuple(right)) if len(right) > 1 else right[0] if right else ZERO)
+    yield shows(left, sum_of(right))
     if constrained:
         yield says(*_multipliers(teller))
 

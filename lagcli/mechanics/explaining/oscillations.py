@@ -11,7 +11,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra import is_zero, shape, simplify
 from lagcli.algebra.signs import sign
 from lagcli.document import Block, Equations, Label, Row
-from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, Sum, operation_count
+from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, operation_count, sum_of
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, says, shows
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
@@ -147,7 +147,7 @@ def _damped(teller: Teller, place: Place) -> Iterator[Block]:
         return
     symbol, order = Symbol(s.name, real=True), (*teller.system.order, s.name)
     falling = [shape(c * symbol**k, order) for k, c in reversed([*enumerate(powers)]) if c != 0]
-    written = Sum(tuple(falling)) if len(falling) > 1 else falling[0]
+    written = sum_of(falling)
     if operation_count(written) <= _LONG:
         yield says("This gives")
         yield shows(ZERO, written)

@@ -14,10 +14,10 @@ from lagcli.document import (
     Row,
 )
 from lagcli.expression import ZERO, Diff, Expression, Name, Negative, Product, walk
-from lagcli.letters import own
 from lagcli.mechanics.explaining.reduction import used_to_eliminate
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
+from lagcli.notation.letters import own
 from lagcli.statements.answers import CanonicalSection, Section
 from lagcli.statements.motions import HamiltonJacobiSection
 from lagcli.statements.phase_space import BracketsSection

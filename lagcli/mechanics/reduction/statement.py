@@ -12,7 +12,18 @@ from lagcli.algebra import shape, terms
 from lagcli.algebra.build import symbol
 from lagcli.algebra.equations import written
 from lagcli.algebra.writing import Writer
-from lagcli.expression import ONE, ZERO, Expression, Name, Number, Power, Product, Quotient, Sum
+from lagcli.expression import (
+    ONE,
+    ZERO,
+    Expression,
+    Name,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    quotient_of,
+)
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom as Motion
 from lagcli.mechanics.reduction.one_freedom import free_name
@@ -221,8 +232,7 @@ def _two_pi_times(root: Expression) -> Expression:
         whole.insert(0, Number(Fraction(number.numerator)))
     if number.denominator != 1:
         divisors.insert(0, Number(Fraction(number.denominator)))
-    period = _product(whole)
-    return Quotient(period, _product(divisors)) if divisors else period
+    return quotient_of(whole, divisors)
 
 
 def _number_and_rest(product: Expression) -> tuple[Fraction, list[Expression]]:
@@ -231,7 +241,3 @@ def _number_and_rest(product: Expression) -> tuple[Fraction, list[Expression]]:
     for factor in factors:
         number *= factor.value if isinstance(factor, Number) else 1
     return number, [factor for factor in factors if not isinstance(factor, Number)]
-
-
-def _product(factors: list[Expression]) -> Expression:
-    return factors[0] if len(factors) == 1 else Product(tuple(factors))

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 
-from lagcli.expression import Name, Number, Power, Sum
+from lagcli.expression import Name, Number, Power, sum_of
 from lagcli.mechanics.derivation import Derivation
 from lagcli.problem_data import Parameter, Problem
 from lagcli.reader.expected_reduction import CONSTANT_NAMES
@@ -46,7 +46,7 @@ def _free(problem: Problem, names: Iterable[str]) -> Comparison:
                 parameters=(*problem.parameters, *(Parameter(name=n) for n in names)),
                 functions=problem.functions,
                 definitions=problem.definitions,
-                lagrangian=squares[0] if len(squares) == 1 else Sum(tuple(squares)),
+                lagrangian=sum_of(squares),
             )
         )
     )

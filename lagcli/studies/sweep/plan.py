@@ -8,8 +8,8 @@ from itertools import pairwise, product
 from random import Random
 from typing import TYPE_CHECKING
 
-from lagcli.decimals import value_of
 from lagcli.diagnostics import ProblemError
+from lagcli.evaluation import value_of
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import read_number
 from lagcli.reader.suggest import did_you_mean

@@ -15,8 +15,9 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    quotient_of,
 )
-from lagcli.likeness import parity
+from lagcli.notation.likeness import parity
 
 _INVERSE = {"tan": "cot", "cot": "tan"}
 
@@ -38,14 +39,6 @@ def parts_of(node: Expression) -> tuple[bool, list[Expression], list[Expression]
             return minus, above or [ONE], [f for _, _, parts in found for f in parts]
         case _:
             return False, [node], []
-
-
-def quotient(above: list[Expression], below: list[Expression]) -> Expression:
-    """The product of the factors above over that of those below."""
-    whole = above[0] if len(above) == 1 else Product(tuple(above))
-    if not below:
-        return whole
-    return Quotient(whole, below[0] if len(below) == 1 else Product(tuple(below)))
 
 
 def with_last(before: Expression, last: Sum) -> Expression:
@@ -82,7 +75,7 @@ def with_base(node: Expression, base: Expression) -> Expression:
 def with_whole_powers(node: Expression) -> Expression:
     """l^(3/2) as l sqrt(l), 1/tan as cot, in a product, a quotient or alone."""
     if isinstance(node, Power):
-        return quotient(_whole(node), [])
+        return quotient_of(_whole(node), [])
     minus, above, below = parts_of(node)
     turned = {id(f): other for f in below if (other := _reciprocal(f)) is not None}
     if turned:
@@ -90,7 +83,7 @@ def with_whole_powers(node: Expression) -> Expression:
         above = [*(f for f in above if f != ONE), *turned.values()]
     above = [part for factor in above for part in _whole(factor)]
     below = [part for factor in below for part in _whole(factor)]
-    whole = quotient(above or [ONE], below)
+    whole = quotient_of(above or [ONE], below)
     return Negative(whole) if minus else whole
 
 

@@ -14,7 +14,7 @@ from lagcli.formatters.grammar import to_grammar
 from lagcli.graph.nodes import Graph
 from lagcli.graph.reading import GraphReader
 from lagcli.graph.values import Floats, Program
-from lagcli.manners import Manner
+from lagcli.notation.manner import Manner
 from lagcli.pipeline import read
 from lagcli.reader.expressions import parse_text
 

@@ -1,17 +1,31 @@
-"""The order of the letters in a product: m g l, as the file first multiplies them."""
+"""The formulas of a file: the order of its letters in a product (m g l), and its decimals."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from fractions import Fraction
 from itertools import combinations
 
-from lagcli.expression import Expression, Name, Negative, Power, Product, Quotient, Sum, walk
+from lagcli.expression import (
+    Expression,
+    Name,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    walk,
+)
 from lagcli.problem_data import Problem
 
 _PARTS = (
     "definitions", "points", "kinetic", "potential", "lagrangian", "hamiltonian", "forces",
     "dissipation", "symmetries", "observables", "initial", "find",
 )  # fmt: skip
+
+_DECIMAL = re.compile(r"(?<![\w.])(\d+\.\d*|\.\d+)(?![\w.])")
 
 
 def given(problem: Problem) -> Iterator[Expression]:
@@ -93,3 +107,23 @@ def _multiplied(node: Product) -> Iterator[list[str]]:
         for term in base.terms if isinstance(base, Sum) else ():
             parts = (term if part is factor else part for part in node.factors)
             yield [name for part in parts for name in _letters(part)]
+
+
+def decimals_of(problem: Problem, settings: Iterable[str] = ()) -> list[Fraction]:
+    """The values that the formulas of the file, or settings, write with a decimal point."""
+    lines = problem.source.text.splitlines()
+    found = []
+    state = set(map(id, expressions(problem.initial)))
+    for node in given(problem):
+        for part in walk(node):
+            if id(node) in state:
+                break
+            if isinstance(part, Number) and part.value.denominator != 1 and part.span.line:
+                place = part.span
+                written = lines[place.line - 1 : place.line]
+                if any("." in line[place.column - 1 : place.end_column - 1] for line in written):
+                    found.append(part.value)
+    for setting in settings:
+        value = setting.partition("=")[2]
+        found += [Fraction(text) for text in _DECIMAL.findall(value)]
+    return [value for value in found if value.denominator != 1]

@@ -9,11 +9,11 @@ minus goes and whether a number comes first does not change a value, and follows
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 
+from lagcli.evaluation import sign_at_random
 from lagcli.expression import (
     ONE,
     ZERO,
@@ -28,24 +28,23 @@ from lagcli.expression import (
     Quotient,
     Sum,
     opposite,
+    quotient_of,
     walk,
 )
-from lagcli.factors import (
+from lagcli.notation.factors import (
     odd_base,
     parts_of,
-    quotient,
     whole_power,
     with_base,
     with_last,
     with_whole_powers,
 )
-from lagcli.given_formulas import expressions, given, order_of_names
-from lagcli.given_sums import GivenSums, arranged
-from lagcli.likeness import EVEN, ODD, Key, parity, signed_key
-from lagcli.ordering import Ordering, positive_first
+from lagcli.notation.given_formulas import given, order_of_names
+from lagcli.notation.given_sums import GivenSums, arranged
+from lagcli.notation.likeness import EVEN, ODD, Key, parity, signed_key
+from lagcli.notation.ordering import Ordering, positive_first
 from lagcli.problem_data import Problem
 from lagcli.rewriting import rebuilt
-from lagcli.signs_of_sums import sign_at_random
 
 #: Terms of a sum of products of masses that is multiplied out.
 _MULTIPLIED = 4
@@ -94,7 +93,7 @@ class Manner:
         match node:
             case Product(factors=(*_, Sum(terms=(first, *_)) as series)) if first == ONE:
                 # a period, 2 pi sqrt(l/g) (1 + a²/16): what stands before the series stays there
-                before = quotient(list(node.factors[:-1]), [])
+                before = quotient_of(list(node.factors[:-1]), [])
                 return with_last(self._written(before, inside=inside), series)
             case Product() | Quotient():
                 return self._signed(with_whole_powers(node), inside=inside)
@@ -159,7 +158,7 @@ class Manner:
                 powers[base] = powers.get(base, Fraction(0)) + exponent
         ranked = self._ordering.arranged(powers.items())
         shown = [base if e == 1 else Power(base, Number(e)) for base, e in ranked]
-        return quotient([Number(number), *shown] if number != 1 else shown, [])
+        return quotient_of([Number(number), *shown] if number != 1 else shown, [])
 
     def _as_within(self, term: Expression) -> Expression:
         minus, above, below = parts_of(term)
@@ -171,7 +170,7 @@ class Manner:
             if self._within.get(key, sign) != sign:
                 above[place] = with_base(factor, negative_of(base))
                 minus = not minus
-        whole = quotient(above, below)
+        whole = quotient_of(above, below)
         return Negative(whole) if minus else whole
 
     def _wrong(self, node: Sum, *, below: bool = False) -> bool | None:
@@ -245,7 +244,7 @@ class Manner:
                 )
         if any(odd_base(factor)[0] is not None for factor in above):
             above = [*arranged(above, self._ordering)]
-        whole = quotient(above, below)
+        whole = quotient_of(above, below)
         return Negative(whole) if minus else whole
 
     def _divided_by_letters(
@@ -311,29 +310,6 @@ def _terms(node: Expression) -> tuple[Expression, ...]:
     return tuple(term for term in terms if term != ZERO)
 
 
-_DECIMAL = re.compile(r"(?<![\w.])(\d+\.\d*|\.\d+)(?![\w.])")
-
-
-def decimals_of(problem: Problem, settings: Iterable[str] = ()) -> list[Fraction]:
-    """The values that the formulas of the file, or settings, write with a decimal point."""
-    lines = problem.source.text.splitlines()
-    found = []
-    state = set(map(id, expressions(problem.initial)))
-    for node in given(problem):
-        for part in walk(node):
-            if id(node) in state:
-                break
-            if isinstance(part, Number) and part.value.denominator != 1 and part.span.line:
-                place = part.span
-                written = lines[place.line - 1 : place.line]
-                if any("." in line[place.column - 1 : place.end_column - 1] for line in written):
-                    found.append(part.value)
-    for setting in settings:
-        value = setting.partition("=")[2]
-        found += [Fraction(text) for text in _DECIMAL.findall(value)]
-    return [value for value in found if value.denominator != 1]
-
-
 def negative_of(node: Sum) -> Sum:
     """The sum of the terms with their signs changed, a positive one first where there is one."""
     return Sum(tuple(positive_first([*map(opposite, node.terms)])))
@@ -374,11 +350,11 @@ def _with_versines(terms: Sequence[Expression]) -> list[Expression]:
         cosines = [f for f in above if isinstance(f, Call) and f.function == "cos"]
         if len(cosines) != 1 or len(above) == 1:
             continue
-        rest = quotient([f for f in above if f is not cosines[0]], below)
+        rest = quotient_of([f for f in above if f is not cosines[0]], below)
         other = rest if minus else Negative(rest)
         if other in found and len(found) > 2:
             versine = Sum((ONE, Negative(cosines[0])))
-            joined = quotient([*(f for f in above if f is not cosines[0]), versine], below)
+            joined = quotient_of([*(f for f in above if f is not cosines[0]), versine], below)
             found[found.index(other)] = joined if minus else Negative(joined)
             found.remove(term)
     return found

@@ -24,8 +24,8 @@ from lagcli.expression import (
     operation_count,
     walk,
 )
-from lagcli.likeness import Monomial, Polynomial, inverse, joined, multiplied_out
-from lagcli.ordering import Ordering
+from lagcli.notation.likeness import Monomial, Polynomial, inverse, joined, multiplied_out
+from lagcli.notation.ordering import Ordering
 from lagcli.rewriting import rebuilt
 
 #: How many times as long as the answer's the file's own sum may be.

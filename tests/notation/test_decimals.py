@@ -8,10 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lagcli.decimals import GivenDecimals, value_of, with_decimals
+from lagcli.evaluation import value_of
 from lagcli.expression import Negative, Number
 from lagcli.formatters.grammar import to_grammar
-from lagcli.manners import decimals_of
+from lagcli.notation.decimals import GivenDecimals, with_decimals
+from lagcli.notation.given_formulas import decimals_of
 from lagcli.pipeline import read
 from lagcli.reader import parse_text
 
