@@ -220,6 +220,22 @@ def test_an_equilibrium_that_is_left_out_is_found() -> None:
     assert "completeness of the equilibria could not be confirmed" in found.warnings[-1]
 
 
+@pytest.mark.parametrize("assume", ["positive", "negative", "nonzero"])
+@pytest.mark.parametrize("potential", ["k*r^2", "k*(cosh(r) - 1)", "k*r^2 - k*r^4/(r^2 + 1)"])
+def test_rest_on_the_border_of_what_a_coordinate_may_be_is_not_left_out(assume, potential):
+    """V has its only stationary point at r = 0, which is no place of a coordinate that is not 0."""
+    text = f"""
+coordinates: {{r: {{assume: {assume}}}}}
+parameters: {{m: {{assume: positive}}, k: {{assume: positive}}}}
+T: m*(1 + r^2)*r'^2/2
+V: {potential}
+"""
+    problem = read_problem("border", text.encode()).problem
+    answers = state(derive(problem), Request(sections=("equilibria",)))
+    assert not answers.sections["equilibria"].equilibria
+    assert not answers.warnings
+
+
 ROLLING = """
 coordinates: [x, phi, theta]
 parameters: {M: {assume: positive}, m: {assume: positive}, R: {assume: positive},

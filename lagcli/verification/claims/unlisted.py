@@ -16,7 +16,7 @@ from random import Random
 
 from flint import arb, ctx
 
-from lagcli.problem_data import Inequality
+from lagcli.problem_data import Coordinate, Inequality
 from lagcli.verification.claims.near import LinearMotion, eigenvalues
 from lagcli.verification.claims.rest import RestPlace
 from lagcli.verification.examination import PRECISIONS, Examination
@@ -132,12 +132,10 @@ class Balance:
             return False
         if any(abs(z) < _SAME for z in eigenvalues(near.laws.mass_matrix)):
             return False
-        signs = all(
-            float(near.environment[c.name, 0]) * _SIGNS.get(c.assume, 0) >= 0
-            for c in x.problem.coordinates
-        )
+        if any(_is_outside(near, c) for c in x.problem.coordinates):
+            return False
         held = (c.holds_while for c in x.problem.constraints)
-        return signs and all(h is None or _holds(x, near, h) for h in held)
+        return all(h is None or _holds(x, near, h) for h in held)
 
     def is_period(self, near: LinearMotion, listed: LinearMotion) -> bool:
         """Whether the laws at places this far from each other are the same."""
@@ -152,6 +150,14 @@ class Balance:
                 there[n, 0] = here[n, 0] + change
             one, other = reference.values(here), reference.values(there)
             return all(size(one(f) - other(f)) < _SAME for f in self.conditions)
+
+
+def _is_outside(near: LinearMotion, coordinate: Coordinate) -> bool:
+    """Whether the coordinate is not what it is said to be: r = 0 is no place of a positive r."""
+    value, assume = float(near.environment[coordinate.name, 0]), coordinate.assume
+    if abs(value) < _SAME:
+        return assume in {"positive", "negative", "nonzero"}
+    return value * _SIGNS.get(assume, 0) < 0
 
 
 def _holds(x: Examination, near: LinearMotion, condition: Inequality) -> bool:
