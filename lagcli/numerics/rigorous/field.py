@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from lagcli.graph.nodes import mask_of
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.rigorous.solution import LinearSystem, convolved, horner, sizes
 
@@ -29,8 +28,6 @@ class VectorField:
         self.n, equations = motion.n, motion.equations
         symbols = (*equations.q, *equations.qdot)
         self.system = LinearSystem(motion, equations.forcing, equations.bias, symbols)
-        #: coefficients that one evaluation gives
-        self._gain = 1 if mask_of(equations.dynamics) & mask_of(equations.qdot) else 2
 
     def rate(self, t: Any, x: Sequence[Any]) -> list[Any]:
         """f at balls."""
@@ -62,8 +59,8 @@ class VectorField:
         while len(v[0]) <= order:
             for c, rate in zip(q, v, strict=True):
                 c.append(rate[-1] / len(rate))
-            self.system.continued(known, [t, 1], [*q, *v], len(v[0]) + self._gain - 1)
-            for _ in range(self._gain):
+            self.system.continued(known, [t, 1], [*q, *v], len(v[0]) + self.system.gain - 1)
+            for _ in range(self.system.gain):
                 k = len(v[0])
                 for i, (c, rate) in enumerate(zip(q, v, strict=True)):
                     if len(c) < k + 1:

@@ -23,6 +23,7 @@ from itertools import chain
 from typing import Any
 
 from lagcli.graph.derivative import partial
+from lagcli.graph.expansion import Expansion
 from lagcli.graph.nodes import Node, Symbol, ancestry, mask_of
 from lagcli.numerics.equations.motion import Motion
 
@@ -91,9 +92,11 @@ class LinearSystem:
         # z as arguments beside the state; no file can name the second
         z = [graph.symbol(q.name, 2) for q in equations.q]
         z += [graph.symbol(f"multiplier {k}") for k in range(m)]
+        shorter = Expansion(graph)
+        mass = [[shorter(x) for x in row] for row in mass]
         matrix = [[*mass[i], *(graph.scaled(row[i], -1) for row in rows)] for i in range(n)]
         matrix += [[*row, *[graph.zero] * m] for row in rows]
-        right = [*forcing, *(graph.scaled(c, -1) for c in bias)]
+        right = [*map(shorter, forcing), *(graph.scaled(c, -1) for c in bias)]
         left = [
             graph.difference(
                 r, graph.sum([graph.product(a, x) for a, x in zip(row, z, strict=True)])
@@ -108,6 +111,8 @@ class LinearSystem:
         self._left = motion.function(left, z, frozen=True)
         self._partials = motion.function(partials, z, frozen=True)
         self._steady = not mask_of(entries) & mask_of(equations.state)
+        #: coefficients that one evaluation gives
+        self.gain = 1 if mask_of([*entries, *right]) & mask_of(equations.qdot) else 2
         #: K and its inverse where they are constant, by the bits
         self._constant: dict[int, tuple[list[Any], Any]] = {}
         #: what an evaluation costs, in nodes
