@@ -5,7 +5,6 @@ Points of a rigid link make M = m l² (cos² + sin²): constant, as no product o
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from fractions import Fraction
 
 from lagcli.graph.nodes import Call, Constant, Graph, Node, Product, Sum, ancestry

@@ -2,24 +2,49 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-from math import isclose
+import random
 
 import pytest
 
-import lagcli
 from lagcli.graph.expansion import Expansion
-from lagcli.graph.nodes import Constant, ancestry
-from lagcli.graph.values import Concrete
+from lagcli.graph.nodes import Graph, ancestry
+from lagcli.graph.reading import GraphReader
 from lagcli.mechanics.matrix_form import MatrixForm
+from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.straight_line import straight_line
 
-LINK = "{coordinates: [a], points: {p: {position: [l*sin(a), -l*cos(a)], mass: m}}, V: -m*g*l*cos(a), parameters: [l, m, g]}"
+from .running import problem_of
+
+LINK = (
+    "{coordinates: [a], parameters: [l, m, g], V: -m*g*l*cos(a), "
+    "points: {p: {position: [l*sin(a), -l*cos(a)], mass: m}}}"
+)
+FORMULAS = [
+    "(x + y)*(x - y) - x^2",
+    "cos(x)^3*y + sin(x)^2*cos(x)*y",
+    "(1 - cos(x)^2)^2/(1 + y^2) + cos(x)^4/(1 + y^2)",
+    "x*y*(x*(y*cos(y)^2) + x*y*sin(y)^2)",
+    "(x + 2*y + cos(x))^3 - sqrt(1 + x^2)*(x - 1/sqrt(1 + x^2))",
+]
 
 
 def test_a_link_made_of_a_point_has_a_constant_inertia_and_no_forces_of_its_turning():
-    form = MatrixForm(lagcli.loads(LINK).data, combine_angles=False)
-    shorter = Expansion(form.graph)
-    [a], [rate] = form.q, form.qdot
-    assert form.mass_matrix[0][0].mask & a.mask
-    assert not shorter(form.mass_matrix[0][0]).mask & a.mask
-    assert not shorter(form.forcing[0]).mask & rate.mask
+    form = MatrixForm(problem_of(LINK), combine_angles=False)
+    shorter, [[inertia]], [force] = Expansion(form.graph), form.mass_matrix, form.forcing
+    assert inertia.mask & form.q[0].mask
+    assert not shorter(inertia).mask & form.q[0].mask
+    assert not shorter(force).mask & form.qdot[0].mask
+
+
+@pytest.mark.parametrize("formula", FORMULAS)
+def test_the_numbers_are_the_same(formula):
+    problem = problem_of(f"{{coordinates: [x, y], T: x'^2/2 + y'^2/2, V: {formula}}}")
+    graph = Graph()
+    node = GraphReader(graph, ("x", "y"), {})(problem.potential)
+    found = Expansion(graph)(node)
+    assert len(ancestry([found])) <= len(ancestry([node]))
+    values = straight_line([graph.symbol("x"), graph.symbol("y")], [node, found], {}, Doubles())
+    draw = random.Random(1)
+    for _ in range(20):
+        before, after = values(draw.uniform(0.1, 2), draw.uniform(0.1, 2))
+        assert after == pytest.approx(before, rel=1e-12, abs=1e-12)
