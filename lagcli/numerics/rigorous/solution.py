@@ -93,8 +93,9 @@ class LinearSystem:
         z = [graph.symbol(q.name, 2) for q in equations.q]
         z += [graph.symbol(f"multiplier {k}") for k in range(m)]
         shorter = Expansion(graph)
-        mass = [[shorter(x) for x in row] for row in mass]
-        matrix = [[*mass[i], *(graph.scaled(row[i], -1) for row in rows)] for i in range(n)]
+        matrix = [
+            [*map(shorter, mass[i]), *(graph.scaled(row[i], -1) for row in rows)] for i in range(n)
+        ]
         matrix += [[*row, *[graph.zero] * m] for row in rows]
         right = [*map(shorter, forcing), *(graph.scaled(c, -1) for c in bias)]
         left = [
