@@ -26,6 +26,7 @@ from lagcli.numerics.hybrid.setup import Progress, Setup
 from lagcli.numerics.hybrid.subsystems import Apart, MakeMachine, apart
 from lagcli.numerics.hybrid.transitions import Transitions
 from lagcli.numerics.integrators.steps import Method, NotPossible, Tolerance
+from lagcli.numerics.integrators.taylor import Taylor
 
 #: Parts of the span that the longest step is: a series knows what lies within its step,
 #: but for what is flat and then is not.
@@ -113,10 +114,12 @@ class Runs:
     def _method(self, mode: Mode, surface: Surface | None) -> Method:
         motion = mode.motion
         if motion not in self._machines:
-            self._machines[motion] = "friction holds" if mode.stuck else double_machine(motion)
+            make = self._make or double_machine
+            self._machines[motion] = "friction holds" if mode.stuck else make(motion)
         machine = self._machines[motion]
         if isinstance(machine, str):
-            assert self._otherwise is not None
+            if self._otherwise is None:
+                raise NotPossible(machine)
             return self._otherwise(mode, surface)
         return CompiledTaylor(machine, surface)
 
@@ -226,8 +229,9 @@ def prepared_quadruple(simulation: Setup, doubles: Modes) -> Prepared | str:
 def _beyond_doubles(
     simulation: Setup, doubles: Modes, numbers: Extended, finest: float
 ) -> Prepared | str:
-    if simulation.equations.kinks or doubles.first.conditions or simulation.goes_on:
-        return "events and switching functions are followed in doubles only"
+    has_events = simulation.equations.kinks or doubles.first.conditions or simulation.goes_on
+    if has_events and numbers is not EXTENDED:
+        return "events and switching functions are followed in up to 80 bits"
     try:
         with precision():
             return _prepared(simulation, doubles, numbers, finest)
@@ -249,13 +253,19 @@ def _prepared(
     modes.first.conserved = doubles.first.conserved
     motion = modes.first.motion
 
+    def in_python(mode: Mode, surface: Surface | None) -> Taylor:
+        if len(mode.stuck) < len(mode.motion.kinks):
+            raise NotPossible("friction holds at some of the switching functions only")
+        return Taylor(mode.motion, surface)
+
     def with_doubles(motion: Motion) -> Machine:
         own = Motion(motion.equations, doubles.constants, doubles.arithmetic)
-        beside = double_machine(own)
+        own.looked_at = motion.looked_at
+        beside = "it reads no signs" if motion.kinks else double_machine(own)
         return Machine(motion, numbers, None if isinstance(beside, str) else beside)
 
     if numbers is EXTENDED:
-        runs = Runs(simulation, modes, with_doubles(motion), with_doubles)
+        runs = Runs(simulation, modes, with_doubles(motion), with_doubles, in_python)
     else:
         runs = Runs(simulation, modes, Machine(motion, numbers), None)
     q, v = simulation.start
@@ -272,9 +282,10 @@ def _prepared(
         if moved:  # by a clock that is a rounding fast
             clock = 1 + 2 * Fraction(numbers.rounding)
             times = [*(Fraction(t) * clock for t in times[:-1]), times[-1]]
+        bound.unit = numbers.rounding / DOUBLE.rounding
         try:
             return runs.run(states[moved], times, bound, every, progress)
-        except OverflowError as reason:
+        except (OverflowError, NotCompiled, Refusal) as reason:
             raise NotPossible(str(reason)) from None
 
     first = _FIRST_OF_LONG if simulation.is_long else math.inf

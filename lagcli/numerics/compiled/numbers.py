@@ -66,6 +66,10 @@ class Numbers:
         found = list(map(float, values))
         return (self.c_type * len(found))(*found)
 
+    def difference(self, a: float, b: float) -> Any:
+        """a - b, as a function takes it."""
+        return a - b
+
 
 class Extended(Numbers):
     """Numbers of 80 bits."""
@@ -95,16 +99,19 @@ class Extended(Numbers):
         ctypes.memmove(array, data, len(data))
         return array
 
-    def fractions(self, values: Any) -> list[Fraction]:
-        """The values in memory, exactly."""
+    def difference(self, a: float, b: float) -> Any:
+        """a - b, as a function takes it: rounded to these numbers."""
+        return self.c_type.from_buffer(self.array([Fraction(a) - Fraction(b)]))
+
+    def parts(self, values: Any, count: int) -> list[tuple[int, int]]:
+        """Of the first values in memory, exactly: (m, e) of m 2^e."""
         size = ctypes.sizeof(self.c_type)
-        data = bytes(values)
+        data = ctypes.string_at(ctypes.addressof(values), count * size)
         found = []
         for start in range(0, len(data), size):
             fraction, exponent = self._read(data, start)
-            sign = -1 if exponent & _HIGHEST else 1
             power = (exponent & ~_HIGHEST) - _BIAS - self._fraction + 1
-            found.append(sign * fraction * Fraction(2) ** power)
+            found.append((-fraction if exponent & _HIGHEST else fraction, power))
         return found
 
     def _written(self, fraction: int, exponent: int) -> bytes:
@@ -121,7 +128,8 @@ class _Quadruple(ctypes.Structure):
     _fields_ = (("low", ctypes.c_uint64), ("high", ctypes.c_uint64))
 
     def __float__(self) -> float:
-        return float(QUADRUPLE.fractions(self)[0])
+        [(fraction, power)] = QUADRUPLE.parts(self, 1)
+        return float(fraction * Fraction(2) ** power)
 
 
 class Quadruple(Extended):

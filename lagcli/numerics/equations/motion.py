@@ -7,6 +7,7 @@ answers instead, at that very state and no other.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -82,7 +83,7 @@ class Motion:
     ) -> Function:
         """The values of any nodes; `extra` are arguments after the state."""
         try:
-            return straight_line(
+            made = straight_line(
                 (*self.equations.state, *extra),
                 roots,
                 self.constants,
@@ -92,6 +93,7 @@ class Motion:
                 frozen=self._frozen if frozen else None,
                 generated=self.equations.generated,
             )
+            return made if self.arithmetic.ordered else self._of_balls(made)
         except UndefinedFunction as error:
             message = f"the function '{error}' is left unspecified: it has no numbers"
             raise Refusal(message) from None
@@ -100,6 +102,15 @@ class Motion:
                 return otherwise  # a pivot is 0 at every state
             message = f"with these values the equations are not defined: {told(error)}"
             raise Refusal(message) from None
+
+    def _of_balls(self, made: Function) -> Function:
+        """The same function, which takes a time that is a double or a fraction as well."""
+        number = self.arithmetic.number
+
+        def of_balls(t: Any, *rest: Any) -> tuple[Any, ...]:
+            return made(number(Fraction(t)) if isinstance(t, (float, Fraction)) else t, *rest)
+
+        return of_balls
 
     # -- the equations -----------------------------------------------------------------------
 

@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from operator import mul
+from typing import Any
 
 from lagcli.numerics.equations.straight_line import PIVOT_TOLERANCE
 from lagcli.record import record
@@ -182,8 +183,8 @@ def solved(matrix: Matrix, right: Vector, least: float = _NO_MASS) -> Vector:
     while rows:
         i = max(rows, key=lambda k: _largest(work[k]))
         top = work[i]
-        j = max(range(n), key=lambda k: abs(top[k]))
-        if not abs(top[j]) > least:
+        j = max(range(n), key=lambda k: _size(top[k]))
+        if not _size(top[j]) > least:
             raise NoMass("the mass matrix is singular along motions that are allowed")
         order.append((i, j))
         rows.remove(i)
@@ -199,8 +200,13 @@ def solved(matrix: Matrix, right: Vector, least: float = _NO_MASS) -> Vector:
 
 
 def _largest(row: Sequence[float]) -> float:
-    return max(map(abs, row))
+    return max(map(_size, row))
 
 
-def _dot(left: Sequence[float], right: Sequence[float]) -> float:
-    return float(sum(map(mul, left, right)))
+def _size(x: Any) -> Any:
+    """The magnitude; of a power series, that of its first term."""
+    return abs(x if not hasattr(x, "coeffs") else x[0])
+
+
+def _dot(left: Sequence[Any], right: Sequence[Any]) -> Any:
+    return sum(map(mul, left, right), 0.0)

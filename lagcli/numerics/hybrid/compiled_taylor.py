@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from ctypes import c_double, c_int64, memmove, sizeof
+from ctypes import addressof, c_double, c_int64, memmove, sizeof
 from typing import Any
 
 from lagcli.numerics.compiled import layout as k
@@ -139,14 +139,15 @@ class CompiledTaylor:
         """
         q, v, until, t = stretch
         state, motion = self._prepare(q, v, until, tolerance), self.machine.motion
-        ahead, both = self._ahead, 2 * self.n
-        state[both] = t
+        numbers, both, size = self.machine.numbers, 2 * self.n, sizeof(self.machine.numbers.c_type)
+        ahead, lost = addressof(self._ahead), addressof(self._ahead) + (both + 1) * size
+        state[both] = numbers.cell(t)
         kinks, self.reached = Kinks(motion, tolerance), None
         if motion.kinks:
             kinks.begin(t, q, v)
         while t < until:
             for i, sign in enumerate(motion.signs):
-                self._signs[i] = sign
+                self._signs[i] = numbers.cell(sign)
             move = self._move
             if self._expand(state) == k.MORE:
                 h = float(self._facts[k.H])
@@ -167,9 +168,9 @@ class CompiledTaylor:
                     q_end, v_end = move(state, end, q, v)
             tolerance.peaks[:] = [float(x) for x in self._peaks]
             tolerance.scales[:] = [float(x) for x in self._scales]
-            for i in range(both):
-                state[i], self._lost[i] = ahead[i], ahead[both + 1 + i]
-            state[both] = end
+            memmove(state, ahead, both * size)
+            memmove(self._lost, lost, both * size)
+            state[both] = numbers.cell(end)
             q, v = q_end, v_end
             yield Step(t, end - t, end, q, v, inside)
             if kinks.reached is not None:
@@ -177,7 +178,7 @@ class CompiledTaylor:
                     self.reached = kinks.reached
                     return
                 v = kinks.pass_through(end, q, v)
-                state[self.n : both] = v
+                memmove(state, self._array([*map(exact, (*q, *v))]), both * size)
             t = end
             if self.evaluations % (_LOOK * self.order) == 0:
                 self.machine.improve(self.evaluations / self.order * until / t, self.order)
@@ -207,8 +208,12 @@ class CompiledTaylor:
             raise self._vanishes(state)
         if status != k.MORE:
             raise CannotGoOn(float(state[2 * self.n]), q, v, "")
-        n = self.n
-        return list(self._ahead[:n]), list(self._ahead[n : 2 * n])
+        return self._halves(self._ahead)
+
+    def _halves(self, cells: Any) -> tuple[list[Any], list[Any]]:
+        """q and q' of a state in memory."""
+        found = self._read(cells, 2 * self.n)
+        return found[: self.n], found[self.n :]
 
     # -- over a place where the equations have values and no series --------------------------------
 
@@ -266,14 +271,15 @@ class CompiledTaylor:
     def _inside(self, start: float) -> Any:
         """Positions, velocities and accelerations anywhere in the step."""
         kept = self._zeros(len(self._rows))
-        kept[:] = self._rows
+        memmove(kept, self._rows, sizeof(kept))
         n, out, slopes = self.n, self._zeros(2 * self.n + 1), self._zeros(self.n)
         at, rate, order = self.machine.kernel("inside"), self.machine.kernel("slopes"), self.order
 
         def inside(t: float) -> tuple[list[Any], list[Any], list[Any]]:
-            at(pointer(kept), pointer(out), 2 * n, order, t - start)
-            rate(pointer(kept), pointer(slopes), n, order, t - start)
-            return list(out[:n]), list(out[n : 2 * n]), list(slopes)
+            passed = self.machine.numbers.difference(t, start)
+            at(pointer(kept), pointer(out), 2 * n, order, passed)
+            rate(pointer(kept), pointer(slopes), n, order, passed)
+            return *self._halves(out), self._read(slopes, n)
 
         return inside
 
@@ -348,7 +354,7 @@ class CompiledTaylor:
         if status == k.PIVOT:
             raise self._vanishes(state)
         done = int(counts[k.PENDING])
-        whole, n = self._read(out), self.n
+        whole, n = self._read(out, len(out)), self.n
         rows = [whole[j :: both + 1] for j in range(both)]
         positions, velocities = zip(*rows[:n], strict=True), zip(*rows[n:], strict=True)
         made = zip(times[:done], map(list, positions), map(list, velocities), strict=False)
@@ -393,11 +399,13 @@ class CompiledTaylor:
             raise NotPossible("a constraint that the others imply at first is not implied later")
         whole.join(held, held.motion.equations.place)
 
-    def _read(self, values: Any) -> list[Any]:
+    def _read(self, values: Any, count: int) -> list[Any]:
         numbers = self.machine.numbers
         if not isinstance(numbers, Extended):
-            return values[:]  # type: ignore[no-any-return]
-        return [*map(self.machine.motion.arithmetic.number, numbers.fractions(values))]
+            return values[:count]  # type: ignore[no-any-return]
+        from flint import arb
+
+        return [*map(arb, numbers.parts(values, count))]
 
 
 def _order(tolerance: float) -> int:

@@ -109,7 +109,7 @@ class StuckMotion(Motion):
             sigma = [2.0 if x > 0 else -2.0 for x in level]  # nothing holds it: it slips
         for k, value in zip(self.stuck, sigma, strict=True):
             self.signs[k] = value
-        if len(self.stuck) > 1:
+        if len(self.stuck) > 1 and self.arithmetic.ordered:
             size = max(map(abs, level), default=0.0)
             if max(map(abs, rates())) > _LINEAR * (size or 1.0):
                 raise NotLinear("forces that stick depend on each other")

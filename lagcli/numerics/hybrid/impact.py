@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from lagcli.numerics.equations.contact import OneSided
 from lagcli.numerics.equations.motion import Motion
@@ -70,7 +71,7 @@ class Hinge:
         self.bias = [s * x for s, x in zip(signs, rest[m * n :], strict=True)]
         state = (t, *q, *v)
         found = motion.rates(*state)
-        self.rates = [s * float(x) for s, x in zip(signs, found, strict=True)]
+        self.rates = [s * x for s, x in zip(signs, found, strict=True)]
         sizes = motion.sizes(*state)[len(motion.equations.holonomic) :]
         self.speeds = [abs(float(x)) for x in sizes]
 
@@ -130,7 +131,7 @@ class Hinge:
             jump = held_motion(self.mass, [0.0] * len(v), [self.rows[k] for k in order], lacking)
             impulse = dict(zip(order, jump.multipliers, strict=True))
             found[chosen] = (jump.accelerations, impulse)
-            heaviest = max([heaviest, *map(abs, jump.multipliers)])
+            heaviest = max([heaviest, *map(abs, map(float, jump.multipliers))])
             away = {
                 k: (self.rates[k] * (1 + e) + self._along(k, jump.accelerations)) / fastest
                 for k, e in closed.items()
@@ -143,7 +144,8 @@ class Hinge:
             return None
         jump, impulse = found[chosen]
         lost = {
-            k: -impulse.get(k, 0.0) * (self.rates[k] + self._along(k, jump) / 2) for k in closed
+            k: -float(impulse.get(k, 0.0) * (self.rates[k] + self._along(k, jump) / 2))
+            for k in closed
         }
         return [x + d for x, d in zip(v, jump, strict=True)], lost
 
@@ -151,8 +153,8 @@ class Hinge:
         """How much errors of the coordinates change a gap."""
         return math.fsum(abs(a) * b for a, b in zip(self.rows[k], errors, strict=False))
 
-    def _along(self, k: int, vector: Sequence[float]) -> float:
-        return math.fsum(a * b for a, b in zip(self.rows[k], vector, strict=True))
+    def _along(self, k: int, vector: Sequence[Any]) -> Any:
+        return sum(a * b for a, b in zip(self.rows[k], vector, strict=True))
 
 
 def rests(speed: float, acceleration: float, restitution: float, time: float, least: float) -> bool:

@@ -169,8 +169,7 @@ class Modes:
     ) -> None:
         self.simulation, self.constants, self.arithmetic = simulation, constants, arithmetic
         self.make_method, self.rounding = make_method, rounding
-        kinks = simulation.equations.kinks if arithmetic.ordered else []
-        self.signs = [1.0] * len(kinks)
+        self.signs = [1.0] * len(simulation.equations.kinks)
         self._known: dict[tuple[frozenset[int], frozenset[int]], Mode] = {}
 
     def by(self, make_method: MakeMethod) -> Modes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
 from itertools import groupby
 from operator import attrgetter
 from typing import Any
@@ -146,11 +147,11 @@ class Run:
         self._times, self._pending = times, 0
         # here, since they refer to the run: one in machine code is freed when it is done with
         self.transitions.rounding = self._rounding
-        self.transitions.moved = self.tolerance.moved
+        self.transitions.moved = self.tolerance.moved * self.tolerance.unit
         self._watch = Watch(self._state_in, self._errors, self._rounding)
         self._watch.window = times[-1] / _WINDOWS
         self._probe_every, self._progress = probe_every, progress
-        t = times[0]
+        t = float(times[0])
         try:
             turn = self.transitions.begin(q, v)
             while True:
@@ -239,7 +240,11 @@ class Run:
         late = 0.0 if found.touches else self._lateness(mode, condition, t, q, v)
         if condition.kind not in {"gap", "loss"} or not late:
             return self.transitions.after(mode, found, q, v)
+        if not mode.motion.arithmetic.ordered:  # numbers that resolve the time
+            found = replace(found, t=Fraction(t) - Fraction(late))
         following = self.transitions.after(mode, found, *_shifted(mode, t, q, v, -late))
+        events = tuple(replace(event, t=float(event.t)) for event in following.events)
+        following = replace(following, events=events)
         if following.mode is None:
             return replace(following, q=q, v=v)
         q, v = _shifted(following.mode, t, following.q, following.v, late)
@@ -294,7 +299,7 @@ class Run:
 
     def _mark(self, t: float, q: Vector, v: Vector) -> None:
         """The next of the times that were asked for."""
-        self.marks.append(Mark(t, q, v, len(self.phases) - 1, self._pending))
+        self.marks.append(Mark(float(t), q, v, len(self.phases) - 1, self._pending))
         self._pending += 1
 
     def _end(self, t: float, q: Vector, v: Vector) -> None:

@@ -70,8 +70,8 @@ class Transitions:
         self.contacts = modes.simulation.contacts
         #: of each component at a time; the run that this is for says it
         self.rounding: Callable[[float], Sequence[float]] = lambda _: ()
-        #: whether impacts take place some roundings away
-        self.moved = False
+        #: impacts take place some such parts of a rounding of doubles away
+        self.moved = 0.0
         self._fastest: dict[int, float] = {}
 
     # -- the beginning -----------------------------------------------------------------------
@@ -224,7 +224,7 @@ class Transitions:
         A bounce is its time of flight, the contact, and whether it can be seen.
         """
         for k in struck:
-            self._fastest[k] = max(self._fastest.get(k, 0.0), -hinge.rates[k])
+            self._fastest[k] = max(self._fastest.get(k, 0.0), -float(hinge.rates[k]))
         ratio = {k: self._restitution(k) if k in struck else 0.0 for k in struck | closed}
         found = hinge.struck(v, always, ratio)
         if found is None:
@@ -241,20 +241,19 @@ class Transitions:
         slow = {k: max(_REST * self.accuracy * self._fastest[k], limit[k]) for k in struck}
 
         def rest(k: int, times: float) -> bool:
-            speed, e = max(0.0, after.rates[k]), ratio[k]
+            speed, e = max(0.0, float(after.rates[k])), float(ratio[k])
             if not e:
                 return speed <= limit[k]
-            return rests(speed, pull[k], e, times * time, times * slow[k])
+            return rests(speed, float(pull[k]), e, times * time, times * slow[k])
 
         # what strikes together comes to rest together
         over = any(rest(k, 1.0) for k in struck)
         for k in struck:
-            speed = max(0.0, after.rates[k])
+            speed, e = max(0.0, float(after.rates[k])), float(ratio[k])
             if over and rest(k, _SAME):
-                e = ratio[k]
-                resting[k] = 2 * speed / (-pull[k] * (1 - e)) if speed and e < 1 else 0.0
+                resting[k] = 2 * speed / (-float(pull[k]) * (1 - e)) if speed and e < 1 else 0.0
                 continue
-            flight, height = flight_of(speed, pull[k])
+            flight, height = flight_of(speed, float(pull[k]))
             if t + flight <= self.until:
                 bounces.append((flight, k, height > UNRESOLVED * hinge.along(k, rounding)))
         if resting:
@@ -269,7 +268,8 @@ class Transitions:
         """The place of an impact, which rounding moves along a surface, in a run that is moved."""
         if not self.moved:
             return q
-        return [x + (-1) ** j * _BESIDE * math.ulp(x) for j, x in enumerate(q)]
+        far = _BESIDE * self.moved
+        return [x + (-1) ** j * far * math.ulp(float(x)) for j, x in enumerate(q)]
 
     def _touching(self, t: float, q: Vector, v: Vector, closed: frozenset[int]) -> Vector:
         """The positions with the gaps of what is struck at 0."""
@@ -371,7 +371,7 @@ class Transitions:
         }
         return gaps, {k: abs(float(sizes[place[k]])) + abs(gaps[k]) for k in gaps}
 
-    def _restitution(self, k: int) -> float:
+    def _restitution(self, k: int) -> Any:
         """Newton's coefficient of a contact."""
         modes = self.modes
         formula = self.contacts[k].restitution
@@ -382,6 +382,6 @@ class Transitions:
             from lagcli.diagnostics import Diagnostic
 
             name = self.contacts[k].name
-            message = f"the restitution of '{name}' lies between 0 and 1, and is {value:g}"
+            message = f"the restitution of '{name}' lies between 0 and 1, and is {float(value):g}"
             raise Refusal((Diagnostic(message, formula.span),))
-        return float(value)
+        return value

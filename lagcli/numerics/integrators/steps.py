@@ -102,7 +102,7 @@ class CannotGoOn(ArithmeticError):
 
     def __init__(self, t: float, q: Sequence[Any], v: Sequence[Any], reason: str) -> None:
         super().__init__(reason)
-        self.t, self.q, self.v, self.reason = t, list(q), list(v), reason
+        self.t, self.q, self.v, self.reason = float(t), list(q), list(v), reason
 
 
 class NotPossible(Exception):
@@ -148,6 +148,8 @@ class Tolerance:
         self.value, self.n, self.span, self.longest = value, n, span, longest
         #: whether the run is that of a problem a rounding beside
         self.moved = False
+        #: the rounding of the numbers, in that of doubles
+        self.unit = 1.0
         self.known = peaks is not None
         self.peaks = list(peaks) if peaks is not None else [0.0] * (2 * n)
         self._floor = floor

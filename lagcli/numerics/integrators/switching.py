@@ -42,7 +42,8 @@ def displaced(bound: Tolerance, t: float, count: int, noise: float, rate: float)
     """
     if not bound.moved or not rate or not noise <= _ULPS * math.ulp(t) * abs(rate):
         return 0.0
-    return math.copysign(_roundings(bound) * noise / rate, count * _GOLDEN % 1.0 - 0.5)
+    far = _roundings(bound) * bound.unit * float(noise) / rate
+    return math.copysign(far, count * _GOLDEN % 1.0 - 0.5)
 
 
 def later(bound: Tolerance, t: float, most: float) -> float:

@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from typing import Any
 
 from lagcli.graph.nodes import mask_of
@@ -145,12 +146,12 @@ class Taylor:
     def _inside(self, start: Any, end: Any, series: list[list[Any]]) -> Any:
         """Positions, velocities and accelerations anywhere in the step.
 
-        A double between its ends; a step may be shorter than the doubles are apart.
+        A double or a fraction between its ends; a step may be shorter than doubles are apart.
         """
-        first, last = float(start), float(end)
+        first, last, number = float(start), float(end), self.motion.arithmetic.number
 
         def at(t: float) -> tuple[list[Any], list[Any], list[Any]]:
-            exact = start if t <= first else end if t >= last else self._ball(t)
+            exact = start if t <= first else end if t >= last else number(Fraction(t))
             return self._at(exact - start, series)
 
         return at
