@@ -199,7 +199,7 @@ def solved(matrix: Matrix, right: Vector, least: float = _NO_MASS) -> Vector:
     return x
 
 
-def _largest(row: Sequence[float]) -> float:
+def _largest(row: Sequence[Any]) -> Any:
     return max(map(_size, row))
 
 
