@@ -6,7 +6,7 @@ row and column (Markowitz), so that masses and constants are eliminated before s
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import sympy
@@ -111,7 +111,7 @@ def solve_linear(
     return LinearSolution(flat, det, singular=False, rank=n)
 
 
-def dot(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
+def dot(a: Iterable[Expr], b: Iterable[Expr]) -> Expr:
     """sum a_i b_i."""
     return sympy.Add(*(x * y for x, y in zip(a, b, strict=True)))
 

@@ -22,7 +22,7 @@ from itertools import combinations
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import Relations, is_zero, nullspace, rank, simplify
+from lagcli.algebra import Relations, dot, is_zero, nullspace, rank, simplify
 from lagcli.algebra.build import free_of, without_jumps
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.branches import restricting, vanishing_factors
@@ -104,10 +104,9 @@ class Constraints:
                 )
             )
             return None
-        velocity_form = sympy.Add(*(a * v for a, v in zip(row, system.qdot, strict=True)), drift)
         # d/dt(a . q' + b) with q'' = 0 leaves the bias
         still = dict.fromkeys(system.qddot, sympy.S.Zero)
-        bias = system.total_derivative(velocity_form).xreplace(still)
+        bias = system.total_derivative(dot(row, system.qdot) + drift).xreplace(still)
         return ConstraintEquation(constraint.name, multiplier, f, holonomic, row, drift, bias)
 
     @cached_property
@@ -122,8 +121,7 @@ class Constraints:
         return {name: factors for name, factors in found.items() if len(factors) > 1}
 
     def _velocity_form(self, equation: ConstraintEquation) -> Expr:
-        terms = (a * v for a, v in zip(equation.row, self.system.qdot, strict=True))
-        return sympy.Add(*terms, equation.drift)
+        return dot(equation.row, self.system.qdot) + equation.drift
 
     # -- matrices ---------------------------------------------------------------------
 

@@ -18,7 +18,7 @@ import sympy
 from mpmath import mpf
 from sympy import Expr
 
-from lagcli.algebra import Shapes, is_zero, left_nullspace, nullspace, simplify, solve_linear
+from lagcli.algebra import Shapes, dot, is_zero, left_nullspace, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.diagnostics import Diagnostic, ProblemError
@@ -250,19 +250,12 @@ class Dynamics:
     ) -> Verification | None:
         """Substitute back: M q'' - forcing - A^T lambda = 0 and A q'' + bias = 0."""
         equations = self.constraints.equations
+        pairs = zip(self.lagrange.mass_matrix, self.lagrange.forcing, strict=True)
         residuals = [
-            sympy.Add(
-                *(m * a for m, a in zip(row, accelerations, strict=True)),
-                -force,
-                *(-e.row[i] * x for e, x in zip(equations, multipliers, strict=True)),
-            )
-            for i, (row, force) in enumerate(
-                zip(self.lagrange.mass_matrix, self.lagrange.forcing, strict=True)
-            )
-        ] + [
-            sympy.Add(*(a * x for a, x in zip(e.row, accelerations, strict=True)), e.bias)
-            for e in equations
+            dot(row, accelerations) - force - dot((e.row[i] for e in equations), multipliers)
+            for i, (row, force) in enumerate(pairs)
         ]
+        residuals += [dot(e.row, accelerations) + e.bias for e in equations]
         verdict = self.verifier.all_zero(residuals)
         return verdict.how if verdict.holds is True else None
 

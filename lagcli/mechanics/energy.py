@@ -24,7 +24,7 @@ from functools import cached_property
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import is_zero
+from lagcli.algebra import dot, is_zero
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.impacts import between_impacts
@@ -53,16 +53,13 @@ class EnergyFunction:
     def function(self) -> Expr:
         """h = sum q' p - L."""
         system = self.dynamics.system
-        return sympy.Add(
-            *(v * p for v, p in zip(system.qdot, self.dynamics.lagrange.momenta, strict=True)),
-            -system.L,
-        )
+        return dot(system.qdot, self.dynamics.lagrange.momenta) - system.L
 
     @cached_property
     def powers(self) -> tuple[EnergyRate, ...]:
         """The terms of dh/dt that do not vanish identically."""
         system = self.dynamics.system
-        forces = sympy.Add(*(f * v for f, v in zip(system.forces, system.qdot, strict=True)))
+        forces = dot(system.forces, system.qdot)
         drag = sympy.Add(*(v * system.D.diff(v) for v in system.qdot))
         causes = [
             EnergyRate(

@@ -10,10 +10,9 @@ Legendre is its own inverse.
 
 from __future__ import annotations
 
-import sympy
 from sympy import Expr
 
-from lagcli.algebra import simplify, to_expression
+from lagcli.algebra import dot, simplify, to_expression
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.legendre import Inversion
 from lagcli.mechanics.phase_states import PhaseStates
@@ -65,5 +64,4 @@ def _lagrangian(system: System) -> Expr:
         raise NoLagrangian(
             system.problem, "q' = dH/dp could not be solved for the momenta in closed form"
         )
-    work = sympy.Add(*(p * v for p, v in zip(system.momenta, system.qdot, strict=True)))
-    return inversion.put_into(work - H)
+    return inversion.put_into(dot(system.momenta, system.qdot) - H)

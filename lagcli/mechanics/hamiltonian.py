@@ -19,7 +19,7 @@ from functools import cached_property
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import simplify
+from lagcli.algebra import dot, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.constraints import ConstraintEquation
@@ -55,18 +55,14 @@ class Hamiltonian:
             # H = (p - N) . q' / 2 - L(q' = 0), with N = dL/dq' at q' = 0
             at_rest = dict.fromkeys(system.qdot, sympy.S.Zero)
             momenta = self.dynamics.lagrange.momenta
-            kinetic = sympy.Add(
-                *(
-                    (p - momentum.xreplace(at_rest)) * velocity / 2
-                    for p, momentum, velocity in zip(
-                        system.momenta, momenta, self.velocities, strict=True
-                    )
+            kinetic = (
+                (p - momentum.xreplace(at_rest)) * velocity / 2
+                for p, momentum, velocity in zip(
+                    system.momenta, momenta, self.velocities, strict=True
                 )
             )
-            return simplify(kinetic - system.L.xreplace(at_rest))
-        return self.in_phase_space(
-            sympy.Add(*(p * v for p, v in zip(system.momenta, system.qdot, strict=True))) - system.L
-        )
+            return simplify(sympy.Add(*kinetic) - system.L.xreplace(at_rest))
+        return self.in_phase_space(dot(system.momenta, system.qdot) - system.L)
 
     def in_phase_space(self, expression: Expr) -> Expr:
         """An expression in q, q', t as one in q, p, t; there must be velocities."""

@@ -24,7 +24,7 @@ from collections.abc import Sequence
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import is_zero
+from lagcli.algebra import dot, is_zero
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.system import System
 from lagcli.problem_data import Contact
@@ -62,8 +62,5 @@ def _kept(
     if time != 0 and is_zero(system.build(contact.restitution) - 1) is not True:
         return False
     gap = system.build(contact.equation.left) - system.build(contact.equation.right)
-    across = sympy.Add(
-        *(gap.diff(q) * change for q, change in zip(system.q, changes, strict=True)),
-        gap.diff(system.t) * time,
-    )
+    across = dot(map(gap.diff, system.q), changes) + gap.diff(system.t) * time
     return is_zero(across) is True

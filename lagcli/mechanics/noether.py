@@ -188,16 +188,8 @@ class Noether:
         if gauge is None and exists and not self._rate(list(contributions.values()))[1]:
             contributions.pop(CHANGE_OF_L, None)  # K = dG/dt, whatever G is
         system = self.system
-        charge = sympy.Add(
-            *(
-                momentum * eta
-                for momentum, eta in zip(
-                    self.dynamics.lagrange.momenta, self.characteristic(transformation), strict=True
-                )
-            ),
-            system.L * transformation.time,
-            -boundary,
-        )
+        along = dot(self.dynamics.lagrange.momenta, self.characteristic(transformation))
+        charge = along + system.L * transformation.time - boundary
         rate, conserved, verified = self._rate(list(contributions.values()))
         if conserved and not (system.is_continuous and is_continuous(charge)):
             # constant only between the places where it jumps
@@ -226,9 +218,7 @@ class Noether:
         parts = {
             CHANGE_OF_L: change - system.total_derivative(boundary),
             "the applied forces": dot(system.forces, eta),
-            "the dissipation": -sympy.Add(
-                *(system.D.diff(v) * e for v, e in zip(system.qdot, eta, strict=True))
-            ),
+            "the dissipation": -dot(map(system.D.diff, system.qdot), eta),
         }
         for equation in dynamics.constraints.equations:
             # a . (Dq - q' Dt) = a . Dq + b Dt on the motion

@@ -15,7 +15,7 @@ import sympy
 from mpmath import mpf
 from sympy import Expr
 
-from lagcli.algebra import Shapes, solve_linear
+from lagcli.algebra import Shapes, dot, solve_linear
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.row_rank import independent_rows
 from lagcli.mechanics.states import DIGITS, State
@@ -62,10 +62,7 @@ def determined_unknowns(
     for j, value in zip(columns, solution.values, strict=True):
         assert isinstance(value, Expr)
         x[j] = value
-    residuals = [
-        sympy.Add(*(k * value for k, value in zip(row, x, strict=True)), -r)
-        for row, r in zip(K, right, strict=True)
-    ]
+    residuals = [dot(row, x) - r for row, r in zip(K, right, strict=True)]
     verdict = verifier.all_zero(residuals)
     if verdict.holds is not True:
         return None

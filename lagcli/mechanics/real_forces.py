@@ -18,7 +18,7 @@ from itertools import combinations
 import sympy
 from sympy import Expr, S
 
-from lagcli.algebra import is_zero
+from lagcli.algebra import dot, is_zero
 from lagcli.algebra.signs import sign
 from lagcli.expression import Expression
 from lagcli.mechanics.constraint_force import Vector, fixed_axes, on_points, turning_coordinates
@@ -186,8 +186,7 @@ class RealForces:
         for i, j in combinations(range(len(c)), 2):
             if is_zero(c[i] * d[j] - c[j] * d[i], relations) is not True:
                 return None
-        inner = sympy.Add(*(a * b for a, b in zip(c, d, strict=True)))
-        inner = self.shapes.simplify(inner)
+        inner = self.shapes.simplify(dot(c, d))
         factor = sign(inner)
         if factor is None and (inner.is_nonnegative or inner.is_nonpositive):
             factor = 1 if inner.is_nonnegative else -1  # 0 only where the force vanishes with c
@@ -223,7 +222,7 @@ class RealForces:
             acting = self._gradients.get(name, {})
             if not (one_sided or given.acts_as == "normal") or acting.keys() != tangential.keys():
                 continue
-            products = [_inner(acting[p], tangential[p]) for p in acting]
+            products = [dot(acting[p], tangential[p]) for p in acting]
             if all(is_zero(product, relations) is True for product in products):
                 found.append(name)
         return found
@@ -266,10 +265,6 @@ class RealForces:
                 positive.append(direction * modulus.args[0])
                 size = size.xreplace({modulus: positive[-1]})
         return size, positive
-
-
-def _inner(a: Vector, b: Vector) -> Expr:
-    return sympy.Add(*(x * y for x, y in zip(a, b, strict=True)))
 
 
 def _moves(position: Vector, dynamics: Dynamics) -> bool:

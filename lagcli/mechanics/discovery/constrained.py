@@ -18,6 +18,7 @@ import mpmath
 import sympy
 from sympy import Expr
 
+from lagcli.algebra import dot
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery.brackets import rank
 from lagcli.mechanics.discovery.limits import Allowance
@@ -38,10 +39,7 @@ def tangent(
     system = dynamics.system
     vectors: list[list[Expr]] = [
         [
-            sympy.Add(
-                *(a * x for a, x in zip(equation.row, transformation.changes, strict=True)),
-                equation.drift * transformation.time,
-            )
+            dot(equation.row, transformation.changes) + equation.drift * transformation.time
             for equation in dynamics.constraints.equations
         ]
         for transformation in transformations

@@ -15,7 +15,7 @@ import sympy
 from flint import nmod_mat
 from sympy import Expr, Symbol
 
-from lagcli.algebra import is_zero, simplify
+from lagcli.algebra import dot, is_zero, simplify
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import (
@@ -84,7 +84,7 @@ class FormulaSurface:
         """The velocities that the others determine, by what they then are."""
         found: dict[Expr, Expr] = {}
         for row, drift in zip(self._rows, self._drifts, strict=True):
-            form = sympy.Add(*(a * v for a, v in zip(row, self._moving, strict=True)), drift)
+            form = dot(row, self._moving) + drift
             form = form.xreplace(found)
             v = next((v for v in reversed(self._moving) if is_zero(form.diff(v)) is not True), None)
             if v is None:

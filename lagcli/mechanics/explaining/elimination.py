@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import is_zero, solve_linear
+from lagcli.algebra import dot, is_zero, solve_linear
 from lagcli.document import Block, Equations, Label, Matrix, Row
 from lagcli.expression import ZERO, Expression, Name, operation_count
 from lagcli.mechanics.constraints import ConstraintEquation
@@ -185,12 +185,8 @@ def _with_multipliers(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
 def _derivatives(teller: Teller, kept: Sequence[ConstraintEquation]) -> Iterator[Row]:
     system, by_terms = teller.system, teller.readable.by_terms
     for equation in kept:
-        still = sympy.Add(
-            *(a * v for a, v in zip(equation.row, system.qdot, strict=True)), equation.drift
-        )
-        twice = sympy.Add(
-            *(a * w for a, w in zip(equation.row, system.qddot, strict=True)), equation.bias
-        )
+        still = dot(equation.row, system.qdot) + equation.drift
+        twice = dot(equation.row, system.qddot) + equation.bias
         if equation.holonomic:
             yield Row(by_terms(still), ZERO, f"{equation.name}, differentiated once")
             yield Row(by_terms(twice), ZERO, f"{equation.name}, differentiated twice")
@@ -205,10 +201,7 @@ def _eliminated(
     by_multipliers = _by_multipliers(teller, kept)
     if by_multipliers is None:
         return None
-    conditions = [
-        sympy.Add(*(a * w for a, w in zip(e.row, by_multipliers, strict=True)), e.bias)
-        for e in kept
-    ]
+    conditions = [dot(e.row, by_multipliers) + e.bias for e in kept]
     if not _agree(teller, motion, by_multipliers, conditions):
         return None
     by_terms = teller.readable.by_terms

@@ -20,7 +20,7 @@ from itertools import combinations, product
 import sympy
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import Field, is_zero, nullspace, simplify
+from lagcli.algebra import Field, dot, is_zero, nullspace, simplify
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.equations import is_decimal, rounded
 from lagcli.algebra.field import common_denominator
@@ -206,10 +206,7 @@ class RestPoints:
         if self._one_gradient:
             forces = self._along_one
         elif constraints.equations:
-            forces = [
-                sympy.Add(*(v * f for v, f in zip(vector, forces, strict=True)))
-                for vector in _polynomial(nullspace(constraints.jacobian))
-            ]
+            forces = [dot(v, forces) for v in _polynomial(nullspace(constraints.jacobian))]
         return [e for e in (*conditions, *forces) if is_zero(e) is not True]
 
     @cached_property
@@ -299,11 +296,7 @@ class RestPoints:
         if not constraints.equations:
             return forces
         rows = [[at(a, values) for a in row] for row in constraints.jacobian]
-        along = [
-            sympy.Add(*(v * f for v, f in zip(vector, forces, strict=True)))
-            for vector in nullspace(rows)
-        ]
-        return [*conditions, *along]
+        return [*conditions, *(dot(vector, forces) for vector in nullspace(rows))]
 
     def _evident(self) -> list[RestPoint]:
         """Of the states q = 0, with angles at 0 or pi, those that are equilibria."""

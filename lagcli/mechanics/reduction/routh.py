@@ -19,10 +19,9 @@ from __future__ import annotations
 
 from functools import cached_property
 
-import sympy
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import is_zero, shape, simplify
+from lagcli.algebra import dot, is_zero, shape, simplify
 from lagcli.algebra.build import free_of
 from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.constraints import ConstraintEquation
@@ -131,8 +130,7 @@ class Routh:
             return simplify(self.system.L)
         assert self._inverse is not None
         flow = (self.system.qdot[j] for j in self.cyclic)
-        action = sympy.Add(*(p * v for p, v in zip(self.momenta, flow, strict=True)))
-        legendre = LegendreTransform(self.full.dynamics)
+        legendre, action = LegendreTransform(self.full.dynamics), dot(self.momenta, flow)
         return legendre.with_images(self.system.L - action, [(self.cyclic, self._inverse)])
 
     @cached_property

@@ -21,7 +21,7 @@ from itertools import combinations
 import sympy
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import is_zero, nullspace, simplify
+from lagcli.algebra import dot, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.factors import factors_of
@@ -482,9 +482,7 @@ class SteadyMotions:
         if any(entry.has(sympy.zoo, sympy.nan) for row in there for entry in row):
             return []
         rows = nullspace(there)
-        conditions = [
-            sympy.Add(*(v * p for v, p in zip(row, momenta, strict=True))) for row in rows
-        ]
+        conditions = [dot(row, momenta) for row in rows]
         solved = solve_system(conditions, momenta)
         if len(solved.solutions) != 1 or not solved.complete:
             return []

@@ -14,7 +14,7 @@ from itertools import combinations
 from sympy import Abs, Add, Expr, Integer, S, Symbol
 from sympy import sign as sign_function
 
-from lagcli.algebra import is_zero, nullspace, simplify
+from lagcli.algebra import dot, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.dynamics import Dynamics
@@ -87,7 +87,7 @@ def _loss(
         ]
         put_in = dict(zip(velocities, flow, strict=True))
         differences = [d.xreplace(put_in) for d in differences]
-    return Add(*(v * d for v, d in zip(flow, differences, strict=True))), chosen
+    return dot(flow, differences), chosen
 
 
 def _never_negative(loss: Expr, velocities: Sequence[Symbol]) -> bool:

@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import sympy
-from sympy import Add, Expr, S, Symbol
+from sympy import Expr, S, Symbol
 
-from lagcli.algebra import is_zero, simplify
+from lagcli.algebra import dot, is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.characteristic import determinant
@@ -82,6 +82,6 @@ def _translates(
     steps = [S.One if s == along else shift.get(s, S.Zero) for s in q]
     if any(not free_of(step, q) for step in steps):
         return False
-    work = Add(*(step * force for step, force in zip(steps, forces, strict=True)))
-    moved = [Add(*(step * f.diff(s) for step, s in zip(steps, q, strict=True))) for f in surface]
+    work = dot(steps, forces)
+    moved = [dot(steps, map(f.diff, q)) for f in surface]
     return all(is_zero(each) is True for each in (work, *moved))

@@ -12,7 +12,7 @@ from mpmath import mpf
 from sympy import Expr, S, Symbol
 from sympy.core.function import AppliedUndef
 
-from lagcli.algebra import nullspace, rank, simplify
+from lagcli.algebra import dot, nullspace, rank, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.oscillations.characteristic import (
@@ -202,11 +202,7 @@ class Near:
         rows = linear.rows
         if not (rows and self._tangents):
             return 0
-        products = [
-            [sympy.Add(*(a * x for a, x in zip(row, dq, strict=True))) for dq in self._tangents]
-            for row in rows
-        ]
-        return rank(products)
+        return rank([[dot(row, dq) for dq in self._tangents] for row in rows])
 
     @cached_property
     def dimension(self) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import left_nullspace
+from lagcli.algebra import dot, left_nullspace
 from lagcli.expression import Equation
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
@@ -41,9 +41,7 @@ def _on_motion(rest: Expr, dynamics: Dynamics) -> list[Expr]:
     conditions = [rest.xreplace(values)]
     if dynamics.redundant:
         for vector in left_nullspace(dynamics.constraints.jacobian, dynamics.constraints.relations):
-            change = sympy.Add(
-                *(n * rest.diff(lam) for n, lam in zip(vector, multipliers, strict=True))
-            )
+            change = dot(vector, map(rest.diff, multipliers))
             conditions.append(change.xreplace(values))
     return conditions
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import cast
 
-import sympy
 from sympy import Expr, Symbol
 
 from lagcli.abbreviations import written_out
+from lagcli.algebra import dot
 from lagcli.mechanics.derivation import Derivation
 from lagcli.statements.answers import (
     AccelerationsSection,
@@ -88,8 +88,7 @@ class Laws:
             return self.dynamics.total_constraint_force
         built = [self.system.build(value) for value in values if value is not None]
         return [
-            sympy.Add(*(x * e.row[j] for x, e in zip(built, constraints.equations, strict=True)))
-            for j in range(len(self.system.q))
+            dot(built, (e.row[j] for e in constraints.equations)) for j in range(len(self.system.q))
         ]
 
     def _constraints(self, motion: dict[Symbol, Expr]) -> Iterator[Finding | None]:
