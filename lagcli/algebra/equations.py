@@ -19,6 +19,7 @@ from sympy import Dummy, Expr, Rational, S, Symbol
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.ring import Poly, factorization
+from lagcli.algebra.roots import substitute_square
 from lagcli.algebra.simplification import shape, simplify
 from lagcli.expression import Expression, Negative, Number
 
@@ -83,14 +84,9 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
 
 def coefficients(field: Field, poly: Poly, generator: int) -> list[Element]:
     """The coefficients by powers of a generator, constant term first."""
-    ring = field.ring
-    parts: dict[int, list[tuple[tuple[tuple[int, int], ...], int]]] = {}
-    for monomial, coefficient in ring.terms(poly):
-        exponent = dict(monomial).get(generator, 0)
-        rest = tuple(pair for pair in monomial if pair[0] != generator)
-        parts.setdefault(exponent, []).append((rest, coefficient))
+    parts = field.ring.coefficients(poly, generator)
     degree = max(parts, default=0)
-    return [field.polynomial(ring.build(parts.get(k, []))) for k in range(degree + 1)]
+    return [field.polynomial(parts.get(k, field.ring.zero)) for k in range(degree + 1)]
 
 
 def polynomial_roots(field: Field, poly: Poly, generator: int) -> list[Expr] | None:
@@ -269,15 +265,9 @@ def _angles(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
 def _without_cosine(field: Field, poly: Poly, cosine: int) -> Poly | None:
     """The polynomial in the sine alone, with cos² = 1 - sin², where it is one."""
     ring = field.ring
-    s = ring.generator(cosine + 1)
-    result = ring.zero
-    for monomial, coefficient in ring.terms(poly):
-        exponent = dict(monomial).get(cosine, 0)
-        if exponent % 2:
-            return None
-        rest = tuple(pair for pair in monomial if pair[0] != cosine)
-        result += ring.build([(rest, coefficient)]) * (ring.one - s * s) ** (exponent // 2)
-    return result
+    if any(power % 2 for power in ring.coefficients(poly, cosine)):
+        return None
+    return substitute_square(field, poly, cosine, ring.one - ring.generator(cosine + 1) ** 2)
 
 
 def _logarithms(field: Field, poly: Poly, exponential: int) -> list[Expr] | None:
@@ -370,6 +360,5 @@ def _by_half_angle(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
     if values is None:
         return None
     angles = [2 * sympy.atan(value) for value in values]
-    at_pi = poly
-    at_pi = ring.compose(at_pi, {cosine: ring.constant(-1), sine: ring.zero})
+    at_pi = ring.compose(poly, {cosine: ring.constant(-1), sine: ring.zero})
     return [sympy.pi, *angles] if at_pi == 0 else angles

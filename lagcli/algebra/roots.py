@@ -212,14 +212,9 @@ def substitute_square(field: Field, poly: Poly, index: int, value: Poly) -> Poly
     """The polynomial with g_index² replaced by value."""
     ring = field.ring
     poly = ring.lift(poly)
-    by_power: dict[int, list[tuple[tuple[tuple[int, int], ...], int]]] = {}
-    for monomial, coefficient in ring.terms(poly):
-        exponent = dict(monomial).get(index, 0)
-        rest = tuple((g, e % 2 if g == index else e) for g, e in monomial if g != index or e % 2)
-        by_power.setdefault(exponent // 2, []).append((rest, coefficient))
     result = ring.zero
-    for power, terms in by_power.items():
-        result += ring.build(terms) * value**power
+    for power, coefficient in ring.coefficients(poly, index).items():
+        result += coefficient * ring.generator(index) ** (power % 2) * value ** (power // 2)
     return result
 
 

@@ -23,7 +23,6 @@ Featherstone, *Rigid Body Dynamics Algorithms*, chapter 6 (the same along a chai
 
 from __future__ import annotations
 
-import random
 from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
@@ -34,18 +33,16 @@ from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node, Symbol, mask_of
 from lagcli.graph.sharing import operations
 from lagcli.graph.substitution import Substitution
-from lagcli.graph.values import Digits, Program
 from lagcli.mechanics.abbreviation import PartLabels, Written, abbreviated
 from lagcli.mechanics.gathering import gathered
+from lagcli.mechanics.identities import vanish
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.mechanics.symbolic_elimination import StepNames, SymbolicElimination
 from lagcli.notation.given_formulas import order_of_parameters
 from lagcli.problem_data import Problem
 from lagcli.record import record
 
-_DIGITS = 50
 _CLOSE = 30  # digits to which the residuals vanish
-_ATTEMPTS = 20
 _UNIT = Fraction(1)
 
 
@@ -248,47 +245,10 @@ class ClosedForm:
     def _holds(
         self, steps: SymbolicElimination, matrix: Sequence[Sequence[Node]], right: Sequence[Node]
     ) -> bool:
-        """Whether K x = r at a random state, to 50 digits: the steps put in one after another."""
-        import mpmath
-
-        graph, source = self.graph, random.Random("lagcli")
-        unknowns = steps.unfolded
+        """Whether K x = r at random states: the steps put in one after another."""
+        graph, unknowns = self.graph, steps.unfolded
         residuals = [
-            graph.sum(
-                [
-                    *(graph.product(k, x) for k, x in zip(row, unknowns, strict=True)),
-                    graph.scaled(r, -1),
-                ]
-            )
+            graph.difference(graph.sum(map(graph.product, row, unknowns)), r)
             for row, r in zip(matrix, right, strict=True)
         ]
-        with mpmath.workdps(_DIGITS):
-            program = Program(residuals, Digits(), self.form.functions)
-            for _ in range(_ATTEMPTS):
-                state = _State(source, self.form)
-                try:
-                    found = program(state)
-                except (ArithmeticError, ValueError):
-                    continue
-                return all(abs(x) < mpmath.mpf(10) ** -_CLOSE for x in found)
-        return False
-
-
-class _State(dict[str, object]):
-    """A random value for every symbol, drawn at its first use."""
-
-    def __init__(self, source: random.Random, form: MatrixForm) -> None:
-        super().__init__()
-        self._source = source
-        self._negative = {
-            q.name
-            for q in (*form.problem.parameters, *form.problem.coordinates)
-            if q.assume == "negative"
-        }
-
-    def __missing__(self, name: str) -> object:
-        import mpmath
-
-        size = mpmath.mpf(self._source.randint(6000, 17000)) / 10007
-        value = self[name] = -size if name in self._negative else size
-        return value
+        return vanish(residuals, self.form, _CLOSE) is True

@@ -11,7 +11,6 @@ that vanishes has a part in it.
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import mpmath
 import sympy
@@ -20,19 +19,16 @@ from sympy import Expr
 
 from lagcli.algebra import Shapes, dot, is_zero, left_nullspace, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.row_rank import independent_rows
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.euler_lagrange import EulerLagrange
-from lagcli.mechanics.row_rank import independent_rows
+from lagcli.mechanics.motion_at_states import MotionAtStates
 from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates
 from lagcli.mechanics.system import System
 from lagcli.mechanics.verify import Verifier, ZeroVerdict
 from lagcli.record import record
 from lagcli.statements.answers import Verification
-
-if TYPE_CHECKING:
-    from lagcli.mechanics.motion_at_states import MotionAtStates
 
 #: Beyond this many unknowns a symbolic solution is no longer readable: matrix form only.
 READABLE_UNKNOWNS = 12
@@ -151,16 +147,10 @@ class Dynamics:
     @property
     def _determined_by_constraints(self) -> bool:
         """Whether [[M, -A^T], [A, 0]] has full rank at a random state, dependent rows left out."""
-        rows = [self.constraints.equations[k].row for k in self.independent_constraints]
-        if not rows:
+        if not self.independent_constraints:
             return False
-        n, m = len(self.system.q), len(rows)
-        entries = [x for row in (*self.lagrange.mass_matrix, *rows) for x in row]
         with mpmath.workdps(DIGITS):
-            values = Evaluator(entries, DIGITS)(self.states.take(1)[0])
-            M, A = values[: n * n], values[n * n :]
-            square = [[*M[i * n : i * n + n], *(A[k * n + i] for k in range(m))] for i in range(n)]
-            square += [[*A[k * n : k * n + n], *([mpf(0)] * m)] for k in range(m)]
+            square = self._at_states.rows(self.states.take(1)[0])
             return not independent_rows(square, mpf(10) ** -25).dependent
 
     @cached_property
@@ -302,18 +292,14 @@ class Dynamics:
         on_motion = self.rate_on_motion(rate)
         if on_motion is not None:
             return self.verifier.is_zero(on_motion)
-        if self._along is None:
+        if self.undetermined:
             return ZeroVerdict(None, None)
-        holds = self.verifier.vanishes_at_random_states([rate], self._along.along)
+        holds = self.verifier.vanishes_at_random_states([rate], self._at_states.along)
         return ZeroVerdict(holds, None if holds is None else "50 digits" if holds else "exact")
 
     @cached_property
-    def _along(self) -> MotionAtStates | None:
-        """The motion in numbers; None where the equations do not determine it."""
-        if self.undetermined:
-            return None
-        from lagcli.mechanics.motion_at_states import MotionAtStates
-
+    def _at_states(self) -> MotionAtStates:
+        """The motion in numbers, where the equations determine it."""
         rows = [self.constraints.equations[k] for k in self.independent_constraints]
         return MotionAtStates(self.lagrange, rows)
 

@@ -27,6 +27,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.mechanics.hamiltonian import Hamiltonian
+from lagcli.mechanics.legendre import coupled
 from lagcli.mechanics.readable import Readable
 from lagcli.rewriting import rebuilt
 
@@ -124,14 +125,10 @@ def _kinetic(
 
 def _blocks(momenta: Sequence[Symbol], flow: Sequence[Expr]) -> Iterator[list[int]]:
     """The momenta that M^-1 couples; those apart that have the same mass are together."""
-    found: list[set[int]] = []
-    for i, v in enumerate(flow):
-        joined = {i} | {j for j, p in enumerate(momenta) if v.has(p)}
-        apart = [block for block in found if not block & joined]
-        found = [*apart, joined.union(*(block for block in found if block & joined))]
+    links = ({i, *(j for j, p in enumerate(momenta) if v.has(p))} for i, v in enumerate(flow))
     alike: dict[object, list[int]] = {}
-    for block in found:
-        first, *more = sorted(block)
+    for block in coupled(links):
+        first, *more = block
         key = first if more else simplify(flow[first] / momenta[first])
-        alike.setdefault(key, []).extend(sorted(block))
+        alike.setdefault(key, []).extend(block)
     yield from alike.values()

@@ -7,17 +7,18 @@ will see (Schwartz, J. ACM 27 (1980) 701).
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from lagcli.graph.nodes import Constant, Node, Symbol, ancestry
-from lagcli.graph.values import Concrete, Digits, Program
+from lagcli.graph.values import Digits, Program
+from lagcli.mechanics.matrix_form import MatrixForm
 
 _DIGITS = 50
 _POINTS = 2
 _ATTEMPTS = 8
 
 
-def vanish(nodes: Sequence[Node], functions: Mapping[str, Concrete]) -> bool | None:
+def vanish(nodes: Sequence[Node], form: MatrixForm, digits: int = _DIGITS) -> bool | None:
     """Whether all of the nodes are 0 for all values of their symbols; None: no value found."""
     if any(isinstance(node, Constant) and node.value for node in nodes):
         return False
@@ -26,9 +27,11 @@ def vanish(nodes: Sequence[Node], functions: Mapping[str, Concrete]) -> bool | N
         return True
     import mpmath
 
+    quantities = (*form.problem.parameters, *form.problem.coordinates)
+    negative = {q.name for q in quantities if q.assume == "negative"}
     with mpmath.workdps(_DIGITS + 15):
         scales = [part for node in open_nodes for part in node.parts]
-        program = Program([*open_nodes, *scales], Digits(), functions)
+        program = Program([*open_nodes, *scales], Digits(), form.functions)
         names = [
             n.name + "'" * n.primes
             for n in ancestry(open_nodes)
@@ -37,13 +40,14 @@ def vanish(nodes: Sequence[Node], functions: Mapping[str, Concrete]) -> bool | N
         source = random.Random("lagcli")
         found = 0
         for _ in range(_ATTEMPTS):
-            point = {name: mpmath.mpf(source.randint(3001, 13007)) / 10007 for name in names}
+            point = {n: mpmath.mpf(source.randint(3001, 13007)) / 10007 for n in names}
+            point |= {n: -x for n, x in point.items() if n in negative}
             try:
                 values = program(point)
             except (ArithmeticError, ValueError):
                 continue
             size = 1 + max((abs(value) for value in values[len(open_nodes) :]), default=0)
-            if any(abs(v) > size * mpmath.mpf(10) ** -_DIGITS for v in values[: len(open_nodes)]):
+            if any(abs(v) > size * mpmath.mpf(10) ** -digits for v in values[: len(open_nodes)]):
                 return False
             found += 1
             if found == _POINTS:

@@ -44,7 +44,7 @@ class LargeCharges:
         self.graph = form.graph
 
     def _vanishes(self, *nodes: Node) -> bool | None:
-        return vanish(nodes, self.form.functions)
+        return vanish(nodes, self.form)
 
     @cached_property
     def cyclic(self) -> tuple[int, ...]:

@@ -15,7 +15,7 @@ Landau, Lifshitz, *The Classical Theory of Fields*, 4th ed., sections 9 and 16.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -151,12 +151,8 @@ class Inversion:
         """The sets of variables that the Hessian couples."""
         if self.is_quadratic:
             return [tuple(range(len(self.gradient)))]  # one linear system
-        blocks: list[set[int]] = []
-        for i, row in enumerate(self._hessian):
-            joined = {i} | {j for j, entry in enumerate(row) if entry != 0}
-            apart = [block for block in blocks if not block & joined]
-            blocks = [*apart, joined.union(*(block for block in blocks if block & joined))]
-        return [tuple(sorted(block)) for block in blocks]
+        rows = enumerate(self._hessian)
+        return coupled({i, *(j for j, entry in enumerate(row) if entry != 0)} for i, row in rows)
 
     def _inverses(self, block: Block) -> Iterator[Inverse]:
         momenta = [self.gradient[j] for j in block]
@@ -253,6 +249,15 @@ class LegendreTransform(Inversion):
             system.momenta,
             dynamics.states.take,
         )
+
+
+def coupled(links: Iterable[set[int]]) -> list[Block]:
+    """The blocks of what is linked, directly or through others."""
+    blocks: list[set[int]] = []
+    for link in links:
+        apart = [block for block in blocks if not block & link]
+        blocks = [*apart, link.union(*(block for block in blocks if block & link))]
+    return [tuple(sorted(block)) for block in blocks]
 
 
 def _powers(expression: Expr) -> Iterator[Pow]:

@@ -13,6 +13,7 @@ from mpmath import mpf
 from sympy import Symbol
 
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.row_rank import rows_of
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.euler_lagrange import EulerLagrange
 from lagcli.mechanics.states import DIGITS, State
@@ -44,16 +45,16 @@ class MotionAtStates:
         for state in states:
             with mpmath.workdps(DIGITS + 10):
                 try:
-                    solved = mpmath.lu_solve(self._matrix(state), self._right(state))
+                    solved = mpmath.lu_solve(mpmath.matrix(self.rows(state)), self._right(state))
                 except (ArithmeticError, ValueError):
                     continue
             found = dict(zip(self._unknowns, solved, strict=True))
             yield {**state, **dict.fromkeys(self._others, mpf(0)), **found}
 
-    def _matrix(self, state: State) -> mpmath.matrix:
+    def rows(self, state: State) -> list[list[mpf]]:
+        """[[M, -A^T], [A, 0]]."""
         n, m = self._shape
         values = self._matrices(state)
-        M, A = values[: n * n], values[n * n :]
-        rows = [[*M[i * n : i * n + n], *(-A[k * n + i] for k in range(m))] for i in range(n)]
-        rows += [[*A[k * n : k * n + n], *([mpf(0)] * m)] for k in range(m)]
-        return mpmath.matrix(rows)
+        M, A = rows_of(values[: n * n], n), rows_of(values[n * n :], n)
+        above = [[*row, *(-a[i] for a in A)] for i, row in enumerate(M)]
+        return [*above, *([*a, *([mpf(0)] * m)] for a in A)]

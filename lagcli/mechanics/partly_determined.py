@@ -17,13 +17,13 @@ from sympy import Expr
 
 from lagcli.algebra import Shapes, dot, solve_linear
 from lagcli.algebra.numeric import Evaluator
-from lagcli.mechanics.row_rank import independent_rows
+from lagcli.algebra.row_rank import independent_rows, rows_of
 from lagcli.mechanics.states import DIGITS, State
 from lagcli.mechanics.verify import Verifier, ZeroVerdict
 
 _DEPENDENT = mpf(10) ** -25  # of the length of a row at 60 digits
 
-Numbers = list[list[mpf]]
+Numbers = Sequence[Sequence[mpf]]
 
 
 def determined_unknowns(
@@ -49,8 +49,7 @@ def determined_unknowns(
     """
     n = len(K)
     with mpmath.workdps(DIGITS + 10):
-        flat = Evaluator([x for row in K for x in row], DIGITS + 10)(state)
-        numbers = [flat[i * n : (i + 1) * n] for i in range(n)]
+        numbers = rows_of(Evaluator([x for row in K for x in row], DIGITS + 10)(state), n)
         rows = _independent(numbers)
         columns = _independent([list(column) for column in zip(*numbers, strict=True)])
         certain = [_in_span(numbers, k) for k in range(n)]

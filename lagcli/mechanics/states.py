@@ -19,8 +19,8 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra.build import without_jumps
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.row_rank import Elimination, independent_rows, least_norm_solution, rows_of
 from lagcli.mechanics.constraints import Constraints
-from lagcli.mechanics.row_rank import Elimination, independent_rows, least_norm_solution
 from lagcli.mechanics.system import System
 
 DIGITS = 50
@@ -219,8 +219,7 @@ class RandomStates:
             return
 
     def _independent(self, flat: Sequence[mpf], width: int) -> tuple[int, ...]:
-        rows = [flat[i * width : (i + 1) * width] for i in range(len(self._positions))]
-        return independent_rows(rows, mpf(10) ** -25).independent
+        return independent_rows(rows_of(flat, width), mpf(10) ** -25).independent
 
     def _project_positions(self, state: State) -> int | None:
         return self._newton(state, self.system.q, self._f_rows) if self._positions else None
@@ -233,9 +232,9 @@ class RandomStates:
             if not all(is_real(v) for v in values):
                 return self._index(0)
             flat = gradients(state)
-            rows = [flat[i * n : (i + 1) * n] for i in range(len(values))]
             if not all(is_real(x) for x in flat):
                 return self._index(0)
+            rows = rows_of(flat, n)
             elimination = independent_rows(rows, mpf(10) ** -12)
             kept = elimination.independent
             if max(map(abs, values)) < _TOLERANCE:
@@ -268,8 +267,8 @@ class RandomStates:
         flat = self._a_rows(state)
         if not all(is_real(x) for x in flat):
             return 0
-        rows = [flat[i * (n + 1) : i * (n + 1) + n] for i in range(len(equations))]
-        drift = [flat[i * (n + 1) + n] for i in range(len(equations))]
+        rows = [row[:n] for row in rows_of(flat, n + 1)]
+        drift = flat[n :: n + 1]
         elimination = independent_rows(rows, mpf(10) ** -25)
         kept = elimination.independent
         corners = [

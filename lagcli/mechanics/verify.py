@@ -15,8 +15,8 @@ from sympy import Add, Expr
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.row_rank import independent_rows, rows_of
 from lagcli.mechanics.constraints import Constraints
-from lagcli.mechanics.row_rank import Elimination, independent_rows
 from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates, State, random_value
 from lagcli.record import record
 from lagcli.statements.answers import Verification
@@ -101,10 +101,12 @@ class Verifier:
         held = [e.f for e in constraints.equations if e.holonomic]
         forms = [*held, *constraints.velocity_forms, quantity]
         evaluate = Evaluator([form.diff(x) for form in forms for x in moving], DIGITS)
+        width, tolerance = len(moving), mpf(10) ** -20
         try:
             with mpmath.workdps(DIGITS):
                 return bool(constraints.equations) and all(
-                    len(forms) - 1 in _elimination(evaluate(state), len(moving)).dependent
+                    len(forms) - 1
+                    in independent_rows(rows_of(evaluate(state), width), tolerance).dependent
                     for state in self.states.take(_STATES)
                 )
         except (ArithmeticError, ValueError, Contradiction):
@@ -140,11 +142,6 @@ class Verifier:
                 if tested == wanted:
                     break
         return True if tested else None
-
-
-def _elimination(values: Sequence[mpf], width: int) -> Elimination:
-    rows = [values[i : i + width] for i in range(0, len(values), width)]
-    return independent_rows(rows, mpf(10) ** -20)
 
 
 def _vanish(groups: Sequence[Sequence[Expr]], values: Sequence[mpf]) -> bool | None:

@@ -118,7 +118,7 @@ class Atoms:
                 if short != tree:  # |sin(a + b)|, whose expression is that of the tree
                     return ((self.add(short), 1),)
             return ((self.add(tree, generator.expression), 1),)
-        return tuple((a, _exact(Fraction(e) / generator.index)) for a, e in self._inside(number))
+        return tuple((a, exact(Fraction(e) / generator.index)) for a, e in self._inside(number))
 
     def _with_short_arguments(
         self, tree: Call | PartialCall, expression: Expr
@@ -255,7 +255,8 @@ class Atoms:
         return True
 
 
-def _exact(value: Fraction) -> Exponent:
+def exact(value: Fraction) -> Exponent:
+    """An integer where it is one."""
     return value.numerator if value.denominator == 1 else value
 
 

@@ -15,7 +15,7 @@ from typing import TypeAlias
 from flint import Ordering, fmpz_mpoly_ctx
 
 from lagcli.algebra.ring import Poly, factorization
-from lagcli.algebra.shaping.atoms import Atoms, Coefficient, Exponent, Term, Terms, multiply
+from lagcli.algebra.shaping.atoms import Atoms, Coefficient, Exponent, Term, Terms, exact, multiply
 from lagcli.algebra.shaping.plan import PlannedProduct, PlannedSum, product, total
 
 _MAX_FACTORED = 400  # terms
@@ -239,7 +239,7 @@ class Grouper:
             inner: Integers = {}
             for key, value in factor.to_dict().items():
                 term = tuple(
-                    (a, int(e) if scales[a] == 1 else _exact(Fraction(int(e), scales[a])))
+                    (a, int(e) if scales[a] == 1 else exact(Fraction(int(e), scales[a])))
                     for a, e in zip(used, key, strict=True)
                     if e
                 )
@@ -251,10 +251,6 @@ class Grouper:
                 number *= plan.coefficient ** int(exponent)
                 parts.extend((p, e * int(exponent)) for p, e in plan.parts)
         return product(self.atoms, number, parts)
-
-
-def _exact(value: Fraction) -> Exponent:
-    return value.numerator if value.denominator == 1 else value
 
 
 def _kernels(halves: list[tuple[Integers, Integers]]) -> list[tuple[Integers, Integers]]:

@@ -18,10 +18,10 @@ from sympy import Expr, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.row_rank import independent_rows, least_norm_solution
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.initial import InitialState
 from lagcli.mechanics.noether import Noether
-from lagcli.mechanics.row_rank import independent_rows, least_norm_solution
 from lagcli.mechanics.states import Contradiction, State
 from lagcli.mechanics.total_derivative import boundary_term
 

@@ -42,6 +42,11 @@ def independent_rows(rows: Sequence[Sequence[mpf]], tolerance: mpf) -> Eliminati
     return Elimination(tuple(independent), tuple(dependent))
 
 
+def rows_of(entries: Sequence[mpf], width: int) -> list[Sequence[mpf]]:
+    """A matrix that is written row after row."""
+    return [entries[i : i + width] for i in range(0, len(entries), width)]
+
+
 def least_norm_solution(rows: Sequence[Sequence[mpf]], right: Sequence[mpf]) -> list[mpf]:
     """The shortest x with rows . x = right, rows independent: x = A^T (A A^T)^-1 right."""
     a = mpmath.matrix([list(row) for row in rows])
