@@ -9,7 +9,7 @@ from lagcli.expression import ZERO, Equation
 from lagcli.problem_data import Contact
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
-from lagcli.reader.scope import POSITION, VALUES, name_mistake
+from lagcli.reader.scope import POSITION, VALUES, Kind, name_mistake
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
@@ -20,59 +20,66 @@ _ATTRIBUTES = ("gap", RESTITUTION, "multiplier")
 _HINT = "write floor: {gap: y >= 0, restitution: 0.8}"
 
 
-class DeclaredContact(NamedTuple):
-    """A contact whose multiplier has its name and whose gap is not read yet."""
+class Declared(NamedTuple):
+    """A contact or constraint whose multiplier has its name, and what is not read yet."""
 
     key: Scalar
     multiplier: str
-    gap: DocumentNode | None
-    restitution: DocumentNode | None
+    attributes: dict[str, DocumentNode]
+
+
+def declared(
+    sections: Sections, key: Scalar, value: DocumentNode, kind: Kind, known: tuple[str, ...]
+) -> Declared | None:
+    """Enter the multiplier into the scope; None where the name is not valid.
+
+    The value is a map with the `known` attributes, or the first of them alone.
+    """
+    what, hint = ("contact", _HINT) if known == _ATTRIBUTES else ("constraint", "")
+    if name_mistake(f"a{key.label}") is not None or not key.label:  # lambda_<name> must be a name
+        message = f"'{key.label}' is not a valid name for a {what}"
+        sections.error(message, key.span, "a name has letters, digits and underscores")
+        return None
+    multiplier, place = f"lambda_{key.label}", key.span
+    attributes = {known[0]: value}
+    if isinstance(value, Mapping):
+        what = f"the {what} '{key.label}'"
+        found = sections.attributes(value, what, known)
+        attributes = {name: attribute for name, (_, attribute) in found.items()}
+        if known[0] not in attributes:
+            sections.error(f"{what} has no {known[0]}", key.span, hint)
+        if "multiplier" in attributes:
+            text = sections.scalar(attributes["multiplier"], "'multiplier'")
+            if text is not None:
+                multiplier, place = text.label, text.span
+    sections.declare(multiplier, kind, place)
+    return Declared(key, multiplier, attributes)
 
 
 def declare_contacts(
     sections: Sections, node: DocumentNode, constraints: set[str]
-) -> list[DeclaredContact]:
+) -> list[Declared]:
     """Enter the multipliers into the scope; a constraint's name is taken."""
-    declared = []
+    contacts = []
     for key, value in sections.entries(node, "contacts", _HINT):
-        wrong = name_mistake(f"a{key.label}")
-        if wrong is not None or not key.label:
-            hint = "a name has letters, digits and underscores"
-            sections.error(f"'{key.label}' is not a valid name for a contact", key.span, hint)
-            continue
         if key.label in constraints:
             sections.error(f"'{key.label}' is a constraint already", key.span)
-            continue
-        multiplier, place = f"lambda_{key.label}", key.span
-        attributes: dict[str, DocumentNode] = {"gap": value}
-        if isinstance(value, Mapping):
-            what = f"the contact '{key.label}'"
-            found = sections.attributes(value, what, _ATTRIBUTES)
-            attributes = {name: attribute for name, (_, attribute) in found.items()}
-            if "gap" not in attributes:
-                sections.error(f"{what} has no gap", key.span, _HINT)
-            if "multiplier" in attributes:
-                text = sections.scalar(attributes["multiplier"], "'multiplier'")
-                if text is not None:
-                    multiplier, place = text.label, text.span
-        sections.declare(multiplier, "contact force", place)
-        declared.append(
-            DeclaredContact(key, multiplier, attributes.get("gap"), attributes.get(RESTITUTION))
-        )
-    return declared
+        elif one := declared(sections, key, value, "contact force", _ATTRIBUTES):
+            contacts.append(one)
+    return contacts
 
 
-def read_contacts(sections: Sections, declared: list[DeclaredContact]) -> tuple[Contact, ...]:
+def read_contacts(sections: Sections, given: list[Declared]) -> tuple[Contact, ...]:
     """The contacts, the larger side of each gap on the left."""
     contacts = []
-    for one in declared:
-        if one.gap is None:
+    for one in given:
+        if "gap" not in one.attributes:
             continue
         what = f"the contact '{one.key.label}'"
-        gap = _gap(sections, one.gap, what)
+        gap = _gap(sections, one.attributes["gap"], what)
         restitution = None
-        if one.restitution is not None:
-            restitution = read_restitution(sections, one.restitution, what)
+        if RESTITUTION in one.attributes:
+            restitution = read_restitution(sections, one.attributes[RESTITUTION], what)
         contacts.append(
             Contact(
                 name=one.key.label,

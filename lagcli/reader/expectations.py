@@ -4,17 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from lagcli.problem_data import (
-    BracketQuestion,
-    CanonicalTransformation,
-    Constraint,
-    Contact,
-    Expect,
-    Inequality,
-    Point,
-    Question,
-    Symmetry,
-)
+from lagcli.problem_data import Expect, Inequality, Problem
 from lagcli.reader.columns import named_columns
 from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
@@ -38,26 +28,17 @@ class ExpectReader:
     What may stand under the key of a section of the answers, that section declares.
     """
 
-    def __init__(
-        self,
-        sections: Sections,
-        constraints: tuple[Constraint, ...],
-        contacts: tuple[Contact, ...],
-        symmetries: tuple[Symmetry, ...],
-        find: tuple[Question, ...],
-        points: tuple[Point, ...],
-        brackets: tuple[BracketQuestion, ...],
-        transformations: tuple[CanonicalTransformation, ...],
-    ) -> None:
+    def __init__(self, sections: Sections, problem: Problem) -> None:
         self.sections = sections
-        self.constraints = [constraint.name for constraint in constraints]
-        self.holding = [*self.constraints, *(contact.name for contact in contacts)]
-        self.columns = named_columns(sections.scope, (*constraints, *contacts), symmetries)
-        self.symmetries = [symmetry.name for symmetry in symmetries]
-        self.brackets = [bracket.name for bracket in brackets]
-        self.transformations = transformations
-        self.points = [point.name for point in points]
-        self.questions = {question.name: question for question in find}
+        self.problem = problem
+        self.constraints = [constraint.name for constraint in problem.constraints]
+        holding = (*problem.constraints, *problem.contacts)
+        self.holding = [each.name for each in holding]
+        self.columns = named_columns(sections.scope, holding, problem.symmetries)
+        self.symmetries = [symmetry.name for symmetry in problem.symmetries]
+        self.brackets = [bracket.name for bracket in problem.brackets]
+        self.points = [point.name for point in problem.points]
+        self.questions = {question.name: question for question in problem.find}
         self.ranges: dict[str, tuple[tuple[Inequality, ...], ...]] = {}
         self.spans: dict[tuple[str, ...], Span] = {}
 
@@ -108,6 +89,13 @@ class ExpectReader:
         """A map from coordinates to formulas."""
         self.note(node, section)
         return read_by_coordinate(self.sections, node, section, what, role)
+
+    def by_constraint(self, node: DocumentNode, section: str, what: str) -> dict[str, Expression]:
+        """A map from constraints to formulas."""
+        return {
+            key.label: self.sections.expression(value, what.format(key.label), ANSWER)
+            for key, value in self.known(node, section, self.constraints, "constraint")
+        }
 
     def note(self, node: DocumentNode, *path: str) -> None:
         """Remember where the entries of a map stand."""

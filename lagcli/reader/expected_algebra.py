@@ -14,7 +14,6 @@ if TYPE_CHECKING:
 _COUNTS = ("dimension", "independent", "in_involution")
 _KEYS = (*_COUNTS, "name", "integrable", "special")
 _SPECIAL = ("where", "charges", "discovered")
-_WORDS = {"yes": True, "no": False}
 _CHARGE = Role(order=1, why="an answer is free of accelerations")
 
 
@@ -32,14 +31,10 @@ def read_algebra(reader: ExpectReader, node: DocumentNode) -> ExpectAlgebra:
                 _special(reader, item, ("algebra", name, str(place)))
                 for place, item in enumerate(items)
             )
+        elif name == "integrable":
+            found[name] = sections.yes_or_no(value, name)
         elif (text := sections.scalar(value, f"'{name}'")) is not None:
-            word = text.value.strip()
-            if name == "name":
-                found[name] = word
-            elif word in _WORDS:
-                found[name] = _WORDS[word]
-            else:
-                sections.error("'integrable' is yes or no", text.span)
+            found[name] = text.value.strip()
     return ExpectAlgebra(**found)
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from lagcli.problem_data import (
@@ -15,6 +13,7 @@ from lagcli.problem_data import (
 from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.nodes import DocumentNode, Scalar, Sequence
 from lagcli.reader.scope import Role
+from lagcli.reader.sections import YES_OR_NO
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
@@ -38,28 +37,14 @@ _OF_W = {
     "functions": "the expected part W of the action by '{}'",
 }
 _SEPARATED = ("separable", *_OF_W)
-_WORDS = {"yes": True, "no": False}
 _KEYS = ("routhian", "effective_potential", "reconstruction", "turning_points", "period")
-
-
-@contextmanager
-def constants(sections: Sections) -> Iterator[None]:
-    """Let the constants of the answers stand in expressions, where the file has no such name."""
-    kinds = sections.scope.kinds
-    added = [name for name in CONSTANT_NAMES if name not in kinds]
-    kinds.update(dict.fromkeys(added, "parameter"))
-    try:
-        yield
-    finally:
-        for name in added:
-            del kinds[name]
 
 
 def read_reduction(reader: ExpectReader, node: DocumentNode) -> ExpectReduction:
     """`expect: {reduction: {routhian, effective_potential, …}}`."""
     sections, spans = reader.sections, reader.spans
     found: dict[str, Any] = {}
-    with constants(sections):
+    with sections.scope.also(CONSTANT_NAMES, "parameter"):
         entries = sections.attributes(node, "'reduction'", _KEYS)
         for name, (key, value) in entries.items():
             spans["reduction", name] = key.span
@@ -87,7 +72,7 @@ def read_steady_motions(reader: ExpectReader, node: DocumentNode) -> tuple[Expec
     """`expect: {steady_motions: [{at, rates, momenta, frequencies_squared, stable}]}`."""
     sections, spans = reader.sections, reader.spans
     motions = []
-    with constants(sections):
+    with sections.scope.also(CONSTANT_NAMES, "parameter"):
         for place, item in enumerate(sections.items(node, "'steady_motions'")):
             spans["steady_motions", str(place)] = item.span
             motions.append(_steady(sections, item))
@@ -129,8 +114,8 @@ def _steady(sections: Sections, node: DocumentNode) -> ExpectSteady:
 
 
 def _stable(sections: Sections, node: DocumentNode) -> bool | tuple[Inequality, ...] | None:
-    if isinstance(node, Scalar) and node.value.strip() in _WORDS:
-        return _WORDS[node.value.strip()]
+    if isinstance(node, Scalar) and node.value.strip() in YES_OR_NO:
+        return YES_OR_NO[node.value.strip()]
     items = node.items if isinstance(node, Sequence) else [node]
     what = "a condition of stability"
     read = [sections.comparison(item, what, _REDUCED) for item in items]
@@ -144,17 +129,13 @@ def read_hamilton_jacobi(reader: ExpectReader, node: DocumentNode) -> ExpectHami
     """`expect: {hamilton_jacobi: {separable: yes, derivatives: {x: …}, functions: {x: …}}}`."""
     sections, spans = reader.sections, reader.spans
     found: dict[str, Any] = {}
-    with constants(sections):
+    with sections.scope.also(CONSTANT_NAMES, "parameter"):
         entries = sections.attributes(node, "'hamilton_jacobi'", _SEPARATED)
         for name, (key, value) in entries.items():
             spans["hamilton_jacobi", name] = key.span
             if name in _OF_W:
                 what = _OF_W[name]
                 found[name] = read_by_coordinate(sections, value, f"'{name}'", what, _REDUCED)
-                continue
-            text = sections.scalar(value, "'separable'")
-            if text is not None and text.value.strip() in _WORDS:
-                found[name] = _WORDS[text.value.strip()]
-            elif text is not None:
-                sections.error("'separable' is yes or no", text.span)
+            else:
+                found[name] = sections.yes_or_no(value, name)
     return ExpectHamiltonJacobi(**found)

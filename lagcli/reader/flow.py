@@ -16,7 +16,7 @@ def mend_commas(node: DocumentNode) -> list[Diagnostic]:
     match node:
         case Mapping():
             values = [value for _, value in node.entries]
-            nothing = [len(values) > 0 and _is_nothing(value) for value in values]
+            nothing = [value.is_empty for value in values]
             keys: list[DocumentNode] = [key for key, _ in node.entries]
             keep, mistakes = _mend(values, keys, nothing)
             node.entries = [entry for entry, kept in zip(node.entries, keep, strict=True) if kept]
@@ -69,7 +69,3 @@ def _unclosed(node: DocumentNode) -> int:
     if isinstance(node, Scalar) and not node.style and not node.anchored:
         return node.value.count("(") - node.value.count(")")
     return 0
-
-
-def _is_nothing(node: DocumentNode) -> bool:
-    return isinstance(node, Scalar) and node.is_empty

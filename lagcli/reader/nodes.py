@@ -24,6 +24,11 @@ class DocumentNode:
     anchored: bool = field(default=False, kw_only=True)
 
     @property
+    def is_empty(self) -> bool:
+        """Whether nothing is written: `V:` and no value."""
+        return False
+
+    @property
     def span(self) -> Span:
         """The place of the node in the file."""
         return self.text.span(self.start, max(self.end, self.start))

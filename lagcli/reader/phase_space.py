@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from lagcli.expression import Name, walk
 from lagcli.problem_data import BracketQuestion, CanonicalTransformation, ExpectCanonical
 from lagcli.reader.nodes import DocumentNode, Scalar, Sequence
-from lagcli.reader.scope import PHASE_SPACE, Kind, name_mistake
+from lagcli.reader.scope import PHASE_SPACE, name_mistake
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
@@ -53,19 +52,6 @@ def _is_momentum(sections: Sections, key: Scalar) -> bool:
     return coordinate is not None
 
 
-@contextmanager
-def _also(sections: Sections, names: Iterable[str], kind: Kind) -> Iterator[None]:
-    """Let names stand in expressions that mean something there only."""
-    kinds = sections.scope.kinds
-    added = [n for n in dict.fromkeys(names) if n not in kinds and name_mistake(n) is None]
-    kinds.update(dict.fromkeys(added, kind))
-    try:
-        yield
-    finally:
-        for name in added:
-            del kinds[name]
-
-
 def read_brackets(
     sections: Sections, node: DocumentNode, symmetries: Iterable[Symmetry]
 ) -> tuple[BracketQuestion, ...]:
@@ -73,7 +59,7 @@ def read_brackets(
     found = []
     hint = "write name: [x, p_x]"
     names = [HAMILTONIAN, *(symmetry.name for symmetry in symmetries)]
-    with _also(sections, names, "observable"):
+    with sections.scope.also(names, "observable"):
         for key, value in sections.entries(node, "brackets", hint):
             what = f"the bracket '{key.label}'"
             items = sections.items(value, what, hint)
@@ -115,7 +101,7 @@ def _transformation(sections: Sections, key: Scalar, node: DocumentNode) -> Cano
         coordinates[label] = expression
     _check_complete(sections, key, what, coordinates, momenta, entries)
     given: dict[str, Any] = {}
-    with _also(sections, coordinates, "coordinate"):
+    with sections.scope.also(coordinates, "coordinate"):
         for place, (name, value) in enumerate(generating):
             if place:
                 sections.error(f"{what} has two generating functions", name.span, "give one")
@@ -199,11 +185,10 @@ def read_expected_brackets(
 def read_expected_canonical(
     sections: Sections,
     entries: Iterable[tuple[Scalar, DocumentNode]],
-    transformations: Iterable[CanonicalTransformation],
+    given: Mapping[str, CanonicalTransformation],
     spans: dict[tuple[str, ...], Span],
 ) -> dict[str, ExpectCanonical]:
     """`expect: {canonical: {name: {kind, valence, generates, hamiltonian}}}`."""
-    by_name = {each.name: each for each in transformations}
     found = {}
     for key, node in entries:
         values: dict[str, Any] = {}
@@ -219,7 +204,7 @@ def read_expected_canonical(
                 case "valence":
                     values[name] = sections.expression(value, "the expected valence", _FUNCTION)
                 case _:
-                    with _also(sections, by_name[key.label].coordinates, "coordinate"):
+                    with sections.scope.also(given[key.label].coordinates, "coordinate"):
                         what = "the expected new Hamiltonian"
                         values[name] = sections.expression(value, what, _FUNCTION)
         found[key.label] = ExpectCanonical(**values)

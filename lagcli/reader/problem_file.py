@@ -37,7 +37,7 @@ from lagcli.reader.sections import Sections
 from lagcli.reader.text import Mistake, SourceText, decode
 from lagcli.reader.undeclared import one_for_undeclared
 from lagcli.reader.value_checks import check_values, without_inertia
-from lagcli.record import record
+from lagcli.record import record, replace
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
@@ -158,16 +158,6 @@ def _read(sections: Sections, source: Source, root: DocumentNode) -> Problem | N
     observables = read_observables(sections, section("observables"))
     brackets = read_brackets(sections, section("brackets"), symmetries)
     transformations = read_transformations(sections, section("canonical_transformations"))
-    expect = ExpectReader(
-        sections,
-        constraints_read,
-        contacts_read,
-        symmetries,
-        questions,
-        points,
-        brackets,
-        transformations,
-    )
     problem = Problem(
         source=source,
         title=text("title") or _stem(source.name),
@@ -194,8 +184,8 @@ def _read(sections: Sections, source: Source, root: DocumentNode) -> Problem | N
         find=questions,
         simulation=read_simulation(sections, section("simulation")),
         picture=read_scenery(sections, section("picture"), points),
-        expect=expect.read(section("expect")),
     )
+    problem = replace(problem, expect=ExpectReader(sections, problem).read(section("expect")))
     meant = {key_meant(key.label, KEYS) for key, _ in root.entries}
     if not meant & {"T", "L", "H", "points"}:  # else the energy is there under another key
         check_masses(sections, problem, section("points").span)

@@ -129,7 +129,7 @@ def _declared(
         sections.scope.refused.append("")  # whatever was to be declared
         return
     for key, value in entries:
-        if key.in_flow and key.label.isdigit() and isinstance(value, Scalar) and value.is_empty:
+        if key.in_flow and key.label.isdigit() and value is not None and value.is_empty:
             message = f"'{key.label}' is not a name"
             sections.error(message, key.span, "a decimal point is written '.'")
         elif sections.declare(key.label, kind_, key.span):
@@ -154,7 +154,7 @@ def _list_advice(text: str) -> str:
 def _pairs(node: DocumentNode) -> str:
     """`m: 1, k: 2` for `[m = 1, k = 2]`, `{m 1, k 2}` and a list of maps; else nothing."""
     given = []
-    if isinstance(node, Mapping) and all(_is_empty(value) for _, value in node.entries):
+    if isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
         given = [re.fullmatch(r"(\w+)[\s=:]+([\d.]\S*)", key.label) for key, _ in node.entries]
     elif isinstance(node, Sequence):
         source = [item.text.source.text[item.start : item.end] for item in node.items]
@@ -164,14 +164,10 @@ def _pairs(node: DocumentNode) -> str:
     return ", ".join(f"{each[1]}: {each[2]}" for each in given if each)
 
 
-def _is_empty(node: DocumentNode) -> bool:
-    return isinstance(node, Scalar) and node.is_empty
-
-
 def _attributes(
     sections: Sections, node: DocumentNode | None, key: Scalar, what: str, known: tuple[str, ...]
 ) -> dict[str, DocumentNode]:
-    if node is None or (isinstance(node, Scalar) and node.is_empty):
+    if node is None or node.is_empty:
         return {}
     found = sections.attributes(node, f"the {what} '{key.label}'", known)
     return {name: value for name, (_, value) in found.items()}
@@ -235,14 +231,13 @@ def _truth(sections: Sections, node: DocumentNode) -> bool:
 def _check_cycles(sections: Sections, parameters: list[Parameter]) -> None:
     """A value must not need itself, directly or through others."""
     spans = {one.name: one.value.span for one in parameters if one.value is not None}
-    cycle = value_cycle({one.name: one.value for one in parameters if one.value is not None})
-    if cycle:
-        chain = " → ".join(cycle)
-        sections.error(f"the value of '{cycle[0]}' needs itself: {chain}", spans[cycle[0]])
+    found = value_cycle({one.name: one.value for one in parameters if one.value is not None})
+    if found is not None:
+        sections.error(found[1], spans[found[0]])
 
 
-def value_cycle(values: dict[str, Expression]) -> list[str]:
-    """Names of parameters, each of which needs the next, from one back to itself."""
+def value_cycle(values: dict[str, Expression]) -> tuple[str, str] | None:
+    """A parameter whose value needs itself, and the sentence on it; None without one."""
     from graphlib import CycleError, TopologicalSorter
 
     uses = {
@@ -252,5 +247,6 @@ def value_cycle(values: dict[str, Expression]) -> list[str]:
     try:
         TopologicalSorter(uses).prepare()
     except CycleError as error:
-        return list(reversed(error.args[1]))
-    return []
+        cycle = list(reversed(error.args[1]))
+        return cycle[0], f"the value of '{cycle[0]}' needs itself: {' → '.join(cycle)}"
+    return None

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from lagcli.problem_data import Constraint, Symmetry, pushing_sign
-from lagcli.reader.contacts import RESTITUTION, read_restitution
+from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitution
 from lagcli.reader.names import derivative_order
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
-from lagcli.reader.scope import QUESTION, STATE, name_mistake
+from lagcli.reader.nodes import DocumentNode, Mapping
+from lagcli.reader.scope import QUESTION, STATE
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
@@ -26,62 +26,33 @@ _FORCES: dict[str, ForceKind] = {
 }
 
 
-class Declared(NamedTuple):
-    """A constraint whose multiplier has its name and whose equation is not read yet."""
-
-    key: Scalar
-    multiplier: str
-    equation: DocumentNode | None
-    holds_while: DocumentNode | None
-    attributes: dict[str, DocumentNode]
-
-
 def declare_constraints(sections: Sections, node: DocumentNode) -> list[Declared]:
     """Enter the multipliers into the scope."""
-    declared = []
-    for key, value in sections.entries(node, "constraints", "write name: equation"):
-        equation: DocumentNode | None = value
-        attributes: dict[str, DocumentNode] = {}
-        wrong = name_mistake(f"a{key.label}")  # `lambda_<name>` must be a name
-        if wrong is not None or not key.label:
-            hint = "a name has letters, digits and underscores"
-            sections.error(f"'{key.label}' is not a valid name for a constraint", key.span, hint)
-            continue
-        multiplier, place = f"lambda_{key.label}", key.span
-        if isinstance(value, Mapping):
-            what = f"the constraint '{key.label}'"
-            found = sections.attributes(value, what, _CONSTRAINT_ATTRIBUTES)
-            attributes = {name: attribute for name, (_, attribute) in found.items()}
-            equation = attributes.get("equation")
-            if equation is None:
-                sections.error(f"{what} has no equation", key.span)
-            if "multiplier" in attributes:
-                text = sections.scalar(attributes["multiplier"], "'multiplier'")
-                if text is not None:
-                    multiplier, place = text.label, text.span
-        sections.declare(multiplier, "multiplier", place)
-        holds_while = attributes.get("holds_while")
-        declared.append(Declared(key, multiplier, equation, holds_while, attributes))
-    return declared
+    entries = sections.entries(node, "constraints", "write name: equation")
+    given = (declared(sections, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
+    return [one for one in given if one is not None]
 
 
-def read_constraints(sections: Sections, declared: list[Declared]) -> tuple[Constraint, ...]:
+def read_constraints(sections: Sections, given: list[Declared]) -> tuple[Constraint, ...]:
     """The constraints f = left - right = 0."""
     constraints = []
-    for one in declared:
-        if one.equation is None:
+    for one in given:
+        node = one.attributes.get("equation")
+        if node is None:
             continue
         name = one.key.label
         mistakes = len(sections.diagnostics)
-        equation = sections.equation(one.equation, f"the constraint '{name}'", STATE)
+        equation = sections.equation(node, f"the constraint '{name}'", STATE)
         if len(sections.diagnostics) == mistakes:
             sides = (equation.left, equation.right)
             if max(derivative_order(side, sections.scope) for side in sides) < 0:
                 message = f"the constraint '{name}' contains no coordinate"
-                sections.error(message, one.equation.span)
+                sections.error(message, node.span)
         holds_while = None
-        if one.holds_while is not None:
-            holds_while = sections.comparison(one.holds_while, "'holds_while'", QUESTION)
+        if "holds_while" in one.attributes:
+            holds_while = sections.comparison(
+                one.attributes["holds_while"], "'holds_while'", QUESTION
+            )
         on_loss = _on_loss(sections, one)
         constraints.append(
             Constraint(
@@ -105,7 +76,7 @@ def _on_loss(sections: Sections, one: Declared) -> OnLoss:
     text = sections.scalar(one.attributes["on_loss"], "'on_loss'")
     if text is None:
         return "stop"
-    if one.holds_while is None:
+    if "holds_while" not in one.attributes:
         sections.error("'on_loss' needs 'holds_while'", text.span, "write holds_while: N >= 0")
     match text.value.strip():
         case "stop":

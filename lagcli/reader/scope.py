@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -10,7 +11,7 @@ from lagcli.reader.growth import SMALL, Growth
 from lagcli.reader.habits import name_meant
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from lagcli.diagnostics import Span
 
@@ -90,6 +91,17 @@ class Scope:
     def of_kind(self, kind: Kind) -> Iterator[str]:
         """The names of one kind, in the order of their declaration."""
         return (name for name, other in self.kinds.items() if other == kind)
+
+    @contextmanager
+    def also(self, names: Iterable[str], kind: Kind) -> Iterator[None]:
+        """Let names stand in expressions that mean something there only, where they are free."""
+        names = [n for n in dict.fromkeys(names) if n not in self.kinds and name_mistake(n) is None]
+        self.kinds.update(dict.fromkeys(names, kind))
+        try:
+            yield
+        finally:
+            for name in names:
+                del self.kinds[name]
 
     def coordinate_of_momentum(self, name: str) -> str | None:
         """`x` for `p_x`, when x is a coordinate."""

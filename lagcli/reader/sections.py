@@ -32,6 +32,8 @@ _T = TypeVar("_T")
 UNREADABLE = ZERO
 #: Places where a number stands, without its unit.
 _NUMERIC = (VALUES, NUMBERS)
+#: The words for it, and what they mean.
+YES_OR_NO = {"yes": True, "no": False}
 _NAME = re.compile(r"[^\W\d]\w*")
 _NO_EQUATION = Equation(ZERO, ZERO)
 
@@ -98,6 +100,13 @@ class Sections:
             return None
         return node
 
+    def yes_or_no(self, node: DocumentNode, name: str) -> bool | None:
+        """Yes or no; None where it is neither."""
+        text = self.scalar(node, f"'{name}'")
+        if text is not None and text.value.strip() not in YES_OR_NO:
+            self.error(f"'{name}' is yes or no", text.span)
+        return None if text is None else YES_OR_NO.get(text.value.strip())
+
     def attributes(
         self, node: DocumentNode, what: str, known: Iterable[str]
     ) -> dict[str, tuple[Scalar, DocumentNode]]:
@@ -123,7 +132,7 @@ class Sections:
         meant = key_meant(key.label, names)
         advice = f"the key is {meant}" if meant else key_advice(key.label, written, names)
         hint = advice or did_you_mean(key.label, names) or f"known are {', '.join(names)}"
-        if key.in_flow and isinstance(value, Scalar) and value.is_empty:
+        if key.in_flow and value.is_empty:
             hint = "inside { } a comma ends the value: put a text with commas in quotes"
         if "parameters" in names and is_constant(key.label, written):
             self.scope.refused.append(key.label)

@@ -46,15 +46,11 @@ def set_parameters(problem: Problem, settings: Iterable[str]) -> Problem:
     values = {one.name: one.value for one in problem.parameters if one.value is not None}
     for setting in settings:
         source = Source(f"--set {setting}", setting)
-        name, value = _read(source, scope, tuple(scope.kinds), "parameter")
-        if any(one.unit is not None for one in (*problem.coordinates, *problem.parameters)):
-            _check_unit(problem, source, name, value)
+        name, value = _read(problem, source, scope, tuple(scope.kinds), "parameter")
         values[name] = _placeless(value)
         cycle = value_cycle(values)
-        if cycle:
-            chain = " → ".join(cycle)
-            message = f"the value of '{cycle[0]}' needs itself: {chain}"
-            raise ProblemError(source, (Diagnostic(message, value.span),))
+        if cycle is not None:
+            raise ProblemError(source, (Diagnostic(cycle[1], value.span),))
     return replace(
         problem,
         parameters=tuple(replace(one, value=values.get(one.name)) for one in problem.parameters),
@@ -85,14 +81,14 @@ def set_state(problem: Problem, settings: Iterable[str]) -> Problem:
     initial = dict(problem.initial)
     for setting in settings:
         source = Source(f"--at {setting}", setting)
-        name, value = _read(source, scope, tuple(state), "coordinate or velocity")
-        if any(one.unit is not None for one in (*problem.coordinates, *problem.parameters)):
-            _check_unit(problem, source, name, value)
+        name, value = _read(problem, source, scope, tuple(state), "coordinate or velocity")
         initial[state[name]] = _placeless(value)
     return replace(problem, initial=initial)
 
 
-def _read(source: Source, scope: Scope, names: Sequence[str], kind: str) -> tuple[str, Expression]:
+def _read(
+    problem: Problem, source: Source, scope: Scope, names: Sequence[str], kind: str
+) -> tuple[str, Expression]:
     """The name and the value of one setting; names are those of that kind."""
     text = SourceText.of(source)
     written, equals, value = source.text.partition("=")
@@ -115,6 +111,8 @@ def _read(source: Source, scope: Scope, names: Sequence[str], kind: str) -> tupl
     mistakes = tuple(name_mistakes(expression, scope, VALUES, what))
     if mistakes:
         raise ProblemError(source, mistakes)
+    if any(one.unit is not None for one in (*problem.coordinates, *problem.parameters)):
+        _check_unit(problem, source, name, expression)
     return name, expression
 
 

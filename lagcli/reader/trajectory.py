@@ -56,13 +56,8 @@ class TrajectoryReader:
 
     def read(self, node: DocumentNode) -> Trajectory:
         """The whole section; a column is an expression along the motion."""
-        kinds = self.sections.scope.kinds
-        borrowed = kinds.setdefault(_ENERGY, "multiplier") if _ENERGY not in kinds else None
-        try:
+        with self.sections.scope.also([_ENERGY], "multiplier"):
             return self._read(node)
-        finally:
-            if borrowed:
-                del kinds[_ENERGY]
 
     def _read(self, node: DocumentNode) -> Trajectory:
         parts: dict[str, DocumentNode] = {}

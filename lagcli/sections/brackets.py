@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Bracket, Equations, Paragraph, Row
 from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import Object, fields_of
-from lagcli.problem_data import Problem
 from lagcli.reader.phase_space import read_expected_brackets
 from lagcli.reader.schema_parts import FORMULAS
 from lagcli.statements.answers import Answers
@@ -63,11 +63,6 @@ def json(section: BracketsSection) -> Object:
     return {"brackets": fields_of(section, "observables brackets rates")}
 
 
-def given(problem: Problem) -> bool:
-    """Whether the file asks for brackets."""
-    return bool(problem.brackets)
-
-
 def tell(teller: Teller, section: BracketsSection) -> Iterator[Block]:
     """The brackets one by one."""
     from lagcli.mechanics.explaining.phase_space import brackets
@@ -102,7 +97,7 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     phase_space=derive,
-    unasked=given,
+    unasked=attrgetter("brackets"),
     told=Told(title="Poisson brackets", blocks=tell, order=70),
     expected=(Expected(key="brackets", schema=FORMULAS, read=read, compare=compare),),
 )

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Bracket, Equations, Formula, Heading, Label, Paragraph, Row
 from lagcli.expression import Name, Number
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, fields_of
-from lagcli.problem_data import ExpectCanonical, Problem
+from lagcli.problem_data import ExpectCanonical
 from lagcli.reader.phase_space import VERDICTS, read_expected_canonical
 from lagcli.reader.schema_parts import FORMULA as EXPRESSION
 from lagcli.reader.schema_parts import YES_OR_NO
@@ -133,11 +134,6 @@ def _transformation(each: ExaminedTransformation) -> Object:
     return shown
 
 
-def given(problem: Problem) -> bool:
-    """Whether the file gives a transformation."""
-    return bool(problem.canonical_transformations)
-
-
 def tell(teller: Teller, section: TransformationsSection) -> Iterator[Block]:
     """The brackets one by one."""
     from lagcli.mechanics.explaining.transformations import transformations
@@ -147,9 +143,9 @@ def tell(teller: Teller, section: TransformationsSection) -> Iterator[Block]:
 
 def read(reader: ExpectReader, node: DocumentNode) -> dict[str, ExpectCanonical]:
     """What is known of each transformation."""
-    names = [each.name for each in reader.transformations]
-    known = reader.known(node, "canonical", names, "transformation")
-    return read_expected_canonical(reader.sections, known, reader.transformations, reader.spans)
+    given = {each.name: each for each in reader.problem.canonical_transformations}
+    known = reader.known(node, "canonical", list(given), "transformation")
+    return read_expected_canonical(reader.sections, known, given, reader.spans)
 
 
 def compare(
@@ -179,7 +175,7 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     phase_space=derive,
-    unasked=given,
+    unasked=attrgetter("canonical_transformations"),
     told=Told(title="Canonical transformations", blocks=tell, order=80),
     expected=(
         Expected(

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Row
 from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import FORMULA, map_of, record_of
-from lagcli.sections.hamiltonian import fold_of, given
+from lagcli.sections.hamiltonian import fold_of
 from lagcli.statements.answers import Answers, CanonicalPair, CanonicalSection
 from lagcli.statements.declaration import Declaration, Told
 from lagcli.statements.wording import fold, not_found
@@ -92,7 +93,7 @@ SECTION = Declaration(
     phase_space=phase_space,
     blocks=blocks,
     schema=map_of(record_of(("q", "p"), {"q": FORMULA, "p": FORMULA})),
-    unasked=given,
+    unasked=attrgetter("hamiltonian"),
     told=Told(title="Canonical equations", blocks=tell, order=60),
     content="equations",
 )

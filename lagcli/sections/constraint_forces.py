@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row
@@ -12,7 +13,6 @@ from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.schema_parts import FORMULAS
 from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.scope import ANSWER
-from lagcli.sections.multipliers import constrained
 from lagcli.statements.answers import Answers, ConstraintForcesSection
 from lagcli.statements.declaration import Declaration, Expected
 
@@ -156,7 +156,7 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     schema=map_of({"type": ["object", "null"]}),
-    unasked=constrained,
+    unasked=attrgetter("constraints"),
     content="forces",
     abbreviated=True,
     expected=(

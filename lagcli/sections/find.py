@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
@@ -13,7 +14,6 @@ from lagcli.problem_data import (
     Expect,
     Inequality,
     Lasting,
-    Problem,
     Question,
     Reaching,
     Rewrite,
@@ -129,11 +129,6 @@ def _range(unknown: str, range_: Range) -> list[str]:
     return [f"{unknown} {how} {to_grammar(bound)}" for how, bound in range_.bounds]
 
 
-def asked(problem: Problem) -> bool:
-    """Whether the file has questions."""
-    return bool(problem.find)
-
-
 def tell(teller: Teller, section: FindSection) -> Iterator[Block]:
     """What is used, and the way to each answer."""
     from lagcli.mechanics.explaining.questions import questions
@@ -213,7 +208,7 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     large=large,
-    unasked=asked,
+    unasked=attrgetter("find"),
     told=Told(title="Questions", blocks=tell, order=10),
     content="answers",
     abbreviated=True,

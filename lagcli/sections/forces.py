@@ -182,11 +182,7 @@ def read(
 def read_friction(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression]:
     """The least coefficients by normal force."""
     what = "the expected coefficient of friction at '{}'"
-    known = reader.known(node, "friction_needed", reader.constraints, "constraint")
-    return {
-        key.label: reader.sections.expression(value, what.format(key.label), ANSWER)
-        for key, value in known
-    }
+    return reader.by_constraint(node, "friction_needed", what)
 
 
 def compare(

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from operator import attrgetter
+from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Label
 from lagcli.expression import Expression
@@ -74,11 +75,6 @@ def blocks(section: HamiltonianSection, _: Answers) -> Iterable[Block]:
     return [one_row(Label("H"), found)]
 
 
-def given(problem: Any) -> bool:
-    """Whether the file gives H."""
-    return problem.hamiltonian is not None
-
-
 def read(reader: ExpectReader, node: DocumentNode) -> Expression:
     """One formula of coordinates and momenta."""
     return reader.sections.expression(node, "the expected Hamiltonian", PHASE_SPACE)
@@ -109,7 +105,7 @@ SECTION = Declaration(
     phase_space=phase_space,
     blocks=blocks,
     schema=OR_NULL,
-    unasked=given,
+    unasked=attrgetter("hamiltonian"),
     abbreviated=True,
     expected=(Expected(key="hamiltonian", schema=FORMULA, read=read, compare=compare),),
 )

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, get_args
+from operator import attrgetter
+from typing import TYPE_CHECKING, get_args
 
 from lagcli.document import Block, Equations, Paragraph, Row
 from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import OR_NULL, Object, fields_of, map_of, record_of
 from lagcli.reader.schema_parts import FORMULAS
-from lagcli.reader.scope import ANSWER
 from lagcli.statements.answers import Answers, ConstraintKind, Multiplier, MultipliersSection
 from lagcli.statements.declaration import Declaration, Expected
 from lagcli.statements.wording import substituted
@@ -122,19 +122,9 @@ def json(section: MultipliersSection) -> Object:
     return {"multipliers": multipliers, **redundant}
 
 
-def constrained(problem: Any) -> bool:
-    """Whether the file has constraints."""
-    return bool(problem.constraints)
-
-
 def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression]:
     """Formulas by constraint."""
-    return {
-        key.label: reader.sections.expression(
-            value, f"the expected multiplier of '{key.label}'", ANSWER
-        )
-        for key, value in reader.known(node, "multipliers", reader.constraints, "constraint")
-    }
+    return reader.by_constraint(node, "multipliers", "the expected multiplier of '{}'")
 
 
 def compare(
@@ -163,7 +153,7 @@ SECTION = Declaration(
             },
         )
     ),
-    unasked=constrained,
+    unasked=attrgetter("constraints"),
     abbreviated=True,
     expected=(Expected(key="multipliers", schema=FORMULAS, read=read, compare=compare),),
 )
