@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, Literal
@@ -10,7 +10,7 @@ from typing import Any, Literal
 from lagcli.diagnostics import NOWHERE, Source, Span
 from lagcli.expression import Equation, Expression, Name, Negative, Number, Product, sum_of
 from lagcli.platform.rooms import modules_in
-from lagcli.record import field, record
+from lagcli.record import field, record, replace
 
 Assumption = Literal["real", "positive", "nonnegative", "nonzero", "negative"]
 Comparison = Literal[">=", "<=", ">", "<"]
@@ -406,6 +406,11 @@ class Expect:
         """What is expected under a key."""
         return self.others[key] if key in self.others else getattr(self, key, None)
 
+    def span(self, path: Sequence[str]) -> Span:
+        """The place of an expectation, or of the nearest thing around it."""
+        around = (self.spans.get(tuple(path[:length])) for length in range(len(path), 0, -1))
+        return next((span for span in around if span is not None), NOWHERE)
+
 
 @record(kw_only=True)
 class Problem:
@@ -442,3 +447,13 @@ class Problem:
     simulation: SimulationDefaults = field(default_factory=SimulationDefaults)
     picture: Scenery = field(default_factory=Scenery)
     expect: Expect = field(default_factory=Expect)
+
+    def with_values(self, values: Mapping[str, Expression]) -> Problem:
+        """The problem with other values of some parameters."""
+        changed = (replace(p, value=values.get(p.name, p.value)) for p in self.parameters)
+        return replace(self, parameters=tuple(changed))
+
+    @property
+    def bare(self) -> Problem:
+        """The problem without candidates, questions, initial state and expectations."""
+        return replace(self, find=(), symmetries=(), initial={}, expect=Expect())

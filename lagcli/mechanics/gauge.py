@@ -27,6 +27,7 @@ from lagcli.algebra.build import TIME
 from lagcli.mechanics.constraints import ConstraintEquation, exterior_derivative
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.total_derivative import boundary_integral, boundary_term, euler_operator
+from lagcli.mechanics.verify import conjunction
 from lagcli.record import record
 
 
@@ -83,9 +84,8 @@ class GaugeSearch:
 
     def _is_total_derivative(self, change: Expr) -> bool | None:
         """Whether Euler's operator annihilates K, by the normal form or at 50 digits."""
-        identically_zero = self.dynamics.verifier.identically_zero
-        verdicts = [identically_zero(part) for part in euler_operator(change, self.system)]
-        return False if False in verdicts else None if None in verdicts else True
+        parts = euler_operator(change, self.system)
+        return conjunction(map(self.dynamics.verifier.identically_zero, parts))
 
     # -- with constraints -------------------------------------------------------------------
 

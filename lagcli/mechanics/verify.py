@@ -7,7 +7,7 @@ put to the test at random states on the constraint surface, at 50 digits.
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import mpmath
 from mpmath import mpf
@@ -34,6 +34,18 @@ class ZeroVerdict:
 
     holds: bool | None
     how: Verification | None
+
+
+def conjunction(verdicts: Iterable[bool | None]) -> bool | None:
+    """Whether all hold; None where that is open."""
+    found = {*verdicts}
+    return False if False in found else None if None in found else True
+
+
+def disjunction(verdicts: Iterable[bool | None]) -> bool | None:
+    """Whether one holds; None where that is open."""
+    found = {*verdicts}
+    return True if True in found else None if None in found else False
 
 
 class Verifier:

@@ -51,10 +51,7 @@ def set_parameters(problem: Problem, settings: Iterable[str]) -> Problem:
         cycle = value_cycle(values)
         if cycle is not None:
             raise ProblemError(source, (Diagnostic(cycle[1], value.span),))
-    return replace(
-        problem,
-        parameters=tuple(replace(one, value=values.get(one.name)) for one in problem.parameters),
-    )
+    return problem.with_values(values)
 
 
 def set_state(problem: Problem, settings: Iterable[str]) -> Problem:

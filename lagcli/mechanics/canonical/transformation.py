@@ -28,6 +28,7 @@ from lagcli.mechanics.canonical.inverse import candidates
 from lagcli.mechanics.canonical.poisson import poisson
 from lagcli.mechanics.phase_states import PhaseStates
 from lagcli.mechanics.system import System
+from lagcli.mechanics.verify import conjunction
 from lagcli.problem_data import CanonicalTransformation
 from lagcli.record import record
 from lagcli.statements.answers import Verification
@@ -120,8 +121,7 @@ class CanonicalTest:
     @property
     def preserves(self) -> bool | None:
         """Whether all brackets are as they must be, for the valence."""
-        verdicts = [verdict for _, verdict, _ in self._verdicts]
-        return False if False in verdicts else None if None in verdicts else True
+        return conjunction(verdict for _, verdict, _ in self._verdicts)
 
     @property
     def failing(self) -> tuple[TestedBracket, ...]:
@@ -172,8 +172,7 @@ class CanonicalTest:
     @property
     def generates(self) -> bool | None:
         """Whether the given function generates the transformation."""
-        verdicts = [relation.holds for relation in self.relations]
-        return False if False in verdicts else None if None in verdicts else True
+        return conjunction(relation.holds for relation in self.relations)
 
     @cached_property
     def action_form(self) -> Expr | None:

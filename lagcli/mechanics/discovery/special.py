@@ -33,8 +33,7 @@ from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.spectrum import Exponent
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
-from lagcli.problem_data import Expect, Problem
-from lagcli.record import replace
+from lagcli.problem_data import Problem
 from lagcli.values import with_values_of
 
 _RATIOS = (1, 2, 3)
@@ -72,18 +71,8 @@ def candidates(
 
 def problem_at(problem: Problem, parameter: Symbol, value: Expr) -> Problem | None:
     """The problem with the value put in, bare of candidates, questions and expectations."""
-    given = to_expression(value)
-    bare = replace(
-        problem,
-        parameters=tuple(
-            replace(p, value=given) if p.name == parameter.name else p for p in problem.parameters
-        ),
-        find=(),
-        symmetries=(),
-        initial={},
-        expect=Expect(),
-    )
-    changed, mistakes = with_values_of(bare, {parameter.name})
+    given = {parameter.name: to_expression(value)}
+    changed, mistakes = with_values_of(problem.with_values(given).bare, given)
     return None if mistakes else changed
 
 

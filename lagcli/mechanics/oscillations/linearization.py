@@ -25,6 +25,7 @@ from lagcli.algebra import dot, is_zero, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at, where_positive
+from lagcli.mechanics.verify import conjunction
 
 Matrix = list[list[Expr]]
 
@@ -118,8 +119,7 @@ class Linearization:
     def _vanish(self, expressions: Sequence[Expr]) -> bool | None:
         """Whether all are 0 in this state."""
         values = {**dict.fromkeys(self.system.qdot, S.Zero), **self.point.values}
-        known = [is_zero(at(e, values)) for e in expressions]
-        return False if False in known else None if None in known else True
+        return conjunction(is_zero(at(e, values)) for e in expressions)
 
     @cached_property
     def drifts(self) -> bool:

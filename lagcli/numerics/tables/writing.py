@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from lagcli.numerics.hybrid.events import Event
@@ -107,6 +107,18 @@ def csv_lines(columns: Sequence[str], rows: Sequence[Sequence[float | None]]) ->
     yield ",".join(map(_quoted, columns)) + "\n"
     for row in rows:
         yield ",".join("" if x is None else repr(x) for x in row) + "\n"
+
+
+def records_as_csv(columns: Sequence[str], records: Iterable[Mapping[str, Any]]) -> str:
+    """A header and records, of which other entries are left out; None is empty."""
+    import csv
+    import io
+
+    text = io.StringIO()
+    writer = csv.DictWriter(text, columns, lineterminator="\n", extrasaction="ignore")
+    writer.writeheader()
+    writer.writerows(records)
+    return text.getvalue()
 
 
 def _quoted(name: str) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from lagcli.expression import Equation
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
+from lagcli.mechanics.verify import disjunction
 from lagcli.problem_data import ExpectAlgebra, ExpectSpecial
 from lagcli.statements.answers import AlgebraSection, SpecialValue
 from lagcli.studies.check.comparison import Comparison
@@ -83,6 +84,6 @@ def _of_case(
     for name, charge in wanted.discovered.items():
         [expected] = substituted((charge,), _values(case))
         verdicts = [comparison.same_charge(c, expected) for c in case.charges.values()]
-        same = True if True in verdicts else None if None in verdicts else False
+        same = disjunction(verdicts)
         shown = ", ".join(map(to_grammar, case.charges.values())) or "none"
         yield [*path, "discovered", name], same, to_grammar(expected), shown

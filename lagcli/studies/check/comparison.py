@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -15,7 +14,7 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.expression import Expression, Negative, Number
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates
-from lagcli.problem_data import Expect, Parameter, Problem
+from lagcli.problem_data import Parameter, Problem
 from lagcli.values import substituted, with_values_of
 
 _STATES = 5
@@ -118,15 +117,7 @@ def _some_values(parameters: Sequence[Parameter]) -> dict[str, Expression]:
 
 def _with_numbers(problem: Problem) -> Problem:
     values = _some_values(problem.parameters)
-    bare = replace(
-        problem,
-        parameters=tuple(replace(p, value=values[p.name]) for p in problem.parameters),
-        find=(),
-        symmetries=(),
-        initial={},
-        expect=Expect(),
-    )
-    numbered, mistakes = with_values_of(bare, values)
+    numbered, mistakes = with_values_of(problem.with_values(values).bare, values)
     if mistakes:
         raise ValueError(mistakes[0].message)
     return numbered

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
-from lagcli.diagnostics import NOWHERE, Span
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.verify import disjunction
 from lagcli.problem_data import Expect
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration
@@ -66,16 +66,8 @@ class Expectations:
 
     # -- one comparison --------------------------------------------------------------------
 
-    def _span(self, path: Sequence[str]) -> Span:
-        """The place of an expectation, or of the nearest thing around it."""
-        for length in range(len(path), 0, -1):
-            span = self.expect.spans.get(tuple(path[:length]))
-            if span is not None:
-                return span
-        return NOWHERE
-
     def _finding(self, outcome: CheckOutcome, path: Sequence[str], message: str) -> Finding:
-        return Finding(outcome, ".".join(path), message, self._span(path))
+        return Finding(outcome, ".".join(path), message, self.expect.span(path))
 
     def undecided(self, path: Sequence[str], message: str) -> Finding:
         """Nobody knows whether it is right."""
@@ -101,8 +93,7 @@ class Expectations:
         self, path: Sequence[str], verdicts: Sequence[bool | None], expected: str, found: str
     ) -> Finding | None:
         """The finding of several verdicts of which one is enough."""
-        verdict = True if True in verdicts else None if None in verdicts else False
-        return self.judge(path, verdict, expected, found)
+        return self.judge(path, disjunction(verdicts), expected, found)
 
     def same(self, path: Sequence[str], found: object, expected: object) -> Finding | None:
         """The finding of two values that should be equal; None is one that was not found."""

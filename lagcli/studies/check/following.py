@@ -9,6 +9,7 @@ from lagcli.algebra import dot, left_nullspace
 from lagcli.expression import Equation
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.verify import conjunction
 from lagcli.studies.check.comparison import Comparison
 
 
@@ -19,10 +20,7 @@ def follows(derivation: Derivation, equation: Equation, comparison: Comparison) 
     dynamics = derivation.dynamics
     if dynamics.motion is None:
         return _is_one_of_them(rest, derivation, comparison)
-    verdicts = [comparison.vanishes(rest) for rest in _on_motion(rest, dynamics)]
-    if False in verdicts:
-        return False
-    return None if None in verdicts else True
+    return conjunction(map(comparison.vanishes, _on_motion(rest, dynamics)))
 
 
 def _on_motion(rest: Expr, dynamics: Dynamics) -> list[Expr]:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.verify import conjunction
 from lagcli.problem_data import Inequality
 from lagcli.statements.questions import Range
 
@@ -18,8 +19,8 @@ def same_ranges(
     """Whether they are the same ranges in the same order, with the same ends included."""
     if len(found) != len(expected):
         return False
-    verdicts = [_same(one.bounds, other, equal) for one, other in zip(found, expected, strict=True)]
-    return False if False in verdicts else None if None in verdicts else True
+    pairs = zip(found, expected, strict=True)
+    return conjunction(_same(one.bounds, other, equal) for one, other in pairs)
 
 
 def _same(
@@ -27,8 +28,8 @@ def _same(
 ) -> bool | None:
     if [comparison for comparison, _ in found] != [each.comparison for each in expected]:
         return False
-    verdicts = [equal(bound, each.right) for (_, bound), each in zip(found, expected, strict=True)]
-    return False if False in verdicts else None if None in verdicts else True
+    pairs = zip(found, expected, strict=True)
+    return conjunction(equal(bound, each.right) for (_, bound), each in pairs)
 
 
 def in_words(bounds: Sequence[Sequence[tuple[str, Expression]]]) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import sympy
@@ -12,6 +12,7 @@ from lagcli.algebra import simplify
 from lagcli.expression import Equation, Expression, Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.reduction.readable import deciding
+from lagcli.mechanics.verify import conjunction, disjunction
 from lagcli.problem_data import (
     ExpectEquilibrium,
     ExpectHamiltonJacobi,
@@ -56,7 +57,7 @@ def reduction(
     if expect.period is not None:
         periods = [] if motion is None else [each.period for each in motion.periods]
         verdicts = [check.reduced.equal(each, expect.period) for each in periods]
-        verdict = True if True in verdicts else None if None in verdicts else False
+        verdict = disjunction(verdicts)
         yield ["reduction", "period"], verdict, to_grammar(expect.period), _listed(periods)
 
 
@@ -87,7 +88,7 @@ def _same_equilibrium(
             verdicts.append(_same_conditions(check, given, expected.stable))
     elif expected.stable is not None:
         verdicts.append(_same_stability(found.verdict.stable, expected.stable))
-    return _conjunction(verdicts)
+    return conjunction(verdicts)
 
 
 def _same_family(check: Expectations, found: Equilibrium, expected: Equation) -> bool | None:
@@ -96,7 +97,7 @@ def _same_family(check: Expectations, found: Equilibrium, expected: Equation) ->
         return False
     build = check.reduced.build
     f, g = (build(a) - build(b) for a, b in (found.on, (expected.left, expected.right)))
-    return _conjunction(
+    return conjunction(
         [check.reduced.vanishes(f * g.diff(q) - g * f.diff(q)) for q in check.derivation.system.q]
     )
 
@@ -108,9 +109,7 @@ def steady_motions(
     motions = section.motions
     for place, each in enumerate(expected):
         verdicts = [_same_motion(check, motion, each) for motion in motions or ()]
-        verdict = True if True in verdicts else None if None in verdicts else False
-        if motions is None:
-            verdict = None
+        verdict = None if motions is None else disjunction(verdicts)
         path = ["steady_motions", str(place)]
         yield path, verdict, f"steady motion {place + 1}", "none that is the same"
 
@@ -134,7 +133,7 @@ def _same_motion(check: Expectations, found: SteadyMotion, expected: ExpectStead
         verdicts.append(_same_conditions(check, _conditions(found.verdict), expected.stable))
     elif expected.stable is not None:
         verdicts.append(_same_stability(found.verdict.stable, expected.stable))
-    return _conjunction(verdicts)
+    return conjunction(verdicts)
 
 
 def hamilton_jacobi(
@@ -158,7 +157,7 @@ def hamilton_jacobi(
         forms = [each.function for each in section.cases.get(name, ())]
         forms += [section.functions[name]] if name in section.functions else []
         verdicts = [_same_derivative(check, each, expected, name) for each in forms]
-        verdict = True if True in verdicts else None if None in verdicts or not forms else False
+        verdict = disjunction(verdicts) if forms else None
         path = ["hamilton_jacobi", "functions", name]
         yield path, verdict, to_grammar(expected), _listed(forms)
 
@@ -207,11 +206,6 @@ def _positive(inequality: Inequality) -> tuple[Expression, Expression]:
 def _same_stability(found: bool | None, expected: bool) -> bool | None:
     """Undecided where the stability is; a stability under conditions is neither."""
     return None if found is None else found is expected
-
-
-def _conjunction(verdicts: Iterable[bool | None]) -> bool | None:
-    found = list(verdicts)
-    return False if False in found else None if None in found else True
 
 
 def _shown(found: Expression | None) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from lagcli.diagnostics import NOWHERE, Span
 from lagcli.expression import Expression, Name
 from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.equations.columns import Column
@@ -186,13 +185,8 @@ class TrajectoryCheck:
         yield from self._values(path, expected, event.before, tolerance, rows, told)
 
     def _finding(self, outcome: CheckOutcome, path: tuple[str, ...], message: str) -> Finding:
-        spans = self.problem.expect.spans
         whole = ("trajectory", *path)
-        for length in range(len(whole), 0, -1):
-            span: Span | None = spans.get(whole[:length])
-            if span is not None:
-                return Finding(outcome, ".".join(whole), message, span)
-        return Finding(outcome, ".".join(whole), message, NOWHERE)
+        return Finding(outcome, ".".join(whole), message, self.problem.expect.span(whole))
 
 
 def _by_time(result: Result) -> Rows:

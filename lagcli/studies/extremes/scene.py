@@ -18,7 +18,6 @@ from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import initial_state
 from lagcli.numerics.equations.surface import Surface
 from lagcli.problem_data import Parameter, Problem
-from lagcli.record import replace
 
 Vector = list[float]
 
@@ -44,11 +43,7 @@ def with_all_values(problem: Problem) -> tuple[Problem, dict[str, Fraction]]:
     """
     missing = [p for p in problem.parameters if p.value is None]
     taken = {p.name: _ordinary(p, place) for place, p in enumerate(missing, 1)}
-    parameters = tuple(
-        replace(p, value=number(taken[p.name])) if p.name in taken else p
-        for p in problem.parameters
-    )
-    return replace(problem, parameters=parameters), taken
+    return problem.with_values({name: number(value) for name, value in taken.items()}), taken
 
 
 def _ordinary(parameter: Parameter, place: int) -> Fraction:

@@ -24,7 +24,7 @@ from lagcli.studies.extremes.digits import digits_between, losses
 from lagcli.studies.extremes.roles import angles_of
 from lagcli.studies.extremes.scene import ExtremeScene
 from lagcli.studies.tradeoff.reference import Rows, difference, precise_rows, reference
-from lagcli.studies.tradeoff.trial import LimitReached
+from lagcli.studies.tradeoff.trial import LimitReached, until
 
 #: Times of the fastest change at the start that a short run takes.
 _TIMES = 10.0
@@ -181,12 +181,8 @@ def _moved(case: Case, measured: Trial, end: float, wanted: Wanted) -> Trial:
 
 
 def _run(case: Case, asked: Asked, measured: Trial, end: float, wanted: Wanted) -> Trial:
-    def ticked(_: float) -> None:
-        if process_time() > end:
-            raise LimitReached
-
     try:
-        result = simulate(case.problem, asked, ticked)
+        result = simulate(case.problem, asked, until(end))
     except Refusal as refusal:
         return replace(measured, verdict="refused", reason=str(refusal), accuracy=None)
     held = result.certificate

@@ -9,6 +9,7 @@ from typing import Any
 
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import fields_of, plain
+from lagcli.numerics.tables.writing import records_as_csv
 from lagcli.record import record
 from lagcli.studies.extremes.case import GROUPS, KINDS, Case, CaseFormula, Group, Loss, Trial
 from lagcli.studies.extremes.study import ExtremesStudy
@@ -201,29 +202,16 @@ def _document(case: Case, trial: Trial) -> dict[str, Any]:
 
 def to_csv(study: ExtremesStudy) -> str:
     """One line for each case, the worst of each group of formulas."""
-    import csv
-    import io
+    return records_as_csv(_COLUMNS, (_record(case, trial) for case, trial in study.trials))
 
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(_COLUMNS)
-    for case, trial in study.trials:
-        row: dict[str, Any] = {
-            "kind": case.kind,
-            "case": case.name,
-            "outcome": trial.verdict,
-            "accelerations_in_a_run": trial.run_loss,
-            **{
-                name: getattr(trial, name)
-                for name in (
-                    "condition until holds_until accuracy error drift method seconds reason"
-                ).split()
-            },
-        }
-        for group in GROUPS:
-            row |= _pair(group, worst(trial, group))
-        writer.writerow(["" if row[name] is None else row[name] for name in _COLUMNS])
-    return text.getvalue()
+
+def _record(case: Case, trial: Trial) -> dict[str, Any]:
+    found: dict[str, Any] = {name: getattr(trial, name, None) for name in _COLUMNS}
+    found |= {"kind": case.kind, "case": case.name, "outcome": trial.verdict}
+    found["accelerations_in_a_run"] = trial.run_loss
+    for group in GROUPS:
+        found |= _pair(group, worst(trial, group))
+    return found
 
 
 def _pair(group: str, pair: tuple[float, float] | None) -> Mapping[str, float | None]:

@@ -49,7 +49,7 @@ def rows_of(
     split = sum(name in free for name in names)
     rows: list[Row] = []
     for values, group in groupby(members, key=lambda member: tuple(member[:split])):
-        fixed = _with_parameters(problem, names[:split], values)
+        fixed = problem.with_values(dict(zip(names[:split], map(exact, values), strict=True)))
         rows += _of_one_system(fixed, asked, names[split:], list(group), values, along=along)
     return rows
 
@@ -99,16 +99,6 @@ def exact(value: float) -> Expression:
     """The double as an exact number."""
     number = Number(abs(Fraction(value)))
     return Negative(number) if value < 0 else number
-
-
-def _with_parameters(problem: Problem, names: Sequence[str], values: Sequence[float]) -> Problem:
-    given = dict(zip(names, map(exact, values), strict=True))
-    return replace(
-        problem,
-        parameters=tuple(
-            replace(one, value=given.get(one.name, one.value)) for one in problem.parameters
-        ),
-    )
 
 
 def _with_state(problem: Problem, names: Sequence[str], values: Sequence[float]) -> Problem:

@@ -22,7 +22,7 @@ from lagcli.numerics.hybrid.modes import Modes
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.numerics.integrators.steps import Tolerance, component_scales
 from lagcli.record import record, replace
-from lagcli.studies.tradeoff.trial import LimitReached
+from lagcli.studies.tradeoff.trial import LimitReached, until
 
 if TYPE_CHECKING:
     from lagcli.problem_data import Problem
@@ -194,12 +194,7 @@ def _run(
     simulation: Simulation, made: Prepared, tolerance: float, limit: float
 ) -> tuple[Rows, list[float]] | None:
     """The rows of one run, and the scales; None where it stops or takes too long."""
-    end = process_time() + limit
-
-    def ticked(_: float) -> None:
-        if process_time() > end:
-            raise LimitReached
-
+    ticked = until(process_time() + limit)
     asked, n = simulation.asked, len(simulation.equations.q)
     with made.precision():
         longest = asked.until / made.longest[0]
@@ -277,15 +272,9 @@ def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> Referen
 
 def _doubles(problem: Problem, asked: Asked, limit: float) -> ReferenceMotion:
     """The best that can be certified in doubles; its bound is no better than that."""
-    end = 0.0
-
-    def ticked(_: float) -> None:
-        if process_time() > end:
-            raise LimitReached
-
     last = ""
     for accuracy in _DOUBLES:
-        end = process_time() + limit
+        ticked = until(process_time() + limit)
         try:
             result = simulate(problem, replace(asked, accuracy=accuracy), ticked)
         except LimitReached:

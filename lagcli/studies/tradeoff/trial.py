@@ -70,6 +70,16 @@ class LimitReached(Exception):
     """The limit is reached."""
 
 
+def until(end: float) -> Callable[[float], None]:
+    """A progress of a run that ends it at a processor time."""
+
+    def ticked(_: float) -> None:
+        if process_time() > end:
+            raise LimitReached
+
+    return ticked
+
+
 def trial(given: Given) -> dict[str, Any]:
     """Run, and say what it cost and what came of it.
 
@@ -82,10 +92,7 @@ def trial(given: Given) -> dict[str, Any]:
     """
     from lagcli.numerics.equations.refusal import Refusal
 
-    def ticked(_: float) -> None:
-        if process_time() > given.limit:
-            raise LimitReached
-
+    ticked = until(given.limit)
     try:
         problem, asked = asked_of(given)
         if given.method == PROOF:

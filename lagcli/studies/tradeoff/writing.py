@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from lagcli.formatters.json_values import fields_of
+from lagcli.numerics.tables.writing import records_as_csv
 from lagcli.studies.tradeoff.front import AS_GOOD, AccuracyVerdict, RunPoint
 from lagcli.studies.tradeoff.inside import Trade, trades
 from lagcli.studies.tradeoff.study import Study
@@ -178,18 +179,20 @@ def _document(point: RunPoint) -> dict[str, Any]:
 
 def to_csv(study: Study) -> str:
     """One line for each run."""
-    import csv
-    import io
-
-    front, text = study.front, io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(_COLUMNS)
-    for kind, points in (("single", study.points), ("certified", study.certified)):
-        for point in points:
-            row = {**_document(point), "kind": kind, "front": int(point in front)}
-            row |= {"accuracy": point.accuracy, "reached": int(point.reached)}
-            writer.writerow(["" if row[name] is None else row[name] for name in _COLUMNS])
-    return text.getvalue()
+    front = study.front
+    runs = [("single", point) for point in study.points]
+    runs += [("certified", point) for point in study.certified]
+    records = (
+        {
+            **_document(point),
+            "kind": kind,
+            "front": int(point in front),
+            "accuracy": point.accuracy,
+            "reached": int(point.reached),
+        }
+        for kind, point in runs
+    )
+    return records_as_csv(_COLUMNS, records)
 
 
 WRITERS: dict[str, Callable[[Study], str]] = {"text": to_text, "json": to_json, "csv": to_csv}
