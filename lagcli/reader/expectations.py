@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from lagcli.problem_data import Expect, Inequality, Problem
+from lagcli.problem_data import Constraint, Contact, Expect, Inequality, Problem
 from lagcli.reader.columns import named_columns
 from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
@@ -32,7 +32,7 @@ class ExpectReader:
         self.sections = sections
         self.problem = problem
         self.constraints = [constraint.name for constraint in problem.constraints]
-        holding = (*problem.constraints, *problem.contacts)
+        holding: tuple[Constraint | Contact, ...] = (*problem.constraints, *problem.contacts)
         self.holding = [each.name for each in holding]
         self.columns = named_columns(sections.scope, holding, problem.symmetries)
         self.symmetries = [symmetry.name for symmetry in problem.symmetries]
