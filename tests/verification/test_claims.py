@@ -208,9 +208,16 @@ def test_equal_frequencies_may_grow_in_proportion_to_the_time() -> None:
     assert verified(problem, answers) is answers
 
 
-@pytest.mark.long
-def test_an_equilibrium_that_is_left_out_is_found() -> None:
-    problem, answers = derived("chains/coupled-pendulums", ("equilibria",))
+@pytest.mark.parametrize(
+    "name",
+    [
+        "classics/spherical-pendulum",
+        pytest.param("chains/coupled-pendulums", marks=pytest.mark.long),
+    ],
+)
+def test_an_equilibrium_that_is_left_out_is_found(name: str) -> None:
+    """Those of the spherical pendulum are both at poles."""
+    problem, answers = derived(name, ("equilibria",))
     section = answers.sections["equilibria"]
     assert section.complete
     kept = replace(section, equilibria=section.equilibria[1:])

@@ -31,6 +31,8 @@ _STEPS = 25
 _ARRIVED = 1e-24
 #: How near two places are the same.
 _SAME = 1e-9
+#: Distances to a pole: between them a square that vanishes falls by 2^-40, another by nothing.
+_NEAR, _NEARER, _FALLS, _WAYS = arb(2) ** -10, arb(2) ** -30, arb(2) ** -20, 3
 _SIGNS = {"positive": 1, "nonnegative": 1, "negative": -1}
 
 
@@ -128,9 +130,8 @@ class Balance:
         x = self.x
         if any(size(near.environment[n, 0]) > pi for n in x.reference.names):
             return False
-        if not near.defined or not near.regular:
-            return False
-        if any(abs(z) < _SAME for z in eigenvalues(near.laws.mass_matrix)):
+        pole = not near.regular or any(abs(z) < _SAME for z in eigenvalues(near.laws.mass_matrix))
+        if not near.defined or (pole and (self.turning or not _rests_at_a_pole(near))):
             return False
         if any(_is_outside(near, c) for c in x.problem.coordinates):
             return False
@@ -158,6 +159,28 @@ def _is_outside(near: LinearMotion, coordinate: Coordinate) -> bool:
     if abs(value) < _SAME:
         return assume in {"positive", "negative", "nonzero"}
     return value * _SIGNS.get(assume, 0) < 0
+
+
+def _rests_at_a_pole(near: LinearMotion) -> bool:
+    """Whether a^T M a of the acceleration from rest falls to 0 with the distance to the place."""
+    random = Random(7)
+    ways = [[arb(random.randint(-1024, 1024)) / 1024 for _ in near.x.reference.names]
+            for _ in range(_WAYS)]  # fmt: skip
+    try:
+        return all(
+            _square(near, way, _NEARER) <= _FALLS * _square(near, way, _NEAR) for way in ways
+        )
+    except Unclear:
+        return False
+
+
+def _square(near: LinearMotion, way: Sequence[arb], distance: arb) -> arb:
+    names = near.x.reference.names
+    moved = {(n, 0): near.environment[n, 0] + distance * d for n, d in zip(names, way, strict=True)}
+    laws = near.laws_at({**near.environment, **moved})
+    a, M = laws.accelerations, laws.mass_matrix
+    terms = (a[i] * M[i][j] * a[j] for i in range(len(a)) for j in range(len(a)))
+    return abs(sum(terms, arb(0))).mid()
 
 
 def _holds(x: Examination, near: LinearMotion, condition: Inequality) -> bool:

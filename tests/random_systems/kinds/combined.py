@@ -93,7 +93,16 @@ def corners_held(rng: Random) -> System:
          "y*abs(y) = x", "abs(x + y) = l"]
     )  # fmt: skip
     names = rng.choice(["xy", "xyz"])
-    V = rng.choice(["k*abs(x)", "k*x*abs(x)", "g*y + k*abs(x)^3", "k*x*abs(y)", "g*abs(x - 3*y)"])
+    V = rng.choice(
+        [
+            "k*abs(x)",
+            "k*x*abs(x)",
+            "g*y + k*abs(x)^3",
+            "k*x*abs(y)",
+            "g*abs(x - 3*y)",
+            "g*abs(x - y)",
+        ]
+    )
     made = System(
         coordinates=dict.fromkeys(names),
         parameters=parameters("m", "k", "g", "l", "c", free=("a", "b")),
@@ -113,7 +122,10 @@ def steep_hamiltonians(rng: Random) -> System:
             "c*sqrt(m^2*c^2 + (p_x - b*y)^2 + p_y^2)",
             "sqrt(1 + p_x^2/x^2 + p_y^2)",
             "m*c^2*cosh(p_x/(m*c)) + p_y^2/(2*m)",
+            "exp(p_x) + exp(p_y - p_x)",
+            "exp(p_x + p_y) + p_x^2/(2*m)",
             "p_x^2/(2*m) + sqrt(1 + p_y^2)",
+            "(p_x^2 + p_y^2)/(2*m) + p_x^3/3",
             "x^2*p_x^2/(2*m) + exp(p_y)",
         ]
     )
