@@ -25,7 +25,7 @@ from lagcli.expression import (
     postorder,
 )
 from lagcli.reader.builder import mistake
-from lagcli.reader.limits import NUMBER_DIGITS, POWER_DIGITS, thousands
+from lagcli.reader.limits import NUMBER_DIGITS, thousands
 from lagcli.reader.text import Mistake
 
 if TYPE_CHECKING:
@@ -99,13 +99,11 @@ def _follow(
 
 def _evaluated(node: Expression, parts: list[_Constant]) -> _Constant:
     found = _evaluate(node, parts)
-    if found.digits > POWER_DIGITS:
-        bound = thousands(POWER_DIGITS)
+    if found.digits > NUMBER_DIGITS:
+        bound = thousands(NUMBER_DIGITS)
         what = "power" if isinstance(node, Power) else "number"
         message = f"a constant {what} of more than {bound} digits"
         raise mistake(message, node.span, f"the limit is {bound}")
-    if found.value is not None and found.digits > NUMBER_DIGITS:
-        return _Constant(found.digits)
     return found
 
 

@@ -30,12 +30,8 @@ EXPONENTIAL_LEVELS = 3
 #: Degree of an expression with its definitions: powers of powers, products, quotients.
 DEGREE = 100_000
 
-#: Digits of one number, with its exponent written out.
+#: Digits of one number, with its exponent written out, and of a constant power or product.
 NUMBER_DIGITS = 1_000
-
-#: Digits of the value of a constant power, numerator or denominator.
-POWER_DIGITS = 10_000
-
 
 #: Mistakes of one file; nobody reads further ones, and they are not looked for.
 MISTAKES = 200
