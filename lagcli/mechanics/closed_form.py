@@ -105,23 +105,32 @@ class ClosedForm:
         form = self.form
         if len(form.independent) < len(form.constraints):
             return None
-        matrix = self._bordered(self._mass_matrix)
-        bias = [self.graph.scaled(row.bias, -1) for row in form.constraints]
         names = StepNames(self.taken, wide=self._wide)
-        steps = SymbolicElimination(self.graph, matrix, [*self._forcing, *bias], names)
-        if not self._holds(steps, self._bordered(form.mass_matrix), [*form.forcing, *bias]):
+        try:
+            steps = SymbolicElimination(
+                self.graph, *self._system(self._mass_matrix, self._forcing), names
+            )
+        except ZeroDivisionError:  # fewer coordinates with inertia than constraints
+            return None
+        if not self._holds(steps, *self._system(form.mass_matrix, form.forcing)):
             return None
         self._steps = steps
-        n = len(form.q)
-        values = [*steps.solution[:n], *self._multipliers(steps)]
+        n, order = len(form.q), self._elimination_order
+        x = [steps.solution[order.index(i)] for i in range(len(order))]
+        self._lambda = [self.graph.scaled(each, -1) for each in x[n:]]
+        values = [*x[:n], *self._lambda]
         written = self._written(steps.named, values)
         if written is None:
             return None
         trees = written.values
         return ClosedSolution(accelerations=trees[:n], multipliers=trees[n:], where=written.where)
 
-    def _multipliers(self, steps: SymbolicElimination) -> list[Node]:
-        return [self.graph.scaled(x, -1) for x in steps.solution[len(self.form.q) :]]
+    @cached_property
+    def _elimination_order(self) -> list[int]:
+        """Coordinates without inertia after the multipliers: their pivots are 0 before them."""
+        n = len(self.form.q)
+        massless = [i for i in range(n) if self._mass_matrix[i][i] is self.graph.zero]
+        return [k for k in range(n + len(self.form.constraints)) if k not in massless] + massless
 
     @cached_property
     def constraint_forces(self) -> Written | None:
@@ -131,7 +140,7 @@ class ClosedForm:
         graph, rows = self.graph, self.form.constraints
         single = [
             [graph.product(entry, multiplier) for entry in row.row]
-            for row, multiplier in zip(rows, self._multipliers(self._steps), strict=True)
+            for row, multiplier in zip(rows, self._lambda, strict=True)
         ]
         total = [graph.sum(along) for along in zip(*single, strict=True)]
         return self._written(self._steps.named, [*(f for row in single for f in row), *total])
@@ -152,11 +161,15 @@ class ClosedForm:
             return self.form.mass_matrix
         return [[self.form.read(entry) for entry in row] for row in self._given_matrix]
 
-    def _bordered(self, mass_matrix: Sequence[Sequence[Node]]) -> list[list[Node]]:
-        """K."""
-        zero, rows = self.graph.zero, self.form.constraints
+    def _system(
+        self, mass_matrix: Sequence[Sequence[Node]], forcing: Sequence[Node]
+    ) -> tuple[list[list[Node]], list[Node]]:
+        """K and what stands beside K x, in the order of elimination."""
+        zero, rows, order = self.graph.zero, self.form.constraints, self._elimination_order
         above = [[*line, *(row.row[i] for row in rows)] for i, line in enumerate(mass_matrix)]
-        return [*above, *([*row.row, *([zero] * len(rows))] for row in rows)]
+        K = [*above, *([*row.row, *([zero] * len(rows))] for row in rows)]
+        right = [*forcing, *(self.graph.scaled(row.bias, -1) for row in rows)]
+        return [[K[i][j] for j in order] for i in order], [right[i] for i in order]
 
     @cached_property
     def _forcing(self) -> Sequence[Node]:

@@ -111,12 +111,18 @@ class Statements(Stating):
     def motion(self) -> SolvedMotion | None:
         """The solved motion; None where it is long beyond reading, and an elimination is not."""
         motion = self.dynamics.motion
-        rows = () if motion is None else map(self.on_surface, motion.accelerations)
-        counts = [operation_count(row) for row in rows]
+        rows: Sequence[Expr] = ()
+        if motion is not None:
+            rows = (*motion.accelerations, *motion.multipliers)
+        counts = [operation_count(self.on_surface(row)) for row in rows]
         if max(counts, default=0) <= _READABLE:
             return motion
         found = self._closed_form.motion
-        steps = () if found is None else (*found.where.values(), *found.accelerations)
+        steps = (
+            ()
+            if found is None
+            else (*found.where.values(), *found.accelerations, *found.multipliers)
+        )
         return None if 0 < 2 * sum(map(operation_count, steps)) < sum(counts) else motion
 
     # -- what is missing --------------------------------------------------------------------

@@ -22,6 +22,26 @@ MENDED = {
         T="m*(x'^2 + y'^2 + z'^2)/2",
         constraints={"c1": "(1 + y^2)*x' = sin(z)*y'", "c2": "y = b*x"},
     ),
+    "a parallelogram whose third link has no mass": System(
+        coordinates=dict.fromkeys("abc"),
+        parameters=dict.fromkeys(("m", "l", "d", "g"), "positive"),
+        points={
+            "A": (["l*cos(a)", "l*sin(a)"], "m"),
+            "B": (["l*cos(a) + d*cos(a + b)", "l*sin(a) + d*sin(a + b)"], "m"),
+        },
+        V="m*g*(2*l*sin(a) + d*sin(a + b))",
+        constraints={
+            "cx": "l*cos(a) + d*cos(a + b) - l*cos(c) = d",
+            "cy": "l*sin(a) + d*sin(a + b) - l*sin(c) = 0",
+        },
+    ),
+    "no circle at r = 0, and none is missing": System(
+        coordinates={"r": "positive"},
+        parameters={**M, "a": "positive", "w": "positive"},
+        T="m*(r'^2*(1 + a^2*r^2) + r^2*w^2)/2",
+        V="m*g*a*r^2/2",
+        sections=("equilibria", "steady_motions"),
+    ),
     "cos x = sin y has two branches, and x + y is constant on one": System(
         coordinates=dict.fromkeys("xy"),
         parameters=M,

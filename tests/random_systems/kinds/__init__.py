@@ -1,9 +1,31 @@
 """The kinds of random systems, by name: a generator of random numbers -> a system."""
 
-from . import combined, constraints, corners, forms, further, known, resting, symmetries, terms
+from . import (
+    combined,
+    constraints,
+    corners,
+    forms,
+    further,
+    known,
+    linkages,
+    resting,
+    symmetries,
+    terms,
+)  # fmt: skip
 
 KINDS = {
     name: kind
-    for file in (constraints, symmetries, forms, terms, resting, further, corners, known, combined)
+    for file in (
+        constraints,
+        symmetries,
+        forms,
+        terms,
+        resting,
+        further,
+        corners,
+        known,
+        combined,
+        linkages,
+    )
     for name, kind in file.KINDS.items()
 }
