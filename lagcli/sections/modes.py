@@ -56,7 +56,10 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
         place = "equilibrium" if on is None and not is_pair(at) else "equilibria"
         yield from state_blocks(at, f"Angular frequencies and shapes about the {place} ", on)
         for mode in modes:
-            yield Equations(tuple(_mode(mode)))
+            if rows := tuple(_mode(mode)):
+                yield Equations(rows)
+            else:
+                yield Paragraph((_without_rows(mode),))
             for other in mode.more_shapes:
                 yield Paragraph(("Also of this frequency, as is every combination:",))
                 yield Equations(tuple(_shape(other)))
@@ -82,6 +85,18 @@ def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
         squared = Power(omega, Number(Fraction(2)))
         yield Row(squared, mode.frequency_squared, note or _NO_OSCILLATION[mode.negative])
     yield from _shape(mode.shape or {})
+
+
+def _without_rows(mode: ModesOfFrequency) -> str:
+    """What is said of frequencies that are no formulas."""
+    if mode.damped:
+        return "Damped: exponents s of exp(s t) take the place of frequencies (lagcli explain)."
+    if mode.negative:
+        return "No other root ω² is real: the amplitudes of some displacements grow."
+    count = (
+        "One frequency has" if mode.multiplicity == 1 else f"{mode.multiplicity} frequencies have"
+    )
+    return f"{count} no closed form."
 
 
 def _shape(shape: Mapping[str, Expression]) -> Iterator[Row]:

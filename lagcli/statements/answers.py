@@ -269,8 +269,9 @@ class ModesOfFrequency:
     """The normal modes of one frequency about an equilibrium, or all `on` a line.
 
     `frequency` is None where it is not real, and the square is `negative` or may be positive for
-    some values; the displacements of one frequency are the combinations of `shape` and of
-    `more_shapes`.  One-sided contacts in `open` do not act; `kinked`: a kink of V holds the others.
+    some values; both are None where they have no closed form, or are `damped`.  The displacements
+    of one frequency are the combinations of `shape` and of `more_shapes`.  One-sided contacts in
+    `open` do not act; `kinked`: a kink of V holds the others.
     """
 
     at: Mapping[str, Expression]
@@ -281,6 +282,7 @@ class ModesOfFrequency:
     more_shapes: tuple[Mapping[str, Expression], ...] = ()
     multiplicity: int = 1
     negative: bool = False
+    damped: bool = False
     open: tuple[str, ...] = ()
     kinked: bool = False
 

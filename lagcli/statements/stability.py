@@ -102,7 +102,8 @@ def _critical(verdict: Verdict) -> list[Part]:
     equality: list[Part] = ["For ", condition.left, " = ", condition.right, " it is "]
     if verdict.critical == 0:
         return [*equality, "unstable: ", potential, " has no minimum then. "]
-    return [*equality, "stable: ", potential, f" then has a minimum of order {verdict.critical}. "]
+    stable = "asymptotically stable: " if verdict.asymptotic else "stable: "
+    return [*equality, stable, potential, f" then has a minimum of order {verdict.critical}. "]
 
 
 def _by_roots(verdict: Verdict, stable: str) -> list[Part]:

@@ -30,7 +30,7 @@ class NormalMode:
     """`square` is omega^2; `frequency` None where it is not real, no `shapes` where complex.
 
     `negative`: the square is, for all values, or is not real.  Both are None, without shapes, for a
-    frequency that was not found, or not undamped.
+    frequency that was not found, or is `damped`.
     """
 
     square: Expr | None
@@ -38,13 +38,14 @@ class NormalMode:
     shapes: tuple[tuple[Expr, ...], ...]
     multiplicity: int
     negative: bool = False
+    damped: bool = False
 
 
 def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[NormalMode]:
     """The modes by rising frequency; none where no square is real."""
     factors = characteristic.squares
     if factors is None:
-        return [NormalMode(None, None, (), len(linear.M))]
+        return [NormalMode(None, None, (), len(linear.M), damped=True)]
     choices = _choices(linear)
     values = choices[0]
     modes: list[NormalMode] = []

@@ -278,6 +278,7 @@ class SmallOscillations:
                 more_shapes=tuple(map(self._shape, mode.shapes[1:])),
                 multiplicity=mode.multiplicity,
                 negative=mode.negative,
+                damped=mode.damped,
                 open=place.held.open,
                 kinked=place.held.kinked,
             )
