@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import pytest
 
+from lagcli.evaluation import FUNCTIONS, evaluated
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
@@ -136,6 +137,27 @@ def test_steady_motions_on_a_ring_and_beside_it():
     )  # the momentum is the same all along the ring, which is compact
     # K = V'' at any place of the ring, by hand: 2 k x_i x_j
     assert to_grammar(ring.stiffness[0][1]) == "2*k*x*y"
+
+
+@pytest.mark.parametrize(
+    ("potential", "ring", "place", "slope"),
+    [
+        # K_xy = d²V/dx dy at a place of the ring with k = 1, a = 1, by hand
+        ("-a*(x^2 + y^2)/2 + k*(x^2 + y^2)^2/4", "x^2 + y^2 = 1", (-0.6, 0.8), -0.96),
+        ("-a*(x^2 + y^2)/2 + k*(x^2 + y^2)^2/4", "x^2 + y^2 = 1", (0.6, 0.8), 0.96),
+        ("(k*x^2 + 3*y^2 - 7*a)^2/2", "x^2 + 3 y^2 = 7", (-2.0, 1.0), -24.0),
+    ],
+)  # fmt: skip
+def test_stiffness_on_a_ring_holds_on_both_branches(potential, ring, place, slope):
+    section, _ = steady_motions(derivation(_PLANE + "V: " + potential))
+    found = [m for m in section.motions or () if m.on is not None]
+    values = {"x": place[0], "y": place[1], "k": 1.0, "a": 1.0, "m": 1.0, "pi": 3.14}
+    left, right = (evaluated(side, values, FUNCTIONS) for m in found for side in m.on)
+    assert left == pytest.approx(right), ring
+    for motion in found:
+        assert motion.stiffness == () or evaluated(
+            motion.stiffness[0][1], values, FUNCTIONS
+        ) == pytest.approx(slope, rel=1e-9)
 
 
 def test_a_point_of_a_family_of_steady_motions_is_not_told_beside_it():

@@ -21,12 +21,16 @@ from lagcli.record import record
 
 @record
 class Family:
-    """The equilibria with relation = 0 and the values `given`, and unknown = root on a branch."""
+    """The equilibria with relation = 0 and the values `given`, and unknown = root on a branch.
+
+    The `coordinates` are those of the system.
+    """
 
     relation: Expr
     given: Mapping[Symbol, Expr]
     unknown: Symbol
     root: Expr
+    coordinates: Sequence[Symbol]
 
     @property
     def tied(self) -> frozenset[Symbol]:
@@ -56,15 +60,21 @@ class Family:
         if power is None:
             return expression
 
-        def plain(node: Expr) -> Expr:
-            return (self.unknown / factor) ** (node.exp / power.exp)
+        coordinates = power.free_symbols & {*self.coordinates}
 
-        back = simplify(
-            expression.replace(
-                lambda node: node.is_Pow and node.base == power.base and not node.exp.is_Integer,
-                plain,
-            )
-        )
+        def plain(node: Expr) -> Expr:
+            ratio = simplify(node.base / power.base)
+            if ratio.free_symbols & coordinates:
+                return node
+            return ratio**node.exp * (self.unknown / factor) ** (node.exp / power.exp)
+
+        def is_root(node: Expr) -> bool:
+            found = node.is_Pow and not node.exp.is_Integer
+            return found and (node.base == power.base or node.base.has(*coordinates))
+
+        back = simplify(expression.replace(is_root, plain))
+        if any(map(is_root, sympy.preorder_traversal(back))):
+            return None
         other = {self.unknown: self.root}
         same = is_zero(back.xreplace(other) - expression) is True
         return back if same else None
@@ -75,7 +85,7 @@ def family(relation: Expr, given: Mapping[Symbol, Expr], q: Sequence[Symbol]) ->
     for unknown in q:
         found = solve_for(relation, unknown) if unknown in relation.free_symbols else None
         if found is not None and found.values:
-            return Family(relation, given, unknown, simplify(found.values[0]))
+            return Family(relation, given, unknown, simplify(found.values[0]), q)
     return None
 
 
