@@ -82,16 +82,17 @@ class _Composer:
                 if self._documents > 1:
                     self._stop(start, end, "a second document begins here", "one problem, one file")
             case yaml.ScalarEvent():
-                self._check_tag(event)
+                tagged = self._has_tag(event)
                 node = Scalar(
                     self.text, start, end, event.value, event.style or "", self._in_flow,
                     size=1 + len(event.value), anchored=event.anchor is not None,
+                    broken=tagged,
                 )  # fmt: skip
                 self._add(node, event.anchor)
             case yaml.AliasEvent():
                 self._add(self._alias(event.anchor, start, end), None)
             case yaml.CollectionStartEvent():
-                self._check_tag(event)
+                self._has_tag(event)
                 self._open(event, start, end)
             case yaml.CollectionEndEvent():
                 self._close(end)
@@ -158,15 +159,15 @@ class _Composer:
             self._stop(start, end, f"the alias '*{anchor}' stands inside of what it names")
         return node
 
-    def _check_tag(self, event: Any) -> None:
-        if event.tag is not None and event.tag not in {"!", "tag:yaml.org,2002:str"}:
-            end = event.end_mark.index
-            written = self.text.source.text[event.start_mark.index : end].split(maxsplit=1)
-            width = len(written[0]) if written else 1
-            start = event.start_mark.index
-            self._report(
-                start, start + width, "tags are not part of the format", hint="leave it out"
-            )
+    def _has_tag(self, event: Any) -> bool:
+        """Whether a node has a tag; that is noted as a mistake."""
+        if event.tag is None or event.tag in {"!", "tag:yaml.org,2002:str"}:
+            return False
+        start, end = event.start_mark.index, event.end_mark.index
+        written = self.text.source.text[start:end].split(maxsplit=1)
+        width = len(written[0]) if written else 1
+        self._report(start, start + width, "tags are not part of the format", hint="leave it out")
+        return True
 
     def _report(
         self,

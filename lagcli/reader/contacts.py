@@ -10,6 +10,7 @@ from lagcli.problem_data import Contact
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.scope import POSITION, VALUES, Kind, name_mistake
+from lagcli.reader.sections import Required
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
@@ -35,19 +36,21 @@ def declared(
 
     The value is a map with the `known` attributes, or the first of them alone.
     """
-    what, hint = ("contact", _HINT) if known == _ATTRIBUTES else ("constraint", "")
+    what, hint = "constraint", "write name: {equation: left = right}"
+    if known == _ATTRIBUTES:
+        what, hint = "contact", _HINT
     if name_mistake(f"a{key.label}") is not None or not key.label:  # lambda_<name> must be a name
         message = f"'{key.label}' is not a valid name for a {what}"
-        sections.error(message, key.span, "a name has letters, digits and underscores")
+        is_relation = re.search("[=<>≤≥]", key.label)
+        rule = "a name has letters, digits and underscores"
+        sections.error(message, key.span, f"write name: {key.label}" if is_relation else rule)
         return None
     multiplier, place = f"lambda_{key.label}", key.span
     attributes = {known[0]: value}
     if isinstance(value, Mapping):
         what = f"the {what} '{key.label}'"
-        found = sections.attributes(value, what, known)
+        found = sections.attributes(value, what, known, Required(known[0], key.span, hint))
         attributes = {name: attribute for name, (_, attribute) in found.items()}
-        if known[0] not in attributes:
-            sections.error(f"{what} has no {known[0]}", key.span, hint)
         if "multiplier" in attributes:
             text = sections.scalar(attributes["multiplier"], "'multiplier'")
             if text is not None:

@@ -11,6 +11,7 @@ from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.names import depends_on_time, derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Role
+from lagcli.reader.sections import Required
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
@@ -101,13 +102,10 @@ def read_points(sections: Sections, node: DocumentNode) -> tuple[Point, ...]:
     sections.scope.refused += [] if isinstance(node, Mapping) else ["points"]
     for key, value in sections.entries(node, "points", hint):
         what = f"the point '{key.label}'"
-        attributes = {
-            name: attribute
-            for name, (_, attribute) in sections.attributes(value, what, _POINT_ATTRIBUTES).items()
-        }
+        required = Required("position", key.span, f"write position: [{_by_axes(value)}]")
+        found = sections.attributes(value, what, _POINT_ATTRIBUTES, required)
+        attributes = {name: attribute for name, (_, attribute) in found.items()}
         if "position" not in attributes:
-            if isinstance(value, Mapping):
-                sections.error(f"{what} has no position", key.span, "write position: [x, y]")
             sections.scope.refused.append("points")
             continue
         position = _position(sections, attributes["position"], key.label)
@@ -120,6 +118,14 @@ def read_points(sections: Sections, node: DocumentNode) -> tuple[Point, ...]:
             Point(name=key.label, position=position, mass=mass, force=force, span=key.span)
         )
     return tuple(points)
+
+
+def _by_axes(node: DocumentNode) -> str:
+    """`x, 0` for `{x: x, y: 0, mass: m}`."""
+    entries = node.entries if isinstance(node, Mapping) else []
+    axes = [value for key, value in entries if key.label.casefold() in {"x", "y", "z"}]
+    written = [value.value for value in axes if isinstance(value, Scalar)]
+    return ", ".join(written) or "x, y"
 
 
 def _components(sections: Sections, node: DocumentNode, what: str, hint: str) -> list[DocumentNode]:
@@ -164,12 +170,13 @@ def read_by_coordinate(
     """A map coordinate → expression."""
     found = {}
     first = next(sections.scope.of_kind("coordinate"), "x")
-    given = node.value.strip() if isinstance(node, Scalar) else ""
+    given = node.value.rpartition("=")[2].strip() if isinstance(node, Scalar) else ""
     for key, value in sections.entries(node, section, f"write {first}: {given or '…'}"):
         if sections.scope.kinds.get(key.label) != "coordinate":
             coordinates = list(sections.scope.of_kind("coordinate"))
             hint = did_you_mean(key.label, coordinates)
-            hint = hint or f"the coordinates are {', '.join(coordinates)}"
+            along = f"it is given along a coordinate: {', '.join(coordinates)}"
+            hint = hint or along
             if not sections.scope.refused:
                 sections.error(f"'{key.label}' in {section} is not a coordinate", key.span, hint)
         found[key.label] = sections.expression(value, what.format(key.label), role)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Collection
 from typing import get_args
 
 from lagcli.problem_data import Assumption
@@ -23,7 +24,9 @@ KEYS = {
     **dict.fromkeys(("val", "default"), "value"),
     **dict.fromkeys(("pos", "r", "at", "location", "coords"), "position"),
     "constants": "parameters", "params": "parameters", "values": "parameters",
-    "initial_conditions": "initial", "initial_state": "initial", "x0": "initial",
+    "initial_conditions": "initial", "initial_state": "initial", "Q": "forces", "m": "mass",
+    "lambda": "multiplier", "dof": "degrees_of_freedom", "solve": "where", "system": "title",
+    **dict.fromkeys(("e", "cor", "elasticity", "coefficient_of_restitution"), "restitution"),
     "force": "forces", "external_forces": "forces", "particles": "points", "masses": "points",
     "constraint": "constraints", "symmetry": "symmetries", "simulate": "simulation",
     **dict.fromkeys(("time", "t_end", "tend", "t_max", "tmax", "end", "duration"), "until"),
@@ -34,12 +37,19 @@ KEYS = {
     "run": "simulation", "questions": "find", "expected": "expect", "answers": "expect",
 }  # fmt: skip
 
+#: Words for the equations of motion, which no key takes.
+_EQUATIONS = frozenset("equations equations_of_motion equation ode odes eom eoms newton".split())
+DERIVED = "the equations of motion are derived: give T and V, or L"
+#: An assumption by the relation to zero that it is.
+SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnegative",
+         "!=": "nonzero", "≠": "nonzero"}  # fmt: skip
 #: Keys of a part of a problem -> that part.
 _PARTS = {
     **dict.fromkeys(("until", "accuracy", "method"), "simulation"),
     **dict.fromkeys(("places", "rods", "springs", "trails"), "picture"),
     **dict.fromkeys(("accelerations", "charges", "equilibria", "modes", "trajectory"), "expect"),
 }
+COMMENT = "a comment begins with '#'"
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(/\d+)?")
 #: A number with a unit behind it, as in `10 kg` and `9.81 m/s^2`.
 _WITH_UNIT = re.compile(
@@ -49,9 +59,19 @@ _WITH_UNIT = re.compile(
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 #: Functions of other programs, by those of the format.
 _WRITTEN_OUT = {
-    "heaviside": "(1 + sign({}))/2", "Heaviside": "(1 + sign({}))/2", "step": "(1 + sign({}))/2",
-    "hypot": "sqrt({}^2 + {}^2)", "cbrt": "{}^(1/3)", "log10": "log({})/log(10)",
-    "log2": "log({})/log(2)", "radians": "{}*pi/180", "degrees": "{}*180/pi",
+    "heaviside": "(1 + sign({}))/2",
+    "Heaviside": "(1 + sign({}))/2",
+    "step": "(1 + sign({}))/2",
+    "hypot": "sqrt({}^2 + {}^2)",
+    "cbrt": "{}^(1/3)",
+    "log10": "log({})/log(10)",
+    "log2": "log({})/log(2)",
+    "radians": "{}*pi/180",
+    "degrees": "{}*180/pi",
+}
+IN_FULL = {
+    **dict.fromkeys(("integrate", "Integral", "int", "integral"), "write the antiderivative"),
+    **dict.fromkeys(("sum", "Sum", "prod", "Product"), "write each term"),
 }  # fmt: skip
 _VULGAR = {"½": "1/2", "⅓": "1/3", "⅔": "2/3", "¼": "1/4", "¾": "3/4", "⅛": "1/8"}
 
@@ -78,6 +98,15 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
         return "the steps follow from the accuracy: write accuracy: 1e-9"
     if word in {"unit", "units"} and "parameters" in known:
         return "each name has its own: write parameters: {m: {unit: kg}}"
+    if word in _EQUATIONS and "T" in known:
+        return DERIVED
+    if word in {"from", "start", "t0"} and "until" in known:
+        return "a motion begins at t = 0: leave it out"
+    start = re.fullmatch(r"(q|r|x|y|z|theta|phi)_?0", word)
+    if start and "initial" in known:
+        return f"write initial: {{{start[1]}: {value.strip()}}}"
+    if word in {"initial", "start", "init"} and "symbol" in known and "value" not in known:
+        return "a state stands under initial, as in initial: {x: 1}"
     part = _PARTS.get(KEYS.get(word, word))
     if part in known:
         return f"write {part}: {{{KEYS.get(word, word)}: {value or '…'}}}"
@@ -89,9 +118,15 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
 def colon_advice(line: str) -> str:
     """`write V: k*x` for a line such as `V k*x`, `V = k*x`, `V:k*x` or `V：k*x`."""
     found = re.match(r"\s*([^\W\d]\w*)(?:\s*[=:：]\s*|\s+)([^-+*/^].*)", line)
+    if re.match(r"\s*/[/*]", line):
+        return COMMENT
+    if "''" in line:
+        return DERIVED
     if found:
         return f"write {found[1]}: {found[2].strip()}"
-    return f"write L: {line.strip()}" if re.search(r"[\w)][*/^+-]", line) else "key: value"
+    if re.search(r"[\w)][*/^+-]", line):
+        return f"write L: {line.strip()}"
+    return f"write {line.strip() or 'key'}: value"
 
 
 def is_constant(word: str, value: str) -> bool:
@@ -102,13 +137,17 @@ def is_constant(word: str, value: str) -> bool:
 
 def name_meant(name: str) -> str:
     """A valid name for one with raised or lowered digits, LaTeX or blanks; `theta_1` for θ₁."""
-    given = re.fullmatch(r"\s*(\w+)\s*[=:]\s*(\S+)\s*", name)
+    given = re.fullmatch(r"\s*(\w+'?)\s*[=:]\s*(\S+)\s*", name)
     if given:
         return f"{given[1]}: {given[2]}"
+    related = re.fullmatch(r"\s*(\w+)\s*(\W+?)\s*0\s*", name)
+    if related and related[2] in SIGNS:
+        return f"{related[1]}: {{assume: {SIGNS[related[2]]}}}"
     if re.fullmatch(r"[^\W\d]\w*(\s+(-\s*)?[^\W\d]\w*)+", name):
         return ", ".join(re.findall(r"\w+", name))
-    plain = "".join(map(_on_the_line, name.removesuffix("(t)"))).lstrip("\\$").rstrip("$")
-    found = re.sub(r"[\s.,{}()\[\]^_-]+", "_", plain).strip("_")
+    called = re.sub(r"\([^\W\d].*\)$", "", name)
+    plain = "".join(map(_on_the_line, called)).lstrip("\\$").rstrip("$")
+    found = re.sub(r"[\W_]+", "_", plain).strip("_")
     return found if re.fullmatch(r"[^\W\d]\w*", found) and found != name else ""
 
 
@@ -121,6 +160,22 @@ def unit_behind(text: str) -> str:
     """The unit in `10 kg` or `9.81 m/s^2`; nothing where a number stands alone."""
     found = _WITH_UNIT.fullmatch(text.strip())
     return found["unit"] if found else ""
+
+
+def unit_at_end(text: str) -> str:
+    """The unit in `k*x^2/2 J`, with a blank before it; nothing where there is none."""
+    found = re.search(r"[\w)']\s+([^\W\d][^()]*)$", text.strip())
+    return found[1] if found and unit_behind(f"1 {found[1]}") == found[1] else ""
+
+
+def product_meant(name: str, known: Collection[str]) -> str:
+    """`m*g*y` for mgy, where each factor is a known name; nothing where one is not."""
+    if name in known:
+        return name
+    for end in range(len(name) - 1, 0, -1):
+        if name[:end] in known and (rest := product_meant(name[end:], known)):
+            return f"{name[:end]}*{rest}"
+    return ""
 
 
 def superscript(text: str) -> str:
@@ -137,13 +192,16 @@ def fraction(character: str) -> str:
 def function_meant(name: str, arguments: list[str]) -> str:
     """What to write instead of a function of other programs."""
     if name in {"Derivative", "derivative", "D", "ddt", "dt", "Dt"} and arguments:
-        return f"the velocity of x is x': write {arguments[0]}'" if _plain(arguments[0]) else ""
+        x = arguments[0]
+        return f"the velocity of {x} is {x}': write {x}'" if _plain(x) else ""
     if name in {"pow", "power", "Pow"} and len(arguments) == 2:
         return f"write {_group(arguments[0])}^{_group(arguments[1])}"
     if name in {"sq", "square"} and len(arguments) == 1:
         return f"write {_group(arguments[0])}^2"
     if name in {"dot", "norm"}:
         return "write the sum over the components"
+    if name in IN_FULL:
+        return IN_FULL[name]
     if name in _WRITTEN_OUT and len(arguments) == _WRITTEN_OUT[name].count("{}"):
         return "write " + _WRITTEN_OUT[name].format(*arguments)
     if name in {"max", "min"} and len(arguments) == 2:

@@ -17,7 +17,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.problem_data import Assumption
-from lagcli.reader.habits import function_meant, velocity_meant
+from lagcli.reader.habits import IN_FULL, function_meant, product_meant, velocity_meant
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.undeclared import UNDECLARED
@@ -51,23 +51,25 @@ def name_mistakes(
     before : int, optional
         In a definition, its rank: only earlier ones can be used.
     """
-    quotients: set[int] = set()
+    covered: set[int] = set()  # by the message on what is around them
     for node in walk(expression):
         match node:
             case Quotient(numerator=Name() as above, denominator=Name(name="dt") as below) if (
                 above.name[:1] == "d" and scope.kinds.get(above.name[1:]) == "coordinate"
                 and not {above.name, "dt"} & scope.kinds.keys()
             ):  # fmt: skip
-                quotients |= {id(above), id(below)}
+                covered |= {id(above), id(below)}
                 hint = f"the velocity of {above.name[1:]} is {above.name[1:]}': write that"
                 message = f"'{above.name}/dt' is not a velocity in {what}"
                 yield Diagnostic(message, above.span.to(below.span), hint)
-            case Name() if id(node) in quotients:
+            case Name() if id(node) in covered:
                 pass
             case Name():
                 yield from _name(node, scope, role, what, before)
             case Call():
                 yield from _call(node, scope, role, what)
+                if node.function in IN_FULL and node.function not in scope.kinds:
+                    covered |= {id(each) for each in walk(node)}
             case PartialCall():
                 yield from _partial_call(node, scope)
             case Diff(operand=operand, variable=variable):
@@ -212,7 +214,15 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return velocity_meant(name, coordinates)
     if name.casefold() in {"inf", "infinity", "oo"}:
         return "there is no infinity"
+    if not role.parameters and not role.definitions and role.order < 0:
+        return role.why
+    if product := len(name) < 9 and product_meant(name, scope.usable(role)):
+        return "did you mean " + product + "'" * primes + "?"
+    if what.startswith("the symmetry") and name in {"eps", "epsilon", "ε", "s", "a", "delta"}:
+        return "the value is the change by itself: write x: 1 for x → x + ε"
     hint = did_you_mean(name, scope.usable(role))
+    if not hint and name in {"T", "V", "L", "H"}:
+        return f"{name} is a key and not a name: write its formula"
     if not hint and name in {"v", "velocity", "speed", "d"} and role.order > 0 and coordinates:
         return f"the velocity of {coordinates[0]} is {coordinates[0]}'"
     if not hint and primes and role.order > 0:
@@ -254,7 +264,7 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         if scope.kinds.get(name) == "coordinate" and node.arguments == (Name("t"),):
             hint = f"a coordinate is a function of t by itself: write {written}"
         yield Diagnostic(message, node.span, hint)
-    else:
+    elif not scope.refused or function_meant(name, ["x"]):
         functions = [*FUNCTIONS, "diff", *scope.of_kind("function")]
         best = closest(name, functions)
         hint = f"did you mean {best}(…)?" if best else "declare it under 'functions'"
@@ -276,7 +286,10 @@ def _a(kind: str | None) -> str:
 
 def _wrong_count(name: str, arity: int, count: int, node: Expression) -> Diagnostic:
     plural = "argument" if arity == 1 else "arguments"
-    return Diagnostic(f"'{name}' takes {arity} {plural}, not {count}", node.span)
+    hint = {"atan": "write atan2(y, x)", "atan2": "write atan2(y, x) for y/x",
+            "log": "write log(x)/log(b) for the base b"}.get(name)  # fmt: skip
+    hint = hint or f"write {name}({', '.join('xyzuvw'[:arity]) if arity <= 6 else '…'})"
+    return Diagnostic(f"'{name}' takes {arity} {plural}, not {count}", node.span, hint)
 
 
 def _integral(node: Call, role: Role, what: str) -> Iterator[Diagnostic]:

@@ -19,7 +19,7 @@ from lagcli.reader.dynamics import (
     read_points,
 )
 from lagcli.reader.expectations import ExpectReader
-from lagcli.reader.habits import colon_advice, key_meant
+from lagcli.reader.habits import colon_advice
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, kind
 from lagcli.reader.phase_space import read_brackets, read_observables, read_transformations
@@ -111,8 +111,11 @@ def _declares(root: DocumentNode) -> bool:
 
 def _read(sections: Sections, source: Source, root: DocumentNode) -> Problem | None:
     """Declare every name, then read every formula."""
+    span = Span(1, 1, 1, 1)
+    if kind(root) == "nothing" or (isinstance(root, Mapping) and not root.entries):
+        sections.error("the problem is empty", span, "write coordinates: [x]")
+        return None
     if not isinstance(root, Mapping):
-        span = Span(1, 1, 1, 1)
         line = root.text.source.text.lstrip().split("\n")[0] if isinstance(root, Scalar) else ""
         message = f"a problem must be a map of keys, not {kind(root)}"
         is_text = isinstance(root, Scalar)
@@ -186,8 +189,7 @@ def _read(sections: Sections, source: Source, root: DocumentNode) -> Problem | N
         picture=read_scenery(sections, section("picture"), points),
     )
     problem = replace(problem, expect=ExpectReader(sections, problem).read(section("expect")))
-    meant = {key_meant(key.label, KEYS) for key, _ in root.entries}
-    if not meant & {"T", "L", "H", "points"}:  # else the energy is there under another key
+    if len(given) == len(root.entries):  # else the energy may be there under another key
         check_masses(sections, problem, section("points").span)
     if not sections.diagnostics:
         check_values(sections, problem)

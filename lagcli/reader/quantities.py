@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TypedDict, cast, get_args
 
 from lagcli.expression import Expression, Name, walk
 from lagcli.problem_data import Assumption, Coordinate, Parameter
+from lagcli.reader.habits import SIGNS
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
 from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.suggest import did_you_mean
@@ -30,8 +31,6 @@ class _Said(TypedDict, total=False):
 
 _COORDINATE_ATTRIBUTES = ("unit", "symbol", "description", "assume")
 _PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
-_SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnegative",
-          "!=": "nonzero", "≠": "nonzero"}  # fmt: skip
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 
 
@@ -84,12 +83,17 @@ def read_parameters(
 def read_functions(sections: Sections, node: DocumentNode) -> dict[str, tuple[str, ...]]:
     """The functions left unspecified; the names of their arguments only document."""
     functions = {}
+    if not isinstance(node, Mapping):
+        sections.scope.refused.append("")
     for key, value in sections.entries(node, "functions", "write U: [r]"):
         if not sections.declare(key.label, "function", key.span):
             continue
         what = f"the arguments of '{key.label}'"
         if isinstance(value, Scalar) and not value.is_empty:
-            sections.error(f"{what} must be a list", value.span, f"write [{value.value}]")
+            hint = f"write [{value.value}]"
+            if not re.fullmatch(r"[\w\s,]+", value.value):
+                hint = f"a formula stands under definitions: {key.label}: {value.value}"
+            sections.error(f"{what} must be a list", value.span, hint)
             sections.scope.arity[key.label] = 1
             continue
         arguments = [sections.scalar(item, f"an argument of '{key.label}'")
@@ -119,6 +123,7 @@ def _declared(
     elif isinstance(node, Sequence):
         names = [sections.scalar(item, "a name") for item in node.items]
         entries = [(name, None) for name in names if name is not None]
+        sections.scope.refused += [""] * (len(names) - len(entries))
     elif isinstance(node, Scalar) and not node.is_empty:
         sections.error(f"{section} must be a list or a map", node.span, _list_advice(node.value))
         sections.scope.refused += ["", *re.findall(r"[^\W\d]\w*", node.value)]
@@ -129,11 +134,16 @@ def _declared(
         sections.scope.refused.append("")  # whatever was to be declared
         return
     for key, value in entries:
-        if key.in_flow and key.label.isdigit() and value is not None and value.is_empty:
+        if is_decimal_part(key, value):
             message = f"'{key.label}' is not a name"
             sections.error(message, key.span, "a decimal point is written '.'")
         elif sections.declare(key.label, kind_, key.span):
             yield key, value
+
+
+def is_decimal_part(key: Scalar, value: DocumentNode | None) -> bool:
+    """Whether an entry is the `81` of `{g: 9,81}`."""
+    return key.in_flow and key.label.isdigit() and value is not None and value.is_empty
 
 
 def _list_advice(text: str) -> str:
@@ -142,12 +152,16 @@ def _list_advice(text: str) -> str:
     if given:
         listed = ", ".join(f"{name}: {value}" for name, value in given)
         return f"write {{{listed}}}" if "," in text else f"write {listed.split(', ')[0]}"
-    if text.strip().casefold() in {"none", "null", "no"}:
-        return "leave out the key"
+    if text.strip().casefold() in {"none", "null", "no", "~"}:
+        return "leave out the key, or write such as [x, y]"
     if among := re.fullmatch(r"(\D+)(\d)\s*(?:\.{2,}|…|-|to)\s*\1(\d)", text.strip()):
         places = range(int(among[2]), int(among[3]) + 1)
         return f"write [{', '.join(f'{among[1]}{k}' for k in places)}]"
-    names = [name for name in re.findall(r"[^\W\d]\w*", text.replace("(t)", "")) if name != "and"]
+    names = [
+        name
+        for name in re.findall(r"[^\W\d]\w*", re.sub(r"[(\[]t[)\]]", "", text))
+        if name != "and"
+    ]
     return f"write [{', '.join(names)}]" if names else "such as [x, y]"
 
 
@@ -201,7 +215,7 @@ def _said(sections: Sections, attributes: dict[str, DocumentNode]) -> _Said:
 def _sign(node: DocumentNode | None) -> str:
     """`positive` for `> 0` and `x > 0`; nothing for other texts."""
     found = isinstance(node, Scalar) and re.fullmatch(r"\s*\w*\s*(\W+?)\s*0?\s*", node.value)
-    return _SIGNS.get(found[1], "") if found else ""
+    return SIGNS.get(found[1], "") if found else ""
 
 
 def _check_unit(sections: Sections, text: Scalar) -> None:

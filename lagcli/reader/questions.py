@@ -15,14 +15,15 @@ from lagcli.problem_data import (
     SimulationDefaults,
     Where,
 )
-from lagcli.reader.habits import velocity_meant
+from lagcli.reader.habits import name_meant, velocity_meant
 from lagcli.reader.names import derivative_order
-from lagcli.reader.nodes import Mapping
+from lagcli.reader.nodes import Mapping, Scalar
+from lagcli.reader.quantities import is_decimal_part
 from lagcli.reader.scope import NUMBERS, POSITION, QUESTION, VALUES, Role
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
-    from lagcli.reader.nodes import DocumentNode, Scalar
+    from lagcli.reader.nodes import DocumentNode
     from lagcli.reader.sections import Sections
 
 _QUESTION_ATTRIBUTES = ("where", "for", "value", "in_terms_of", "always", "reaches")
@@ -51,8 +52,14 @@ def read_initial(sections: Sections, node: DocumentNode) -> dict[Name, Expressio
     coordinates = list(sections.scope.of_kind("coordinate"))
     for key, value in sections.entries(node, "initial", "write x: 1"):
         what = f"the initial '{key.label}'"
-        expression = sections.expression(value, what, VALUES)
+        if is_decimal_part(key, value):
+            message = f"'{key.label}' is not a coordinate"
+            sections.error(message, key.span, "a decimal point is written '.'")
+            continue
         name = _state_name(sections, key, coordinates)
+        if name is None and isinstance(value, Scalar) and value.is_empty:
+            continue
+        expression = sections.expression(value, what, VALUES)
         if name is None:
             continue
         if name in initial:
@@ -66,9 +73,13 @@ def _state_name(sections: Sections, key: Scalar, coordinates: list[str]) -> Name
     if letters not in coordinates:
         hint = velocity_meant(letters, coordinates) or did_you_mean(letters, coordinates)
         hint = hint or "give coordinates x and velocities x'"
-        plain = re.sub(r"\(\s*0\s*\)$", "", key.label)
+        plain = re.sub(r"(\(\s*0\s*\)|_?0)$", "", key.label)
         if plain != key.label and plain.rstrip("'") in coordinates:
             hint = f"write {plain}"
+        if "=" in key.label:
+            hint = f"write {name_meant(key.label)}"
+        if letters == "t":
+            hint = "a motion begins at t = 0: leave it out"
         sections.error(f"'{key.label}' in initial is not a coordinate", key.span, hint)
         return None
     primes = sum(2 if prime == "″" else 1 for prime in key.label[len(letters) :])

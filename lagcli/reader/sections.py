@@ -5,19 +5,26 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import TYPE_CHECKING, TypeVar, get_args
+from typing import TYPE_CHECKING, NamedTuple, TypeVar, get_args
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import ZERO, Equation, Expression, Name
 from lagcli.problem_data import Assumption
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression
 from lagcli.reader.growth import growth
-from lagcli.reader.habits import is_constant, key_advice, key_meant, same_key, unit_behind
+from lagcli.reader.habits import (
+    is_constant,
+    key_advice,
+    key_meant,
+    same_key,
+    unit_at_end,
+    unit_behind,
+)
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.scope import NUMBERS, VALUES, Kind, Role, Scope, name_mistake
-from lagcli.reader.suggest import did_you_mean
+from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.text import Mistake
 
 if TYPE_CHECKING:
@@ -36,6 +43,14 @@ _NUMERIC = (VALUES, NUMBERS)
 YES_OR_NO = {"yes": True, "no": False}
 _NAME = re.compile(r"[^\W\d]\w*")
 _NO_EQUATION = Equation(ZERO, ZERO)
+
+
+class Required(NamedTuple):
+    """A key that a map must have; where its absence is shown, and what to write."""
+
+    key: str
+    span: Span
+    hint: str
 
 
 @dataclass(slots=True, eq=False, repr=False)
@@ -89,7 +104,11 @@ class Sections:
     def scalar(self, node: DocumentNode, what: str) -> Scalar | None:
         """A text that is not empty."""
         if not isinstance(node, Scalar):
-            self.error(f"{what} must be a text, not {kind(node)}", node.span)
+            inner = node.items if isinstance(node, Sequence) else []
+            inner = [key for key, _ in node.entries] if isinstance(node, Mapping) else inner
+            first = inner[0].value if inner and isinstance(inner[0], Scalar) else ""
+            hint = f"write {first}" if first else ""
+            self.error(f"{what} must be a text, not {kind(node)}", node.span, hint)
             return None
         if node.broken:
             return None
@@ -108,13 +127,21 @@ class Sections:
         return None if text is None else YES_OR_NO.get(text.value.strip())
 
     def attributes(
-        self, node: DocumentNode, what: str, known: Iterable[str]
+        self, node: DocumentNode, what: str, known: Iterable[str], required: Required | None = None
     ) -> dict[str, tuple[Scalar, DocumentNode]]:
-        """The entries of a map with known keys; a mistake at each other one."""
+        """The entries of a map with known keys; a mistake at each other one.
+
+        Where the required key is lacking, that is the mistake, and the only one.
+        """
         found = {}
         names = tuple(known)
         entries = list(self.entries(node, what, _as_map(node, names)))
         given = {key.label for key, _ in entries}
+        if required is not None and isinstance(node, Mapping):
+            near = {key_meant(label, names) or closest(label, names) for label in given}
+            if required.key not in given | near:
+                self.error(f"{what} has no {required.key}", required.span, required.hint)
+                return {}
         for key, value in entries:
             if key.label in names:
                 found[key.label] = (key, value)
@@ -144,11 +171,15 @@ class Sections:
         self, node: DocumentNode, what: str, role: Role, before: int | None = None
     ) -> Expression:
         """A formula whose names are all known and allowed in its role."""
-        unit = unit_behind(node.value) if role in _NUMERIC and isinstance(node, Scalar) else ""
-        if unit and unit not in self.scope.kinds:
+        alone = node.value.strip() if isinstance(node, Scalar) else ""
+        unit = unit_behind(alone)
+        if unit and (unit not in self.scope.kinds if role in _NUMERIC else self._is_unit(unit)):
             self._misplaced_unit(node, what, unit)
             return UNREADABLE
-        alone = node.value.strip() if isinstance(node, Scalar) else ""
+        if (unit := unit_at_end(alone)) and self._is_unit(unit):
+            hint = f"leave out '{unit}': units stand where names are declared"
+            self.error(f"the unit '{unit}' cannot stand in {what}", node.span, hint)
+            return UNREADABLE
         if what.startswith("the value of") and self._is_unit(alone):
             self.error(f"the unit '{alone}' is not a value", node.span, f"write {{unit: {alone}}}")
             return UNREADABLE
@@ -167,6 +198,8 @@ class Sections:
         assert isinstance(node, Scalar)
         number = node.value.strip().removesuffix(unit).strip()
         hint = f"write {number}: numbers are in the units of the file"
+        if unit in {"min", "h"}:
+            hint = f"write {number}*{60 if unit == 'min' else 3600} for seconds"
         if unit in {"deg", "°"}:
             hint = f"angles are in radians: write {number}*pi/180"
         if what.startswith("the value of") and unit != "°":
@@ -244,10 +277,13 @@ def _one_sum(node: DocumentNode, what: str) -> str:
     """`write a + b` for the list `[a, b]` and the map `{spring: a, weight: b}`."""
     terms = node.items if isinstance(node, Sequence) else []
     if isinstance(node, Mapping):
-        terms = [value for _, value in node.entries]
+        pairs = [(value, key) for key, value in node.entries]
+        terms = [k if isinstance(v, Scalar) and v.is_empty else v for v, k in pairs]
     written = [term.value.strip() for term in terms if isinstance(term, Scalar)]
     if what.startswith("the initial") and len(written) == 2:
         return "write x: {}, x': {}".format(*written)
+    if what == "'until'" and written:
+        return f"a motion begins at t = 0: write {written[-1]}"
     return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""
 
 
@@ -262,6 +298,14 @@ def _as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
         return f"write {{unit: {written}}}"
     if isinstance(node, Sequence) and "value" in names:
         return "one value each; several are run by lagcli sweep --vary"
+    if isinstance(node, Scalar) and names[0] == "unit" and is_constant("x", written):
+        return "a state stands under initial, as in initial: {x: 1}"
+    if isinstance(node, Scalar) and names[0] == "unit" and written == "angle":
+        return "write {unit: rad}"
+    if isinstance(node, Scalar) and names[0] == "where":
+        return f"write {{value: {written}, in_terms_of: [x]}}"
+    if isinstance(node, Sequence) and names[0] == "until" and node.items:
+        return f"write {{until: {written.strip('[]').split(',')[-1].strip()}}}"
     if isinstance(node, Scalar) and names[0] == "position" and re.fullmatch(r"\(.*\)", written):
         return f"write {{position: [{written[1:-1]}]}}"
     fits = {"until": Scalar, "position": Sequence}.get(names[0])

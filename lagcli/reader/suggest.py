@@ -22,6 +22,7 @@ _ELSEWHERE = {
     "ctg": "cot",
     "cosec": "csc",
     "sen": "sin",
+    "root": "sqrt",
     "sh": "sinh",
     "ch": "cosh",
     "th": "tanh",
@@ -39,6 +40,9 @@ _GREEK = {
     for letter in "αβγδεζηθικλμνξοπρςστυφχψω"
 }
 
+#: Cyrillic letters, which look like Latin ones.
+_CYRILLIC = dict(zip("асеорхуіјкмтн", "aceopxyijkmth", strict=True))
+
 #: Dots for velocities, as others write them.
 _VELOCITY_ENDINGS = ("_dot", "dot", "_ddot", "ddot", "_d")
 
@@ -48,7 +52,9 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     best = closest(name, known)
     if best.endswith("'"):
         return f"did you mean {best}?"
-    return f"did you mean '{best}'?" if best else ""
+    named = [unicodedata.name(letter, "") for letter in best + name if letter in _CYRILLIC]
+    shown = f", with the letter {named[0].capitalize()}" if named else ""
+    return f"did you mean '{best}'{shown}?" if best else ""
 
 
 def closest(name: str, known: Iterable[str]) -> str:
@@ -80,5 +86,6 @@ def _spelled_out(name: str) -> str:
 
 
 def _folded(name: str) -> str:
-    """Look-alikes in one form: µ and μ, X and x, ϕ and φ and phi."""
-    return _spelled_out(unicodedata.normalize("NFKC", name).casefold())
+    """Look-alikes in one form: µ and μ, X and x, ϕ and φ and phi, a Cyrillic х and x."""
+    latin = str.maketrans(_CYRILLIC)
+    return _spelled_out(unicodedata.normalize("NFKC", name).casefold().translate(latin))

@@ -9,14 +9,13 @@ from lark.exceptions import UnexpectedCharacters
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import FUNCTIONS
-from lagcli.reader.habits import fraction, latex_meant, superscript, unit_behind
+from lagcli.reader.habits import COMMENT, fraction, latex_meant, superscript, unit_behind
 
 if TYPE_CHECKING:
     from lark.lexer import Token
 
     from lagcli.reader.positions import Excerpt
 
-_COMMENT = "a comment begins with '#'"
 _CASES = frozenset({"if", "for", "when", "where", "else", "otherwise"})
 _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
 _END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
@@ -31,6 +30,9 @@ _INSTEAD = {
     **dict.fromkeys("[]{}", "group with parentheses ( )"),
     "√": "write sqrt(x)",
     "∂": "write diff(expression, name)",
+    "∫": "write the antiderivative",
+    "∑": "write each term",
+    **dict.fromkeys("$~", "leave it out"),
     "|": "write abs(x)",
     ";": "leave out ';'",
     "!": "there is no factorial",
@@ -41,7 +43,7 @@ _INSTEAD = {
     "&": "write one condition",
     "±": "write the number without its error",
     "≠": "write an equation with '='",
-    "≈": "write an equation with '='",
+    "≈": "leave it out, or write '='",
     "∞": "there is no infinity",
     "\u0307": "a velocity is written with a prime: x'",
     **dict.fromkeys("²³⁰ⁱ⁴⁵⁶⁷⁸⁹⁺⁻", "write a power with '^'"),
@@ -79,7 +81,12 @@ def explain(error: Exception, tokens: list[Token], excerpt: Excerpt, start: str)
             hint = f"did you mean {function}(…)^{previous}?"
             return Diagnostic(f"'{function}' needs arguments", _span(function, excerpt), hint)
         return _missing_product(previous, token, following, excerpt)
-    message, hint = _unexpected(token, previous, tokens[:place], start)
+    if token.type == "COMPARISON":
+        message = f"'{token}' stands only in 'holds_while' and in the gap of a contact, and once"
+        hint = _contact_advice(excerpt.value) if start == "equation" else ""
+        return Diagnostic(message, _span(token, excerpt), hint)
+    is_last = place + 1 == len(tokens)
+    message, hint = _unexpected(token, previous, tokens[:place], start, is_last=is_last)
     return Diagnostic(message, _span(token, excerpt), hint)
 
 
@@ -89,7 +96,9 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
     shown = f"'{character}'" if character.isprintable() else f"U+{ord(character):04X}"
     if character == "'":
         return Diagnostic("a prime without a name", span, _prime_advice(tokens))
-    if character == "°":
+    if character in '"“”„' and not tokens:
+        return Diagnostic("quotes are not part of a formula", span, "leave them out")
+    if character in "°˚":
         number = tokens[-1] if tokens and tokens[-1].type == "NUMBER" else "x"
         return Diagnostic("angles are in radians", span, f"write {number}*pi/180")
     if fraction(character):
@@ -102,7 +111,11 @@ def _meant(rest: str, tokens: list[Token]) -> str:
     """What was meant by LaTeX, by `math.pi`, by `10%`; nothing where that is unclear."""
     before = tokens[-1].type if tokens else ""
     if re.match(r"%\s*[A-Za-z]", rest) and before in _END_VALUE:
-        return _COMMENT
+        return COMMENT
+    if rest.startswith(("!=", ":=")):
+        return "write an equation with '='"
+    if rest[0] == "[" and before == "LPAR":
+        return "a vector is written by its components"
     if by_element := re.match(r"\.([*/^'])", rest):
         return f"write {by_element[1]}"
     if rest[0] == "%" and before == "NUMBER":
@@ -155,13 +168,16 @@ def _missing_product(
     before = _written(left) if left.type != "RPAR" else "(…)"
     if str(right) in {"rad", "radian", "radians"}:
         return Diagnostic("angles are in radians", span, f"leave out '{right}'")
-    if str(right) in {"deg", "degree", "degrees", "°"}:
+    if str(right) in {"deg", "degree", "degrees", "º"}:
         return Diagnostic("angles are in radians", span, f"write {before}*pi/180")
     if left.type == "NUMBER" and right.type == "NUMBER":
-        hint = "" if apart else "a number has one decimal point"
+        grouped = f"write {left}{right}" if len(right) == 3 else f"did you mean {left}*{right}?"
+        hint = grouped if apart else "a number has one decimal point"
         return Diagnostic("two numbers side by side", span, hint)
     if left.type == "NUMBER" and right.startswith("_") and not apart:
-        return Diagnostic("digits are not grouped by '_'", span)
+        return Diagnostic("digits are not grouped by '_'", span, f"write {left}{right[1:]}")
+    if str(left).endswith("'") and right.type == "NUMBER" and not apart:
+        return Diagnostic("a power is written with '^'", span, f"did you mean {left}^{right}?")
     if superscript(right):
         return Diagnostic(
             "a power is written with '^'", span, f"write {before}{superscript(right)}"
@@ -179,7 +195,7 @@ def _written(token: Token) -> str:
 
 
 def _unexpected(
-    token: Token, previous: Token | None, before: list[Token], start: str
+    token: Token, previous: Token | None, before: list[Token], start: str, *, is_last: bool
 ) -> tuple[str, str]:
     """Sentence and advice for a token that cannot stand where it stands."""
     inside = _open_parenthesis(before)
@@ -187,8 +203,8 @@ def _unexpected(
         if inside is None:
             return "this parenthesis was never opened", "leave it out, or write its '('"
         if previous is not None and previous.type == "LPAR":
-            return "nothing stands between the parentheses", ""
-        return f"nothing stands between '{previous}' and ')'", ""
+            return "nothing stands between the parentheses", "leave them out"
+        return f"nothing stands between '{previous}' and ')'", f"leave out '{previous}'"
     if token.type == "EQUAL":
         if previous is not None and previous.type == "EQUAL":
             return "'==' has no meaning", "an equation is written with one '='"
@@ -199,25 +215,19 @@ def _unexpected(
         alone = len(before) == 1 and previous is not None and previous.type == "NAME"
         hint = f"leave out '{previous} ='" if alone else "leave out '=' and what follows it"
         return "'=' stands only in constraints and equations", hint
-    if token.type == "COMPARISON":
-        message = f"'{token}' stands only in 'holds_while' and in the gap of a contact, and once"
-        return message, _contact_advice(previous, start)
     if token.type == "COMMA" and previous is not None and previous.type in _END_VALUE:
-        return "a comma stands only between the arguments of a function", _comma_advice(previous)
+        is_decimal = previous.type == "NUMBER" and not is_last
+        hint = "a decimal point is written '.'" if is_decimal else "leave out ','"
+        return "a comma stands only between the arguments of a function", hint
     if previous is None:
-        return f"nothing stands before '{token}'", ""
-    hint = _COMMENT if f"{previous}{token}" == "//" else ""
+        return f"nothing stands before '{token}'", f"leave out '{token}'"
+    hint = COMMENT if f"{previous}{token}" in {"//", "/*"} else f"leave out '{token}'"
     return f"'{token}' cannot follow '{previous}'", hint
 
 
-def _contact_advice(previous: Token | None, start: str) -> str:
-    if start != "equation" or previous is None:
-        return ""
-    return f"a one-sided contact stands under contacts, as in floor: {previous} >= 0"
-
-
-def _comma_advice(previous: Token) -> str:
-    return "a decimal point is written '.'" if previous.type == "NUMBER" else ""
+def _contact_advice(written: str) -> str:
+    gap = re.sub(r"([<>])(?!=)", r"\1=", written.strip()) if len(written) <= 40 else "y >= 0"
+    return f"a one-sided contact stands under contacts, as in floor: {gap}"
 
 
 def _open_parenthesis(tokens: list[Token]) -> Token | None:

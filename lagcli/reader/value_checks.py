@@ -6,11 +6,24 @@ Values are followed exactly where they are rational; others are looked at when t
 from __future__ import annotations
 
 from fractions import Fraction
+from math import prod
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.expression import Name, Sum, walk
+from lagcli.expression import (
+    Call,
+    Name,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    folded,
+    walk,
+)
 from lagcli.reader.constants import rational_value
+from lagcli.reader.names import derivative_order
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,6 +33,8 @@ if TYPE_CHECKING:
     from lagcli.reader.sections import Sections
 
 
+_ODD = frozenset("sin tan sinh tanh asin atan asinh atanh sign".split())
+_EVEN = frozenset("abs cos cosh sec".split())
 _SIGNS = {"positive": Fraction(1), "negative": Fraction(-1)}
 
 
@@ -51,6 +66,7 @@ def _names(formula: Expression) -> list[Name]:
 
 def check_values(sections: Sections, problem: Problem) -> None:
     """Values that break an assumption, negative masses, restitution that is not in 0 to 1."""
+    _check_dissipation(sections, problem)
     known = _known(problem)
     for parameter in problem.parameters:
         value = known.get(parameter.name)
@@ -68,6 +84,44 @@ def check_values(sections: Sections, problem: Problem) -> None:
             message = f"the restitution of '{name}' lies between 0 and 1, and is {value}"
             hint = "1 loses no energy, after 0 nothing rebounds"
             sections.error(message, formula.span, hint)
+
+
+def _check_dissipation(sections: Sections, problem: Problem) -> None:
+    """Rayleigh's function takes energy at the rate Σ q' ∂D/∂q'; no odd one does so both ways.
+
+    Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd edition, section 1.5.
+    """
+    formula = problem.dissipation
+    if formula is None:
+        return
+    hint = "a friction force -c*x' is written dissipation: c*x'^2/2"
+    if derivative_order(formula, sections.scope) < 1:
+        sections.error("the dissipation contains no velocity", formula.span, hint)
+    elif _parity(formula, problem.definitions) == -1:
+        message = "the dissipation changes its sign with the velocities"
+        sections.error(message, formula.span, hint)
+
+
+def _parity(formula: Expression, definitions: Mapping[str, Expression]) -> int:
+    """1 or -1 for what is even or odd under q' → -q', 0 where that is not plain to see."""
+
+    def parity(node: Expression, parts: list[int]) -> int:
+        match node:
+            case Name(name=name, primes=primes):
+                held = definitions.get(name)
+                return (1 if held is None else _parity(held, definitions)) * (1 - 2 * (primes % 2))
+            case Sum():
+                return parts[0] if len(set(parts)) == 1 else 0
+            case Product() | Quotient() | Negative():
+                return prod(parts)
+            case Power(exponent=Number(value=power)) if power.denominator == 1:
+                return int(parts[0] ** abs(power))
+            case Call(function=function) if function in _ODD or (function in _EVEN and parts[0]):
+                return parts[0] if function in _ODD else 1
+            case _:
+                return int(all(part == 1 for part in parts))
+
+    return folded(formula, parity)
 
 
 def _check_masses(sections: Sections, problem: Problem, known: Mapping[str, Fraction]) -> None:

@@ -28,7 +28,7 @@ _SENTENCES = (
      "',' stands between its entries, '}' at its end"),
     ("expected ',' or '}'", "a map '{' is never closed, or lacks a comma",
      "',' stands between its entries, '}' at its end"),
-    ("could not find expected ':'", "a key without ': ' after it", "write 'key: value'"),
+    ("could not find expected ':'", "a key without ': ' after it", ""),
     ("did not find expected key",
      "this is no key of the map around it", "is it indented like its neighbours?"),
     ("expected <block end>",
@@ -48,8 +48,8 @@ _SENTENCES = (
     ("tag", "tags are not part of the format", "put a value that begins with '!' in quotes"),
     ("did not find expected <document start>",
      "the document has ended, nothing can follow here", "one problem, one file"),
-    ("expected the node content", "something is missing before this", ""),
-    ("did not find expected node content", "something is missing before this", ""),
+    ("expected the node content", "something is missing before this", "leave this out"),
+    ("did not find expected node content", "something is missing before this", "leave this out"),
     ("block scalar", "the text after '|' or '>' is not well formed", ""),
     ("directive", "'%' begins a directive, which is not part of the format",
      "put the value in quotes"),
@@ -81,8 +81,14 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
     if text.source.text[offset : offset + 1] == "\t" and "token" in said:
         return Diagnostic("a tab cannot indent", span, "indent with spaces")
     if at_end and "node content" in said:
-        return Diagnostic("the file ends inside of a list '[' or a map '{'", span)
-    line = text.source.text.split("\n")[text.position(offset)[0] - 1]
+        return Diagnostic(
+            "the file ends inside of a list '[' or a map '{'", span, "write its ']' or '}'"
+        )
+    if start is not None and "could not find expected ':'" in said:
+        offset = start.index
+        span = text.span(offset, offset + 1)
+    lines = text.source.text.split("\n")
+    line = lines[text.position(offset)[0] - 1]
     if quoted := _QUOTED.fullmatch(line):
         hint = f"leave out the outer quotes: {quoted[1]}: {quoted[3]}"
         return Diagnostic("this quote ends before the text does", span, hint)
@@ -92,12 +98,25 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         return Diagnostic("'?' is not a value", span, "leave out what is not known")
     if index := re.search(r"(\w+?)_\{(\w+)\}", line):
         return Diagnostic("a name has no braces", span, f"write {index[1]}_{index[2]}")
+    first = next((each for each in lines if each.strip()), "")
+    if "<document start>" in said and first[:1] == " " != line[:1]:
+        key = first.split(":")[0].strip()
+        return Diagnostic(f"this line begins further left than '{key}'", span, "begin them alike")
     for piece, sentence, hint in _SENTENCES:
         if piece in said:
-            return Diagnostic(sentence, span, hint)
+            if (
+                not hint
+                and re.match(r"\s*([-+*^]|/(?![/*])|\w+[-+*/^(])", line)
+                and line is not first
+            ):
+                return Diagnostic(sentence, span, _CONTINUED)
+            return Diagnostic(sentence, span, hint or colon_advice(line))
     return Diagnostic(f"this is not YAML: {problem}", span)
 
 
+#: A line that begins in the middle of a formula.
+_MIDDLE = re.compile(r"\s*([-+*^]|/(?![/*])|\w+[-+*/^(])")
+_CONTINUED = "a line that continues the one above it begins with blanks"
 #: A text in quotes with one of them inside.
 _QUOTED = re.compile(r"\s*([\w ]+):\s*(['\"])([^#]*\2[^#]*)\2\s*(?:#.*)?")
 _BEFORE = re.compile(r"(?P<indent>\s*)(?P<key>[^\W\d][\w ]*)(?P<colon>:\s+\S)?")
