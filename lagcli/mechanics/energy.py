@@ -30,7 +30,7 @@ from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.record import record
 from lagcli.statements.answers import Verification
-from lagcli.statements.wording import CONSERVED, enumerated
+from lagcli.statements.wording import CONSERVED, constraints_named, enumerated
 
 
 @record
@@ -61,6 +61,13 @@ class EnergyFunction:
         system = self.dynamics.system
         forces = dot(system.forces, system.qdot)
         drag = sympy.Add(*(v * system.D.diff(v) for v in system.qdot))
+        moving = [
+            e
+            for e in self.dynamics.constraints.equations
+            if is_zero(e.multiplier * e.drift) is not True
+        ]
+        do = "move and do" if len(moving) > 1 else "moves and does"
+        named = [e.name for e in moving]
         causes = [
             EnergyRate(
                 "the explicit time dependence of L",
@@ -70,13 +77,10 @@ class EnergyFunction:
             ),
             EnergyRate("the applied forces", "the applied forces do work", forces),
             EnergyRate("the dissipation", "the dissipation takes energy", -drag),
-            *(
-                EnergyRate(
-                    f"the moving constraint '{e.name}'",
-                    f"the constraint '{e.name}' moves and does work",
-                    -e.multiplier * e.drift,
-                )
-                for e in self.dynamics.constraints.equations
+            EnergyRate(
+                constraints_named("the moving constraint", named),
+                f"{constraints_named('the constraint', named)} {do} work",
+                -sympy.Add(*(e.multiplier * e.drift for e in moving)),
             ),
         ]
         return tuple(p for p in causes if is_zero(p.value) is not True)
@@ -197,7 +201,7 @@ class EnergyFunction:
         conserved = f"conserved {when}" if when else "conserved"
         if not self.powers:
             return f"{conserved}: {CONSERVED}"
-        causes = enumerated([power.cause for power in self.powers], "of ")
+        causes = enumerated([power.cause for power in self.powers])
         together = "cancel" if len(self.powers) > 1 else "vanish"
         return f"{conserved}: on the motion the effects of {causes} {together}"
 

@@ -16,7 +16,7 @@ from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.problem_data import Symmetry
 from lagcli.record import record
 from lagcli.statements.answers import ChargeSource, Verification
-from lagcli.statements.wording import CHANGE_OF_L, CONSERVED, enumerated
+from lagcli.statements.wording import CHANGE_OF_L, CONSERVED, constraints_named, enumerated
 
 _NOT_SOLVED = "the system is too large to solve the motion in formulas"
 
@@ -82,17 +82,22 @@ class LargeCharges:
         return self._vanishes(graph.difference(self._jacobi, total))
 
     @cached_property
-    def powers(self) -> dict[str, Node]:
-        """What changes h, by cause, zeros left out; a constraint by its drift."""
+    def powers(self) -> list[str]:
+        """What changes h, in words; a constraint by its drift."""
         form, graph = self.form, self.graph
         applied = zip(form.applied_forces, form.qdot, strict=True)
         powers = {
             "L depends on t explicitly": partial(graph, form.t)(form.written_lagrangian),
             "the applied forces do work": graph.sum(graph.product(f, v) for f, v in applied),
         }
-        for constraint, row in zip(form.problem.constraints, form.constraints, strict=True):
-            powers[f"the constraint '{constraint.name}' moves and does work"] = row.drift
-        return {cause: p for cause, p in powers.items() if self._vanishes(p) is not True}
+        moving = [
+            constraint.name
+            for constraint, row in zip(form.problem.constraints, form.constraints, strict=True)
+            if self._vanishes(row.drift) is not True
+        ]
+        found = [cause for cause, power in powers.items() if self._vanishes(power) is not True]
+        do = "move and do" if len(moving) > 1 else "moves and does"
+        return found + [f"{constraints_named('the constraint', moving)} {do} work"] * bool(moving)
 
     @cached_property
     def energy_conserved(self) -> bool | None:
@@ -104,7 +109,7 @@ class LargeCharges:
     @property
     def energy_reason(self) -> str:
         """Why h is (not) conserved and is (not) T + V."""
-        causes = enumerated(list(self.powers))
+        causes = enumerated(self.powers)
         conserved = {
             True: f"conserved: {CONSERVED}",
             False: f"not conserved: {causes}",
@@ -140,7 +145,7 @@ class LargeCharges:
             self.energy_conserved,
             rate,
             "50 digits" if self.energy_conserved is not None else None,
-            "" if self.energy_conserved is not False else enumerated(list(self.powers)),
+            "" if self.energy_conserved is not False else enumerated(self.powers),
         )
         return (*candidates, *cyclic, energy)
 
@@ -191,17 +196,21 @@ class LargeCharges:
                 graph.product(f, e) for f, e in zip(form.applied_forces, eta, strict=True)
             ),
         }
-        for constraint, row in zip(form.problem.constraints, form.constraints, strict=True):
-            across = [
-                graph.product(a, changes[q.name])
-                for a, q in zip(row.row, form.q, strict=True)
-                if q.name in changes
-            ]
-            causes[f"the constraint '{constraint.name}'"] = graph.sum(
-                [*across, graph.product(row.drift, time)]
+        across = [
+            graph.sum(
+                [
+                    *(
+                        graph.product(a, changes[q.name])
+                        for a, q in zip(row.row, form.q, strict=True)
+                        if q.name in changes
+                    ),
+                    graph.product(row.drift, time),
+                ]
             )
+            for row in form.constraints
+        ]
         breaking = [cause for cause, part in causes.items() if self._vanishes(part) is not True]
-        if not breaking:
+        if not breaking and all(self._vanishes(part) is True for part in across):
             gauge = boundary
             conserved, rate = True, graph.zero
         elif form.constraints or (gauge is None and CHANGE_OF_L in breaking):
@@ -210,6 +219,6 @@ class LargeCharges:
             rate = graph.sum(causes[cause] for cause in breaking)
             conserved = None if rate.mask & form.acceleration_mask else False
             rate = rate if conserved is False else None
-        broken_by = enumerated(list(breaking)) if conserved is False else ""
+        broken_by = enumerated(breaking) if conserved is False else ""
         how: Verification | None = None if conserved is None else "50 digits"
         return LargeCharge(name, source, changes, gauge, charge, conserved, rate, how, broken_by)

@@ -32,6 +32,7 @@ from sympy import Expr
 from lagcli.algebra import dot, is_zero, simplify
 from lagcli.algebra.build import without_jumps
 from lagcli.algebra.jumps import is_continuous
+from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.energy import EnergyFunction
 from lagcli.mechanics.gauge import Gauge, GaugeSearch
@@ -39,7 +40,7 @@ from lagcli.mechanics.translations import constant_nullspace
 from lagcli.problem_data import Symmetry
 from lagcli.record import record, replace
 from lagcli.statements.answers import ChargeSource, Verification
-from lagcli.statements.wording import CHANGE_OF_L, enumerated
+from lagcli.statements.wording import CHANGE_OF_L, constraints_named, enumerated
 
 _NO_GAUGE_KNOWN = "no gauge was found, and whether there is one was not decided"
 _OTHER_GAUGE = "the gauge that the file gives (without it the right one is found)"
@@ -194,7 +195,7 @@ class Noether:
         if conserved and not (system.is_continuous and is_continuous(charge)):
             # constant only between the places where it jumps
             rate, conserved, verified = None, None, None
-        broken_by = "" if conserved is not False else self._broken_by(contributions)
+        broken_by = "" if conserved is not False else enumerated(self._not_vanishing(contributions))
         if gauge is None and exists is None and conserved is False:
             rate = conserved = verified = None
             broken_by = _NO_GAUGE_KNOWN
@@ -211,11 +212,11 @@ class Noether:
 
     def _contributions(
         self, transformation: Transformation, boundary: Expr, change: Expr
-    ) -> dict[str, Expr]:
+    ) -> dict[str | ConstraintEquation, Expr]:
         """The terms of dQ/dt by cause, those that vanish identically left out."""
         system, dynamics = self.system, self.dynamics
         eta = self.characteristic(transformation)
-        parts = {
+        parts: dict[str | ConstraintEquation, Expr] = {
             CHANGE_OF_L: change - system.total_derivative(boundary),
             "the applied forces": dot(system.forces, eta),
             "the dissipation": -dot(map(system.D.diff, system.qdot), eta),
@@ -225,7 +226,7 @@ class Noether:
             across = dot(equation.row, transformation.changes)
             across += equation.drift * transformation.time
             if is_zero(across, dynamics.constraints.relations) is not True:
-                parts[f"the constraint '{equation.name}'"] = equation.multiplier * across
+                parts[equation] = equation.multiplier * across
         return {cause: part for cause, part in parts.items() if is_zero(part) is not True}
 
     def _rate(
@@ -261,16 +262,16 @@ class Noether:
         works = self._contributions(charge.transformation, boundary, change)
         return tuple(self._not_vanishing(works))
 
-    def _broken_by(self, contributions: Mapping[str, Expr]) -> str:
-        return enumerated(self._not_vanishing(contributions))
-
-    def _not_vanishing(self, contributions: Mapping[str, Expr]) -> list[str]:
-        """The causes of what is not 0 on the motion."""
-        causes = []
-        for cause, part in contributions.items():
-            if self.dynamics.vanishes_on_motion(part).holds is not True:
-                causes.append(cause)
-        return causes
+    def _not_vanishing(self, contributions: Mapping[str | ConstraintEquation, Expr]) -> list[str]:
+        """The causes, in words, of what is not 0 on the motion."""
+        causes = [
+            cause
+            for cause, part in contributions.items()
+            if self.dynamics.vanishes_on_motion(part).holds is not True
+        ]
+        constraints = [cause.name for cause in causes if not isinstance(cause, str)]
+        words = [constraints_named("the constraint", constraints)] * bool(constraints)
+        return [*(cause for cause in causes if isinstance(cause, str)), *words]
 
     # -- evident symmetries ---------------------------------------------------------------
 

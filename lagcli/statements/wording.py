@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 
@@ -89,35 +88,14 @@ def substituted(level: Verification | None, symbols: Iterable[str] = ()) -> Iter
         yield Paragraph((*head, how))
 
 
-_CONSTRAINT = re.compile(r"(the (?:moving )?)constraint ('.*')( moves and does work|)")
+def constraints_named(kind: str, names: Sequence[str]) -> str:
+    """The constraint 'a'; the constraints 'a' and 'b'."""
+    quoted = enumerated([f"'{name}'" for name in names])
+    return f"{kind}{'s' * (len(names) > 1)} {quoted}"
 
 
-def enumerated(words: Sequence[str], before: str = "") -> str:
-    """a, b and c, constraints of one kind together; `before` stands before each but the first."""
-    return _series([f"{before if k else ''}{word}" for k, word in enumerate(together(words))])
-
-
-def together(words: Iterable[str]) -> list[str]:
-    """The words; of 'the constraint a' and 'the constraint b': 'the constraints a and b'."""
-    found: dict[str | tuple[str, ...], list[str]] = {}
-    for word in words:
-        match = _CONSTRAINT.fullmatch(word)
-        found.setdefault(match.group(1, 3) if match else word, []).append(
-            match[2] if match else word
-        )
-    return [
-        _constraints(key, names) if isinstance(key, tuple) else key for key, names in found.items()
-    ]
-
-
-def _constraints(kind: tuple[str, ...], names: Sequence[str]) -> str:
-    before, after = kind
-    if len(names) == 1:
-        return f"{before}constraint {names[0]}{after}"
-    return f"{before}constraints {_series(names)}{after.replace('moves and does', 'move and do')}"
-
-
-def _series(words: Sequence[str]) -> str:
+def enumerated(words: Sequence[str]) -> str:
+    """a, b and c."""
     return " and ".join([part for part in (", ".join(words[:-1]), *words[-1:]) if part])
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from lagcli.statements.wording import enumerated
+from lagcli.statements.wording import constraints_named
 
 from .derived import derive, same
 
@@ -75,10 +75,8 @@ def test_the_ordinary_case(potential: str):
 
 
 def test_constraints_of_one_kind_are_named_together():
-    moving = [f"the constraint '{name}' moves and does work" for name in "abc"]
-    words = ["the applied forces do work", *moving]
-    together = "the constraints 'a', 'b' and 'c' move and do work"
-    assert enumerated(words) == f"the applied forces do work and {together}"
-    assert enumerated(moving[:1]) == moving[0]
-    of_both = ["the moving constraint 'a'", "the constraint 'b'", "the moving constraint 'c'"]
-    assert enumerated(of_both) == "the moving constraints 'a' and 'c' and the constraint 'b'"
+    assert constraints_named("the moving constraint", ["a"]) == "the moving constraint 'a'"
+    assert constraints_named("the constraint", "abc") == "the constraints 'a', 'b' and 'c'"
+    moved = "constraints: {a: x = F(t), b: y = G(t)}\nfunctions: {F: [t], G: [t]}\n"
+    energy = derive(f"coordinates: [x, y, z]\nL: x'^2 + y'^2 + z'^2\n{moved}").energy
+    assert "the constraints 'a' and 'b' move and do work" in energy.reason

@@ -14,7 +14,7 @@ from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, listed, says, shows
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.noether import NoetherCharge
-from lagcli.statements.wording import TRIVIAL, enumerated, together
+from lagcli.statements.wording import TRIVIAL, enumerated
 
 
 def energy(teller: Teller) -> Iterator[Block]:
@@ -89,7 +89,7 @@ def _rate(teller: Teller) -> Iterator[Block]:
     changes = listed(
         [
             *((letters.L, " ", p.deed) for p in function.powers if p.of_lagrangian),
-            *together(p.deed for p in function.powers if not p.of_lagrangian),
+            *(p.deed for p in function.powers if not p.of_lagrangian),
         ]
     )
     total = sympy.Add(*(power.value for power in function.powers))
@@ -213,7 +213,8 @@ def _work(teller: Teller, charge: NoetherCharge, *, with_gauge: bool) -> Iterato
             yield says(acting, " no work along this transformation.")
         return
     words = enumerated(working)
-    do = "do" if len(working) > 1 or words.endswith("s") else "does"
+    several = len(working) > 1 or words.startswith(("the applied", "the constraints"))
+    do = "do" if several else "does"
     lead = f"{words[0].upper()}{words[1:]} {do} work along this transformation, which together "
     letters = teller.letters
     total: list[Part] = ["the total time derivative of ", letters.G] if with_gauge else ["0"]

@@ -63,7 +63,8 @@ def _momentum_rates(teller: Teller) -> list[Part]:
     more = ["the applied forces"] * (teller.forced or teller.damped)
     more += ["the forces of the constraints"] * bool(teller.dynamics.constraints.equations)
     added = f", plus {' and '.join(more)}" if more else ""
-    return [f"and the rates of the momenta minus those with respect to the coordinates{added}:"]
+    lead = "and the rates of the momenta are minus those with respect to the coordinates"
+    return [f"{lead}{added}:"]
 
 
 def brackets(_: Teller, section: Section) -> Iterator[Block]:
@@ -102,7 +103,7 @@ def hamilton_jacobi(teller: Teller, section: Section) -> Iterator[Block]:
     """From H(q, dS/dq) = E to the parts of S, coordinate by coordinate."""
     found = cast(HamiltonJacobiSection, section)
     if found.hamiltonian is None:
-        yield says(f"The equation was not found: {found.reason}.")
+        yield says(f"The equation was not set up: {found.reason}.")
         return
     S, E = Label("S"), Name(found.energy)
     if found.time_rate is not None:
@@ -139,8 +140,8 @@ def hamilton_jacobi(teller: Teller, section: Section) -> Iterator[Block]:
                 W,
                 " is a sum of ",
             ),
-            "functions of one coordinate each. The terms with one coordinate are constant; the "
-            "constants of separation are ",
+            "functions of one coordinate each. The terms that contain the same coordinate are "
+            "constant together; the constants of separation are ",
             *(names(found.constants), "."),
         )
     if found.equations:

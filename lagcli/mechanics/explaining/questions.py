@@ -121,8 +121,8 @@ def _answer(answer: Answer, *, is_open: bool) -> Iterator[Block]:
                 "The answer can change only at values of ",
                 Name(unknown),
                 " for which two roots along the motion coincide, or a root coincides with the "
-                "initial "
-                "state. Between these values one motion decides. The condition holds for ",
+                "initial state. One motion was examined at each of these values and one between "
+                "neighbours. The condition holds for ",
                 *_ranges(unknown, ranges),
                 ".",
             )

@@ -151,7 +151,7 @@ def _period(each: PeriodSeries) -> Iterator[Block]:
         yield says(f"{_TWICE} With ", a, " half their distance it is, to the order ",
                    Power(a, order), ",")  # fmt: skip
     elif each.order:
-        yield says(f"{_TWICE} Up to the power {each.order} of the amplitude it is constant:")
+        yield says(f"{_TWICE} To the order {each.order} in half their distance it is constant:")
     else:
         yield says("the period of small oscillations is")
     yield shows(Label("T", ("period",)), each.period)

@@ -30,15 +30,15 @@ _VARIABLES = {
 }
 _LAWS = {
     "F1": "Its derivatives with respect to the old coordinates are the old momenta, those with "
-    "respect to the new coordinates minus the new momenta",
+    "respect to the new coordinates are minus the new momenta",
     "F2": "Its derivatives with respect to the old coordinates are the old momenta, those with "
-    "respect to the new momenta the new coordinates",
+    "respect to the new momenta are the new coordinates",
     "F3": "Its derivatives with respect to the old momenta are minus the old coordinates, "
     "those with "
-    "respect to the new coordinates minus the new momenta",
+    "respect to the new coordinates are minus the new momenta",
     "F4": "Its derivatives with respect to the old momenta are minus the old coordinates, "
     "those with "
-    "respect to the new momenta the new coordinates",
+    "respect to the new momenta are the new coordinates",
 }
 
 
