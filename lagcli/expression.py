@@ -250,6 +250,16 @@ def has_nested_fraction(node: Expression) -> bool:
     return any(isinstance(part, Quotient) and _is_nested(part) for part in walk(node))
 
 
+def terms_of(node: Expression) -> tuple[Expression, ...]:
+    """The terms of a sum; of all others the node itself."""
+    return node.terms if isinstance(node, Sum) else (node,)
+
+
+def factors_of(node: Expression) -> tuple[Expression, ...]:
+    """The factors of a product; of all others the node itself."""
+    return node.factors if isinstance(node, Product) else (node,)
+
+
 def _is_nested(node: Quotient) -> bool:
     if _has_fraction(node.denominator):
         return True

@@ -17,7 +17,7 @@ from lagcli.expression import (
     Power,
     Product,
     Quotient,
-    Sum,
+    terms_of,
     walk,
 )
 from lagcli.notation.decimals import number
@@ -97,7 +97,7 @@ def off_constraints(problem: Problem) -> list[Diagnostic]:
         try:
             sides = [put_in(side) for side in (one.equation.left, one.equation.right)]
             left, right = value_of(sides[0]), value_of(sides[1])
-            parts = [value_of(term) for side in sides for term in _terms(side)]
+            parts = [value_of(term) for side in sides for term in terms_of(side)]
         except (ArithmeticError, ValueError):
             continue
         sizes = [abs(float(part)) for part in parts if part is not None]
@@ -115,10 +115,6 @@ def off_constraints(problem: Problem) -> list[Diagnostic]:
             )
         )
     return found
-
-
-def _terms(side: Expression) -> tuple[Expression, ...]:
-    return side.terms if isinstance(side, Sum) else (side,)
 
 
 def substituted(value: Value, values: Values) -> Value:

@@ -17,9 +17,11 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    factors_of,
     operation_count,
     opposite,
     product_of,
+    terms_of,
 )
 from lagcli.notation.ordering import Factor, Ordering, bases, positive_first
 
@@ -186,7 +188,7 @@ class Writer:
         for term in terms:
             if isinstance(term, Negative) and isinstance(term.operand, Sum):
                 term = self.negative_sum(term.operand)
-            parts.extend(term.terms if isinstance(term, Sum) else (term,))
+            parts.extend(terms_of(term))
         parts = [part for part in parts if part != ZERO]
         if not parts:
             return ZERO
@@ -226,7 +228,7 @@ def _grows(node: Expression) -> bool:
 def _product(factors: list[Expression]) -> Expression:
     flat: list[Expression] = []
     for factor in factors:
-        flat.extend(factor.factors if isinstance(factor, Product) else (factor,))
+        flat.extend(factors_of(factor))
     return product_of(flat)
 
 

@@ -19,6 +19,7 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    terms_of,
     walk,
 )
 from lagcli.record import field, record
@@ -98,7 +99,7 @@ class Reader:
         left out.
         """
         found = []
-        for node in _summands(expression):
+        for node in terms_of(expression):
             form = self.form(node)
             if form is None or (given_number and not _has_names(node)):
                 continue
@@ -240,10 +241,6 @@ def _must_be_numbers(node: Expression) -> Iterator[tuple[int, str]]:
             yield id(exponent), _EXPONENT
         case _:
             pass
-
-
-def _summands(node: Expression) -> tuple[Expression, ...]:
-    return node.terms if isinstance(node, Sum) else (node,)
 
 
 def _has_names(node: Expression) -> bool:

@@ -41,7 +41,7 @@ from lagcli.formatters.layout import (
     width_of,
 )
 from lagcli.formatters.numbers import DecimalParts, decimal_parts, digit_groups
-from lagcli.formatters.precedence import Level, Printer
+from lagcli.formatters.precedence import Level, Printer, begins_with_number
 from lagcli.record import record
 
 #: Nothing that cannot be broken is wider, in points.
@@ -344,19 +344,13 @@ def _between(before: Box, after: Expression, shown: Box) -> TextPiece:
 
     x\,(a + b) is a product, U(a + b) a function.
     """
-    if _is_numeral(after):
+    if begins_with_number(after):
         return _breakable(r" \cdot ", BINARY, PRODUCT, r"\cdot ", BINARY)
     first = shown.pieces[0]
     neighbours = before.pieces[-1].text + first.text
     if first.nesting or "text" in neighbours or "mathit" in neighbours:
         return _breakable(r" \, ", THIN_SPACE, PRODUCT, r"\cdot ", BINARY)
     return _breakable(" ", 0.3, PRODUCT, r"\cdot ", BINARY)
-
-
-def _is_numeral(node: Expression) -> bool:
-    while isinstance(node, (Power, Quotient)):
-        node = node.base if isinstance(node, Power) else node.numerator
-    return isinstance(node, Number)
 
 
 def _is_function(box: Box) -> bool:

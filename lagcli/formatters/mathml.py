@@ -25,7 +25,7 @@ from lagcli.formatters.functions import FIXED, ON_PAPER, TRIGONOMETRIC
 from lagcli.formatters.greek import BY_NAME
 from lagcli.formatters.naming import name_parts
 from lagcli.formatters.numbers import decimal_parts, digit_groups
-from lagcli.formatters.precedence import Level, Printer
+from lagcli.formatters.precedence import Level, Printer, begins_with_number
 from lagcli.notation.letters import bold
 from lagcli.record import replace
 
@@ -92,7 +92,7 @@ class MathmlPrinter(Printer[str]):
         shown = [first]
         for after, factor in zip(node.factors[1:], others, strict=True):
             space = _THIN if _is_function(after) else ""
-            shown.append(("<mo>⋅</mo>" if _is_numeral(after) else _TIMES) + space + factor)
+            shown.append(("<mo>⋅</mo>" if begins_with_number(after) else _TIMES) + space + factor)
         return f"<mrow>{''.join(shown)}</mrow>"
 
     def quotient(self, node: Quotient) -> str:
@@ -240,9 +240,3 @@ def _on_one_line(exponent: Expression) -> str:
             return ""
     slash = "<mo lspace='0' rspace='0'>/</mo>"
     return f"<mrow>{minus}<mn>{above}</mn>{slash}<mn>{below}</mn></mrow>"
-
-
-def _is_numeral(node: Expression) -> bool:
-    while isinstance(node, (Power, Quotient)):
-        node = node.base if isinstance(node, Power) else node.numerator
-    return isinstance(node, Number)

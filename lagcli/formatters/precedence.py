@@ -164,3 +164,10 @@ class Printer(ABC, Generic[Shown]):
     def diff(self, node: Diff) -> Shown: ...
     @abstractmethod
     def rate(self, node: Rate) -> Shown: ...
+
+
+def begins_with_number(node: Expression) -> bool:
+    """Whether the first thing that is read is a number: behind a letter it needs a dot."""
+    while isinstance(node, (Power, Quotient)):
+        node = node.base if isinstance(node, Power) else node.numerator
+    return isinstance(node, Number)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from lagcli.graph.nodes import Call, Graph, Node, Product
+from lagcli.graph.nodes import Call, Graph, Node, factors_of
 from lagcli.record import record
 
 _UNIT = Fraction(1)
@@ -86,7 +86,7 @@ class AnglePairs:
         return known
 
     def _ways(self, node: Node) -> Iterator[tuple[str, Node, Node]]:
-        factors = node.factors if isinstance(node, Product) else ((node, _UNIT),)
+        factors = factors_of(node)
         for position, (base, exponent) in enumerate(factors):
             if isinstance(base, Call) and base.function in {"sin", "cos"} and exponent == 1:
                 others = [*factors[:position], *factors[position + 1 :]]

@@ -282,6 +282,23 @@ class Graph:
 
     # -- functions ------------------------------------------------------------------------------
 
+    def rebuilt(self, node: Node, known: Mapping[Node, Node]) -> Node:
+        """A node of what its parts have become; those that are not known stay."""
+        match node:
+            case Sum():
+                pairs = [(known.get(term, term), number) for term, number in node.terms]
+                return self.combination([*pairs, (self.one, node.constant)])
+            case Product():
+                return self.monomial((known.get(base, base), e) for base, e in node.factors)
+            case Call(function="^"):
+                base, exponent = (known.get(part, part) for part in node.arguments)
+                return self.power(base, exponent)
+            case Call():
+                arguments = tuple(known.get(part, part) for part in node.arguments)
+                return self.call(node.function, arguments, node.indices)
+            case _:
+                return node
+
     def call(
         self, function: str, arguments: tuple[Node, ...], indices: tuple[int, ...] = ()
     ) -> Node:
@@ -327,6 +344,11 @@ def with_values(mask: int, values: Mapping[Symbol, Node]) -> int:
     """A mask with the symbols in the values of its symbols, in theirs, and so on."""
     more = mask | mask_of(value for symbol, value in values.items() if symbol.mask & mask)
     return mask if more == mask else with_values(more, values)
+
+
+def factors_of(node: Node) -> tuple[tuple[Node, Fraction], ...]:
+    """The factors of a product; of all others the node itself."""
+    return node.factors if isinstance(node, Product) else ((node, Fraction(1)),)
 
 
 def ancestry(roots: Iterable[Node]) -> list[Node]:

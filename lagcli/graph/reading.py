@@ -113,7 +113,7 @@ class GraphReader:
 
     def _typed_rate(self, node: Expression) -> Symbol | None:
         """The rate of l sin θ for l θ' cos θ + …, a velocity of a point that is written out."""
-        terms = node.terms if isinstance(node, tree.Sum) else (node,)
+        terms = tree.terms_of(node)
         parts = [part for term in terms if (part := self._integrated(term)) is not None]
         if len(parts) < len(terms):
             return None
@@ -127,7 +127,7 @@ class GraphReader:
         if isinstance(term, tree.Negative):
             inner = self._integrated(term.operand)
             return None if inner is None else self.graph.scaled(inner, -1)
-        factors = term.factors if isinstance(term, tree.Product) else (term,)
+        factors = tree.factors_of(term)
         moving = [f for f in factors if isinstance(f, tree.Name) and f.primes == 1]
         if len(moving) != 1 or moving[0].name not in self._coordinates:
             return None

@@ -286,5 +286,5 @@ def _times(factors: list[Expression]) -> Expression:
         return ONE
     flat: list[Expression] = []
     for factor in factors:
-        flat.extend(factor.factors if isinstance(factor, tree.Product) else (factor,))
+        flat.extend(tree.factors_of(factor))
     return flat[0] if len(flat) == 1 else tree.Product(tuple(flat))

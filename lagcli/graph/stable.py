@@ -27,7 +27,17 @@ from fractions import Fraction
 from math import isqrt
 
 from lagcli.graph.bounded import bounded
-from lagcli.graph.nodes import Call, Constant, Graph, Node, Product, Sum, Symbol, ancestry
+from lagcli.graph.nodes import (
+    Call,
+    Constant,
+    Graph,
+    Node,
+    Product,
+    Sum,
+    Symbol,
+    ancestry,
+    factors_of,
+)
 
 _NONE, _UNIT, _HALF, _TWO = Fraction(0), Fraction(1), Fraction(1, 2), Fraction(2)
 
@@ -56,21 +66,13 @@ class Stable:
         return known[root]
 
     def _rebuilt(self, node: Node) -> Node:
-        graph, known = self.graph, self._known
         match node:
             case Sum():
                 return self._sum(node)
-            case Product():
-                return graph.monomial((known[base], exponent) for base, exponent in node.factors)
             case Call(function=name) if name in self._kept:
                 return node
-            case Call(function="^", arguments=(base, exponent)):
-                return graph.power(known[base], known[exponent])
-            case Call():
-                arguments = tuple(known[part] for part in node.arguments)
-                return graph.call(node.function, arguments, node.indices)
             case _:
-                return node
+                return self.graph.rebuilt(node, self._known)
 
     def _sum(self, node: Sum) -> Node:
         graph, known = self.graph, self._known
@@ -221,9 +223,7 @@ def _terms(graph: Graph, node: Node, factor: Fraction) -> list[tuple[Node, Fract
 
 def _square_root(node: Node) -> list[tuple[Node, Fraction]] | None:
     """The factors of the root of a monomial with even exponents."""
-    factors = node.factors if isinstance(node, Product) else ((node, _UNIT),)
-    if isinstance(node, Constant):
-        factors = ()
+    factors = () if isinstance(node, Constant) else factors_of(node)
     if any(exponent % 2 for _, exponent in factors):
         return None
     return [(base, exponent / 2) for base, exponent in factors]
@@ -245,7 +245,7 @@ def _is_a_name(factors: list[tuple[Node, Fraction]]) -> bool:
 
 def _splits(graph: Graph, term: Node) -> Iterator[tuple[Node, Node]]:
     """Each way to write a term as f times the rest, f a function or a root."""
-    factors = term.factors if isinstance(term, Product) else ((term, _UNIT),)
+    factors = factors_of(term)
     for place, (base, exponent) in enumerate(factors):
         if not (isinstance(base, Call) or abs(exponent) == _HALF):
             continue

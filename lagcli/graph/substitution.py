@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from lagcli.graph.nodes import Call, Graph, Node, Product, Sum, Symbol, mask_of
+from lagcli.graph.nodes import Graph, Node, Symbol, mask_of
 
 
 class Substitution:
@@ -37,24 +37,5 @@ class Substitution:
                 stack.extend(missing)
                 continue
             stack.pop()
-            known[node] = self._rebuilt(node)
+            known[node] = self.graph.rebuilt(node, known)
         return known.get(root, root)
-
-    def _rebuilt(self, node: Node) -> Node:
-        known, graph = self._known, self.graph
-        match node:
-            case Sum():
-                pairs = [(known.get(term, term), number) for term, number in node.terms]
-                return graph.combination([*pairs, (graph.one, node.constant)])
-            case Product():
-                return graph.monomial(
-                    (known.get(base, base), exponent) for base, exponent in node.factors
-                )
-            case Call(function="^"):
-                base, exponent = (known.get(part, part) for part in node.arguments)
-                return graph.power(base, exponent)
-            case Call():
-                arguments = tuple(known.get(part, part) for part in node.arguments)
-                return graph.call(node.function, arguments, node.indices)
-            case _:
-                return node

@@ -15,6 +15,7 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    factors_of,
     quotient_of,
 )
 from lagcli.notation.likeness import parity
@@ -45,7 +46,7 @@ def with_last(before: Expression, last: Sum) -> Expression:
     """The product with one more factor, its sign in front."""
     if isinstance(before, Negative):
         return Negative(with_last(before.operand, last))
-    factors = before.factors if isinstance(before, Product) else (before,)
+    factors = factors_of(before)
     return Product((*factors, last))
 
 

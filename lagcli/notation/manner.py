@@ -29,6 +29,7 @@ from lagcli.expression import (
     Sum,
     opposite,
     quotient_of,
+    terms_of,
     walk,
 )
 from lagcli.notation.factors import (
@@ -306,7 +307,7 @@ def _energies(problem: Problem) -> Iterator[Sum]:
 
 def _terms(node: Expression) -> tuple[Expression, ...]:
     """The terms of a sum; V: 0 has none."""
-    terms = node.terms if isinstance(node, Sum) else (node,)
+    terms = terms_of(node)
     return tuple(term for term in terms if term != ZERO)
 
 
@@ -319,7 +320,7 @@ def _ordered(node: Sum) -> Sum:
     """The sum without brackets around inner sums, a positive term first where there is one."""
     terms: list[Expression] = []
     for term in node.terms:
-        terms.extend(term.terms if isinstance(term, Sum) else (term,))
+        terms.extend(terms_of(term))
     if not _accelerates(terms[0]):
         terms = positive_first(terms)
     return node if tuple(terms) == node.terms else Sum(tuple(terms))

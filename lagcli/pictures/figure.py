@@ -229,11 +229,8 @@ class _Panel:
             case _:
                 pass
 
-    def _colour(self, place: int) -> str:
-        return self.style.series[place % len(self.style.series)]
-
     def _line(self, curve: Curve) -> dict[str, Any]:
-        colour = self._colour(curve.colour)
+        colour = self.style.colour(curve.colour)
         match curve.role:
             case "level":
                 return {"color": self.style.second, "linewidth": 0.6, "zorder": 2}
@@ -249,7 +246,7 @@ class _Panel:
                 return {**look, "linestyle": (0, dash)} if dash else look
 
     def _mark(self, marks: Marks) -> dict[str, Any]:
-        colour = self._colour(marks.colour)
+        colour = self.style.colour(marks.colour)
         hollow = marks.role in {"start", "impact"}
         return {
             "linestyle": "none",
@@ -273,7 +270,7 @@ class _Panel:
             case "zero":
                 return {**look, "color": self.style.faint}
             case _:
-                return {**look, "color": self._colour(rule.colour)}
+                return {**look, "color": self.style.colour(rule.colour)}
 
     def _handle(self, item: Curve | Marks | Rule) -> Any:
         from matplotlib.lines import Line2D

@@ -156,7 +156,7 @@ class _Drawing:
             "line": {"color": style.second, "linewidth": 0.9},
         }
         self.trails = [
-            ax.plot([], [], color=self._colour(k), linewidth=1.2, alpha=0.6)[0]
+            ax.plot([], [], color=self.style.colour(k), linewidth=1.2, alpha=0.6)[0]
             for k in range(len(scene.bodies))
         ]
         self.links = [(link, ax.plot([], [], **look[link.kind])[0]) for link in scene.links]
@@ -165,10 +165,9 @@ class _Drawing:
             for name in scene.places
         ]
         points = _WIDTH * 72 * 2  # of a radius beside the width, as a diameter in points
+        colour = self.style.colour
         self.bodies = [
-            ax.plot([], [], "o", color=self._colour(k), markersize=body.radius * points, zorder=5)[
-                0
-            ]
+            ax.plot([], [], "o", color=colour(k), markersize=body.radius * points, zorder=5)[0]
             for k, body in enumerate(scene.bodies)
         ]
         strongest = max(
@@ -179,13 +178,10 @@ class _Drawing:
             ax.annotate(
                 "", (0, 0), (0, 0), zorder=6,
                 arrowprops={"arrowstyle": "-|>", "linewidth": 1.8,
-                            "color": self._colour(len(scene.bodies) + k)},
+                            "color": self.style.colour(len(scene.bodies) + k)},
             )
             for k in range(len(scene.vectors))
         ]  # fmt: skip
-
-    def _colour(self, place: int) -> str:
-        return self.style.series[place % len(self.style.series)]
 
     def _flat(self, place: Place) -> tuple[float, float]:
         """As the page projects it."""

@@ -28,6 +28,10 @@ class Style:
     grey: str  # what lies beyond the certificate
     second: str  # notes
 
+    def colour(self, place: int) -> str:
+        """Of a curve or a body by its place in the file."""
+        return self.series[place % len(self.series)]
+
 
 LIGHT = Style(
     series=ON_WHITE, paper="#ffffff", ink="#1a1a1a", faint="#c8c8c8", grey="#eeeeee",

@@ -27,6 +27,8 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    factors_of,
+    terms_of,
 )
 from lagcli.problem_data import Comparison, Inequality
 from lagcli.reader.habits import fraction
@@ -78,11 +80,11 @@ class FormulaBuilder:
     # Sums.
 
     def first_term(self, children: list[Expression]) -> list[Expression]:
-        return list(_terms(children[0]))
+        return list(terms_of(children[0]))
 
     def plus(self, children: list[Expression]) -> list[Expression]:
         terms = cast("list[Expression]", children[0])
-        terms += _terms(children[1])
+        terms += terms_of(children[1])
         return terms
 
     def minus(self, children: list[Expression]) -> list[Expression]:
@@ -103,11 +105,11 @@ class FormulaBuilder:
     # Products.
 
     def first_factor(self, children: list[Expression]) -> list[Expression]:
-        return list(_factors(children[0]))
+        return list(factors_of(children[0]))
 
     def times(self, children: list[Expression]) -> list[Expression]:
         factors = cast("list[Expression]", children[0])
-        factors += _factors(children[1])
+        factors += factors_of(children[1])
         return factors
 
     def over(self, children: list[Expression]) -> list[Expression]:
@@ -170,14 +172,6 @@ class FormulaBuilder:
             raise mistake("a '*' is missing between ')' and '('", span, hint)
         function = cast("Name", call.arguments[0]).name
         return PartialCall(function, indices, arguments, span=span)
-
-
-def _terms(node: Expression) -> tuple[Expression, ...]:
-    return node.terms if isinstance(node, Sum) else (node,)
-
-
-def _factors(node: Expression) -> tuple[Expression, ...]:
-    return node.factors if isinstance(node, Product) else (node,)
 
 
 def _indices(call: Call) -> tuple[int, ...] | None:

@@ -31,6 +31,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import CIRCULAR, free_of
+from lagcli.mechanics.discovery.ansatz import complexity
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.modular import NoPoint, independent
@@ -200,7 +201,7 @@ def _bases(expression: Expr) -> list[Expr]:
 def _solutions(metric: Metric, K: Expr, products: Sequence[Expr], allowed: Allowance) -> list[Expr]:
     """X;ij + K g_ij X = 0 for combinations of the products: the simplest that are independent."""
     q, gamma = metric.q, metric.christoffel
-    functions = sorted(products, key=_complexity, reverse=True)
+    functions = sorted(products, key=complexity, reverse=True)
     conditions = []
     for X in functions:
         slopes = [X.diff(x) for x in q]
@@ -214,7 +215,3 @@ def _solutions(metric: Metric, K: Expr, products: Sequence[Expr], allowed: Allow
     vectors = independent(rows, 0, relation.kernel()[::-1])
     exact = (c for vector in vectors if (c := relation.exact(vector)) is not None)
     return [sympy.Add(*(x * functions[k] for k, x in c.items())) for c in exact]
-
-
-def _complexity(function: Expr) -> tuple[int, str]:
-    return sympy.count_ops(function) + len(function.free_symbols), str(function)

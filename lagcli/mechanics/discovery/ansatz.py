@@ -158,10 +158,11 @@ def _size(groups: Sequence[Sequence[Expr]]) -> int:
 
 def _products(groups: Sequence[Sequence[Expr]]) -> list[Expr]:
     made = [sympy.Mul(*parts) for parts in product(*groups)]
-    return sorted(dict.fromkeys(made), key=_complexity)
+    return sorted(dict.fromkeys(made), key=complexity)
 
 
-def _complexity(function: Expr) -> tuple[int, str]:
+def complexity(function: Expr) -> tuple[int, str]:
+    """What is tried first: few operations of few symbols."""
     return sympy.count_ops(function) + len(function.free_symbols), str(function)
 
 
@@ -214,6 +215,6 @@ def ordered(unknowns: list[SlotUnknown]) -> list[SlotUnknown]:
 
     def cost(unknown: SlotUnknown) -> tuple[int, int, str, int]:
         T, g = unknown.time, unknown.space
-        return (2 * sympy.count_ops(T) + len(T.free_symbols), *_complexity(g), unknown.slot)
+        return (2 * sympy.count_ops(T) + len(T.free_symbols), *complexity(g), unknown.slot)
 
     return sorted(unknowns, key=cost, reverse=True)

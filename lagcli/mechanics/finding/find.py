@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from sympy import Expr, Symbol, sqrt
 
@@ -15,9 +14,6 @@ from lagcli.platform.effort import Work
 from lagcli.problem_data import Lasting, Reaching, Rewrite
 from lagcli.statements.questions import Answer, FindSection, Rewritten
 
-if TYPE_CHECKING:
-    from lagcli.mechanics.finding.passing import Passing
-
 
 def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:
     """The answers to all questions of the file, by name.
@@ -28,7 +24,6 @@ def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:
         When no state with the given initial values satisfies the constraints.
     """
     along = AlongTheMotion(dynamics, noether)
-    known: dict[Symbol, Passing] = {}
     answers: dict[str, Answer] = {}
     for question in dynamics.system.problem.find:
         along.work = Work(UNITS)
@@ -37,11 +32,11 @@ def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:
         elif isinstance(question, Lasting | Reaching):
             from lagcli.mechanics.finding.lasting import LastingAnswer
 
-            answers[question.name] = LastingAnswer(along, question, known).answer()
+            answers[question.name] = LastingAnswer(along, question).answer()
         else:
             from lagcli.mechanics.finding.where import WhereSearch
 
-            answers[question.name] = WhereSearch(along, question, known).solutions()
+            answers[question.name] = WhereSearch(along, question).solutions()
     return FindSection(answers=answers)
 
 

@@ -18,7 +18,7 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
 from lagcli.mechanics.finding.line import FunctionsOnLine, NotAlgebraic
-from lagcli.mechanics.finding.passing import Passing
+from lagcli.mechanics.finding.passing import Passing, passing_of
 from lagcli.mechanics.finding.ranges import Bounds, Undecided, Values, ranges
 from lagcli.mechanics.finding.special_values import DIGITS, NoClosedForm, SpecialValues
 from lagcli.mechanics.finding.walk import Start, Walk
@@ -30,19 +30,13 @@ _SMALL = mpf(10) ** -60
 
 
 class LastingAnswer:
-    """One question; `known` holds what other questions found of the motion of coordinates."""
+    """One question."""
 
-    def __init__(
-        self,
-        along: AlongTheMotion,
-        question: Lasting | Reaching,
-        known: dict[Symbol, Passing],
-    ) -> None:
+    def __init__(self, along: AlongTheMotion, question: Lasting | Reaching) -> None:
         self.along = along
         self.system = along.system
         self.question = question
         self.p = self.system.symbol_of(question.unknown.name)
-        self._known = known
         self.notes: list[str] = []
 
     def answer(self) -> Ranges:
@@ -94,7 +88,7 @@ class LastingAnswer:
         for u, rate in zip(self.system.q, self.system.qdot, strict=True):
             if is_zero(rate, relations) is True:
                 continue
-            passing = self._passing(u)
+            passing = passing_of(self.along, u)
             if passing.square is None or is_zero(passing.square) is True:
                 continue
             formula = self.along.rewritten(margin, [u])
@@ -157,7 +151,7 @@ class LastingAnswer:
 
     def _reaching(self, question: Reaching, values: dict[Symbol, Expr]) -> list[Bounds]:
         u = self.system.symbol_of(question.coordinate.name)
-        passing = self._passing(u)
+        passing = passing_of(self.along, u)
         if passing.square is None:
             raise Undecided(self._why_not or f"the conservation laws do not give {u}'^2")
         target = self.system.build(question.value)
@@ -248,11 +242,6 @@ class LastingAnswer:
             for place in begun
             if self.p not in place.free_symbols and place.free_symbols and sign(place) is None
         ]
-
-    def _passing(self, u: Symbol) -> Passing:
-        if u not in self._known:
-            self._known[u] = Passing(self.along, u)
-        return self._known[u]
 
 
 def margin_of(condition: Inequality, build: Builder) -> Expr:

@@ -22,6 +22,7 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    factors_of,
     quotient_of,
 )
 from lagcli.mechanics.derivation import Derivation
@@ -236,7 +237,7 @@ def _two_pi_times(root: Expression) -> Expression:
 
 
 def _number_and_rest(product: Expression) -> tuple[Fraction, list[Expression]]:
-    factors = product.factors if isinstance(product, Product) else (product,)
+    factors = factors_of(product)
     number = Fraction(1)
     for factor in factors:
         number *= factor.value if isinstance(factor, Number) else 1

@@ -6,7 +6,7 @@ a refusal.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from copy import copy
 from fractions import Fraction
 from functools import cached_property
@@ -18,10 +18,11 @@ from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Call, Node, Symbol, ancestry, mask_of
 from lagcli.graph.stable import Stable, stable_dynamics
 from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
+from lagcli.mechanics.rates import ConstraintRow
 from lagcli.numerics.equations.elimination import Eliminated, Factored, TooLong
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.straight_line import Generated
-from lagcli.problem_data import Problem
+from lagcli.problem_data import Constraint, Problem
 
 _HALF = Fraction(1, 2)
 #: What is worked out of the constraints.
@@ -80,13 +81,17 @@ class Equations:
         except ArithmeticError as error:
             raise Refusal(f"the equations are not defined: {error}") from None
         acting = [k for k in range(len(every)) if held is None or k in held]
-        #: for each constraint of the file, its place among those that act
-        self.place = {k: i for i, k in enumerate(acting)}
-        self.constraints = tuple(every[k] for k in acting)
-        self.declared = tuple(problem.constraints[k] for k in acting)
         self.graph = form.graph
         self.t, self.q, self.qdot = form.t, form.q, form.qdot
         self.state: tuple[Symbol, ...] = (self.t, *self.q, *self.qdot)
+        self.hold({k: every[k] for k in acting}, problem.constraints)
+
+    def hold(self, acting: Mapping[int, ConstraintRow], declared: Sequence[Constraint]) -> None:
+        """Let these of the declared constraints act, each by its place among them."""
+        #: for each constraint of the file, its place among those that act
+        self.place = {k: i for i, k in enumerate(acting)}
+        self.constraints = tuple(acting.values())
+        self.declared = tuple(declared[k] for k in acting)
         self.rows = tuple(row.row for row in self.constraints)
         self.bias = tuple(row.bias for row in self.constraints)
         self.holonomic = tuple(
@@ -102,14 +107,7 @@ class Equations:
         fewer = copy(self)
         for name in _OF_ROWS:
             fewer.__dict__.pop(name, None)
-        fewer.place = {k: i for i, k in enumerate(independent)}
-        fewer.constraints = tuple(self.constraints[k] for k in independent)
-        fewer.declared = tuple(self.declared[k] for k in independent)
-        fewer.rows = tuple(self.rows[k] for k in independent)
-        fewer.bias = tuple(self.bias[k] for k in independent)
-        fewer.holonomic = tuple(
-            k for k, row in enumerate(fewer.constraints) if row.position is not None
-        )
+        fewer.hold({k: self.constraints[k] for k in independent}, self.declared)
         return fewer
 
     @cached_property

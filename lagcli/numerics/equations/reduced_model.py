@@ -275,14 +275,7 @@ class CutEquations(Equations):
             for k, r in rows.items()
             if any(entry is not e.graph.zero for entry in compress(r.row, needed))
         }
-        self.place = {k: i for i, k in enumerate(held)}
-        self.constraints = tuple(held.values())
-        self.declared = tuple(e.declared[k] for k in held)
-        self.rows = tuple(row.row for row in self.constraints)
-        self.bias = tuple(row.bias for row in self.constraints)
-        self.holonomic = tuple(
-            k for k, row in enumerate(self.constraints) if row.position is not None
-        )
+        self.hold(held, e.declared)
 
     def holding(self, held: frozenset[int]) -> Equations:
         """The same: what is cut has no contacts."""
