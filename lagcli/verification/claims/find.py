@@ -58,6 +58,14 @@ def _answer(x: Examination, name: str, answer: Answer, charges: Sequence[Charge]
         if not values or (allowed and _is_value(x, what, question.value, values, reached)):
             return answer
         return replace(answer, value=None, values=(), note=_NOTE)
+    if isinstance(answer, Solutions) and isinstance(question, Where) and answer.solutions == ():
+        from lagcli.verification.claims.ranges import comes_to_pass
+
+        moving = (question.unknown.name, question.unknown.primes) in reached.everything
+        if not moving or not comes_to_pass(x, question, reached):
+            return answer
+        x.refute(what, "a motion comes to where the equation holds")
+        return replace(answer, solutions=None, note=_NOTE)
     if isinstance(answer, Solutions) and isinstance(question, Where) and answer.solutions:
         places = x.places(what, answer.solutions)
         if places is not None and all(_is_root(x, what, question, p, reached) for p in places):

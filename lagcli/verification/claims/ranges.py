@@ -3,7 +3,8 @@
 Beside each printed bound the motion is integrated from the initial state, by the rule of Runge
 and Kutta of fourth order.  A condition that fails within a range, or a place that is reached
 outside of it, refutes the answer; so does, for one degree of freedom and no time in L, what does
-not come to pass until a coordinate has turned twice.
+not come to pass until a coordinate has turned twice.  That an equation holds nowhere on the way is
+refuted by a motion on which its sides pass each other.
 """
 
 from __future__ import annotations
@@ -13,10 +14,11 @@ from typing import TYPE_CHECKING
 
 from flint import arb
 
-from lagcli.problem_data import Inequality, Lasting, Reaching
+from lagcli.expression import Expression
+from lagcli.problem_data import Inequality, Lasting, Reaching, Where
 from lagcli.statements.questions import Ranges
 from lagcli.verification.examination import Examination
-from lagcli.verification.linear import Unclear, size
+from lagcli.verification.linear import Unclear, size, solve
 from lagcli.verification.states import Environment, State
 
 if TYPE_CHECKING:
@@ -27,6 +29,8 @@ _STEP, _STEPS = arb(1) / 10, 150
 _BESIDE = 0.05
 #: Slower is rounding on the constraints.
 _MOVES = 1e-6
+#: The speed with which what is at rest may begin to move.
+_PUSH = arb(1) / 1000
 
 
 def holds_in_ranges(
@@ -68,6 +72,35 @@ def holds_in_ranges(
     return True
 
 
+def comes_to_pass(x: Examination, question: Where, reached: Reached) -> bool:
+    """Whether the sides of an equation surely pass each other on the way from the initial state."""
+    for base in x.states(1):
+        known = {k: v for k, v in base.environment.items() if k not in reached.everything}
+        start = reached.initial(known)
+        for begun in () if start is None else _begun(x, start):
+            try:
+                if PassingMotion(x, begun, question).outcome():
+                    return True
+            except Unclear:
+                continue
+    return False
+
+
+def _begun(x: Examination, start: Environment) -> Iterator[Environment]:
+    """The state itself, and with a small velocity that constraints and assumptions allow."""
+    names, jacobian = x.reference.names, State(x.reference, start).laws.jacobian
+    yield start
+    for way in solve(jacobian, [arb(0)] * len(jacobian), len(names)).kernel:
+        for push in (_PUSH, -_PUSH):
+            moved = {n: (start[n, 1] + push * d).mid() for n, d in zip(names, way, strict=True)}
+            if all(
+                c.assume not in {"positive", "nonnegative"}
+                or start[c.name, 0] > 0 or moved[c.name] >= 0
+                for c in x.problem.coordinates
+            ):  # fmt: skip
+                yield {**start, **{(n, 1): v for n, v in moved.items()}}
+
+
 def _beside(intervals: Sequence[tuple[float, ...]]) -> Iterator[float]:
     """Numbers on both sides of each bound; some where there is none."""
     ends = {e for each in intervals for e in each if abs(e) < float("inf")}
@@ -88,17 +121,18 @@ def _allowed(x: Examination, name: str, value: float) -> bool:
 class PassingMotion:
     """The motion from one state, until the question is decided."""
 
-    def __init__(self, x: Examination, start: Environment, question: Lasting | Reaching) -> None:
+    def __init__(
+        self, x: Examination, start: Environment, question: Lasting | Reaching | Where
+    ) -> None:
         self.x, self.environment, self.question = x, dict(start), question
         reference, program = x.reference, x.reference.program
         self.names = reference.names
         held = [c.holds_while for c in x.problem.constraints if c.holds_while is not None]
         if isinstance(question, Reaching):
-            self.u = question.coordinate.name
-            far = program.negative(reference.place(question.value))
-            self.sought = program.sum(program.symbol(self.u), far)
+            self.sought = self._gap(question.coordinate, question.value)
+        elif isinstance(question, Where):
+            self.sought = self._gap(question.equation.left, question.equation.right)
         else:
-            self.u = ""
             held = [each for each in held if each != question.condition]
             self.sought = self._margin(question.condition)
         self.ends = [self._margin(each) for each in held]
@@ -106,14 +140,16 @@ class PassingMotion:
         freedom = len(self.names) - len(reference.rows)
         self.periodic = freedom == 1 and still == program.zero and not x.problem.dissipation
 
+    def _gap(self, left: Expression, right: Expression) -> int:
+        program, place = self.x.reference.program, self.x.reference.place
+        return program.sum(place(left), program.negative(place(right)))
+
     def _margin(self, condition: Inequality) -> int:
         """What is positive while a condition holds."""
-        program = self.x.reference.program
-        larger, smaller = map(self.x.reference.place, condition.larger_first)
-        return program.sum(larger, program.negative(smaller))
+        return self._gap(*condition.larger_first)
 
     def outcome(self) -> bool | None:
-        """Whether the condition holds all the time, or the place is reached.
+        """Whether the condition holds all the time, or the place or the equation is reached.
 
         None where that is undecided.
 

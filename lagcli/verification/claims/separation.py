@@ -77,7 +77,8 @@ class Action:
         derivatives = section.derivatives or {}
         H = x.places(what, [section.hamiltonian] if section.hamiltonian is not None else [])
         left = derivatives or {name.removeprefix("p_") for name, _ in program.symbols(H or [])}
-        self.names = [n for n in x.reference.names if n in left]
+        whole = not derivatives and not x.reference.rows
+        self.names = [n for n in x.reference.names if whole or n in left]
         self.q = [program.symbol(n) for n in self.names]
         self.p = [program.symbol(f"p_{n}") for n in self.names]
         equations = x.places(what, list(section.equations.values()))

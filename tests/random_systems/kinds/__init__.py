@@ -1,13 +1,13 @@
 """The kinds of random systems, by name: a generator of random numbers -> a system."""
 
 from . import (
+    chains,
     combined,
     constraints,
     corners,
     forms,
     further,
     known,
-    linkages,
     resting,
     symmetries,
     terms,
@@ -25,7 +25,7 @@ KINDS = {
         corners,
         known,
         combined,
-        linkages,
+        chains,
     )
     for name, kind in file.KINDS.items()
 }

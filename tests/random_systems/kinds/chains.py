@@ -11,7 +11,7 @@ from .draw import parameters
 NAMES = ("a", "b", "c", "e")
 
 
-def linkages(rng: Random) -> System:
+def closed_chains(rng: Random) -> System:
     """Four bars, slider and crank, parallelograms: some links without mass, some driven."""
     count = rng.choice([2, 3, 3])
     equal = rng.random() < 0.2
@@ -52,4 +52,4 @@ def _ends(lengths, angles):
     return found
 
 
-KINDS = {"linkages": linkages}
+KINDS = {"closed_chains": closed_chains}
