@@ -36,7 +36,10 @@ def sentence(
     """What the factors of a constraint mean for the answers."""
     if holonomic:
         either = " or where ".join(f"{_written(f)} = 0" for f in factors)
-        return f"constraint '{name}' holds where {either}: the answers hold on each"
+        return (
+            f"constraint '{name}' holds where {either}: the answers hold on each; "
+            "what is conserved on some of these only is called not conserved"
+        )
     where = " or ".join(f"{_written(f)} = 0" for f in factors if free_of(f, velocities))
     return (
         f"constraint '{name}' does not restrict the velocities where {where}: "

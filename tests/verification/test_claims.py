@@ -13,7 +13,7 @@ from lagcli.pipeline import Request, derive, render, state
 from lagcli.reader import parse_text, read_problem
 from lagcli.record import replace
 from lagcli.statements.answers import Answers, Charge, ChargesSection
-from lagcli.statements.motions import Verdict
+from lagcli.statements.motions import HamiltonJacobiSection, Verdict
 from lagcli.verification import verified
 
 from .sheets import derived, each_spoiled, number
@@ -325,3 +325,51 @@ def test_a_charge_that_moves_is_not_called_constant() -> None:
     sheet = {"charges": replace(section, charges=(wrong,))}
     found = verified(problem, replace(answers, sections=sheet))
     assert not found.complete
+
+
+def test_that_no_place_is_reached_is_examined() -> None:
+    """From rest on top of the sphere the mass leaves it, at cos(theta) = 2/3."""
+    problem, answers = derived("contact/mass-sliding-off-sphere", ("find",))
+    section = answers.sections["find"]
+    none = {**section.answers, "lift_off": replace(section.answers["lift_off"], solutions=())}
+    found = verified(problem, replace(answers, sections={"find": replace(section, answers=none)}))
+    assert found.sections["find"].answers["lift_off"].solutions is None
+    assert not found.complete
+
+
+def test_that_nothing_is_reached_is_kept_where_it_is_so() -> None:
+    """x = a cos(w t) never comes to 2 a."""
+    text = (
+        "coordinates: [x]\nparameters: {m: {assume: positive}, k: {assume: positive}, "
+        "a: {assume: positive}}\nT: m*x'^2/2\nV: k*x^2/2\ninitial: {x: a, x': 0}\n"
+        "find: {far: {where: x = 2*a, for: x}, back: {where: 2*x = -a, for: x}}\n"
+    )
+    derivation = derive(read_problem("test.yaml", text.encode()).checked())
+    answers = state(derivation, Request(sections=("find",)))
+    found = answers.sections["find"].answers
+    nothing = {name: replace(each, solutions=()) for name, each in found.items()}
+    wrong = replace(answers.sections["find"], answers=nothing)
+    printed = verified(derivation.problem, replace(answers, sections={"find": wrong}))
+    assert printed.sections["find"].answers["far"].solutions == ()
+    assert printed.sections["find"].answers["back"].solutions is None
+
+
+def test_frequencies_that_are_real_for_some_ratios_are_not_called_real_always() -> None:
+    problem, answers = derived("stability/ziegler-pendulum", ("equilibria",))
+    section = answers.sections["equilibria"]
+    [only] = section.equilibria
+    always = replace(only, verdict=replace(only.verdict, spectrum=(), unstable=()))
+    sheet = {"equilibria": replace(section, equilibria=(always,))}
+    found = verified(problem, replace(answers, sections=sheet))
+    assert found.sections["equilibria"].equilibria[0].verdict.stable is None
+    assert not found.complete
+
+
+def test_the_hamiltonian_of_an_equation_that_was_not_separated_is_examined() -> None:
+    problem, answers = derived("hamilton-jacobi/anisotropic-oscillator", ("hamilton_jacobi",))
+    section = answers.sections["hamilton_jacobi"]
+    wrong = HamiltonJacobiSection(
+        hamiltonian=parse_text("p_x^2/(2*m) + kx*x^2/2"), energy=section.energy, separable=None
+    )
+    found = verified(problem, replace(answers, sections={"hamilton_jacobi": wrong}))
+    assert found.sections["hamilton_jacobi"].hamiltonian is None

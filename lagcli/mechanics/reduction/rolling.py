@@ -81,6 +81,12 @@ class RollingMotions:
         kinds = derivation.dynamics.constraints.kinds.values()
         return any(kind != "holonomic" for kind in kinds)
 
+    @property
+    def drives(self) -> bool:
+        """Whether a constraint makes rest impossible, as phi' = w does."""
+        equations = self.dynamics.constraints.equations
+        return any(not e.holonomic and is_zero(e.drift) is not True for e in equations)
+
     # -- the equations u' = F(r, u) ---------------------------------------------------------------
 
     @cached_property

@@ -44,13 +44,17 @@ def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:
         rolling = RollingMotions(derivation)
         if rolling.motions is not None:
             return rolling_section(rolling), []
+        if rolling.drives:  # what a motor turns does not rest
+            return _not_found(rolling.reason)
     routh = Routh(derivation)
     if routh.reduced is None:
-        return (
-            SteadySection(conditions={}, motions=None, reason=routh.reason),
-            [("the steady motions", routh.reason)],
-        )
+        return _not_found(routh.reason)
     return _SteadyStatement(SteadyMotions(routh)).section()
+
+
+def _not_found(reason: str) -> tuple[SteadySection, Missing]:
+    section = SteadySection(conditions={}, motions=None, reason=reason)
+    return section, [("the steady motions", reason)]
 
 
 class _SteadyStatement:

@@ -154,12 +154,13 @@ def _stays(
 def _refuted_beside_bounds(
     x: Examination, what: str, place: RestPlace, verdict: Verdict, cyclic: int
 ) -> str:
-    """Why the conditions of a verdict cannot be right near where they begin to hold."""
+    """Why a verdict cannot be right near where its conditions begin to hold, or always."""
     given = (verdict.minimum or (), verdict.hurwitz or (), verdict.spectrum or (), verdict.unstable)
     bounds = conditions(x, what, [each for group in given for each in group])
+    always = () in (verdict.hurwitz, verdict.spectrum)
     found = (
         refutes(x, what, near, verdict, cyclic)
-        for near in place.beside(bounds)
+        for near in (place.spread() if always else place.beside(bounds))
         if near.defined and (cyclic or near.residual < NOTHING)
     )
     return next(filter(None, found), "")

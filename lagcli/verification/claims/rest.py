@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from random import Random
 
 from flint import arb
 
@@ -74,6 +75,18 @@ class RestPlace:
                 yield near
             if count == WANTED:
                 return
+
+    def spread(self) -> Iterator[LinearMotion]:
+        """States here with parameters of other sizes: what is said to hold always holds there."""
+        random = Random(3)
+        names = [p.name for p in self.x.problem.parameters if not p.integer]
+        for state in self.x.states(LOOKED_AT, BITS):
+            scaled = {
+                (n, 0): state.environment[n, 0] * arb(2) ** random.randint(-3, 3) for n in names
+            }
+            near = self.near({**state.environment, **scaled})
+            if near is not None:
+                yield near
 
     def beside(self, bounds: Sequence[int]) -> Iterator[LinearMotion]:
         """States a little to both sides of where a condition on the parameters just holds."""
