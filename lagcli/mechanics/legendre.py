@@ -157,14 +157,11 @@ class Inversion:
     def _inverses(self, block: Block) -> Iterator[Inverse]:
         momenta = [self.gradient[j] for j in block]
         variables = [self.variables[j] for j in block]
-        if (
-            all(free_of(p.diff(v), variables) for p in momenta for v in variables)
-            or self.is_quadratic
-        ):
-            linear = self._linear(block, momenta)
-            if linear is not None:
-                yield Inverse(linear)
+        linear = self._linear(block, momenta)
+        if linear is not None:
+            yield Inverse(linear)
             return
+        yield from self._through_exponentials(block, momenta)
         yield from self._through_one_function(block, momenta)
         if len(block) == 1:
             for root in _real_inverses(momenta[0], variables[0], self.images[block[0]]):
@@ -172,15 +169,31 @@ class Inversion:
 
     def _linear(self, block: Block, momenta: list[Expr]) -> tuple[Expr, ...] | None:
         """Solve w = M v + N for v."""
-        variables = [self.variables[j] for j in block]
-        at_rest = dict.fromkeys(variables, sympy.S.Zero)
-        matrix = [[momentum.diff(v) for v in variables] for momentum in momenta]
-        right = [
-            self.images[j] - momentum.xreplace(at_rest)
-            for j, momentum in zip(block, momenta, strict=True)
-        ]
-        solution = solve_linear(matrix, right, None)
-        return None if solution is None or solution.singular else tuple(solution.values)
+        images = [self.images[j] for j in block]
+        return _linear_in([self.variables[j] for j in block], momenta, images)
+
+    def _through_exponentials(self, block: Block, momenta: list[Expr]) -> Iterator[Inverse]:
+        """With E_k = exp(a_k v + b_k) the images are linear in v and E: solve, then take logs."""
+        variables, images = ([each[j] for j in block] for each in (self.variables, self.images))
+        powers = {e for p in momenta for e in p.atoms(sympy.exp) if not free_of(e, variables)}
+        flow = {e: sympy.Dummy(positive=True) for e in sorted(powers, key=sympy.default_sort_key)}
+        replaced = [p.xreplace(flow) for p in momenta]
+        outside = [v for v in variables if any(not free_of(p, [v]) for p in replaced)]
+        if not flow or len(outside) + len(flow) != len(block):
+            return
+        found = _linear_in([*outside, *flow.values()], replaced, images)
+        if found is None:
+            return
+        values = dict(zip(outside, found, strict=False))
+        rest = [v for v in variables if v not in values]
+        logs = _linear_in(
+            rest,
+            [e.args[0].xreplace(values) for e in flow],
+            [sympy.log(x) for x in found[len(outside) :]],
+        )
+        if logs is not None:
+            values |= zip(rest, logs, strict=True)
+            yield Inverse(tuple(values[v] for v in variables))
 
     def _through_one_function(self, block: Block, momenta: list[Expr]) -> Iterator[Inverse]:
         """With s = f(q, v)^(1/n) the images are linear in v: solve, then s^n = f for s."""
@@ -203,8 +216,6 @@ class Inversion:
             if any(n % q for q in roots):
                 continue
             replaced = [_with_root(momentum, function, s, n) for momentum in momenta]
-            if any(not free_of(m.diff(v), variables) for m in replaced for v in variables):
-                continue
             linear = self._linear(block, replaced)
             if linear is None:
                 continue
@@ -258,6 +269,19 @@ def coupled(links: Iterable[set[int]]) -> list[Block]:
         apart = [block for block in blocks if not block & link]
         blocks = [*apart, link.union(*(block for block in blocks if block & link))]
     return [tuple(sorted(block)) for block in blocks]
+
+
+def _linear_in(
+    unknowns: Sequence[Expr], left: Sequence[Expr], right: Sequence[Expr]
+) -> tuple[Expr, ...] | None:
+    """The unknowns from left = right; None where they are not linear in it or not determined."""
+    matrix = [[each.diff(x) for x in unknowns] for each in left]
+    if not all(free_of(entry, unknowns) for row in matrix for entry in row):
+        return None
+    at_zero = dict.fromkeys(unknowns, sympy.S.Zero)
+    rest = [b - a.xreplace(at_zero) for a, b in zip(left, right, strict=True)]
+    solution = solve_linear(matrix, rest, None)
+    return None if solution is None or solution.singular else tuple(solution.values)
 
 
 def _powers(expression: Expr) -> Iterator[Pow]:

@@ -111,10 +111,10 @@ class Statements(Stating):
     def motion(self) -> SolvedMotion | None:
         """The solved motion; None where it is long beyond reading, and an elimination is not."""
         motion = self.dynamics.motion
-        rows: Sequence[Expr] = ()
+        rows: Sequence[Expr | None] = ()
         if motion is not None:
             rows = (*motion.accelerations, *motion.multipliers)
-        counts = [operation_count(self.on_surface(row)) for row in rows]
+        counts = [operation_count(self.on_surface(row)) for row in rows if row is not None]
         if max(counts, default=0) <= _READABLE:
             return motion
         found = self._closed_form.motion

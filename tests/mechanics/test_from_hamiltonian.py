@@ -36,6 +36,15 @@ CASES = {
     ),
     # p = asinh(x'), and cosh(asinh(v)) = sqrt(1 + v^2)
     "hyperbolic": (FREE + "H: cosh(p_x) + p_y^2/2", "x'*asinh(x') - sqrt(1 + x'^2) + y'^2/2"),
+    # x' = e^(p_x) - y', y' = e^(p_y - p_x)
+    "exponentials": (
+        FREE + "H: exp(p_x) + exp(p_y - p_x) + c*x^2",
+        "(x' + y')*log(x' + y') + y'*log(y') - x' - 2*y' - c*x^2",
+    ),
+    "an exponential of both momenta": (
+        FREE + "H: exp(p_x + p_y) + p_x^2/(2*m)",
+        "m*(x' - y')^2/2 + y'*log(y') - y'",
+    ),
     "coupled": (
         FREE + "H: (p_x^2 + p_y^2 - p_x*p_y)/m + t*x*p_x",
         "m*((x' - t*x)^2 + (x' - t*x)*y' + y'^2)/3",

@@ -35,6 +35,13 @@ MENDED = {
             "cy": "l*sin(a) + d*sin(a + b) - l*sin(c) = 0",
         },
     ),
+    "y = a x twice: one multiplier is not determined": System(
+        coordinates=dict.fromkeys("xy"),
+        parameters={**M, "a": "positive"},
+        T="m*(x'^2 + y'^2)/2",
+        V="k*y",
+        constraints={"c1": "y = a*x", "c2": "3*y - 3*a*x = 0"},
+    ),
     "no circle at r = 0, and none is missing": System(
         coordinates={"r": "positive"},
         parameters={**M, "a": "positive", "w": "positive"},
