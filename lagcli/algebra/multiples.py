@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
+from functools import reduce
 from math import lcm
 from typing import TYPE_CHECKING
 
@@ -127,7 +128,7 @@ class Multiples:
 
     def pair(self, argument: Expr) -> tuple[Element, Element]:
         """(cos, sin) or (cosh, sinh) of the argument."""
-        field, sign = self.field, -1 if self.kind == "circular" else 1
+        field = self.field
         cosine, sine = field.rational(1), field.rational(0)
         parts = split(field, argument)
         if sum(abs(multiple) for multiple, _ in parts) > MAX_MULTIPLE:
@@ -147,23 +148,22 @@ class Multiples:
             c, s = self._multiple(index, abs(multiplier))
             if multiplier < 0:
                 s = -s
-            # cos(a + b) = cos a cos b ∓ sin a sin b, sin(a + b) = sin a cos b + cos a sin b
-            second = sine * s
-            cosine, sine = (
-                cosine * c + (-second if sign < 0 else second),
-                sine * c + cosine * s,
-            )
+            cosine, sine = self._of_sum((cosine, sine), (c, s))
         return cosine, sine
 
     def _multiple(self, index: int, count: int) -> tuple[Element, Element]:
         """Both functions of `count` times the argument of the generator."""
-        field, sign = self.field, -1 if self.kind == "circular" else 1
-        c, s = field.generator(index), field.generator(index + 1)
-        cosine, sine = c, s
-        for _ in range(count - 1):
-            product = sine * s
-            cosine, sine = cosine * c + (-product if sign < 0 else product), sine * c + cosine * s
-        return cosine, sine
+        once = self.field.generator(index), self.field.generator(index + 1)
+        return reduce(self._of_sum, [once] * count)
+
+    def _of_sum(
+        self, a: tuple[Element, Element], b: tuple[Element, Element]
+    ) -> tuple[Element, Element]:
+        """cos(a + b) = cos a cos b ∓ sin a sin b, sin(a + b) = sin a cos b + cos a sin b."""
+        (cosine, sine), (c, s) = a, b
+        product = sine * s
+        turned = -product if self.kind == "circular" else product
+        return cosine * c + turned, sine * c + cosine * s
 
     def power(self, argument: Expr) -> Element:
         """The exponential of the argument, or the base raised to it."""

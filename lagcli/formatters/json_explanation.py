@@ -6,13 +6,12 @@ between backticks.  `d/dt(...)`, which a file writes as a prime, is the one addi
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 
 from lagcli.document import Block, Equations, Formula, Heading, Items, Label, Matrix, Paragraph
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
-from lagcli.formatters.json_values import SCHEMA, Object, Value
+from lagcli.formatters.json_values import SCHEMA, Object, written
 from lagcli.formatters.options import Options
 from lagcli.notation.letters import in_ascii
 from lagcli.statements.explanation import Explanation
@@ -20,9 +19,7 @@ from lagcli.statements.explanation import Explanation
 
 def render(explanations: Sequence[Explanation], options: Options) -> str:
     """Print one object for one file, an array for several."""
-    objects = [_object(each) for each in explanations]
-    value: Value = objects[0] if len(objects) == 1 and not options.several else objects
-    return json.dumps(value, indent=2, ensure_ascii=False) + "\n"
+    return written([_object(each) for each in explanations], options)
 
 
 def _object(explanation: Explanation) -> Object:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from math import isfinite
@@ -9,6 +10,7 @@ from typing import Any, TypeVar
 
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.options import Options
 from lagcli.statements.motions import Above
 from lagcli.units import Unit
 
@@ -74,3 +76,9 @@ def map_of(values: Schema, *, null: bool = True) -> Schema:
 def record_of(required: tuple[str, ...], properties: dict[str, Schema]) -> Schema:
     """An object with these keys."""
     return {"type": "object", "required": list(required), "properties": properties}
+
+
+def written(objects: list[Object], options: Options) -> str:
+    """One object for one file, an array for several."""
+    value: Value = objects[0] if len(objects) == 1 and not options.several else objects
+    return json.dumps(value, indent=2, ensure_ascii=False) + "\n"

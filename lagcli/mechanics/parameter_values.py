@@ -19,11 +19,7 @@ def parameter_values(system: System) -> dict[Symbol, mpf]:
 
     A value may be a formula of other parameters, in any order.
     """
-    formulas = {
-        symbol: system.build(parameter.value)
-        for symbol, parameter in zip(system.parameters, system.problem.parameters, strict=True)
-        if parameter.value is not None
-    }
+    formulas = _given(system)
     values: dict[Symbol, mpf] = {}
     progress = True
     while progress:
@@ -35,13 +31,17 @@ def parameter_values(system: System) -> dict[Symbol, mpf]:
     return values
 
 
-def exact_values(system: System) -> dict[Symbol, Expr]:
-    """The values of the file as exact numbers, by parameter; those without one left out."""
-    formulas = {
+def _given(system: System) -> dict[Symbol, Expr]:
+    return {
         symbol: system.build(parameter.value)
         for symbol, parameter in zip(system.parameters, system.problem.parameters, strict=True)
         if parameter.value is not None
     }
+
+
+def exact_values(system: System) -> dict[Symbol, Expr]:
+    """The values of the file as exact numbers, by parameter; those without one left out."""
+    formulas = _given(system)
     for _ in formulas:
         formulas = {symbol: formula.xreplace(formulas) for symbol, formula in formulas.items()}
     return {symbol: value for symbol, value in formulas.items() if not value.free_symbols}

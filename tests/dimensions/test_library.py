@@ -5,7 +5,6 @@ which stands in a book, is counted from the units of the parameters.  They must 
 """
 
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 
@@ -15,15 +14,10 @@ from lagcli.dimensions.forms import TIME, minus, plus, unknown, unknowns
 from lagcli.dimensions.inference import Inference, gives_units, quantities
 from lagcli.dimensions.terms import Reader
 from lagcli.problem_data import Where
-from lagcli.reader import read_problem
 from lagcli.record import replace
+from tests.read import library
 
-PROBLEMS = Path(__file__).parents[2] / "problems"
-LIBRARY = [
-    problem
-    for path in sorted(PROBLEMS.rglob("*.yaml"))
-    if gives_units(problem := read_problem(path.name, path.read_bytes()).checked())
-]
+LIBRARY = [problem for problem in library().values() if gives_units(problem)]
 by_title = pytest.mark.parametrize("problem", LIBRARY, ids=lambda problem: problem.source.name)
 
 

@@ -8,29 +8,35 @@ import pytest
 from lagcli import load
 from lagcli.diagnostics import ProblemError
 from lagcli.pipeline import with_lagrangian
+from tests.read import library
 
 from .running import ROOT, simulated
 
 SPAN = 4.0
 
 
-def runnable(path):
-    try:
-        problem = with_lagrangian(load(path))
-    except ProblemError:  # an H that has no Lagrangian
-        return False
+def runnable(problem):
     return (
         bool(problem.initial)
         and not problem.functions
         and all(p.value is not None for p in problem.parameters)
+        and has_lagrangian(problem)
     )
+
+
+def has_lagrangian(problem):
+    try:
+        with_lagrangian(problem)
+    except ProblemError:
+        return False
+    return True
 
 
 def goes_on(problem):
     return bool(problem.contacts) or any(c.on_loss == "release" for c in problem.constraints)
 
 
-LIBRARY = [p for p in sorted((ROOT / "problems").rglob("*.yaml")) if runnable(p)]
+LIBRARY = [path for path, problem in library().items() if runnable(problem)]
 
 
 #: A rod that bounces ever more often, a block that slips: of all methods in doubles the bound of

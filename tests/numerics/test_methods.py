@@ -16,8 +16,9 @@ from lagcli.numerics.integrators.tableau_853 import DENSE, ERROR_3, ERROR_5, NOD
 from lagcli.pipeline import with_lagrangian
 from tests.oracle.reference import Reference
 from tests.oracle.states import random_states
+from tests.read import library
 
-from .running import ROOT, problem_of
+from .running import problem_of
 
 
 def motion_of(text):
@@ -72,11 +73,7 @@ def test_taylor_takes_the_order_of_its_tolerance():
 
 
 #: Problems with nothing unspecified: the others have no numbers.
-LIBRARY = [
-    path
-    for path in sorted((ROOT / "problems").rglob("*.yaml"))
-    if not problem_of(path.read_text("utf-8")).functions
-]
+LIBRARY = [path for path, problem in library().items() if not problem.functions]
 
 
 @pytest.mark.long

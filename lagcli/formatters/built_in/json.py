@@ -6,10 +6,9 @@ manual's page on output; a section that was not asked for has no key.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 
-from lagcli.formatters.json_values import SCHEMA, Object, Value, plain
+from lagcli.formatters.json_values import SCHEMA, Object, plain, written
 from lagcli.formatters.options import Options
 from lagcli.statements.answers import Answers
 from lagcli.statements.registry import in_order
@@ -17,9 +16,7 @@ from lagcli.statements.registry import in_order
 
 def render(answers: Sequence[Answers], options: Options) -> str:
     """JSON for machines: a stable contract."""
-    objects = [to_object(each) for each in answers]
-    value: Value = objects[0] if len(objects) == 1 and not options.several else objects
-    return json.dumps(value, indent=2, ensure_ascii=False) + "\n"
+    return written([to_object(each) for each in answers], options)
 
 
 def to_object(answers: Answers) -> Object:

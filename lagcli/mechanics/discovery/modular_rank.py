@@ -125,7 +125,11 @@ def _value(terms: _Terms, values: Mapping[int, int], prime: int) -> int:
 
 def _root(parts: Mapping[int, int], prime: int) -> int | None:
     """A root of a polynomial in one unknown, None where it has none modulo the prime."""
-    poly = nmod_poly([parts.get(k, 0) for k in range(max(parts) + 1)], prime)
+    return root_of(nmod_poly([parts.get(k, 0) for k in range(max(parts) + 1)], prime))
+
+
+def root_of(poly: nmod_poly) -> int | None:
+    """One of its roots, None where it has none."""
     if poly.degree() < 1:
         return None
     for each, _ in factorization(poly)[1]:

@@ -11,8 +11,8 @@ from collections.abc import Mapping, Sequence
 
 from flint import nmod_mat, nmod_poly
 
-from lagcli.algebra.ring import factorization
 from lagcli.mechanics.discovery.modular import PRIME
+from lagcli.mechanics.discovery.modular_rank import root_of
 
 Terms = list[tuple[int, tuple[tuple[int, int], ...]]]
 _Poly = dict[tuple[int, ...], int]  # exponents of the unknowns -> coefficient
@@ -111,9 +111,4 @@ def _univariate(equations: Sequence[_Poly]) -> int | None:
         top = max((m[0] for m in equation), default=0)
         poly = nmod_poly([equation.get((k,), 0) for k in range(top + 1)], PRIME)
         common = common.gcd(poly) if common.degree() >= 0 else poly
-    if common.degree() < 1:
-        return None
-    for factor, _ in factorization(common)[1]:
-        if factor.degree() == 1:
-            return int(-factor[0] / factor[1])
-    return None
+    return root_of(common)

@@ -58,10 +58,9 @@ def held_motion(mass: Matrix, forcing: Vector, rows: Matrix, bias: Vector) -> He
         When the accelerations are not determined.
     """
     n = len(forcing)
-    scales, lengths = _scaled([mass[j][j] for j in range(n)], rows)
+    scales, lengths, unit = _scaled([mass[j][j] for j in range(n)], rows)
     work = [
-        [*(x * s / (length or 1.0) for x, s in zip(row, scales, strict=True)), -c / (length or 1.0)]
-        for row, length, c in zip(rows, lengths, bias, strict=True)
+        [*row, -c / (length or 1.0)] for row, length, c in zip(unit, lengths, bias, strict=True)
     ]
     pivots = _reduced(work, n)
     free = [j for j in range(n) if j not in {column for _, column in pivots}]
@@ -87,10 +86,6 @@ def held_motion(mass: Matrix, forcing: Vector, rows: Matrix, bias: Vector) -> He
     # A^T lambda = M a - F, in the columns of the pivots: no square of a small pivot appears
     pull = [_dot(row, a) - f for row, f in zip(scaled, force, strict=True)]
     used, columns = [i for i, _ in pivots], [j for _, j in pivots]
-    unit = [
-        [x * s / (length or 1.0) for x, s in zip(row, scales, strict=True)]
-        for row, length in zip(rows, lengths, strict=True)
-    ]
     block = [[unit[i][j] for i in used] for j in columns]
     held = solved(block, [pull[j] for j in columns], least=0.0)
     multipliers = [0.0] * len(rows)
@@ -104,19 +99,20 @@ def held_motion(mass: Matrix, forcing: Vector, rows: Matrix, bias: Vector) -> He
     )
 
 
-def _scaled(masses: Sequence[float], rows: Matrix) -> tuple[Vector, Vector]:
-    """What makes the columns of A alike in the metric of M, and the lengths of its rows then."""
+def _scaled(masses: Sequence[float], rows: Matrix) -> tuple[Vector, Vector, list[Vector]]:
+    """What makes the columns of A alike in the metric of M; its rows then: lengths, directions."""
     scales = [1 / math.sqrt(abs(mass)) if mass else 1.0 for mass in masses]
-    return scales, [math.hypot(*map(mul, row, scales)) for row in rows]
+    lengths = [math.hypot(*map(mul, row, scales)) for row in rows]
+    unit = [
+        [x * s / (length or 1.0) for x, s in zip(row, scales, strict=True)]
+        for row, length in zip(rows, lengths, strict=True)
+    ]
+    return scales, lengths, unit
 
 
 def pivots_of(masses: Sequence[float], rows: Matrix) -> Vector:
     """The distance of each row of A from those before it, the farthest first; 1 of the first."""
-    scales, lengths = _scaled(masses, rows)
-    left = [
-        [x * s / (length or 1.0) for x, s in zip(row, scales, strict=True)]
-        for row, length in zip(rows, lengths, strict=True)
-    ]
+    _, _, left = _scaled(masses, rows)
     found: Vector = []
     while left:
         squares = [_dot(row, row) for row in left]

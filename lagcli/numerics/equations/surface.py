@@ -10,7 +10,7 @@ Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd ed., sections IV.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from lagcli.numerics.equations.motion import Motion
@@ -63,26 +63,25 @@ class Surface:
 
     def settle(self, t: float, q: Vector, v: Vector) -> Vector:
         """The nearest positions on the holonomic constraints."""
-        n, before = self.n, float("inf")
-        for _ in range(_STEPS):
-            found = self.motion.position_correction(t, *q, *v)
-            worst = max(self.relative(k, f) for k, f in enumerate(found[n:]))
-            if worst <= self.rounding or worst >= before:
-                break
-            before = worst
-            q = [x - d for x, d in zip(q, found[:n], strict=True)]
-        return q
+        return self._corrected(q, lambda q: self.motion.position_correction(t, *q, *v), 0, _STEPS)
 
     def _tangent(self, t: float, q: Vector, v: Vector) -> Vector:
+        correction = self.motion.velocity_correction
+        return self._corrected(v, lambda v: correction(t, *q, *v), self.count, 3)
+
+    def _corrected(
+        self, x: Vector, correction: Callable[[Vector], Sequence[float]], first: int, steps: int
+    ) -> Vector:
+        """By Newton's steps, as long as the residuals, from the `first` on, become smaller."""
         n, before = self.n, float("inf")
-        for _ in range(3):
-            found = self.motion.velocity_correction(t, *q, *v)
-            worst = max(self.relative(self.count + k, r) for k, r in enumerate(found[n:]))
+        for _ in range(steps):
+            found = correction(x)
+            worst = max(self.relative(first + k, r) for k, r in enumerate(found[n:]))
             if worst <= self.rounding or worst >= before:
                 break
             before = worst
-            v = [x - d for x, d in zip(v, found[:n], strict=True)]
-        return v
+            x = [each - d for each, d in zip(x, found[:n], strict=True)]
+        return x
 
     def join(self, part: Surface, place: Mapping[int, int]) -> None:
         """Take over the residuals of some of the constraints.
