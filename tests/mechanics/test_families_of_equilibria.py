@@ -7,6 +7,8 @@ x^2 omega is an adiabatic invariant (Landau, Lifshitz, Mechanics, section 49).
 
 from __future__ import annotations
 
+import random
+
 import pytest
 
 from lagcli.evaluation import FUNCTIONS, evaluated
@@ -165,3 +167,27 @@ def test_a_point_of_a_family_of_steady_motions_is_not_told_beside_it():
     section, _ = steady_motions(derivation(text))
     assert section.motions is not None
     assert [motion.free for motion in section.motions] == [("x", "y")]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_translation_that_changes_no_force_moves_an_equilibrium_that_is_seen(seed):
+    """V of three combinations of four coordinates, without a closed solution: V = sum cosh + V4."""
+    source = random.Random(seed)
+    a, b, c = (source.choice([-3, -2, -1, 1, 2, 3]) for _ in range(3))
+    u, v, w = f"(x - {a}*s)", f"(y - {b}*s)", f"(z - {c}*s)"
+    [state] = states(
+        "coordinates: [x, y, z, s]\nT: (x'^2 + y'^2 + z'^2 + s'^2)/2\n"
+        f"V: exp({u} + {v}) - {u} - {v} + cosh({v} - 2*{w}) + {u}^2*{w}^2 + {u}^2\n"
+    )
+    assert state[2] == ("s",)
+    assert state[1] == {
+        n: {1: "s", -1: "-s"}.get(k, f"{k}*s") for n, k in zip("xyz", (a, b, c), strict=True)
+    }
+    assert state[3] is True
+
+
+def test_a_pole_of_a_sphere_is_not_judged_apart_from_all_other_places_of_rest():
+    text = "coordinates: [theta, phi]\nT: (theta'^2 + sin(theta)^2*phi'^2)/2\nV: 0*theta\n"
+    section, _ = steady_motions(derivation(text))
+    assert section.motions is not None
+    assert all(motion.rates is not None for motion in section.motions)

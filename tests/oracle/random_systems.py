@@ -171,4 +171,6 @@ KINDS: tuple[Callable[[Source], str], ...] = (
 
 def system(seed: int) -> str:
     """The text of one random system; the kinds take turns."""
-    return KINDS[seed % len(KINDS)](random.Random(f"system {seed}"))
+    text = KINDS[seed % len(KINDS)](random.Random(f"system {seed}"))
+    undamped = ("dissipation: 0\n", "dissipation: (0)/2\n")
+    return "".join(line for line in text.splitlines(keepends=True) if line not in undamped)

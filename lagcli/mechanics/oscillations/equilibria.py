@@ -31,6 +31,7 @@ from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.family import Family, exists_where, family
 from lagcli.mechanics.oscillations.kinks import at_kinks
+from lagcli.mechanics.translations import constant_nullspace
 from lagcli.record import record
 from lagcli.statements.wording import INDEPENDENT, NOT_ZERO
 
@@ -299,18 +300,34 @@ class RestPoints:
         return [*conditions, *(dot(vector, forces) for vector in nullspace(rows))]
 
     def _evident(self) -> list[RestPoint]:
-        """Of the states q = 0, with angles at 0 or pi, those that are equilibria."""
-        choices = [(S.Zero, sympy.pi) if self._is_angle(q) else (S.Zero,) for q in self.system.q]
+        """Of the states q = 0, with angles at 0 or pi, the equilibria, moved where all can be."""
+        q, moved = self.system.q, self._translations
+        choices = [
+            (S.Zero, sympy.pi) if s not in moved and self._is_angle(s) else (S.Zero,) for s in q
+        ]
         found = []
         for count, place in enumerate(product(*choices)):
             if count == _MAX_EVIDENT:
                 break
-            values = dict(zip(self.system.q, place, strict=True))
-            if any(q.is_nonzero for q in self.system.q):
+            values = {
+                s: simplify(x + sympy.Add(*(c[i] * free for free, c in moved.items())))
+                for i, (s, x) in enumerate(zip(q, place, strict=True))
+                if s not in moved
+            }
+            if any(s.is_nonzero for s in q):
                 break
             if self.balanced(values):
-                found.append(RestPoint(values, ()))
+                found.append(RestPoint(values, tuple(moved)))
         return found
+
+    @cached_property
+    def _translations(self) -> dict[Symbol, list[Expr]]:
+        """Constant displacements c under which what vanishes at rest is the same, by the q = c."""
+        q = self.system.q
+        rows = [[e.diff(s) for s in q] for e in self.equations]
+        basis = constant_nullspace(rows, q) if rows else []
+        own = [k for k in range(len(q)) if sum(c[k] != 0 for c in basis) == 1]
+        return {q[max(k for k in own if c[k] == 1)]: c for c in basis}
 
     def _is_angle(self, q: Symbol) -> bool:
         """Whether the coordinate occurs inside sin and cos only."""

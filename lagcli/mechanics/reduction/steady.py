@@ -116,7 +116,13 @@ class SteadyMotions:
             return None
         given = self._given()
         if self.routh.cyclic and self._free:
-            found = [*self._families(), *self._at_singular_places()]
+            found = self._families()
+            rest = [each for each in found if each.rates and not any(each.rates.values())]
+            found += [
+                place
+                for place in self._at_singular_places()
+                if not any(self._within(place, family) for family in rest)
+            ]
         else:
             found = self._by_momenta()
         if given is not None and not any(self._is_member(given, g) for g in found):
