@@ -138,6 +138,7 @@ class Controller:
         self._finer = 0
         self._is_refused = False
         self._level = 0
+        self._furthest: Outcome | None = None
 
     def outcome(self) -> Outcome:
         """The first pair of runs that agrees, or the last that could be made."""
@@ -148,6 +149,7 @@ class Controller:
             finer = max(tolerance / BETWEEN, self.finest)
             fine, fine_rows = self._run(finer, level, coarse)
             found = self._compared(coarse, rows, fine, fine_rows, (tolerance, finer))
+            self._furthest = self.furthest(found)
             if found.reached or self._stepped_over(fine):
                 missed = self._missed(fine, fine_rows)
                 if not missed:
@@ -157,6 +159,7 @@ class Controller:
                 if level + 1 < len(self._longest):  # something narrow: look again with short steps
                     level += 1
                     self._finer, self._level, apart = 0, level, math.inf
+                    self._furthest = None
                     coarse, rows = self._run(tolerance, level, fine)
                     continue
                 self._is_refused = True
@@ -175,6 +178,13 @@ class Controller:
                 coarse, rows = fine, fine_rows
             else:
                 coarse, rows = self._run(tolerance, level, fine)
+
+    def furthest(self, found: Outcome) -> Outcome:
+        """The pair of runs that held longest: at rounding the bound is taken larger for chance."""
+        before = self._furthest
+        if before is None or self._is_refused or found.run.stop or found.reason:
+            return found
+        return before if before.good_rows > found.good_rows else found
 
     def factor(self, tolerance: float, fine: Run) -> float:
         """Times the difference of two runs that bounds the error, by the finer one.

@@ -24,10 +24,14 @@ _UNSURE = 2.0
 _IN_PYTHON = 2000
 _MOST = 200_000
 _MARGIN = 0.1
+#: Two bounds at rounding, of which each is a matter of chance, differ by less.
+_CHANCE = 8.0
 #: A run that passes a singularity far less closely than the motion does goes astray.
 _CLOSE = 1e-22
 #: More digits do not need many times the steps, unless they go astray.
 TIMES = 20
+#: A run that stops at its first step says nothing of their number.
+FEW = 50
 
 
 def lost_bits(outcome: Outcome) -> float:
@@ -60,6 +64,13 @@ def within_reach(outcome: Outcome, group: Sequence[str]) -> list[str]:
         if needed <= bits and not (name == "taylor" and is_guessed and steps > _IN_PYTHON):
             found.append(name)
     return found
+
+
+def is_marginal(outcome: Outcome) -> bool:
+    """Whether runs at the rounding of their numbers are within the accuracy by chance."""
+    controller = outcome.controller
+    at_rounding = controller.factor(outcome.tolerances[1], outcome.run) > USUAL
+    return at_rounding and _CHANCE * max(outcome.errors) > controller.accuracy
 
 
 def horizon_of(outcome: Outcome) -> float:

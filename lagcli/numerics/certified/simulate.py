@@ -11,9 +11,11 @@ from lagcli.numerics.certified.attempts import attempt, groups
 from lagcli.numerics.certified.branches import is_met, is_sharp, on_one_branch
 from lagcli.numerics.certified.certificate import result_of, rows_asked_for
 from lagcli.numerics.certified.escalation import (
+    FEW,
     TIMES,
     first_tolerance,
     is_better,
+    is_marginal,
     with_rounding,
     within_reach,
 )
@@ -88,7 +90,8 @@ class Simulation(Setup):
     def run(self, modes: Modes) -> Result:
         """The table, from the state at the beginning, over the longest span that is certain."""
         outcome, result = self.first(modes)
-        if not outcome.reached and self.asked.furthest:
+        is_last = outcome.run.method_name in self._last_methods and is_marginal(outcome)
+        if self.asked.furthest and (is_last or not outcome.reached):
             from lagcli.numerics.certified.horizon import longest
 
             def run(asked: Asked) -> Result:
@@ -96,6 +99,12 @@ class Simulation(Setup):
 
             result = longest(self, modes, outcome, result, run)
         return self._with_rows_beyond(result) if self.asked.beyond else result
+
+    @property
+    def _last_methods(self) -> Sequence[str]:
+        """Those after which none has more digits."""
+        has_events = self.asked.method == "auto" and (self.goes_on or self.equations.kinks)
+        return ("taylor80",) if has_events else groups(self.asked)[-1]
 
     def _with_rows_beyond(self, result: Result) -> Result:
         """The result with the rows after those that are certified."""
@@ -133,6 +142,8 @@ class Simulation(Setup):
             raise Refusal(f"no method for this problem{self.remark}", mistake=False)
         self.whole_span = rows_asked_for(self, outcome)
         if not outcome.reached:
+            outcome = outcome.controller.furthest(outcome)
+        if not outcome.reached and self.asked.furthest:
             with digits(), suppress(NotPossible):
                 outcome = outcome.controller.refined(outcome, self.look_between)
         return on_one_branch(self, modes, outcome, digits)[0]
@@ -157,7 +168,7 @@ class Simulation(Setup):
             return (), 1.0
         if self.asked.digits is not None:
             return group, 1.0
-        self.most_steps = TIMES * outcome.run.steps
+        self.most_steps = TIMES * max(outcome.run.steps, FEW)
         if is_sharp(outcome):
             return (), 1.0
         if is_met(outcome):

@@ -188,7 +188,8 @@ class Run:
             surface.measure(t, turn.q, turn.v)
         self.phases.append(Phase(turn.mode, surface, t))
         if last >= 0:
-            self.marks.append(Mark(t, turn.q, turn.v, last + 1, begins=True))
+            state = turn.right_after or (turn.q, turn.v)
+            self.marks.append(Mark(t, *state, last + 1, begins=True))
 
     def _phase(self, turn: Turn, t: float) -> tuple[float, Turn | None]:
         """Go on in one mode up to what ends it; None at the end of the run."""
@@ -215,10 +216,10 @@ class Run:
             end = t if found is None else found.t
             self._mark_until(step, end)
             if found is not None:
-                following = self._following(mode, found, *self._state_in(step, end))
+                following, sides = self._following(mode, found, *self._state_in(step, end))
                 if following.mode is not None:  # a sample that nobody can tell from it: before it
                     self._mark_until(step, end * (1 + min(self._allowed, _COINCIDES)))
-                self._end(end, *self._state_in(step, end))
+                self._end(end, *sides)
                 return end, following
             self._look(step)
         if method.reached is not None:
@@ -229,8 +230,10 @@ class Run:
             return t, self.transitions.closes(mode, t, skipped, q, v)
         return t, None
 
-    def _following(self, mode: Mode, found: Occurrence, q: Vector, v: Vector) -> Turn:
-        """What follows an occurrence, as if it had been met at the time itself.
+    def _following(
+        self, mode: Mode, found: Occurrence, q: Vector, v: Vector
+    ) -> tuple[Turn, tuple[Vector, Vector]]:
+        """What follows an occurrence, as if it had been met at the time itself; the state before.
 
         Doubles find the margin u of a contact u/u' late: the state goes back by that time
         before what happens, and forth by it after.  A run that is moved finds it later, and has
@@ -239,16 +242,22 @@ class Run:
         condition, t = found.condition, found.t
         late = 0.0 if found.touches else self._lateness(mode, condition, t, q, v)
         if condition.kind not in {"gap", "loss"} or not late:
-            return self.transitions.after(mode, found, q, v)
-        if not mode.motion.arithmetic.ordered:  # numbers that resolve the time
+            return self.transitions.after(mode, found, q, v), (q, v)
+        resolves = not mode.motion.arithmetic.ordered
+        before = _shifted(mode, t, q, v, -late)
+        if resolves:  # the time, as doubles do not
             found = replace(found, t=Fraction(t) - Fraction(late))
-        following = self.transitions.after(mode, found, *_shifted(mode, t, q, v, -late))
+        following = self.transitions.after(mode, found, *before)
         events = tuple(replace(event, t=float(event.t)) for event in following.events)
         following = replace(following, events=events)
         if following.mode is None:
-            return replace(following, q=q, v=v)
-        q, v = _shifted(following.mode, t, following.q, following.v, late)
-        return replace(following, q=q, v=v)
+            return replace(following, q=q, v=v), (q, v)
+        after = following.q, following.v
+        moved = _shifted(following.mode, t, *after, late)
+        following = replace(following, q=moved[0], v=moved[1])
+        if resolves:
+            return replace(following, right_after=after), before
+        return following, (q, v)
 
     def _lateness(self, mode: Mode, condition: Condition, t: float, q: Vector, v: Vector) -> float:
         def at(time: float) -> float:

@@ -51,6 +51,8 @@ class Turn:
     apex: float = math.inf
     due: tuple[float, int] | None = None
     touched: Occurrence | None = field(default=None)
+    #: the state right after the event, which lies between two doubles of the time
+    right_after: tuple[Vector, Vector] | None = field(default=None)
 
 
 class Transitions:
