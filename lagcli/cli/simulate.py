@@ -100,6 +100,10 @@ Rigorous = Annotated[
     bool,
     typer.Option("--rigorous", help="Prove every digit by enclosures of the exact motion."),
 ]
+Shadow = Annotated[
+    bool,
+    typer.Option("--shadow", help="Prove that a motion from nearby values stays at these rows."),
+]
 Beyond = Annotated[
     bool,
     typer.Option("--beyond", help="Print the rows after the certified ones as well, marked."),
@@ -122,6 +126,7 @@ def simulate(
     stop_when: StopWhen = None,
     whole_model: WholeModel = False,
     rigorous: Rigorous = False,
+    shadow: Shadow = False,
     beyond: Beyond = False,
 ) -> int:
     """Compute the motion to a stated accuracy, with a certificate.
@@ -161,6 +166,7 @@ def simulate(
         stop_when=stop_when,
         whole=whole_model,
         rigorous=rigorous,
+        shadow=shadow,
         beyond=beyond,
     )
     return simulate_files(files, wish)

@@ -46,6 +46,7 @@ class SimulateOptions:
     stop_when: str | None
     whole: bool = False
     rigorous: bool = False
+    shadow: bool = False
     beyond: bool = False
 
 
@@ -113,7 +114,7 @@ def _run(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes |
     from lagcli.numerics.equations.refusal import Refusal
     from lagcli.numerics.tables.formats import WRITERS
 
-    if wish.rigorous:
+    if wish.rigorous or wish.shadow:
         return _proved(problem, asked, wish)
     try:
         with shared("integrating") as progress:
@@ -129,12 +130,12 @@ def _run(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes |
 def _proved(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes | None, Status]:
     """The table of a proof, or None, and how it ended."""
     from lagcli.numerics.equations.refusal import Refusal
-    from lagcli.numerics.rigorous import prove
+    from lagcli.numerics.rigorous import Shadowing, prove
     from lagcli.numerics.rigorous.writing import WRITERS
 
     try:
         with shared("proving") as progress:
-            proof = prove(problem, asked, progress)
+            proof = prove(problem, asked, progress, Shadowing if wish.shadow else None)
     except Refusal as refusal:
         tell(problem.source, refusal.diagnostics)
         return None, Status.USAGE if refusal.mistake else Status.NOT_FOUND
@@ -146,13 +147,14 @@ def _proved(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[byte
 
 def can_be_written(wish: SimulateOptions) -> bool:
     """Whether there is what writes the format, and a place that takes bytes."""
-    if wish.rigorous and wish.format_name not in ("table", "json", "csv"):
+    proof = "--shadow" if wish.shadow else "--rigorous" if wish.rigorous else ""
+    if proof and wish.format_name not in ("table", "json", "csv"):
         tell_line(
-            f"lagcli: error: --rigorous has no format {wish.format_name}: take table, json or csv"
+            f"lagcli: error: {proof} has no format {wish.format_name}: take table, json or csv"
         )
         return False
-    if wish.rigorous and wish.beyond:
-        tell_line("lagcli: error: --rigorous prints what is proved: leave out --beyond")
+    if proof and wish.beyond:
+        tell_line(f"lagcli: error: {proof} prints what is proved: leave out --beyond")
         return False
     if wish.format_name == "parquet" and not _is_installed("pyarrow"):
         tell_line(

@@ -3,5 +3,6 @@
 from __future__ import annotations
 
 from lagcli.numerics.rigorous.proof import Proof, prove
+from lagcli.numerics.rigorous.shadowing import Shadowing
 
-__all__ = ["Proof", "prove"]
+__all__ = ["Proof", "Shadowing", "prove"]

@@ -288,7 +288,7 @@ class Enclosures:
                     for e, x in zip(errors, whole, strict=True)
                 ]
                 return self._bounded(slopes, grown, h, defect, column)
-            tube = [2 * x.abs_upper() for x in errors]
+            tube = [e.max(2 * x.abs_upper()) for x, e in zip(errors, tube, strict=True)]
             if not all(x < _LARGEST for x in tube):
                 return None
         return None

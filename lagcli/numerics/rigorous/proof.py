@@ -85,6 +85,9 @@ class Proof:
         All that happened, in order.
     refusal : str
         Why the rows end early; empty where they do not.
+    within : float, optional
+        The rows are those of a motion whose initial values are as near to the file's; without it,
+        of the file's own motion.
     """
 
     columns: tuple[str, ...]
@@ -98,6 +101,7 @@ class Proof:
     assumed: tuple[str, ...]
     events: tuple[ProvedEvent, ...] = ()
     refusal: str = ""
+    within: float | None = None
 
     def as_result(self) -> Result:
         """The middles of all enclosures, as of a run."""
@@ -129,7 +133,12 @@ class Proof:
         )
 
 
-def prove(problem: Problem, asked: Asked, progress: Progress | None = None) -> Proof:
+def prove(
+    problem: Problem,
+    asked: Asked,
+    progress: Progress | None = None,
+    attempts: type[Attempt] | None = None,
+) -> Proof:
     """Enclose a motion.
 
     Parameters
@@ -140,6 +149,8 @@ def prove(problem: Problem, asked: Asked, progress: Progress | None = None) -> P
         Span, accuracy and columns.
     progress : function, optional
         Told which part of the span is enclosed.
+    attempts : type, optional
+        `Attempt`, or `Shadowing`.
 
     Returns
     -------
@@ -159,7 +170,7 @@ def prove(problem: Problem, asked: Asked, progress: Progress | None = None) -> P
     work, last = _WORK, 0.0
     while True:
         with ctx.workprec(bits + _GUARD):
-            attempt = Attempt(setup, implied, bits, work, progress)
+            attempt = (attempts or Attempt)(setup, implied, bits, work, progress)
             found = attempt.proof()
         best = found if best is None or found.holds_until >= best.holds_until else best
         work -= attempt.work
@@ -213,6 +224,7 @@ class Attempt:
         self.rows: list[Enclosure] = []
         self.events: list[ProvedEvent] = []
         self.refusal = ""
+        self.within: float | None = None
         self.assumed = ["the file as it is written", "the interval arithmetic of python-flint"]
         #: radius beside the scale of a component, the largest, at the last time
         self.width = 0.0
@@ -246,6 +258,7 @@ class Attempt:
             assumed=tuple(self.assumed),
             events=tuple(e for e in self.events if not e.t > (self.times[good - 1] if good else 0)),
             refusal="" if reached else f"proved until t = {holds:g}: {self.refusal}",
+            within=self.within,
         )
 
     def bits_needed(self) -> int:
@@ -263,6 +276,13 @@ class Attempt:
         return max(self.bits + 32, 16 * math.ceil(wanted / 16))
 
     def _go(self) -> None:
+        following: Following | None = self._begin()
+        self._take(following[2], following[0], following[1].box)
+        while following is not None and len(self.rows) < len(self.times):
+            following = self._through_mode(*following)
+
+    def _begin(self) -> Following:
+        """The initial state and its mode."""
         setup, ball = self.setup, self.arithmetic.ball
         constants = constants_of(setup.equations, setup.all_nodes, self.arithmetic)
         modes = ProofModes(
@@ -284,10 +304,7 @@ class Attempt:
             first.__dict__.pop("watched")
         found = modes.at_first(t, state)
         self.assumed += modes.assumed
-        self._take(found[0], t, state)
-        following: Following | None = (t, start, *found)
-        while following is not None and len(self.rows) < len(self.times):
-            following = self._through_mode(*following)
+        return t, start, *found
 
     def _name_implied(self) -> None:
         """Constraints that others imply at the beginning are taken to be implied all the way."""

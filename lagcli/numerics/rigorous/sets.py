@@ -43,7 +43,7 @@ class LohnerSet:
         points = [x.mid() for x in middle]
         rest = matrix(n, 1, [x - m for x, m in zip(middle, points, strict=True)])
         turned = derivative * self.frame
-        frame, inverse = _carried(turned) or _orthogonal(turned, self.radii)
+        frame, inverse = _carried(turned) or orthonormal(turned, _by_length(turned, self.radii))
         return LohnerSet(points, frame, (inverse * turned) * self.radii + inverse * rest)
 
 
@@ -77,16 +77,22 @@ def around(state: Sequence[Any]) -> LohnerSet:
     return LohnerSet(points, identity, radii)
 
 
-def _orthogonal(turned: Any, radii: Any) -> tuple[Any, Any]:
-    """Orthogonal axes along the longest sides of the set, by Gram and Schmidt, and the inverse.
+def _by_length(turned: Any, radii: Any) -> list[int]:
+    """The sides of the set, the longest first."""
+    lengths = [
+        float(radius.abs_upper()) * _norm([float(x.mid()) for x in column])
+        for radius, column in zip(radii.entries(), turned.transpose().tolist(), strict=True)
+    ]
+    return sorted(range(len(lengths)), key=lambda j: -lengths[j])
+
+
+def orthonormal(turned: Any, order: Sequence[int]) -> tuple[Any, Any]:
+    """Orthogonal axes along columns in an order, by Gram and Schmidt, and the inverse.
 
     It need not be exact: whatever it is, its inverse is enclosed.
     """
     n = turned.nrows()
-    rows = [[float(x.mid()) for x in row] for row in turned.tolist()]
-    columns = [list(column) for column in zip(*rows, strict=True)]
-    sizes = [float(x.abs_upper()) for x in radii.entries()]
-    order = sorted(range(n), key=lambda j: -sizes[j] * _norm(columns[j]))
+    columns = [[float(x.mid()) for x in column] for column in turned.transpose().tolist()]
     units = [[float(i == k) for i in range(n)] for k in range(n)]
     frame: list[list[float]] = []
     for candidate in [*(columns[j] for j in order), *units]:

@@ -23,7 +23,8 @@ def to_json(proof: Proof) -> bytes:
         "rows": [[None if x is None else float(x.mid()) for x in row] for row in proof.rows],
         "enclosures": [[_ball(x) for x in row] for row in proof.rows],
         "certificate": {
-            "kind": "proof",
+            "kind": "proof" if proof.within is None else "shadow",
+            **({} if proof.within is None else {"initial_within": proof.within}),
             "accuracy": proof.accuracy,
             "reached": proof.reached,
             "holds_until": proof.holds_until,
@@ -104,11 +105,20 @@ def to_table(proof: Proof) -> bytes:
     made = f"{proof.steps} steps of order {proof.order} in {proof.bits} bits"
     lines += [
         "",
-        f"{whole}: every digit shown holds for the exact motion, within",
+        *_claim(whole, proof.within),
         f"  one unit of its last place; accuracy {proof.accuracy:g}, {made}",
         f"assumed: {'; '.join(proof.assumed)}",
     ]
     return "".join(f"{line}\n" for line in lines).encode()
+
+
+def _claim(whole: str, within: float | None) -> list[str]:
+    if within is None:
+        return [f"{whole}: every digit shown holds for the exact motion, within"]
+    return [
+        f"{whole} by shadowing: every digit shown holds for an exact motion whose",
+        f"  initial values lie within {within:.1e} of those of the file, within",
+    ]
 
 
 def _written(t: Any) -> str:
