@@ -276,8 +276,9 @@ class Attempt:
         return max(self.bits + 32, 16 * math.ceil(wanted / 16))
 
     def _go(self) -> None:
-        following: Following | None = self._begin()
-        self._take(following[2], following[0], following[1].box)
+        t, start, mode, leaving = self._begin()
+        self._take(mode, t, start.box)
+        following: Following | None = (t, start, mode, leaving)
         while following is not None and len(self.rows) < len(self.times):
             following = self._through_mode(*following)
 
