@@ -23,8 +23,9 @@ from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.constrained import tangent
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, is_gyroscopic
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
-from lagcli.mechanics.discovery.higher_degree import DEGREES, HigherIntegrals, KillingFrame
-from lagcli.mechanics.discovery.killing import KillingIntegrals
+from lagcli.mechanics.discovery.higher_degree import DEGREES, HigherIntegrals
+from lagcli.mechanics.discovery.isometries import Vector
+from lagcli.mechanics.discovery.killing import KillingFrame, KillingIntegrals, common_factors
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Allowance, TooMuchWork
 from lagcli.mechanics.discovery.listing import more, times
@@ -192,7 +193,7 @@ class Discovery(Setting):
             return
         frame = KillingFrame.of(self.equations, self.isometries)
         degree = 2
-        for degree in DEGREES[len(self.system.q)] if frame else ():
+        for degree in DEGREES.get(len(self.system.q), ()) if frame else ():
             if frame is None or len(self.fixed_charges) >= len(self.system.q):
                 return
             self.words.append(
@@ -206,22 +207,40 @@ class Discovery(Setting):
             self.words.append(f"none of degree {degree + 1} or higher")
 
     def _by_killing_vectors(self) -> bool:
-        """All integrals of second degree of L = T - V, where T has constant curvature."""
-        isometries, timed = self.isometries, self.system.t in self.equations_symbols
-        if isometries is None or timed or is_gyroscopic(self.equations):
+        """Those of T of constant curvature, which are all; else of T without a factor w(q)."""
+        equations, isometries = self.equations, self.isometries
+        if self.system.t in self.equations_symbols or is_gyroscopic(equations):
             return False
+        if isometries is None:
+            for w in common_factors(equations):
+                frame = KillingFrame.without_factor(equations, w, self.allowed)
+                self._keep_of(frame, [], "from Killing vectors of T without a common factor")
+            return False
+        frame = KillingFrame.of(equations, isometries)
+        self._keep_of(frame, self._symmetries(), "", "all ")
+        return True
+
+    def _keep_of(
+        self, frame: KillingFrame | None, symmetries: Sequence[Vector], which: str, every: str = ""
+    ) -> None:
+        if frame is None:
+            return
         self.words.append(
-            "all first integrals of second degree in the velocities without explicit time"
+            f"{every}first integrals of second degree in the velocities without explicit time"
+            f"{which and ' '}{which}"
         )
+        kinds, allowed = self.coordinate_kinds, self.allowed
+        given = (self.noether, self.equations, kinds, allowed)
+        self._keep(KillingIntegrals(*given, frame, symmetries))
+
+    def _symmetries(self) -> list[Vector]:
+        """Vectors along which L does not change."""
         moving = {self.system.t, *self.system.qdot}
         given = [c.transformation for c in self.point_charges]
-        symmetries = [
+        return [
             x.changes for x in given
             if x.time == 0 and not sympy.Tuple(*x.changes).free_symbols & moving
         ]  # fmt: skip
-        kinds = self.coordinate_kinds
-        self._keep(KillingIntegrals(self.noether, isometries, kinds, symmetries))
-        return True
 
     def _keep(self, integrals: QuadraticIntegrals) -> None:
         """Add what is found, with names."""

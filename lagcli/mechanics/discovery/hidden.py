@@ -66,8 +66,6 @@ class QuadraticIntegrals:
         self.functions = quadratic(kinds, MOST_UNKNOWNS // slots)
         if not self.functions and n * (n + 1) // 2 <= MOST_UNKNOWNS:
             self.functions = [sympy.S.One]
-        self.shared = _of_liouville(equations)
-        self.functions += [x / w for w in self.shared for x in bare_terms(w, equations.q)]
         self.of_field = _of_field(equations) if self.linear else []
 
     def found(self, known: Sequence[NoetherCharge]) -> list[tuple[Slots, NoetherCharge]]:
@@ -166,7 +164,7 @@ class QuadraticIntegrals:
     def _scalar(self, functions: Slots, eta: Sequence[Expr], _: Expr, /) -> Expr | None:
         """S(q) from its gradient."""
         force, _ = self._slopes(eta)
-        return self._potential(force, functions)
+        return self._potential(force, self._candidates(functions))
 
     def _slopes(self, eta: Sequence[Expr]) -> tuple[list[Expr], Expr]:
         """The gradient of S, and dS/dt at fixed q: dQ/dt = 0 to first degree in q'."""
@@ -201,12 +199,11 @@ class QuadraticIntegrals:
         rest = self.noether.system.L.xreplace(self._still)
         return set(bare_terms(rest, q)) - {sympy.S.One}
 
-    def _potential(self, force: Sequence[Expr], functions: Slots) -> Expr | None:
-        """S(q) with the gradient `force`, from functions like those of L and of the tensor."""
+    def _potential(self, force: Sequence[Expr], candidates: Sequence[Expr]) -> Expr | None:
+        """S(q) with the gradient `force`, as a combination of the candidates if it is one."""
         q = self.equations.q
         if all(f == 0 for f in force):
             return sympy.S.Zero
-        candidates = self._candidates(functions)
         vectors = [[c.diff(x) for x in q] for c in candidates]
         values = Relation([*vectors, [-f for f in force]], q, self.allowed).of_last()
         if values is not None:
@@ -220,7 +217,6 @@ class QuadraticIntegrals:
         terms = self._of_rest()
         monomials = [sympy.S.One, *q]
         monomials += [x * y for i, x in enumerate(q) for y in q[: i + 1]]
-        monomials += [x for w in self.shared for x in bare_terms(w, q)]
         inside = {t for _, f in functions for t in bare_terms(f, q)}
         roots = sorted(
             _roots(sympy.Tuple(*terms), q), key=sympy.default_sort_key
@@ -268,15 +264,6 @@ def _roots(expression: Expr, q: Sequence[Symbol]) -> set[Expr]:
 def _length(expression: Expr) -> tuple[int, str]:
     """Shorter ones first: they are the ones that are used where several would do."""
     return sympy.count_ops(expression), str(expression)
-
-
-def _of_liouville(equations: SlotEquations) -> list[Expr]:
-    """F(x) + G(y) of T = (F + G)(x'^2 + y'^2)/2, which the tensor has below its terms."""
-    if len(equations.q) != 2 or equations.mass[0][1] != 0:
-        return []
-    found = [sympy.expand(equations.mass[k][k]) for k in (0, 1)]
-    q = equations.q
-    return [w for w in dict.fromkeys(found) if w.is_Add and w.free_symbols >= set(q)][:1]
 
 
 def _of_field(equations: SlotEquations) -> list[Expr]:

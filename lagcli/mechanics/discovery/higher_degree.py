@@ -25,10 +25,10 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import dot, simplify
-from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.exact import ExactSolver
-from lagcli.mechanics.discovery.hidden import integral_of, is_gyroscopic
-from lagcli.mechanics.discovery.isometries import Isometries
+from lagcli.mechanics.discovery.hidden import integral_of
+from lagcli.mechanics.discovery.isometries import Vector
+from lagcli.mechanics.discovery.killing import KillingFrame
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import independent, kernel_modulo
 from lagcli.mechanics.discovery.scaling import bare_terms, scaled
@@ -40,48 +40,6 @@ from lagcli.mechanics.total_derivative import boundary_term
 #: The degrees that are searched, by the number of coordinates.
 DEGREES = {2: (3, 4), 3: (3,)}
 _MOST_UNKNOWNS = 400
-
-Vector = tuple[Expr, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class KillingFrame:
-    """Killing vectors of T, those among them that span the space, and its coordinates X."""
-
-    fields: Sequence[Vector]
-    spanning: Sequence[Vector]
-    X: Sequence[Expr]
-
-    @classmethod
-    def of(cls, equations: SlotEquations, isometries: Isometries | None) -> KillingFrame | None:
-        """For constant M, or constant curvature, where the forces are those of a V(q)."""
-        entries = sympy.Tuple(*(m for row in equations.mass for m in row))
-        fixed = free_of(sympy.Tuple(entries, *equations.forcing), [equations.t])
-        if len(equations.q) not in DEGREES or not fixed or is_gyroscopic(equations):
-            return None
-        if free_of(entries, [*equations.q, *equations.v]):
-            shifts = _translations(len(equations.q))
-            return cls([*shifts, *_rotations(equations)], shifts, equations.q)
-        if isometries is None:
-            return None
-        rotations = isometries.rotations
-        spanning = isometries.translations or rotations
-        return cls(isometries.fields, spanning, isometries.functions)
-
-
-def _translations(n: int) -> list[Vector]:
-    return [tuple(sympy.Integer(i == k) for i in range(n)) for k in range(n)]
-
-
-def _rotations(equations: SlotEquations) -> list[Vector]:
-    """X_i e_k - X_k e_i, X = M q."""
-    X = [dot(row, equations.q) for row in equations.mass]
-    found = []
-    for i, k in combinations(range(len(X)), 2):
-        field: list[Expr] = [sympy.S.Zero] * len(X)
-        field[i], field[k] = -X[k], X[i]
-        found.append(tuple(field))
-    return found
 
 
 @dataclass(frozen=True, slots=True)
