@@ -42,6 +42,8 @@ def name_of(structure: Structure) -> str | None:
     with mpmath.workdps(30):
         if structure.by_energy is None:
             return _with_centre(_name(structure.constants, structure.central))
+        if _changes_elsewhere(structure):
+            return None
         names = [_name(_at_energy(structure, E), structure.central) for E in (-1, 0, 1)]
         where = ("where the energy is negative", "where it is 0", "where it is positive")
         if names[0] is None:
@@ -56,6 +58,14 @@ def _with_centre(name: str | None) -> str | None:
     if name is None or not any(word in name for word in _EXTENDED):
         return name
     return f"{name}{MODULO_CONSTANTS}"
+
+
+def _changes_elsewhere(structure: Structure) -> bool:
+    """Whether c + e E is among the coefficients: such a one changes its sign at E = -c/e."""
+    assert structure.by_energy is not None
+    both = zip(structure.constants, structure.by_energy, strict=True)
+    rows = (row for a, b in both for row in zip(a, b, strict=True))
+    return any(c != 0 != e for row in rows for c, e in zip(*row, strict=True))
 
 
 def _at_energy(structure: Structure, value: int) -> list[list[Vector]]:
