@@ -8,7 +8,7 @@ Ibragimov, *Elementary Lie Group Analysis and Ordinary Differential Equations*, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import cached_property
 
@@ -21,16 +21,16 @@ from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, point_unkno
 from lagcli.mechanics.discovery.centralizer import centralized, without_time
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.constrained import tangent
-from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, is_gyroscopic
+from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, is_gyroscopic
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
-from lagcli.mechanics.discovery.higher_degree import DEGREES, HigherIntegrals
-from lagcli.mechanics.discovery.isometries import Vector
-from lagcli.mechanics.discovery.killing import KillingFrame, KillingIntegrals, common_factors
+from lagcli.mechanics.discovery.killing import KillingFrame
+from lagcli.mechanics.discovery.killing_integrals import DEGREES, KillingIntegrals
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Allowance, TooMuchWork
 from lagcli.mechanics.discovery.listing import more, times
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.on_surface import search_on_surface
+from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.setting import Setting
 from lagcli.mechanics.discovery.slots import point_slots
@@ -178,63 +178,58 @@ class Discovery(Setting):
             if not integrals.functions:
                 self.stopped.append("there are too many coordinates for the second degree")
                 return
-            self._keep(integrals)
+            self._keep(integrals.found(self.charges))
         if TimedIntegrals.applies(self.equations, self.coordinate_kinds, self.point_charges):
             timed = TimedIntegrals(
                 self.noether, self.equations, self.centred_kinds, self.time_functions, self.allowed
             )
             if timed.functions:
                 self.words.append("and with the same functions of time as coefficients")
-                self._keep(timed)
+                self._keep(timed.found(self.charges))
 
     def _of_higher_degree(self) -> None:
         """Those of third and fourth degree, while fewer than n are known without the time."""
         if not (self.canonical and self.quadratic_mass and self.fixed_charges):
             return
+        n, degree = len(self.system.q), 2
         frame = KillingFrame.of(self.equations, self.isometries)
-        degree = 2
-        for degree in DEGREES.get(len(self.system.q), ()) if frame else ():
-            if frame is None or len(self.fixed_charges) >= len(self.system.q):
+        for degree in DEGREES.get(n, ()) if frame else ():
+            if frame is None or len(self.fixed_charges) >= n:
                 return
             self.words.append(
                 f"of degree {degree}, with the terms of V and of its gradient times monomials in "
                 "the lower parts"
             )
-            search = HigherIntegrals(self.noether, self.equations, frame, degree, self.allowed)
-            found = search.found(self.charges)
+            found = self._of_frame(frame, degree)
             self.listing.add_hidden(("", charge) for charge in found)
-        if len(self.fixed_charges) < len(self.system.q):
+        if len(self.fixed_charges) < n:
             self.words.append(f"none of degree {degree + 1} or higher")
 
     def _by_killing_vectors(self) -> bool:
         """Those of T of constant curvature, which are all; else of T without a factor w(q)."""
-        equations, isometries = self.equations, self.isometries
+        equations, what = self.equations, "first integrals of second degree in the velocities"
         if self.system.t in self.equations_symbols or is_gyroscopic(equations):
             return False
-        if isometries is None:
-            for w in common_factors(equations):
-                frame = KillingFrame.without_factor(equations, w, self.allowed)
-                self._keep_of(frame, [], "from Killing vectors of T without a common factor")
+        if self.isometries is None:
+            for frame in KillingFrame.without_factor(equations, self.allowed):
+                self.words.append(f"{what} from Killing vectors of T without a common factor")
+                self._keep(((), charge) for charge in self._of_frame(frame, 2))
             return False
-        frame = KillingFrame.of(equations, isometries)
-        self._keep_of(frame, self._symmetries(), "", "all ")
+        self.words.append(f"all {what} without explicit time")
+        frame = KillingFrame.of(equations, self.isometries)
+        assert frame is not None
+        fields = [*self._symmetries(), *frame.fields]
+        chosen = Relation(fields, self.system.q, self.allowed).independent()
+        frame = replace(frame, fields=[fields[k] for k in chosen])
+        self._keep(((), charge) for charge in self._of_frame(frame, 2))
         return True
 
-    def _keep_of(
-        self, frame: KillingFrame | None, symmetries: Sequence[Vector], which: str, every: str = ""
-    ) -> None:
-        if frame is None:
-            return
-        self.words.append(
-            f"{every}first integrals of second degree in the velocities without explicit time"
-            f"{which and ' '}{which}"
-        )
-        kinds, allowed = self.coordinate_kinds, self.allowed
-        given = (self.noether, self.equations, kinds, allowed)
-        self._keep(KillingIntegrals(*given, frame, symmetries))
+    def _of_frame(self, frame: KillingFrame, degree: int) -> list[NoetherCharge]:
+        given = (self.noether, self.equations, frame, degree, self.allowed)
+        return KillingIntegrals(*given).found(self.charges)
 
-    def _symmetries(self) -> list[Vector]:
-        """Vectors along which L does not change."""
+    def _symmetries(self) -> list[tuple[Expr, ...]]:
+        """Killing vectors that V admits: their products, which are nothing new, stand alone."""
         moving = {self.system.t, *self.system.qdot}
         given = [c.transformation for c in self.point_charges]
         return [
@@ -242,10 +237,9 @@ class Discovery(Setting):
             if x.time == 0 and not sympy.Tuple(*x.changes).free_symbols & moving
         ]  # fmt: skip
 
-    def _keep(self, integrals: QuadraticIntegrals) -> None:
+    def _keep(self, found: Iterable[tuple[Slots, NoetherCharge]]) -> None:
         """Add what is found, with names."""
         naming = HiddenNames(self.system, self.equations, self.centred_kinds)
-        found = integrals.found(self.charges)
         named = [(*naming.of(functions, charge), charge) for functions, charge in found]
         named.sort(key=lambda each: (not each[0], each[0]))
         self.listing.add_hidden((name, times(charge, factor)) for name, factor, charge in named)

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations_with_replacement
-from operator import mul
 
 import sympy
 from sympy import Expr, Symbol
@@ -26,7 +25,7 @@ from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.ansatz import ordered, quadratic, quadratic_unknowns
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.modular import PRIME, NoPoint, independent
+from lagcli.mechanics.discovery.modular import independent
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import bare_terms, scaled
 from lagcli.mechanics.discovery.search import Search, SlotSolution
@@ -38,12 +37,13 @@ from lagcli.mechanics.discovery.slots import (
     quadratic_slots,
 )
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+from lagcli.mechanics.system import System
 from lagcli.mechanics.total_derivative import boundary_term
 
 MOST_UNKNOWNS = 480
 _MOST_OF_FIELD = 24  # a monopole has 19; a dipole with 31 takes 12 s and has no more integrals
 
-Slots = list[tuple[Slot, Expr]]
+Slots = Sequence[tuple[Slot, Expr]]
 Vector = tuple[Expr, ...]
 
 
@@ -74,7 +74,12 @@ class QuadraticIntegrals:
         search = self.search(products)
         kernel = search.kernel()
         kernel.reverse()  # the simplest first
-        new = self._independent(search, products, kernel) if kernel else []
+        multipliers = [
+            [sympy.Mul(u.time, u.space, x, evaluate=False) for x in search.slots[u.slot].vector]
+            for u in search.unknowns
+        ]
+        count = len(products) + len(kernel) + len(self.equations.q)
+        new = independent(search.tree.rows([*products, *multipliers], count), len(products), kernel)
         charges = []
         for solution in search.solutions(new):
             functions = self._scaled(search, solution)
@@ -118,31 +123,6 @@ class QuadraticIntegrals:
             ),
         ]  # fmt: skip
 
-    def _independent(
-        self,
-        search: Search,
-        products: Sequence[tuple[Expr, ...]],
-        kernel: Sequence[dict[int, int]],
-    ) -> list[dict[int, int]]:
-        """The vectors of the kernel that are no combinations of the products and of earlier."""
-        rows: list[list[int]] = []
-        times, spaces = zip(*((u.time, u.space) for u in search.unknowns), strict=True)
-        while len(rows) < len(products) + len(kernel) + len(self.equations.q):
-            self.allowed.check()
-            point = search.points.point()
-            try:
-                columns = [search.values(p, point) for p in products]
-                vectors = [search.values(slot.vector, point) for slot in search.slots]
-                factors = map(mul, search.values(times, point), search.values(spaces, point))
-            except NoPoint:
-                continue
-            columns += [
-                [f * x % PRIME for x in vectors[u.slot]]
-                for f, u in zip(factors, search.unknowns, strict=True)
-            ]
-            rows += [list(row) for row in zip(*columns, strict=True)]
-        return independent(rows, len(products), kernel)
-
     def _scaled(self, search: Search, solution: SlotSolution) -> Slots:
         parts = search.combination(solution)
         values = scaled([f for _, f in parts], self.constants)
@@ -164,7 +144,8 @@ class QuadraticIntegrals:
     def _scalar(self, functions: Slots, eta: Sequence[Expr], _: Expr, /) -> Expr | None:
         """S(q) from its gradient."""
         force, _ = self._slopes(eta)
-        return self._potential(force, self._candidates(functions))
+        system = self.noether.system
+        return potential(force, self._candidates(functions), system, self.allowed)
 
     def _slopes(self, eta: Sequence[Expr]) -> tuple[list[Expr], Expr]:
         """The gradient of S, and dS/dt at fixed q: dQ/dt = 0 to first degree in q'."""
@@ -199,18 +180,6 @@ class QuadraticIntegrals:
         rest = self.noether.system.L.xreplace(self._still)
         return set(bare_terms(rest, q)) - {sympy.S.One}
 
-    def _potential(self, force: Sequence[Expr], candidates: Sequence[Expr]) -> Expr | None:
-        """S(q) with the gradient `force`, as a combination of the candidates if it is one."""
-        q = self.equations.q
-        if all(f == 0 for f in force):
-            return sympy.S.Zero
-        vectors = [[c.diff(x) for x in q] for c in candidates]
-        values = Relation([*vectors, [-f for f in force]], q, self.allowed).of_last()
-        if values is not None:
-            return dot(candidates, values)
-        rate = dot(force, self.equations.v)
-        return boundary_term(simplify(rate), self.noether.system)
-
     def _candidates(self, functions: Slots) -> list[Expr]:
         """Products of the terms of L at rest with monomials and with the functions f."""
         q = self.equations.q
@@ -231,6 +200,20 @@ class QuadraticIntegrals:
         } - {sympy.S.One}
         made += [a * b * x for b in terms for a in monomials[: 1 + len(q)] for x in turns]
         return sorted({m for m in made if not free_of(m, q)}, key=_length)
+
+
+def potential(
+    force: Sequence[Expr], candidates: Sequence[Expr], system: System, allowed: Allowance
+) -> Expr | None:
+    """S(q) with the gradient `force`, as a combination of the candidates if it is one."""
+    q = system.q
+    if all(f == 0 for f in force):
+        return sympy.S.Zero
+    vectors = [[c.diff(x) for x in q] for c in candidates]
+    values = Relation([*vectors, [-f for f in force]], q, allowed).of_last()
+    if values is not None:
+        return dot(candidates, values)
+    return boundary_term(simplify(dot(force, system.qdot)), system)
 
 
 def integral_of(noether: Noether, eta: Vector, whole: Expr, gauge: Expr) -> NoetherCharge | None:

@@ -36,8 +36,7 @@ class HiddenNames:
         """The name, empty for none, and the factor that makes the charge the textbook's."""
         if any(self.t in f.free_symbols for _, f in functions):
             return self._timed(functions), sympy.S.One
-        products = any(slot.kind[0] == "product" for slot, _ in functions)
-        if not products and all(not (f.free_symbols & set(self.q)) for _, f in functions):
+        if functions and all(not (f.free_symbols & set(self.q)) for _, f in functions):
             return self._constant_tensor(functions)
         S = charge.charge.xreplace(self._rest)
         parts = sympy.Add.make_args(sympy.expand(self.V))  # of MICZ's potential that in 1/r

@@ -9,7 +9,12 @@ from sympy import Expr, Symbol
 
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.modular import NoPoint, kernel_modulo, pivot_columns
+from lagcli.mechanics.discovery.modular import (
+    NoPoint,
+    independent,
+    kernel_modulo,
+    pivot_columns,
+)
 from lagcli.mechanics.discovery.tree import Tree
 
 
@@ -44,10 +49,22 @@ class Relation:
         """The vectors that are no combinations of earlier ones."""
         return pivot_columns(self.rows(len(self.vectors) + 8))
 
-    def kernel(self) -> list[dict[int, int]]:
-        """A basis of the relations modulo the prime: each has one vector that no other has."""
+    def kernel(self, components: int = 1) -> list[dict[int, int]]:
+        """A basis of the relations modulo the prime: each has one vector that no other has.
+
+        The rows are drawn for a rank that so many components of the vectors have.
+        """
         width = len(self.vectors)
-        return kernel_modulo(self.rows(width + 8), width)[1]
+        return kernel_modulo(self.rows((width + 8) * components), width)[1]
+
+    def beyond(
+        self, values: Sequence[Sequence[Expr]], known: Sequence[Sequence[Expr]] = ()
+    ) -> list[dict[int, Expr]]:
+        """Those that make combinations of `values` beyond the known functions and earlier ones."""
+        kernel = self.kernel(len(self.vectors[0]))[::-1]
+        table = self.tree.rows([*known, *values], len(known) + len(kernel) + 8)
+        found = map(self.exact, independent(table, len(known), kernel))
+        return [c for c in found if c is not None]
 
     def exact(self, vector: dict[int, int]) -> dict[int, Expr] | None:
         """The coefficients of one of them; None where they were not found."""

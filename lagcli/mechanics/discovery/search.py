@@ -96,11 +96,6 @@ class Search:
 
     # -- modulo a prime -----------------------------------------------------------------
 
-    def values(self, expressions: Sequence[Expr], point: Sequence[int]) -> list[int]:
-        """Expressions that were given to the field, at a point."""
-        memo: Memo = {}
-        return [self.tree.value(e, point, memo) for e in expressions]
-
     def rows(self, point: Sequence[int]) -> list[list[int]]:
         """One row for each condition at a point; columns are the unknowns."""
         memo: Memo = {}
