@@ -212,3 +212,27 @@ def test_lane_and_emden_have_special_indices():
             "L: t^2*(x'^2/2 - x^(n + 1)/(n + 1))}")  # fmt: skip
     cases = {str(c.value): c.number for c in derive(text).discovery.special}
     assert cases == {"0": 5, "1": 5, "5": 1}
+
+
+@pytest.mark.parametrize("Q", ["1 + t^2", "2 + 2*t + t^2", "1 + 3*t^2"])
+@pytest.mark.parametrize(("more", "number"), [("", 5), (" - k/(2*x^2)", 3)])
+def test_an_oscillator_that_fades_as_a_square_of_second_degree(Q, more, number):
+    """Lewis and Leach, J. Math. Phys. 23 (1982) 165: rho^2 = Q."""
+    given = f"coordinates: {{x: {{assume: positive}}}}, parameters: {{k: {POS}}}"
+    found = derive(f'{{{given}, L: "x\'^2/2 - x^2/({Q})^2{more}"}}').discovery
+    assert len(found.charges) == number
+
+
+@pytest.mark.parametrize(("force", "number"), [("", 5), (" + m*g*x", 1), (" - k*x^2/2", 1)])
+def test_drag_with_the_square_of_the_velocity(force, number):
+    """m exp(2 c x/m) x'^2/2 is a Lagrangian: with u = exp(c x/m), u'' = 0 where nothing else acts."""
+    given = "coordinates: [x], parameters: {m: %s, c: %s, g: %s, k: %s}" % ((POS,) * 4)
+    found = derive(f'{{{given}, L: "m*x\'^2/2{force}", forces: {{x: "-c*x\'^2"}}}}').discovery
+    assert len(found.charges) == number
+
+
+@pytest.mark.parametrize("k", ["k", "2"])
+def test_a_point_transformation_hides_free_motion(k):
+    """L = 1/(x' + k x^2) has x'' + 3 k x x' + k^2 x^3 = 0, Phys. Rev. E 72 (2005) 066203."""
+    found = derive(f'{{coordinates: [x], parameters: {{k: {POS}}}, L: "1/(x\' + {k}*x^2)"}}')
+    assert len(found.discovery.charges) == 5

@@ -197,14 +197,14 @@ class Brackets:
         grow([], list(chosen))
         return best
 
-    def still(self, chosen: Sequence[int], energy: int) -> list[int]:
-        """The numbers of new charges: combinations of the chosen that commute with the energy.
+    def still(self, chosen: Sequence[int], other: int) -> list[int]:
+        """The numbers of new charges: combinations of the chosen that commute with another.
 
-        They do not contain the time, though the chosen may.
+        Where that is the energy they do not contain the time, though the chosen may.
         """
         with mpmath.workdps(_DIGITS):
-            samples = self.samples(len(chosen) + _CHECKS)
-            found = nullspace([[s.bracket(a, energy) for a in chosen] for s in samples])
+            samples = self.samples(len(self.charges) + _CHECKS)
+            found = nullspace([[s.bracket(a, other) for a in chosen] for s in samples])
             self._samples = [s.joined(chosen, found) for s in samples]
             count = len(samples[0].values)
             return list(range(count, count + len(found)))

@@ -107,8 +107,12 @@ class Discovery(Setting):
             return isometries.search(times, allowed), isometries.words + _timed(times)
         slots = point_slots(equations)
         spaces = affine(kinds)
+        if kinds.powers:
+            times = replace(times, others=(*times.others, self.system.t**3))
+        # of L = T - V the terms of third degree leave tau a function of t
+        fixed = self.quadratic_mass and (self.canonical or not kinds.exponentials)
         while True:
-            unknowns = point_unknowns(slots, times, spaces, time_with_space=not self.quadratic_mass)
+            unknowns = point_unknowns(slots, times, spaces, time_with_space=not fixed)
             if len(unknowns) <= MOST_UNKNOWNS or len(spaces) == 1:
                 break
             spaces = spaces[: len(spaces) // 2]
@@ -254,6 +258,8 @@ class Discovery(Setting):
             degree = f"{'of second degree' if second else 'affine'} in the coordinates"
             powers = "with powers -2 to 3 of the coordinate"
             shapes.append(powers if self.coordinate_kinds.powers else degree)
+            if self.coordinate_kinds.exponentials:
+                shapes.append("and in exponentials of them")
         if self.coordinate_kinds.angles and len(spaces) > 1 + len(self.coordinate_kinds.lengths):
             shapes.append("with sines and cosines of the angles")
         space = " ".join(shapes) or "constant in the coordinates"
@@ -262,7 +268,8 @@ class Discovery(Setting):
 
 def _timed(times: TimeFunctions) -> str:
     """The functions of time of an ansatz."""
-    timed = ", polynomial in t to second degree"
+    highest = "third" if any(T.is_Pow and T.exp == 3 for T in times.others) else "second"
+    timed = f", polynomial in t to {highest} degree"
     if times.exponents:
         timed += " and with the exponents of the linear part"
     if times.changing:

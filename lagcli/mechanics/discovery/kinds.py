@@ -19,6 +19,7 @@ import sympy
 from mpmath import mpf
 from sympy import Expr, Symbol
 
+from lagcli.algebra import simplify
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery.slots import SlotEquations
@@ -118,11 +119,18 @@ def _is_of_no_circle(inertia: Expr, q: Sequence[Symbol]) -> bool:
 
 
 def _exponentials(equations: SlotEquations) -> list[Expr]:
-    """Of the inertia: exp(x), its root and their inverses, as isometries have them."""
+    """Of the inertia: exp(x), its root and their inverses, as isometries have them.
+
+    With m constant and a drag -c x'^2, m exp(2 c x/m) is the inertia of a Lagrangian.
+    """
     atoms = {e for row in equations.mass for m in row for e in m.atoms(sympy.exp)}
     inside = [e.args[0] for e in sorted(atoms, key=sympy.default_sort_key)
               if not free_of(e, equations.q) and free_of(e, [equations.t])]  # fmt: skip
     powers = [sympy.Rational(k, 2) for k in (-2, -1, 1, 2)]
+    if len(equations.q) == 1 and free_of(equations.mass[0][0], (*equations.q, *equations.v)):
+        [x], [v], [force], [[m]] = equations.q, equations.v, equations.forcing, equations.mass
+        drag = simplify(-force.diff(v, 2) / m)
+        inside += [drag * x] if drag != 0 and free_of(drag, (x, v, equations.t)) else []
     return list(dict.fromkeys(sympy.exp(k * x) for x in inside for k in powers))
 
 

@@ -39,9 +39,11 @@ class Naming:
     def _of_time(self, tau: Expr, moved: Mapping[Symbol, Expr]) -> str:
         inside = tau.free_symbols & set(self.q)
         if inside:
-            [*axes] = inside
-            single = len(axes) == 1 and set(moved) == set(axes)
-            return f"boost_{axes[0]}" if single and self.t in moved[axes[0]].free_symbols else ""
+            [x, *others] = inside
+            if others or set(moved) != {x} or tau.diff(x).free_symbols & {self.t, x}:
+                return ""
+            slope = moved[x].diff(self.t)
+            return f"boost_{x}" if slope != 0 and not slope.free_symbols & {self.t, x} else ""
         if self.t not in tau.free_symbols:
             return "" if moved else "energy"
         if tau.has(sympy.sin, sympy.cos, sympy.exp, sympy.sinh, sympy.cosh):
@@ -65,8 +67,7 @@ class Naming:
     def _translation_in_time(self, moved: Mapping[Symbol, Expr]) -> str:
         axis = f"_{next(iter(moved)).name}" if len(moved) == 1 else self._direction(moved)
         if _equal(moved):
-            [function] = {sympy.simplify(e / next(iter(moved.values()))) for e in moved.values()}
-            function = next(iter(moved.values()))
+            [function] = set(moved.values())
             if function.diff(self.t, 2) == 0:
                 return f"boost{axis}"
             for each, word in ((sympy.sin, "sin"), (sympy.cos, "cos")):

@@ -116,12 +116,18 @@ def _free(discovery: Discovery) -> Summary:
         fixed += brackets.still(timed, energy)
     fixed.sort(key=lambda k: (k != energy, k < count))
     involution = brackets.in_involution(fixed)
+    freedom = discovery.dynamics.degrees_of_freedom
+    if involution < freedom:  # a sum of integrals may commute with another, as each does not
+        given = tuple(fixed)
+        for k in range(points, count):
+            fixed += brackets.still(given, k) if k in given else []
+        involution = brackets.in_involution(fixed)
     return Summary(
         dimension,
         name,
         independent,
         involution,
-        involution == discovery.dynamics.degrees_of_freedom or None,
+        involution == freedom or None,
         tuple(notes),
         closed,
     )

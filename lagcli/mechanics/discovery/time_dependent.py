@@ -1,8 +1,9 @@
 """Functions of time for linear equations x'' + p(t) x' + q(t) x = f whose coefficients change.
 
 With mu = exp of the integral of p, x = y/sqrt(mu) and y'' + I y = 0, I = q - p'/2 - p^2/4.  Where
-I is constant or c/t^2 the solutions Y are elementary.  A translation then is Y/sqrt(mu), and the
-stretching of time a product of two Y (Lane-Emden of index 1, Euler's equation, growing masses).
+I is constant, c/t^2, or K/Q^2 with Q of second degree in t, the solutions Y are elementary.  A
+translation then is Y/sqrt(mu), and the stretching of time a product of two Y (Lane-Emden of index
+1, Euler's equation, growing masses).
 
 References
 ----------
@@ -88,6 +89,10 @@ def _elementary(I: Expr, t: Symbol, p: Expr) -> list[Expr]:  # noqa: E741
                 return [sympy.cosh(inside), sympy.sinh(inside)]
             return [sympy.exp(inside), sympy.exp(-inside)]
         return [sympy.sin(sympy.sqrt(I) * t), sympy.cos(sympy.sqrt(I) * t)]
+    Q = simplify(sympy.sqrt(sympy.factor(1 / I))).replace(sympy.Abs, lambda e: e)
+    _, Q = Q.as_independent(t, as_Add=False)
+    if Q.is_polynomial(t) and sympy.degree(Q, t) == 2:
+        return _of_square(simplify(I * Q**2), Q, t)
     inverse = simplify(1 / I)  # (t + b)^2/c
     if not inverse.is_polynomial(t) or sympy.degree(inverse, t) != 2:
         return []
@@ -106,6 +111,18 @@ def _elementary(I: Expr, t: Symbol, p: Expr) -> list[Expr]:  # noqa: E741
         return [shifted ** (sympy.S.Half + e) for e in (s, -s)] if rational else []
     inside = sympy.sqrt(-power) * sympy.log(shifted)
     return [sympy.sqrt(shifted) * sympy.sin(inside), sympy.sqrt(shifted) * sympy.cos(inside)]
+
+
+def _of_square(K: Expr, Q: Expr, t: Symbol) -> list[Expr]:
+    """sqrt(Q) sin, cos of s theta, theta' = 1/Q, s^2 = K + D/4, for I = K/Q^2, D = 4 a c - b^2."""
+    a, b, c = sympy.Poly(Q, t).all_coeffs()
+    D = simplify(4 * a * c - b**2)
+    square = simplify(K + D / 4)
+    if not (D.is_positive and square.is_positive):
+        return []
+    root = sympy.sqrt(D)
+    angle = simplify(2 * sympy.sqrt(square) / root) * sympy.atan(simplify(Q.diff(t) / root))
+    return [sympy.sqrt(Q) * sympy.sin(angle), sympy.sqrt(Q) * sympy.cos(angle)]
 
 
 def _distinct(functions: Sequence[Expr], t: Symbol, time: Symbol) -> list[Expr]:

@@ -1,0 +1,72 @@
+"""Integrals of second degree where T = w(q) T0 and T0 has known Killing vectors; and their algebra.
+
+Liouville, J. Math. Pures Appl. 11 (1846) 345; Koenigs, in Darboux, *Lecons sur la theorie generale
+des surfaces* IV (1896) 368; Jacobi, J. reine angew. Math. 19 (1839) 309 (the ellipsoid);
+Ballesteros, Enciso, Herranz, Ragnisco, Physica D 237 (2008) 505 (oscillator on a curved space);
+Evans, Phys. Rev. A 41 (1990) 5666 (three integrals beside the energy).
+"""
+
+import random
+
+import pytest
+
+from lagcli.mechanics.discovery.summary import summary
+
+from .derived import derive
+from .test_discovery_literature import kept, problem
+
+SQUARES = "(x'^2 + y'^2)"
+
+
+def _liouville(seed):
+    """T = (F + G)(x'^2 + y'^2)/2, V = (f + g)/(F + G)."""
+    draw = random.Random(seed)
+    F, f = (draw.choice(("x^2", "exp(x)", "x^4 + 1", "cosh(x)")) for _ in range(2))
+    G, g = (draw.choice(("y^2", "y^4 + 2", "exp(2*y)", "y^6 + y^2")) for _ in range(2))
+    a, b = draw.randint(2, 5), draw.randint(2, 5)
+    return f"({F} + {a}*({G}))*{SQUARES}/2 - ({b}*({f}) + {g})/({F} + {a}*({G}))"
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_coordinates_of_liouville_separate(seed):
+    text = problem(_liouville(seed), parameters="m")
+    found = summary(derive(text).discovery)
+    assert (found.independent, found.integrable) == (2, True)
+    assert min(kept(text, seed).values()) > 20
+
+
+@pytest.mark.parametrize(("L", "coordinates", "independent"), [
+    (f"m*x*{SQUARES}", "[x, y]", 4),  # with a dilation
+    (f"m*(1 + b/x^2)*{SQUARES}/2", "[x, y]", 3),
+    ("m*(exp(-x) + b*exp(-2*x))*(x'^2 + y'^2)/2", "[x, y]", 3),
+    (f"(1 + b*(x^2 + y^2))*{SQUARES}/2 - k*(x^2 + y^2)/(2*(1 + b*(x^2 + y^2)))", "[x, y]", 3),
+])  # fmt: skip
+def test_surfaces_of_koenigs_have_two_integrals_beside_a_momentum(L, coordinates, independent):
+    text = problem(L, coordinates, "m b k")
+    found = summary(derive(text).discovery)
+    assert (found.independent, found.integrable) == (independent, True)
+    assert min(kept(text, L).values()) > 20
+
+
+@pytest.mark.parametrize("axes", [(1, 2, 3), (2, 5, 7)])
+def test_an_ellipsoid_in_its_own_coordinates(axes):
+    u, v = (f"{x}/(({axes[0]} - {x})*({axes[1]} - {x})*({axes[2]} - {x}))" for x in "uv")
+    text = problem(f"(u - v)*({u}*u'^2 - {v}*v'^2)/8 - k*(u + v)", "[u, v]", "k")
+    found = summary(derive(text).discovery)
+    assert (found.independent, found.name, found.integrable) == (2, "R^2", True)
+
+
+@pytest.mark.parametrize("V", [
+    "(x^2 + y^2 + z^2)^2 + a/x^2 + b/y^2 + c/z^2", "exp(x^2 + y^2 + z^2) + b/y^2 + c/z^2",
+])  # fmt: skip
+def test_a_sum_of_integrals_makes_three_in_involution(V):
+    text = problem(f"(x'^2 + y'^2 + z'^2)/2 - ({V})", "[x, y, z]", "a b c")
+    found = summary(derive(text).discovery)
+    assert (found.in_involution, found.integrable) == (3, True)
+
+
+@pytest.mark.parametrize("constant", ["- 3", "+ 2*m"])
+def test_the_sign_of_the_energy_names_no_algebra_where_V_does_not_vanish_far_away(constant):
+    text = problem(f"m*{SQUARES}/2 + k/sqrt(x^2 + y^2) {constant}", parameters="m k")
+    found = summary(derive(text).discovery)
+    assert (found.dimension, found.name, found.independent) == (2, "R^2", 3)
