@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from fractions import Fraction
+from math import inf
 
 from sympy import Expr
 
@@ -102,12 +103,22 @@ class Element:
         return len(self.numerator) + len(self.denominator)
 
 
-def common_denominator(field: FractionField, elements: Iterable[Element]) -> Poly:
-    """The least common multiple of the denominators."""
+def common_denominator(
+    field: FractionField, elements: Iterable[Element], most: float = inf
+) -> Poly:
+    """The least common multiple of the denominators.
+
+    Raises
+    ------
+    OverflowError
+        Where it might have more than `most` terms.
+    """
     lift = field.ring.lift
     common = field.ring.one
     for each in elements:
         below = lift(each.denominator)
+        if len(common) * len(below) > most:
+            raise OverflowError
         common = lift(common) * (below / lift(common).gcd(below))
     return common
 

@@ -38,7 +38,7 @@ from lagcli.mechanics.discovery.modular import NoPoint, independent
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.spectrum import roots_of
 
-_MOST = 260
+_MOST = 320
 _HIGHEST = 5  # power of a coordinate
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 
@@ -169,7 +169,8 @@ def _joint(metric: Metric) -> list[Expr]:
         for row in metric.g for e in row for p in e.atoms(sympy.Pow)
         if p.exp.is_negative and p.base.is_Add and len(p.base.free_symbols & set(metric.q)) > 1
     }  # fmt: skip
-    return [one, *(1 / b for b in sorted(bases, key=sympy.default_sort_key))]
+    ordered = sorted(bases, key=sympy.default_sort_key)
+    return [one, *(1 / b**k for b in ordered for k in (1, sympy.S.Half))]
 
 
 def _arguments(expressions: Iterable[Expr], functions: tuple[type, ...]) -> list[Expr]:

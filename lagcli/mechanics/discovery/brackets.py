@@ -122,7 +122,8 @@ class Brackets:
                     values = self._evaluate(state)
                     if not all(isinstance(x, mpf) and mpmath.isfinite(x) for x in values):
                         bad += 1
-                        self._samples.clear()
+                        if bad % _PATIENCE == 0:
+                            self._samples.clear()
                         continue
                     sample = self._sample(values)
                 except (ArithmeticError, ValueError):

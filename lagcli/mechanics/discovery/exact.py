@@ -21,6 +21,7 @@ _TOGETHER = 3  # parameters in one recognized monomial
 _MOST_OPERATIONS = 30000
 _MOST_ATOMS = 8
 _MOST_LINEAR = 12
+_MOST_COMMON = 10_000  # terms: of hyperbolic functions of three differences 35,000 take 17 s
 _POWERS = (-2, -1, 1, 2)
 
 
@@ -171,7 +172,10 @@ class ExactSolver:
         elements = [field(e) for e in entries]
         if len(field.generators) > len(self.points.constant):  # one that has no random value
             raise TooMuchWork
-        common = common_denominator(field, elements)
+        try:
+            common = common_denominator(field, elements, _MOST_COMMON)
+        except OverflowError:
+            raise TooMuchWork from None
         groups: dict[tuple[tuple[int, int], ...], dict[int, list[tuple[Monomial, int]]]] = {}
         for index, element in enumerate(elements):
             factor = ring.lift(common) / ring.lift(element.denominator)

@@ -1,10 +1,10 @@
 """Which coordinates are lengths, and which are angles.
 
-A coordinate is taken for an angle where it occurs in L only inside circular functions, or not at
-all while its own inertia, or that with another coordinate, depends on a third one.  What has the
-unit of a length is none; an angle of which only the constraints know takes part in both ways,
-and so does what is cyclic with an inertia that no circle has (the half plane, x'^2/y^2).  Two
-cyclic coordinates of one inertia are lengths.
+A coordinate is taken for an angle where it occurs in L only inside circular functions, without a
+parameter as its factor (cos(k x) is a wave), or not at all while its own inertia, or that with
+another coordinate, depends on a third one.  What has the unit of a length is none; an angle of
+which only the constraints know takes part in both ways, and so does what is cyclic with an inertia
+that no circle has (the half plane, x'^2/y^2).  Two cyclic coordinates of one inertia are lengths.
 """
 
 from __future__ import annotations
@@ -50,7 +50,8 @@ def kinds(
     """Tell lengths from angles."""
     found = Kinds()
     inertia = {x: sympy.Tuple(*row) for x, row in zip(equations.q, equations.mass, strict=True)}
-    inside = {s for f in L.atoms(*CIRCULAR) for s in f.free_symbols}
+    inside = {s for f in L.atoms(*CIRCULAR) for s in f.free_symbols
+              if f.args[0].diff(s).is_Rational}  # fmt: skip
     turning = {s for e in constraints for f in e.atoms(*CIRCULAR) for s in f.free_symbols}
     for x, unit in zip(equations.q, units or [None] * len(equations.q), strict=True):
         cyclic = free_of(L, [x])

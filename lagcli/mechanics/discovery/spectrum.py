@@ -210,7 +210,11 @@ def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
         inside = simplify(sympy.sqrt(simplify(b**2 / 4 - c)))
         squares = [simplify(b / 2 + inside), simplify(b / 2 - inside)]
         return [Exponent(sympy.S.Zero, simplify(sympy.sqrt(x))) for x in squares]
-    one, other = _root(simplify(b + 2 * s)), _root(simplify(b - 2 * s))
+    one, inside = _root(simplify(b + 2 * s)), simplify(b - 2 * s)
+    if inside.is_negative:
+        growth, frequency = _root(-inside) / 2, simplify(one / 2)
+        return [Exponent(simplify(sign * growth), frequency) for sign in (1, -1)]
+    other = _root(inside)
     return [
         Exponent(sympy.S.Zero, simplify((one + other) / 2)),
         Exponent(sympy.S.Zero, simplify((one - other) / 2)),
