@@ -220,12 +220,12 @@ class Discovery(Setting):
                 self._keep(((), charge) for charge in self._of_frame(frame, 2))
             return False
         self.words.append(f"all {what} without explicit time")
-        frame = KillingFrame.of(equations, self.isometries)
-        assert frame is not None
-        fields = [*self._symmetries(), *frame.fields]
+        whole = KillingFrame.of(equations, self.isometries)
+        assert whole is not None
+        fields = [*self._symmetries(), *whole.fields]
         chosen = Relation(fields, self.system.q, self.allowed).independent()
-        frame = replace(frame, fields=[fields[k] for k in chosen])
-        self._keep(((), charge) for charge in self._of_frame(frame, 2))
+        whole = replace(whole, fields=[fields[k] for k in chosen])
+        self._keep(((), charge) for charge in self._of_frame(whole, 2))
         return True
 
     def _of_frame(self, frame: KillingFrame, degree: int) -> list[NoetherCharge]:
