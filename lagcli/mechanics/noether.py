@@ -23,14 +23,14 @@ Hill, Rev. Mod. Phys. 23 (1951) 253 (the boundary term).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, is_zero, simplify
-from lagcli.algebra.build import without_jumps
+from lagcli.algebra.build import free_of, without_jumps
 from lagcli.algebra.jumps import is_continuous
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import Dynamics
@@ -52,6 +52,10 @@ class Transformation:
 
     changes: tuple[Expr, ...]
     time: Expr
+
+    def displaces_without(self, symbols: Iterable[Symbol]) -> bool:
+        """Whether it leaves the time, and moves the coordinates by no function of the symbols."""
+        return self.time == 0 and all(free_of(x, symbols) for x in self.changes)
 
 
 @record

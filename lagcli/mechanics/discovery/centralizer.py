@@ -27,13 +27,9 @@ def centralized(
     transformations: Sequence[Transformation], system: System, allowed: Allowance
 ) -> list[Transformation]:
     """The same space of symmetries, with the last rotations made to commute with translations."""
-    q = set(system.q)
     result = list(transformations)
-    static = [
-        k for k, x in enumerate(result)
-        if x.time == 0 and system.t not in sympy.Tuple(*x.changes).free_symbols
-    ]  # fmt: skip
-    momenta = [k for k in static if not sympy.Tuple(*result[k].changes).free_symbols & q]
+    static = [k for k, x in enumerate(result) if x.displaces_without([system.t])]
+    momenta = [k for k in static if result[k].displaces_without(system.q)]
     turns = [k for k in static if k not in momenta]
     joint = [k for k in momenta if sum(c != 0 for c in result[k].changes) > 1]
     if not joint or len(turns) < 2:
@@ -62,8 +58,7 @@ def without_time(
     t, result = system.t, list(charges)
     chosen = [
         k for k, c in enumerate(result)
-        if c.transformation.time == 0 and t in c.charge.free_symbols
-        and t not in sympy.Tuple(*c.transformation.changes).free_symbols
+        if t in c.charge.free_symbols and c.transformation.displaces_without([t])
     ]  # fmt: skip
     if len(chosen) < 2:
         return result

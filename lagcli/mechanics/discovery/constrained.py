@@ -46,12 +46,10 @@ def tangent(
     ]
     found = []
     for combination in relations_on_surface(vectors, dynamics, allowed):
-        chosen = [(transformations[k], c) for k, c in combination.items()]
-        changes = [
-            sympy.Add(*(c * each.changes[j] for each, c in chosen)) for j in range(len(system.q))
-        ]
-        time = sympy.Add(*(c * each.time for each, c in chosen))
-        *changes, time = scaled((*changes, time), set(system.parameters))
+        chosen = [transformations[k] for k in combination]
+        columns = zip(*((*each.changes, each.time) for each in chosen), strict=True)
+        whole = [dot(list(combination.values()), column) for column in columns]
+        *changes, time = scaled(whole, set(system.parameters))
         found.append(Transformation(tuple(changes), time))
     found.reverse()
     return found

@@ -234,12 +234,9 @@ class Discovery(Setting):
 
     def _symmetries(self) -> list[tuple[Expr, ...]]:
         """Killing vectors that V admits: their products, which are nothing new, stand alone."""
-        moving = {self.system.t, *self.system.qdot}
-        given = [c.transformation for c in self.point_charges]
-        return [
-            x.changes for x in given
-            if x.time == 0 and not sympy.Tuple(*x.changes).free_symbols & moving
-        ]  # fmt: skip
+        moving = (self.system.t, *self.system.qdot)
+        given = (c.transformation for c in self.point_charges)
+        return [x.changes for x in given if x.displaces_without(moving)]
 
     def _keep(self, found: Iterable[tuple[Slots, NoetherCharge]]) -> None:
         """Add what is found, with names."""

@@ -108,12 +108,7 @@ class QuadraticIntegrals:
         timed = len(self.times) > 1
         fixed = [c for c in known if timed or t not in c.charge.free_symbols]
         eta = {id(c): self.noether.characteristic(c.transformation) for c in fixed}
-        v = set(self.equations.v)
-        linear = [
-            c for c in fixed
-            if c.transformation.time == 0
-            and not sympy.Tuple(*c.transformation.changes).free_symbols & v
-        ]  # fmt: skip
+        linear = [c for c in fixed if c.transformation.displaces_without(self.equations.v)]
         return [
             *(eta[id(c)] for c in fixed),
             *(

@@ -8,16 +8,16 @@ ranks are then right but for one case in 10^15, at the price of integers.
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import nmod_mat
+from flint import nmod_mat, nmod_poly
 from sympy import Symbol
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
-from lagcli.algebra.ring import Poly
+from lagcli.algebra.ring import Poly, factorization
 from lagcli.platform.effort import EFFORT
 
 #: p = 7 mod 8 and p != 1 mod 3, 5, 7: odd roots are unique, square roots a power; the square
@@ -25,7 +25,8 @@ from lagcli.platform.effort import EFFORT
 PRIME = 2305843009213561919
 
 _TRIES = 400
-_Terms = list[tuple[int, tuple[tuple[int, int], ...]]]
+#: Coefficients with the powers of the generators.
+Terms = list[tuple[int, tuple[tuple[int, int], ...]]]
 
 
 class NoPoint(Exception):
@@ -36,15 +37,15 @@ class NoPoint(Exception):
 class CompiledElement:
     """An element as lists of terms."""
 
-    above: _Terms
-    below: _Terms
+    above: Terms
+    below: Terms
 
     def __call__(self, point: Sequence[int]) -> int:
         """The value at a point; NoPoint where the denominator vanishes."""
-        bottom = _evaluated(self.below, point)
+        bottom = evaluated(self.below, point)
         if bottom == 0:
             raise NoPoint
-        top = _evaluated(self.above, point)
+        top = evaluated(self.above, point)
         return top if bottom == 1 else top * pow(bottom, -1, PRIME) % PRIME
 
 
@@ -67,12 +68,12 @@ class ModularPoints:
             not (generator.expression.free_symbols & moving) for generator in field.generators
         ]
         self.rules = {
-            g: (power, self._terms(-(rule - field.ring.generator(g) ** power)))
+            g: (power, self.terms(-(rule - field.ring.generator(g) ** power)))
             for g, (power, rule) in field.ring.rules.items()
         }
-        self._signs: dict[int, _Terms] = {}  # s f - |f|
+        self._signs: dict[int, Terms] = {}  # s f - |f|
         for g, rule in reversed(field.ring.mixed):
-            self._signs[g] = self._terms(rule)
+            self._signs[g] = self.terms(rule)
         self.constants = self._drawn({}, wanted=True)
 
     def point(self) -> list[int]:
@@ -82,15 +83,16 @@ class ModularPoints:
 
     def compiled(self, element: Element) -> CompiledElement:
         """The element ready for `value`."""
-        return CompiledElement(self._terms(element.numerator), self._terms(element.denominator))
+        return CompiledElement(self.terms(element.numerator), self.terms(element.denominator))
 
     def constant_value(self, poly: Poly) -> int:
         """A polynomial in constants alone."""
         point = [self.constants.get(g, 0) for g in range(len(self.field.generators))]
-        return _evaluated(self._terms(poly), point)
+        return evaluated(self.terms(poly), point)
 
-    def _terms(self, poly: Poly) -> _Terms:
-        return [(c % PRIME, monomial) for monomial, c in self.field.ring.terms(poly)]
+    def terms(self, poly: Poly) -> Terms:
+        """Its coefficients and monomials."""
+        return [(c, monomial) for monomial, c in self.field.ring.terms(poly)]
 
     def _drawn(self, known: dict[int, int], *, wanted: bool) -> dict[int, int]:
         """Values of the generators whose constancy is as wanted, beside the known ones."""
@@ -120,29 +122,39 @@ class ModularPoints:
         if g in self.rules:
             power, terms = self.rules[g]
             point = [values.get(k, 0) for k in range(len(self.field.generators))]
-            root = _root(_evaluated(terms, point), power)
+            root = _root(evaluated(terms, point), power)
             if root is None:
                 return False
             values[g] = root
             return True
         if g in self._signs:
             point = [values.get(k, 0) for k in range(len(self.field.generators))]
-            size = -_evaluated(self._signs[g], point)  # at s = 0
+            size = -evaluated(self._signs[g], point)  # at s = 0
             point[g] = 1
-            u = size * pow(_evaluated(self._signs[g], point) + size, -1, PRIME) % PRIME
+            u = size * pow(evaluated(self._signs[g], point) + size, -1, PRIME) % PRIME
         values[g] = u
         return True
 
 
-def _evaluated(terms: _Terms, point: Sequence[int]) -> int:
+def evaluated(terms: Terms, point: Sequence[int] | Mapping[int, int], prime: int = PRIME) -> int:
+    """A polynomial, as its coefficients and monomials, modulo a prime."""
     total = 0
     EFFORT.done += len(terms)
     for coefficient, monomial in terms:
         value = coefficient
         for g, exponent in monomial:
-            value = value * (point[g] if exponent == 1 else pow(point[g], exponent, PRIME)) % PRIME
+            x = point[g]
+            value = value * (x if exponent == 1 else pow(x, exponent, prime)) % prime
         total += value
-    return total % PRIME
+    return total % prime
+
+
+def linear_root(poly: nmod_poly) -> int | None:
+    """A root of a polynomial in one unknown, None where it has none modulo its prime."""
+    if poly.degree() < 1:
+        return None
+    found = (each for each, _ in factorization(poly)[1] if each.degree() == 1)
+    return next((int(-each[0] / each[1]) for each in found), None)
 
 
 def _root(value: int, index: int) -> int | None:

@@ -11,14 +11,19 @@ from collections.abc import Mapping, Sequence
 
 from flint import nmod_mat, nmod_poly
 
-from lagcli.algebra.ring import Monomial, Poly, factorization
+from lagcli.algebra.ring import Poly
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, pivot_columns
-from lagcli.platform.effort import EFFORT
+from lagcli.mechanics.discovery.modular import (
+    PRIME,
+    ModularPoints,
+    Terms,
+    evaluated,
+    linear_root,
+    pivot_columns,
+)
 
 #: Entries by column.
 Row = dict[int, Poly]
-_Terms = list[tuple[Monomial, int]]
 
 #: Others, at which a factor of the numbers alone may have a zero that it has not at the first.
 _PRIMES = (PRIME, *(2**61 - k for k in (1, 31, 45, 229, 259, 283, 339)))
@@ -45,7 +50,7 @@ class ModularRank:
         self.ring = points.field.ring
         self.width = width
         self.allowed = allowed
-        self._rows = [{k: list(self.ring.terms(x)) for k, x in row.items()} for row in rows]
+        self._rows = [{k: points.terms(x) for k, x in row.items()} for row in rows]
         self._source = random.Random("lagcli rank")
         used = {g for row in rows for x in row.values() for g in self.ring.used(x)}
         self._primes = _PRIMES if all(map(self._is_free, used)) else (PRIME,)
@@ -62,18 +67,18 @@ class ModularRank:
         return self._rank(self._basis, *zero) < rank and self._rank(self._rows, *zero) < rank
 
     def _rank(
-        self, rows: Sequence[Mapping[int, _Terms]], values: Mapping[int, int], prime: int
+        self, rows: Sequence[Mapping[int, Terms]], values: Mapping[int, int], prime: int
     ) -> int:
         self.allowed.spend(len(rows) * self.width**2 // 700)
         return int(nmod_mat(self._matrix(rows, values, prime), prime).rank())
 
     def _matrix(
-        self, rows: Sequence[Mapping[int, _Terms]], values: Mapping[int, int], prime: int
+        self, rows: Sequence[Mapping[int, Terms]], values: Mapping[int, int], prime: int
     ) -> list[list[int]]:
         matrix = [[0] * self.width for _ in rows]
         for dense, row in zip(matrix, rows, strict=True):
             for k, terms in row.items():
-                dense[k] = _value(terms, values, prime)
+                dense[k] = evaluated(terms, values, prime)
         return matrix
 
     # -- zeros of a factor ----------------------------------------------------------------------
@@ -85,11 +90,13 @@ class ModularRank:
         """
         for g in filter(self._is_free, self.ring.used(factor)):
             parts = self.ring.coefficients(factor, g)
-            terms = {k: list(self.ring.terms(x)) for k, x in parts.items()}
+            terms = {k: self.points.terms(x) for k, x in parts.items()}
+            powers = range(max(terms, default=0) + 1)
             for draw in range(_DRAWS):
                 prime = self._primes[draw % len(self._primes)]
                 values = self._drawn() if draw else dict(self.points.constants)
-                root = _root({k: _value(x, values, prime) for k, x in terms.items()}, prime)
+                numbers = [evaluated(terms.get(k, []), values, prime) for k in powers]
+                root = linear_root(nmod_poly(numbers, prime))
                 if root is not None:
                     return {**values, g: root}, prime
         return None
@@ -109,30 +116,3 @@ class ModularRank:
             k: self._source.randrange(2, PRIME - 2) if self._is_free(k) else value
             for k, value in self.points.constants.items()
         }
-
-
-def _value(terms: _Terms, values: Mapping[int, int], prime: int) -> int:
-    total = 0
-    EFFORT.done += len(terms)
-    for monomial, coefficient in terms:
-        value = coefficient
-        for g, exponent in monomial:
-            x = values[g]
-            value = value * (x if exponent == 1 else pow(x, exponent, prime)) % prime
-        total += value
-    return total % prime
-
-
-def _root(parts: Mapping[int, int], prime: int) -> int | None:
-    """A root of a polynomial in one unknown, None where it has none modulo the prime."""
-    return root_of(nmod_poly([parts.get(k, 0) for k in range(max(parts) + 1)], prime))
-
-
-def root_of(poly: nmod_poly) -> int | None:
-    """One of its roots, None where it has none."""
-    if poly.degree() < 1:
-        return None
-    for each, _ in factorization(poly)[1]:
-        if each.degree() == 1:
-            return int(-each[0] / each[1])
-    return None

@@ -11,10 +11,8 @@ from collections.abc import Mapping, Sequence
 
 from flint import nmod_mat, nmod_poly
 
-from lagcli.mechanics.discovery.modular import PRIME
-from lagcli.mechanics.discovery.modular_rank import root_of
+from lagcli.mechanics.discovery.modular import PRIME, Terms, evaluated, linear_root
 
-Terms = list[tuple[int, tuple[tuple[int, int], ...]]]
 _Poly = dict[tuple[int, ...], int]  # exponents of the unknowns -> coefficient
 
 
@@ -96,13 +94,7 @@ def _product(a: _Poly, b: _Poly) -> _Poly:
 
 
 def _value(poly: _Poly, point: Sequence[int]) -> int:
-    total = 0
-    for exponents, coefficient in poly.items():
-        value = coefficient
-        for x, e in zip(point, exponents, strict=True):
-            value = value * pow(x, e, PRIME) % PRIME
-        total += value
-    return total % PRIME
+    return evaluated([(c, tuple(enumerate(m))) for m, c in poly.items()], point)
 
 
 def _univariate(equations: Sequence[_Poly]) -> int | None:
@@ -111,4 +103,4 @@ def _univariate(equations: Sequence[_Poly]) -> int | None:
         top = max((m[0] for m in equation), default=0)
         poly = nmod_poly([equation.get((k,), 0) for k in range(top + 1)], PRIME)
         common = common.gcd(poly) if common.degree() >= 0 else poly
-    return root_of(common)
+    return linear_root(common)

@@ -74,9 +74,7 @@ class MomentumEquations:
         self.symmetries = [
             x.changes
             for x in symmetries
-            if x.time == 0
-            and self.system.t not in sympy.Tuple(*x.changes).free_symbols
-            and is_zero(noether.change_of_action(x)) is True
+            if x.displaces_without([self.system.t]) and is_zero(noether.change_of_action(x)) is True
         ]
 
     def found(self, constant: Sequence[Vector]) -> Momenta:

@@ -21,11 +21,12 @@ from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import (
     PRIME,
     NoPoint,
+    Terms,
     kernel_modulo,
     pivot_columns,
     square_root,
 )
-from lagcli.mechanics.discovery.modular_roots import Terms, joint_root
+from lagcli.mechanics.discovery.modular_roots import joint_root
 from lagcli.mechanics.discovery.tree import Memo, Tree
 from lagcli.mechanics.dynamics import Dynamics
 
@@ -108,13 +109,8 @@ class FormulaSurface:
 
     def _made_plans(self) -> Iterator[Plan]:
         """Orders in which the position constraints can be solved, one by one or jointly."""
-        polynomials = []
         field = self.points.field
-        for f in self._squared:
-            element = field(f)
-            polynomials.append(
-                [(c % PRIME, monomial) for monomial, c in field.ring.terms(element.numerator)]
-            )
+        polynomials = [self.points.terms(field(f).numerator) for f in self._squared]
         free = self._free()
         uses = [{g for _, monomial in terms for g, _ in monomial} for terms in polynomials]
         count = 0

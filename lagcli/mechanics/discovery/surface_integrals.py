@@ -28,11 +28,13 @@ import sympy
 from flint import nmod_mat
 from sympy import Expr
 
+from lagcli.algebra import dot
 from lagcli.mechanics.discovery.admissible import Vector
 from lagcli.mechanics.discovery.chart import solved_in_chart
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo, pivot_columns
+from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.surface import FormulaSurface
 from lagcli.mechanics.discovery.tree import Memo
 from lagcli.mechanics.noether import Noether
@@ -61,7 +63,6 @@ class IntegralTerm:
 
 
 Integral = list[tuple[IntegralTerm, Expr]]
-_Jet = tuple[int, int]  # value and rate
 
 
 class SurfaceIntegrals:
@@ -106,23 +107,24 @@ class SurfaceIntegrals:
         dynamics, system = self.dynamics, self.system
         relations = dynamics.constraints.relations
         assert relations is not None
-        on = relations.substitute
-        lagrange = dynamics.lagrange
-        self._momenta = [on(p) for p in lagrange.momenta]
-        self._pushes = [
-            on(a + b)
-            for a, b in zip(lagrange.lagrangian_forces, system.applied_forces, strict=True)
-        ]
-        self._fields = [[(on(x), on(self._convected(x))) for x in e] for e in self.fields]
-        self._energy = on(self.noether.energy.function)
-        power = [f * v for f, v in zip(system.applied_forces, system.qdot, strict=True)]
-        self._power = on(sympy.Add(-system.L.diff(system.t), *power))
+        on, lagrange = relations.substitute, dynamics.lagrange
+        convected = SlotEquations(system.t, system.q, system.qdot, (), ()).convected
+
+        def jet(*values: Expr) -> list[tuple[Expr, Expr]]:
+            return [(on(x), on(convected(x))) for x in values]
+
+        p = [on(x) for x in lagrange.momenta]
+        forces = zip(lagrange.lagrangian_forces, system.applied_forces, strict=True)
+        pushes = [on(a + b) for a, b in forces]
+        self._J = []
+        for field in self.fields:
+            e, De = zip(*jet(*field), strict=True)
+            self._J.append((dot(e, p), dot(De, p) + dot(e, pushes)))
+        power = dot(system.applied_forces, system.qdot) - system.L.diff(system.t)
+        self._energy = on(self.noether.energy.function), on(power)
         self._known = [on(Q) for Q in known]
-        t = system.t
-        self._times = {T: (T, T.diff(t)) for T in dict.fromkeys(x.time for x in self.terms)}
-        self._spaces = {
-            g: (on(g), on(self._convected(g))) for g in dict.fromkeys(x.space for x in self.terms)
-        }
+        functions = dict.fromkeys(f for x in self.terms for f in (x.time, x.space))
+        self._functions = dict(zip(functions, jet(*functions), strict=True))
         kept = [dynamics.constraints.equations[k] for k in dynamics.independent_constraints]
         moving = any(e.drift != 0 for e in kept) and any(-1 in x.fields for x in self.terms)
         moving = moving or any(x.velocities for x in self.terms)
@@ -137,26 +139,15 @@ class SurfaceIntegrals:
         if not moving:
             self._equations = ([], [], [], [], [])
         mass, rows, forcing, biases, drifts = self._equations
-        everything = [
-            *self._momenta,
-            *self._velocities,
-            *self._pushes,
-            self._energy,
-            self._power,
-            *self._known,
-        ]
-        everything += [x for e in self._fields for pair in e for x in pair]
-        everything += [x for pair in (*self._times.values(), *self._spaces.values()) for x in pair]
+        pairs = (*self._J, self._energy, *self._functions.values())
+        everything = [*self._velocities, *self._known, *(x for pair in pairs for x in pair)]
         everything += [x for row in (*mass, *rows) for x in row] + [*forcing, *biases, *drifts]
         self.surface = FormulaSurface(self.dynamics, everything, self.allowed, self._same)
 
-    def _convected(self, expression: Expr) -> Expr:
-        system = self.system
-        present = expression.free_symbols
-        terms = [expression.diff(system.t)] if system.t in present else []
-        terms += [v * expression.diff(q) for q, v in zip(system.q, system.qdot, strict=True)
-                  if q in present]  # fmt: skip
-        return sympy.Add(*terms)
+    def _factors(self, term: IntegralTerm) -> list[tuple[Expr, Expr]]:
+        """T, g and the J of a term with their rates."""
+        fields = (self._energy if a < 0 else self._J[a] for a in term.fields)
+        return [self._functions[term.time], self._functions[term.space], *fields]
 
     # -- values ---------------------------------------------------------------------------
 
@@ -168,26 +159,15 @@ class SurfaceIntegrals:
         def at(expression: Expr) -> int:
             return self.surface.tree.value(expression, point, memo)
 
-        p = [at(x) for x in self._momenta]
-        push = [at(x) for x in self._pushes]
-        jets: dict[tuple[int, ...], _Jet] = {(): (1, 0)}
-        for a, field in enumerate(self._fields):
-            e = [at(x) for x, _ in field]
-            De = [at(x) for _, x in field]
-            value = sum(x * y for x, y in zip(e, p, strict=True)) % PRIME
-            rate = sum(x * y for x, y in zip(De, p, strict=True))
-            rate += sum(x * y for x, y in zip(e, push, strict=True))
-            jets[(a,)] = value, rate % PRIME
         accelerations, work = self._motion(at)
-        jets[(-1,)] = at(self._energy), (at(self._power) - work) % PRIME
         moving = list(zip(map(at, self._velocities), accelerations, strict=False))
-        times = {T: (at(x), at(y)) for T, (x, y) in self._times.items()}
-        spaces = {g: (at(x), at(y)) for g, (x, y) in self._spaces.items()}
         values, rates = [], []
         for term in self.terms:
-            jet = [times[term.time], spaces[term.space], *(jets[(a,)] for a in term.fields)]
+            jets = [(at(x), at(y)) for x, y in self._factors(term)]
+            if -1 in term.fields:
+                jets[-1] = jets[-1][0], jets[-1][1] - work
             value, rate = 1, 0
-            for x, y in [*jet, *(moving[i] for i in term.velocities)]:
+            for x, y in [*jets, *(moving[i] for i in term.velocities)]:
                 value, rate = value * x % PRIME, (rate * x + value * y) % PRIME
             values.append(value)
             rates.append(rate)
@@ -286,20 +266,7 @@ class SurfaceIntegrals:
 
     def _rate(self, term: IntegralTerm) -> Expr:
         """d/dt of a term as a formula in independent velocities."""
-        T, dT = self._times[term.time]
-        g, dg = self._spaces[term.space]
-        factors = [(T, dT), (g, dg)]
-        for a in term.fields:
-            if a < 0:
-                factors.append((self._energy, self._power))
-                continue
-            field = self._fields[a]
-            value = [e * p for (e, _), p in zip(field, self._momenta, strict=True)]
-            rate = [
-                De * p + e * f
-                for (e, De), p, f in zip(field, self._momenta, self._pushes, strict=True)
-            ]
-            factors.append((sympy.Add(*value), sympy.Add(*rate)))
+        factors = self._factors(term)
         total = sympy.Add(
             *(
                 sympy.Mul(*(dx if i == k else x for i, (x, dx) in enumerate(factors)))

@@ -55,12 +55,8 @@ class TimedIntegrals(QuadraticIntegrals):
     def applies(equations: SlotEquations, kinds: Kinds, known: Sequence[NoetherCharge]) -> bool:
         """Whether there may be any: not where 2n integrals of first degree give them all."""
         n = len(equations.q)
-        plain = [
-            c for c in known
-            if c.transformation.time == 0
-            and not sympy.Tuple(*c.transformation.changes).free_symbols & {*equations.q,
-                                                                         *equations.v}
-        ]  # fmt: skip
+        moving = (*equations.q, *equations.v)
+        plain = [c for c in known if c.transformation.displaces_without(moving)]
         return 1 < n <= _MOST_COORDINATES and not kinds.angles and len(plain) < 2 * n
 
     def _scalar(self, functions: Slots, eta: Sequence[Expr], moving: Expr, /) -> Expr | None:

@@ -61,12 +61,9 @@ class UnderConstraints:
         nonholonomic = "nonholonomic" in self.dynamics.constraints.kinds.values()
         if curved or not nonholonomic:
             return Momenta([], [])
-        moving = {self.system.t, *self.system.qdot}
-        constant = [
-            c.transformation.changes for c in known
-            if c.transformation.time == 0
-            and not sympy.Tuple(*c.transformation.changes).free_symbols & moving
-        ]  # fmt: skip
+        moving = (self.system.t, *self.system.qdot)
+        given = (c.transformation for c in known)
+        constant = [x.changes for x in given if x.displaces_without(moving)]
         equations = MomentumEquations(self.noether, symmetries, self.fields, self.allowed)
         return equations.found(constant)
 

@@ -19,6 +19,7 @@ from sympy import Add, Expr, S, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of, symbol
+from lagcli.mechanics.reduction.minimal import unused_name
 from lagcli.mechanics.system import System
 from lagcli.record import record
 
@@ -64,7 +65,7 @@ def driven(
         constants.append(alpha(1 + sum(c not in p for c in constants)) if pushed else p[j])
         impulse = antiderivative(force, t) if pushed else S.Zero
         if impulse is None:
-            impulse = symbol(_unused(f"I_{q[j].name}", taken))
+            impulse = symbol(unused_name([f"I_{q[j].name}"], taken))
             integrals[impulse] = force
         momenta.append(constants[j] + impulse)
     rest = simplify(Add(H, *(x * force for x, force in zip(q, forces, strict=True))))
@@ -86,7 +87,3 @@ def _solves(found: Driven, H: Expr, system: System) -> bool:
         slope += Add(*(momentum.diff(i) * force for i, force in found.integrals.items()))
         terms.append(x * slope)
     return is_zero(Add(*terms)) is True
-
-
-def _unused(name: str, taken: set[str]) -> str:
-    return name if name not in taken else _unused(f"{name}_0", taken)

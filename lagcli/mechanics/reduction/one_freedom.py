@@ -26,6 +26,7 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.parameter_values import DIGITS, admissible_values
+from lagcli.mechanics.reduction.minimal import unused_name
 from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady import SteadyMotions
@@ -156,10 +157,4 @@ def free_name(routh: Routh, choices: tuple[str, ...]) -> str:
     assert routh.reduced is not None
     used = {*routh.reduced.system.order, *routh.full.system.order}
     used |= {*routh.full.problem.functions, *routh.full.problem.definitions}
-    for choice in choices:
-        if choice not in used:
-            return choice
-    number = 1
-    while f"{choices[0]}_{number}" in used:
-        number += 1
-    return f"{choices[0]}_{number}"
+    return unused_name(choices, used)

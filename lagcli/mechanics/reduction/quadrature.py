@@ -225,7 +225,7 @@ def _split(squared: Expr, u: Symbol) -> tuple[sympy.Poly, Expr] | None:
     Q, R = S.One, S.One
     for factor, power in factors_of(squared):
         if factor.is_Integer:
-            whole, rest = _square_part(int(factor))
+            whole, rest = _square_part(factor)
             Q, R = Q * rest**power, R * whole**power
             continue
         if power % 2:
@@ -238,12 +238,10 @@ def _split(squared: Expr, u: Symbol) -> tuple[sympy.Poly, Expr] | None:
     return polynomial, R
 
 
-def _square_part(number: int) -> tuple[int, int]:
+def _square_part(number: Expr) -> tuple[Expr, Expr]:
     """(a, b) with number = a² b and b free of squares."""
-    whole, rest = S.One, S.One
-    for prime, power in sympy.factorint(number).items():
-        whole, rest = whole * prime ** (power // 2), rest * prime ** (power % 2)
-    return whole, rest
+    whole, root = sympy.sqrt(abs(number)).as_coeff_Mul()
+    return whole, sympy.sign(number) * root**2
 
 
 def _parts(R: Expr, Q: sympy.Poly, u: Symbol) -> list[Part] | None:

@@ -32,7 +32,7 @@ from lagcli.algebra.factors import factors_of
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.driven import Driven, driven
 from lagcli.mechanics.reduction.known_signs import KnownSigns
-from lagcli.mechanics.reduction.minimal import minimal
+from lagcli.mechanics.reduction.minimal import minimal, unused_name
 from lagcli.record import record
 
 #: More coordinates than this are not tried.
@@ -96,7 +96,7 @@ class Separation:
         used = {*self.system.order, *self.system.problem.functions}
         used |= {*derivation.problem.definitions, *derivation.system.order}
         self._used = used
-        self.E = symbol(_unused(("E", "h", "E_0", "h_0"), used))
+        self.E = symbol(unused_name(("E", "h", "E_0", "h_0"), used))
         self._letter = next(
             x for x in LETTERS if not any(f"{x}_{n}" in used for n in range(1, MOST))
         )
@@ -304,7 +304,3 @@ def _solved(equation: Expr, p: Symbol) -> Expr | None:
         return sympy.sqrt(simplify(-2 * c / a))
     middle = simplify(b / a)
     return sympy.sqrt(simplify(middle**2 - 2 * c / a)) - middle
-
-
-def _unused(choices: Sequence[str], used: set[str]) -> str:
-    return next((x for x in choices if x not in used), f"{choices[0]}_total")
