@@ -15,7 +15,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import mpmath
-import sympy
 from sympy import Expr
 
 from lagcli.algebra import dot

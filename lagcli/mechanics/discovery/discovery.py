@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import cached_property
 
-import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero
