@@ -49,6 +49,7 @@ def test_surfaces_of_koenigs_have_two_integrals_beside_a_momentum(L, coordinates
 
 
 @pytest.mark.parametrize("axes", [(1, 2, 3), (2, 5, 7)])
+@pytest.mark.long
 def test_an_ellipsoid_in_its_own_coordinates(axes):
     u, v = (f"{x}/(({axes[0]} - {x})*({axes[1]} - {x})*({axes[2]} - {x}))" for x in "uv")
     text = problem(f"(u - v)*({u}*u'^2 - {v}*v'^2)/8 - k*(u + v)", "[u, v]", "k")
