@@ -39,6 +39,10 @@ class SystemSolution:
     relation: Expr | None = None
 
 
+#: Of work, for all solutions.
+_UNITS = 3_000_000
+
+
 @dataclass(slots=True)
 class SolvedSystem:
     """The solutions found; `complete` tells whether there can be no other."""
@@ -50,7 +54,6 @@ class SolvedSystem:
 def solve_system(
     equations: Sequence[Expr],
     unknowns: Sequence[Symbol],
-    units: float = 3_000_000,
     *,
     families: bool = False,
 ) -> SolvedSystem:
@@ -59,7 +62,7 @@ def solve_system(
     With `families`, those that one relation between unknowns gives are among them, and no
     solution that lies on another.
     """
-    solver = _Solver(equations, unknowns, Work(units), families=families)
+    solver = _Solver(equations, unknowns, Work(_UNITS), families=families)
     solver.branch(list(equations), {}, ())
     found = solver.found
     found.solutions = [

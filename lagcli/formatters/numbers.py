@@ -11,6 +11,8 @@ from lagcli.record import record
 _EXACT = Context(prec=100)
 #: Decimals between 1e-5 and 1e15 are written without a power of ten.
 _SMALLEST, _LARGEST = -5, 15
+#: Digits between which no line is broken.
+_GROUP = 20
 
 
 @record
@@ -36,7 +38,7 @@ def decimal_parts(value: Fraction) -> DecimalParts:
     return DecimalParts(f"{number.scaleb(-size):f}", size)
 
 
-def digit_groups(value: int, size: int = 20) -> list[str]:
+def digit_groups(value: int) -> list[str]:
     """Split the digits of a whole number into groups, between which a line may be broken."""
     digits = str(Decimal(value))  # str(int) refuses more than 4300 digits
-    return [digits[i : i + size] for i in range(0, len(digits), size)]
+    return [digits[i : i + _GROUP] for i in range(0, len(digits), _GROUP)]

@@ -20,7 +20,7 @@ _TERMS = 60
 
 
 class TooLong(Exception):
-    """There are too many terms."""
+    """Written out, a formula has more terms or products than pay."""
 
 
 class Expansion:

@@ -135,7 +135,7 @@ class RandomStates:
         others = {k: e for k, e, _ in first if k not in self._open}
         self.other_surfaces = [(self._forms[k], e) for k, e in others.items()]
         yield from (state for _, e, state in first if e == self.elimination)
-        for _, _, state in self._generate("lagcli"):
+        for _, _, state in self._generate():
             if state not in self._kept:
                 yield state
 
@@ -144,16 +144,16 @@ class RandomStates:
         wanted = 1 if self.surfaces == 1 else 2 * self.surfaces
         found: list[tuple[int, Elimination, State]] = []
         try:
-            for each in islice(self._generate("lagcli"), wanted):
+            for each in islice(self._generate(), wanted):
                 found.append(each)  # noqa: PERF402 - what came before a contradiction counts
         except Contradiction:
             if not found:
                 raise
         return found
 
-    def _generate(self, seed: str) -> Iterator[tuple[int, Elimination, State]]:
+    def _generate(self) -> Iterator[tuple[int, Elimination, State]]:
         with mpmath.workdps(DIGITS + _GUARD):
-            source = random.Random(seed)
+            source = random.Random("lagcli")
         failures: dict[int, int] = {}
         attempts = 0
         for draw in count():

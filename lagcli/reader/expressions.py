@@ -50,7 +50,7 @@ def read_comparison(excerpt: Excerpt) -> Inequality:
     return comparison
 
 
-def parse_text(text: str, source_name: str = "<expression>") -> Expression:
+def parse_text(text: str) -> Expression:
     """Read back one printed expression; any name is allowed.
 
     Raises
@@ -58,10 +58,10 @@ def parse_text(text: str, source_name: str = "<expression>") -> Expression:
     ProblemError
         If the text is no expression.
     """
-    return _read_back(text, source_name, read_expression)
+    return _read_back(text, "<expression>", read_expression)
 
 
-def parse_equation_text(text: str, source_name: str = "<equation>") -> Equation:
+def parse_equation_text(text: str) -> Equation:
     """Read back one printed equation; any name is allowed.
 
     Raises
@@ -69,7 +69,7 @@ def parse_equation_text(text: str, source_name: str = "<equation>") -> Equation:
     ProblemError
         If the text is no equation.
     """
-    return _read_back(text, source_name, read_equation)
+    return _read_back(text, "<equation>", read_equation)
 
 
 def _read_back(text: str, source_name: str, read: Callable[[Excerpt], Tree]) -> Tree:

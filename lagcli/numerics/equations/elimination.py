@@ -18,17 +18,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from lagcli.graph.expansion import TooLong
 from lagcli.graph.nodes import Graph, Node
 
 Matrix = Sequence[Sequence[Node]]
 
 
-#: Products beyond which a loop over numbers is cheaper.
+#: Products beyond which a loop over numbers is cheaper: written out, a matrix is `TooLong`.
 LONGEST = 3000
-
-
-class TooLong(Exception):
-    """Written out, it would be longer than what a loop over numbers takes."""
 
 
 class Factored:

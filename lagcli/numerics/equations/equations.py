@@ -15,11 +15,12 @@ from itertools import chain
 from lagcli.expression import Expression
 from lagcli.graph.corners import with_corners
 from lagcli.graph.derivative import partial
+from lagcli.graph.expansion import TooLong
 from lagcli.graph.nodes import Call, Node, Symbol, ancestry, mask_of
 from lagcli.graph.stable import Stable, stable_dynamics
 from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
 from lagcli.mechanics.rates import ConstraintRow
-from lagcli.numerics.equations.elimination import Eliminated, Factored, TooLong
+from lagcli.numerics.equations.elimination import Eliminated, Factored
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.straight_line import Generated
 from lagcli.problem_data import Constraint, Problem

@@ -30,7 +30,7 @@ from lagcli.numerics.equations.motion import Motion
 Series = Sequence[Any]
 
 
-class Solution:
+class SolvedSeries:
     """z of one power series x, the coefficients that are known.
 
     Attributes
@@ -119,13 +119,13 @@ class LinearSystem:
         #: what an evaluation costs, in nodes
         self.cost = len(ancestry([*entries, *right, *partials]))
 
-    def solution(self, time: Series, x: Sequence[Series], length: int) -> Solution:
+    def solution(self, time: Series, x: Sequence[Series], length: int) -> SolvedSeries:
         """The first coefficients of z along power series x."""
         return self.continued(self.begun(time, x), time, x, length)
 
-    def begun(self, time: Series, x: Sequence[Series]) -> Solution:
+    def begun(self, time: Series, x: Sequence[Series]) -> SolvedSeries:
         """No coefficients yet; K and its inverse where they are constant."""
-        found, bits = Solution(), self._context.prec
+        found, bits = SolvedSeries(), self._context.prec
         if self._steady:
             if bits not in self._constant:
                 matrix = self._matrices(time, x, 0, 1)
@@ -143,8 +143,8 @@ class LinearSystem:
         ]
 
     def continued(
-        self, known: Solution, time: Series, x: Sequence[Series], length: int
-    ) -> Solution:
+        self, known: SolvedSeries, time: Series, x: Sequence[Series], length: int
+    ) -> SolvedSeries:
         """The same with more coefficients of x."""
         begin = len(known.rights)
         if not self._steady:
@@ -157,7 +157,7 @@ class LinearSystem:
         return known
 
     def slopes(
-        self, time: Series, x: Sequence[Series], length: int, known: Solution | None = None
+        self, time: Series, x: Sequence[Series], length: int, known: SolvedSeries | None = None
     ) -> list[Any]:
         """The first coefficients of da/dx, shape (n, symbols), along power series x."""
         n, width = self.n, self._width
