@@ -53,8 +53,8 @@ def many_bits():
 @pytest.mark.long
 def test_a_motion_that_shooting_finds_is_where_the_shadow_says(many_bits):
     """The start that leads to one row after the other is that of a motion near all rows."""
-    until, every = 40.0, 4.0
-    found = shadow(until, 11)
+    until, every = 36.0, 9.0
+    found = shadow(until, 5)
     assert found.reached
     assert found.within < 1e-12
     rows = [row[1].mid() for row in found.rows]

@@ -112,7 +112,10 @@ class ProofModes:
             if not wrong:
                 return found
             found = [-sign if k in wrong else sign for k, sign in enumerate(found)]
-        raise NotEnclosed("a switching function is 0 at the beginning, and its rate may be 0, too")
+        raise NotEnclosed(
+            "the argument of abs or sign is 0 at the beginning and may stay so, as where friction "
+            "holds: this is not enclosed"
+        )
 
 
 class ProofMode:
@@ -219,7 +222,10 @@ class ProofMode:
         signs = [-s if k == watched.index else s for k, s in enumerate(self.signs)]
         after = self.modes(self.held, signs)
         if not watched.rate(after.field, t, x) < 0:
-            raise NotEnclosed(f"near t = {float(t):.6g} the motion stays where {watched.name} is 0")
+            raise NotEnclosed(
+                f"near t = {float(t):.6g} the motion stays where {watched.name} is 0, as where "
+                "friction holds: this is not enclosed"
+            )
         return after, same, "switch"
 
     def _struck(self, watched: Watched, t: Any, x: Sequence[Any]) -> tuple[ProofMode, Restart, str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 from lagcli.numerics.certified.simulate import Simulation
@@ -45,6 +46,9 @@ _SHORTER = 0.8
 _BEYOND = 1.0625
 #: Bits beyond those that are lost and those that are wanted.
 _SPARE = 8
+
+#: Impacts that come sooner and sooner are taken to accumulate.
+_SOONER = 8
 
 _WIDE = "the enclosures are wider than the accuracy {:g}"
 
@@ -238,6 +242,8 @@ class Attempt:
             self._go()
         except NotEnclosed as reason:
             self.refusal, self.short = str(reason), isinstance(reason, ShortSteps)
+            if isinstance(reason, UndecidedCrossing) and self._impacts_accumulate():
+                self.refusal += ", where impacts accumulate: what follows them is not enclosed"
         except (ArithmeticError, ValueError, OverflowError) as reason:
             self.refusal = f"the equations are not defined on the enclosure: {reason}"
         asked = self.setup.asked
@@ -260,6 +266,12 @@ class Attempt:
             refusal="" if reached else f"proved until t = {holds:g}: {self.refusal}",
             within=self.within,
         )
+
+    def _impacts_accumulate(self) -> bool:
+        """Whether the last ones come sooner and sooner."""
+        times = [float(event.t) for event in self.events if event.what == "impact"][-_SOONER:]
+        between = [b - a for a, b in pairwise(times)]
+        return len(times) == _SOONER and all(b < a for a, b in pairwise(between))
 
     def bits_needed(self) -> int:
         """For the whole span, by what was lost so far; 0 where more do not help."""

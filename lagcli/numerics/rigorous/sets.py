@@ -54,7 +54,7 @@ def _carried(turned: Any) -> tuple[Any, Any] | None:
     """
     n = turned.nrows()
     rows = [[float(x.mid()) for x in row] for row in turned.tolist()]
-    lengths = [_norm(column) for column in zip(*rows, strict=True)]
+    lengths = [math.hypot(*column) for column in zip(*rows, strict=True)]
     if not all(0 < x < math.inf for x in lengths):
         return None
     frame = type(turned)(n, n, [x / y for row in rows for x, y in zip(row, lengths, strict=True)])
@@ -80,7 +80,7 @@ def around(state: Sequence[Any]) -> LohnerSet:
 def _by_length(turned: Any, radii: Any) -> list[int]:
     """The sides of the set, the longest first."""
     lengths = [
-        float(radius.abs_upper()) * _norm([float(x.mid()) for x in column])
+        float(radius.abs_upper()) * math.hypot(*(float(x.mid()) for x in column))
         for radius, column in zip(radii.entries(), turned.transpose().tolist(), strict=True)
     ]
     return sorted(range(len(lengths)), key=lambda j: -lengths[j])
@@ -96,11 +96,11 @@ def orthonormal(turned: Any, order: Sequence[int]) -> tuple[Any, Any]:
     units = [[float(i == k) for i in range(n)] for k in range(n)]
     frame: list[list[float]] = []
     for candidate in [*(columns[j] for j in order), *units]:
-        before = _norm(candidate)
+        before = math.hypot(*candidate)
         for other in (*frame, *frame):  # twice is enough
             along = _dot(candidate, other)
             candidate = [a - along * b for a, b in zip(candidate, other, strict=True)]
-        after = _norm(candidate)
+        after = math.hypot(*candidate)
         if len(frame) < n and after > 1e-8 * before:  # else the direction is there already
             frame.append([x / after for x in candidate])
     found = type(turned)(n, n, [frame[j][i] for i in range(n) for j in range(n)])
@@ -109,7 +109,3 @@ def orthonormal(turned: Any, order: Sequence[int]) -> tuple[Any, Any]:
 
 def _dot(x: Sequence[float], y: Sequence[float]) -> float:
     return sum(a * b for a, b in zip(x, y, strict=True))
-
-
-def _norm(x: Sequence[float]) -> float:
-    return math.sqrt(_dot(x, x))
