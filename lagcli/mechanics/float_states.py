@@ -1,6 +1,6 @@
 """The rank of the constraints at a random state on them, in double precision.
 
-Good for large systems, where the same at 50 digits takes minutes.  A rank is told only
+Good for large systems, where the same at 50 digits takes minutes.  A rank is given only
 where it is beyond doubt: what is left of a row after those before it is either a sizeable
 part of it or nothing but rounding.
 """
