@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from shlex import quote
 
 from lagcli.cli.files import reason
 from lagcli.cli.running import is_known
@@ -17,6 +18,9 @@ def write_problem(name: str, template_name: str) -> Status:
     if not is_known("--template", template_name, tuple(TEMPLATES)):
         return Status.USAGE
     path = Path(name if name.endswith((".yaml", ".yml")) else f"{name}.yaml")
+    if path.stem in {"", ".yaml", ".yml"}:
+        tell_line(f"lagcli: error: '{name}' is not a name: for example lagcli new swing")
+        return Status.USAGE
     title = path.stem.replace("-", " ").replace("_", " ").strip().capitalize() or "Problem"
     text = template(template_name).replace("{title}", _quoted(title))
     try:
@@ -25,7 +29,8 @@ def write_problem(name: str, template_name: str) -> Status:
     except OSError as error:
         tell_line(f"{path}: error: {reason(error)}")
         return Status.USAGE
-    steps = "".join(f"  lagcli {command} {path}\n" for command in ("solve", "explain", "plot"))
+    typed = quote(str(path))
+    steps = "".join(f"  lagcli {command} {typed}\n" for command in ("solve", "explain", "plot"))
     sys.stdout.write(f"{path} written: {TEMPLATES[template_name]}.  Now:\n{steps}")
     return Status.WELL
 

@@ -27,7 +27,7 @@ def read_input(name: str) -> bytes:
             raise OSError(errno.EBADF, "standard input is closed")
         return sys.stdin.buffer.read()
     try:
-        return Path(name).read_bytes()
+        return Path(name or "''").read_bytes()  # an empty name is not the folder
     except FileNotFoundError:
         from lagcli.library import find_problem
 

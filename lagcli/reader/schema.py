@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import get_args
 
+from lagcli.expression import RESERVED
 from lagcli.problem_data import METHODS, Assumption
 from lagcli.reader.schema_parts import (
     COUNT,
@@ -17,6 +18,7 @@ from lagcli.reader.schema_parts import (
     TEXT,
     YES_OR_NO,
     Schema,
+    declarations_of,
     list_of,
     map_of,
     record_of,
@@ -26,7 +28,14 @@ from lagcli.reader.trajectory import HAPPENINGS
 from lagcli.statements.registry import every_section
 
 _DRAFT = "http://json-schema.org/draft-07/schema#"
-_ANY_NAME = r"^[^\W\d]\w*$"
+#: Without the characters of ASCII that no name has: \w of ECMAScript knows no Greek letter.
+_ANY_NAME = r"^[^\x00-@\[-\^`{-\x7f][^\x00-/:-@\[-\^`{-\x7f]*$"
+_MASSES: Schema = {"properties": {"points": {"additionalProperties": {"required": ["mass"]}}}}
+#: One source of the kinetic energy, and no second one.
+_ENERGY: Schema = {
+    "anyOf": [*({"required": [key]} for key in "TLH"), {"required": ["points"], **_MASSES}],
+    "allOf": [{"not": {"required": list(both)}} for both in ("LT", "LV", "HL", "HT", "HV")],
+}
 
 
 def problem_schema() -> Schema:
@@ -36,6 +45,7 @@ def problem_schema() -> Schema:
         "title": "A problem of lagcli",
         "type": "object",
         "required": ["coordinates"],
+        **_ENERGY,
         "additionalProperties": False,
         "properties": {
             **{key: _described(key, part) for key, part in _PARTS.items()},
@@ -61,7 +71,7 @@ _PAIR: Schema = {**list_of(TEXT), "minItems": 2, "maxItems": 2}
 
 _QUANTITY: dict[str, Schema] = {
     "unit": {
-        "type": ["string", "number"],
+        "anyOf": [{"type": "string"}, {"const": 1}],
         "description": "such as kg m^2/s^2; rad and 1 are numbers",
     },
     "symbol": {"type": "string", "description": "LaTeX for the name"},
@@ -80,6 +90,7 @@ _DEFINITIONS: dict[str, Schema] = {
     },
     "inequality": {"type": "string", "pattern": "[<>]", "description": "such as N >= 0"},
     "name": {"type": "string", "pattern": _ANY_NAME},
+    "declared": {"allOf": [ref("name"), {"not": {"enum": sorted(RESERVED)}}]},
     "coordinate": {"anyOf": [{"type": "null"}, record_of((), **_QUANTITY)]},
     "parameter": {
         "anyOf": [
@@ -149,13 +160,13 @@ _PARTS: dict[str, Schema] = {
     "description": TEXT,
     "coordinates": {
         "anyOf": [
-            {**list_of(ref("name")), "minItems": 1},
-            {**map_of(ref("coordinate")), "minProperties": 1, "type": "object"},
+            {**list_of(ref("declared")), "minItems": 1},
+            declarations_of(ref("coordinate"), 1),
         ]
     },
-    "parameters": {"anyOf": [list_of(ref("name")), map_of(ref("parameter"))]},
-    "functions": map_of(list_of(TEXT)),
-    "definitions": FORMULAS,
+    "parameters": {"anyOf": [list_of(ref("declared")), declarations_of(ref("parameter"))]},
+    "functions": declarations_of({**list_of(ref("name")), "minItems": 1}),
+    "definitions": declarations_of(FORMULA),
     "points": map_of(ref("point")),
     "T": FORMULA,
     "V": FORMULA,
@@ -165,10 +176,10 @@ _PARTS: dict[str, Schema] = {
     "dissipation": FORMULA,
     "constraints": map_of(ref("constraint")),
     "contacts": map_of(ref("contact")),
-    "symmetries": map_of(FORMULAS),
-    "observables": FORMULAS,
+    "symmetries": map_of(map_of(FORMULA, 1)),
+    "observables": declarations_of(FORMULA),
     "brackets": map_of({**list_of(FORMULA), "minItems": 2, "maxItems": 2}),
-    "canonical_transformations": map_of(FORMULAS),
+    "canonical_transformations": map_of(map_of(FORMULA, 1)),
     "initial": FORMULAS,
     "find": map_of(ref("question")),
     "simulation": record_of(until=FORMULA, accuracy=FORMULA, method={"enum": list(METHODS)}),

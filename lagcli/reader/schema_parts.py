@@ -12,9 +12,14 @@ def ref(name: str) -> Schema:
     return {"$ref": f"#/definitions/{name}"}
 
 
-def map_of(values: Schema) -> Schema:
-    """Names to values; an empty value makes an empty map."""
-    return {"type": ["object", "null"], "additionalProperties": values}
+def map_of(values: Schema, least: int = 0) -> Schema:
+    """Names to values."""
+    return {"type": "object", "additionalProperties": values, "minProperties": least}
+
+
+def declarations_of(values: Schema, least: int = 0) -> Schema:
+    """Names that are declared to values."""
+    return {**map_of(values, least), "propertyNames": ref("declared")}
 
 
 def record_of(required: tuple[str, ...] = (), /, **properties: Schema) -> Schema:
@@ -33,7 +38,9 @@ def list_of(items: Schema) -> Schema:
 
 
 TEXT: Schema = {"type": ["string", "number", "boolean"]}
-COUNT: Schema = {"type": ["integer", "string"]}
+COUNT: Schema = {
+    "anyOf": [{"type": "integer", "minimum": 0}, {"type": "string", "pattern": r"^\s*\d+\s*$"}]
+}
 FORMULA = ref("expression")
 FORMULAS = map_of(FORMULA)
 YES_OR_NO: Schema = {"enum": ["yes", "no", True, False]}

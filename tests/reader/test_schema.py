@@ -76,6 +76,25 @@ MALFORMED = [
     GOOD + "simulation: {method: euler}",
     GOOD + "simulation: {untill: 1}",
     GOOD + "expect: {modes: 1}",
+    GOOD + "expect: {degrees_of_freedom: two}",
+    GOOD + "expect: {degrees_of_freedom: -1}",
+    GOOD + "expect: {constraint_forces: {rod: }}",
+    GOOD + "functions: {U: []}",
+    GOOD + "functions:",
+    GOOD + "functions: {sin: [r]}",
+    GOOD + "definitions: {2a: x}",
+    GOOD + "observables: {t: x}",
+    GOOD + "symmetries: {a: {}}",
+    GOOD + "symmetries: {a: }",
+    GOOD + "canonical_transformations: {a: }",
+    GOOD + "L: x'^2",
+    GOOD + "H: p_x^2",
+    "coordinates: [x]\nL: x'^2\nV: x",
+    "coordinates: [x]\nV: x",
+    "coordinates: [x]\npoints: {a: {position: [x, 0]}}",
+    "coordinates: {t: }\nT: 1",
+    "coordinates: [sin]\nT: 1",
+    "coordinates: {x: {unit: 7}}\nT: x'^2",
     GOOD + "expect: {equilibria: [{at: {x: 0}, stabel: yes}]}",
     GOOD + "expect: {trajectory: {events: [{what: bang}]}}",
     GOOD + "initial: [0]",
@@ -87,6 +106,13 @@ MALFORMED = [
 def test_what_the_schema_refuses_the_reader_refuses(text):
     assert not is_valid(text)
     assert read_problem("p.yaml", text.encode()).problem is None
+
+
+@pytest.mark.parametrize("name", ["x", "θ", "θ_1", "_a", "été"])
+def test_names_of_any_letters_are_valid_where_words_are_ascii(name):
+    pattern = problem_schema()["definitions"]["name"]["pattern"]
+    assert re.search(pattern, name, re.ASCII)  # as in ECMAScript
+    assert is_valid(f"coordinates: [{name}]\nT: {name}'^2")
 
 
 @pytest.mark.parametrize("name", ["kepler", "hoop", "spherical-pendulum-cartesian", "ray-of-light"])
