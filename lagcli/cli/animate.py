@@ -6,14 +6,11 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.options import Output, State
+from lagcli.cli.options import Output, State, samples_option
 from lagcli.cli.plot import Dark
 from lagcli.cli.simulate import Accuracy, File, Method, Project, Set, StopWhen, Until
 
-Samples = Annotated[
-    int,
-    typer.Option("--samples", metavar="N", min=2, max=20_000, help="Frames of the page."),
-]
+Samples = Annotated[int, samples_option("Frames of the page.", 20_000)]
 Forces = Annotated[
     bool,
     typer.Option("--forces", help="Show forces as arrows: applied ones and those of constraints."),

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_problem, complete_report
+from lagcli.cli.options import Jobs, format_option
 
 Paths = Annotated[
     list[str],
@@ -16,17 +17,7 @@ Paths = Annotated[
         autocompletion=complete_problem,
     ),
 ]
-Format = Annotated[
-    str,
-    typer.Option(
-        "--format", "-f", metavar="NAME", help="text, json, junit, github or sarif.",
-        autocompletion=complete_report,
-    ),
-]  # fmt: skip
-Jobs = Annotated[
-    int | None,
-    typer.Option("--jobs", "-j", metavar="N", min=1, help="Processes.  [default: one per core]"),
-]
+Format = Annotated[str, format_option("text, json, junit, github or sarif.", complete_report)]
 Timeout = Annotated[
     float, typer.Option("--timeout", metavar="SECONDS", min=0.01, help="For each problem.")
 ]

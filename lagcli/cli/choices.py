@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+
 #: The forms of a table of `simulate`, and those of them that are no text.
 TABLES = ("table", "json", "csv", "npz", "parquet")
 BINARY = ("npz", "parquet")
@@ -29,107 +31,76 @@ _SHOWN = (
 )  # fmt: skip
 
 
-def complete_section(incomplete: str) -> list[str]:
-    """The sections that the last word of `a,b,c` may become."""
+def completion(
+    names: Callable[[], Iterable[str]], *, listed: bool = False
+) -> Callable[[str], list[str]]:
+    """What the shell asks: the names that begin so; `listed`: the last word of `a,b,c`."""
+
+    def complete(incomplete: str) -> list[str]:
+        before, comma, word = incomplete.rpartition(",") if listed else ("", "", incomplete)
+        return [before + comma + name for name in names() if name.startswith(word)]
+
+    return complete
+
+
+def _sections() -> Iterable[str]:
     from lagcli.statements.registry import section_names
 
-    before, comma, word = incomplete.rpartition(",")
-    return [before + comma + name for name in section_names() if name.startswith(word)]
+    return section_names()
 
 
-def complete_format(incomplete: str) -> list[str]:
-    """The formats that begin so."""
+def _formats() -> Iterable[str]:
     from lagcli.formatters.registry import built_in
 
-    return [name for name in (*built_in(), "pdf") if name.startswith(incomplete)]
+    return (*built_in(), "pdf")
 
 
-def complete_report(incomplete: str) -> list[str]:
-    """The forms of a check's report that begin so."""
-    return [name for name in REPORTS if name.startswith(incomplete)]
-
-
-def complete_table(incomplete: str) -> list[str]:
-    """The forms of a table that begin so."""
-    return [name for name in TABLES if name.startswith(incomplete)]
-
-
-def complete_method(incomplete: str) -> list[str]:
-    """The methods that begin so."""
-    from lagcli.problem_data import METHODS
-
-    return [name for name in METHODS if name.startswith(incomplete)]
-
-
-def complete_kind(incomplete: str) -> list[str]:
-    """The kinds of pictures that begin so."""
-    return [name for name in KINDS if name.startswith(incomplete)]
-
-
-def complete_column(incomplete: str) -> list[str]:
-    """The groups of columns that the last word of `a,b,c` may become."""
-    before, comma, word = incomplete.rpartition(",")
-    return [before + comma + name for name in _SHOWN if name.startswith(word)]
-
-
-def complete_page_format(incomplete: str) -> list[str]:
-    """The formats of an explanation that begin so."""
+def _page_formats() -> Iterable[str]:
     from lagcli.formatters.explaining import FORMATS
 
-    return [name for name in (*FORMATS, "pdf") if name.startswith(incomplete)]
+    return (*FORMATS, "pdf")
 
 
-def complete_study(incomplete: str) -> list[str]:
-    """The forms of a study that begin so."""
-    return [name for name in STUDIES if name.startswith(incomplete)]
-
-
-def complete_cost(incomplete: str) -> list[str]:
-    """What a study may weigh that begins so."""
-    return [name for name in COSTS if name.startswith(incomplete)]
-
-
-def complete_methods(incomplete: str) -> list[str]:
-    """The methods that the last word of `a,b,c` may become."""
+def _methods() -> tuple[str, ...]:
     from lagcli.problem_data import METHODS
 
-    before, comma, word = incomplete.rpartition(",")
-    return [before + comma + name for name in METHODS[1:] if name.startswith(word)]
+    return METHODS
 
 
-def complete_topic(incomplete: str) -> list[str]:
-    """The topics of the manual that begin so."""
+def _topics() -> Iterable[str]:
     from lagcli.manual import pages
 
-    known = dict.fromkeys(name for page in pages() for name in (page.name, *page.topics))
-    return [name for name in known if name.startswith(incomplete)]
+    return dict.fromkeys(name for page in pages() for name in (page.name, *page.topics))
 
 
-def complete_manual_format(incomplete: str) -> list[str]:
-    """The formats of a page of the manual that begin so."""
-    return [name for name in MANUAL_FORMATS if name.startswith(incomplete)]
+def _templates() -> Iterable[str]:
+    from lagcli.templates import TEMPLATES
+
+    return TEMPLATES
 
 
-def complete_problem(incomplete: str) -> list[str]:
-    """The problems of the library whose name, with or without its folder, begins so."""
+def _problems() -> Iterable[str]:
+    """The problems of the library, with and without their folders."""
     from lagcli.library import entries
 
     names = [name for entry in entries() for name in (entry.name.rpartition("/")[2], entry.name)]
-    return sorted({name for name in names if name.startswith(incomplete)})
+    return sorted(set(names))
 
 
-def complete_template(incomplete: str) -> list[str]:
-    """The templates of `lagcli new` that begin so."""
-    from lagcli.templates import TEMPLATES
-
-    return [name for name in TEMPLATES if name.startswith(incomplete)]
-
-
-def complete_schema(incomplete: str) -> list[str]:
-    """The schemas whose name begins so."""
-    return [name for name in SCHEMAS if name.startswith(incomplete)]
-
-
-def complete_language(incomplete: str) -> list[str]:
-    """The languages that begin so."""
-    return [name for name in LANGUAGES if name.startswith(incomplete)]
+complete_section = completion(_sections, listed=True)
+complete_column = completion(lambda: _SHOWN, listed=True)
+complete_methods = completion(lambda: _methods()[1:], listed=True)
+complete_method = completion(_methods)
+complete_format = completion(_formats)
+complete_page_format = completion(_page_formats)
+complete_manual_format = completion(lambda: MANUAL_FORMATS)
+complete_table = completion(lambda: TABLES)
+complete_report = completion(lambda: REPORTS)
+complete_study = completion(lambda: STUDIES)
+complete_cost = completion(lambda: COSTS)
+complete_kind = completion(lambda: KINDS)
+complete_topic = completion(_topics)
+complete_problem = completion(_problems)
+complete_template = completion(_templates)
+complete_schema = completion(lambda: SCHEMAS)
+complete_language = completion(lambda: LANGUAGES)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import sys
 
-from lagcli.cli.files import read_input, reason
+from lagcli.cli.running import problem_of
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell, tell_line
+from lagcli.cli.telling import tell
 from lagcli.diagnostics import ProblemError
-from lagcli.pipeline import read, with_lagrangian
+from lagcli.pipeline import with_lagrangian
 from lagcli.platform.stack import with_deep_stack
 from lagcli.problem_data import Problem
 
@@ -23,16 +23,9 @@ def compare_files(old: str, new: str) -> Status:
 
 
 def _problem(name: str) -> Problem | None:
+    problem = problem_of(name)
     try:
-        found = read(name, read_input(name))
-    except OSError as error:
-        tell_line(f"{name}: error: {reason(error)}")
-        return None
-    tell(found.source, found.diagnostics)
-    if found.problem is None:
-        return None
-    try:
-        return with_lagrangian(found.problem)
+        return problem and with_lagrangian(problem)
     except ProblemError as error:
         tell(error.source, error.diagnostics)
         return None

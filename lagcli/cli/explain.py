@@ -7,19 +7,11 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_page_format, complete_section
-from lagcli.cli.options import Latex, Output, WithMotion
+from lagcli.cli.options import BY_ENDING, Latex, Output, WithMotion, format_option
 from lagcli.cli.solve import Files, NoCache, Set, Standalone, Width
 
-Format = Annotated[
-    str | None,
-    typer.Option(
-        "--format",
-        "-f",
-        metavar="NAME",
-        help="text, latex, markdown, html, json or pdf.  [default: by the ending of -o, else text]",
-        autocompletion=complete_page_format,
-    ),
-]
+_FORMATS = "text, latex, markdown, html, json or pdf." + BY_ENDING.format("text")
+Format = Annotated[str | None, format_option(_FORMATS, complete_page_format)]
 Also = Annotated[
     list[str] | None,
     typer.Option(

@@ -6,12 +6,11 @@ from pathlib import Path
 
 from lagcli.cli.choices import LANGUAGES
 from lagcli.cli.delivering import has_place, place
-from lagcli.cli.files import read_input, reason
-from lagcli.cli.running import is_known
+from lagcli.cli.running import is_known, problem_of
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
-from lagcli.pipeline import Request, derive, read, state
+from lagcli.pipeline import Request, derive, state
 from lagcli.platform.stack import with_deep_stack
 from lagcli.problem_data import Problem
 
@@ -20,15 +19,9 @@ def export_file(name: str, language: str, output: Path | None, settings: tuple[s
     """Derive, write, and say how it ended."""
     if not is_known("--to", language, LANGUAGES) & has_place(output):
         return Status.USAGE
-    try:
-        found = read(name, read_input(name), Request(settings=settings))
-    except OSError as error:
-        tell_line(f"{name}: error: {reason(error)}")
+    problem = problem_of(name, Request(settings=settings))
+    if problem is None:
         return Status.USAGE
-    tell(found.source, found.diagnostics)
-    if found.problem is None:
-        return Status.USAGE
-    problem = found.problem
     return with_deep_stack(lambda: _export(problem, name, language, output))
 
 

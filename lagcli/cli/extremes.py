@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.options import Output, State, StudyFormat
+from lagcli.cli.options import Output, State, StudyFormat, limit_option
 from lagcli.cli.simulate import Accuracy, File, Set
 
 Until = Annotated[
@@ -26,10 +26,7 @@ Cases = Annotated[
         "names with * for anything.  [default: all]",
     ),
 ]
-Limit = Annotated[
-    float,
-    typer.Option("--limit", metavar="SECONDS", min=0.1, help="Processor time of one case."),
-]
+Limit = Annotated[float, limit_option("one case")]
 
 
 def extremes(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from lagcli.cli.choices import complete_manual_format, complete_topic
-from lagcli.cli.options import Output
+from lagcli.cli.options import Output, format_option
 
 if TYPE_CHECKING:
     from lagcli.manual import Page
@@ -17,17 +17,9 @@ Topic = Annotated[
     str | None,
     typer.Argument(metavar="[TOPIC]", help="A topic.", autocompletion=complete_topic),
 ]
-Format = Annotated[
-    str | None,
-    typer.Option(
-        "--format",
-        "-f",
-        metavar="NAME",
-        help="text, markdown, html, or man for a man page of every command.  [default: text on a "
-        "terminal, else markdown]",
-        autocompletion=complete_manual_format,
-    ),
-]
+_FORMATS = "text, markdown, html, or man for a man page of every command."
+_USUAL = "  [default: text on a terminal, else markdown]"
+Format = Annotated[str | None, format_option(_FORMATS + _USUAL, complete_manual_format)]
 Open = Annotated[bool, typer.Option("--open", help="Show the page in a web browser.")]
 
 

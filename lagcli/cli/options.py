@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -16,6 +17,27 @@ def _to_file(output: Path | None) -> Path | None:
     return None if output is None or str(output) == STANDARD else output
 
 
+def format_option(names: str, complete: Callable[[str], list[str]]) -> Any:
+    """`--format`, one of these names."""
+    return typer.Option("--format", "-f", metavar="NAME", help=names, autocompletion=complete)
+
+
+def samples_option(what: str, most: int = 1_000_000) -> Any:
+    """`--samples`, the number of these."""
+    return typer.Option("--samples", metavar="N", min=2, max=most, help=what)
+
+
+def limit_option(of_what: str) -> Any:
+    """`--limit`, the processor time of one part of a study."""
+    return typer.Option("--limit", metavar="SECONDS", min=0.1, help=f"Processor time of {of_what}.")
+
+
+#: The end of the help of an option `--format` whose file says it as well.
+BY_ENDING = "  [default: by the ending of -o, else {}]"
+Jobs = Annotated[
+    int | None,
+    typer.Option("--jobs", "-j", metavar="N", min=1, help="Processes.  [default: one per core]"),
+]
 Output = Annotated[
     Path | None,
     typer.Option(
@@ -42,12 +64,5 @@ WithMotion = Annotated[
     typer.Option("--with-motion", help="Of HTML: plot and animation, where the file has an end."),
 ]
 StudyFormat = Annotated[
-    str | None,
-    typer.Option(
-        "--format",
-        "-f",
-        metavar="NAME",
-        help="text, json or csv.  [default: by the ending of -o, else text]",
-        autocompletion=complete_study,
-    ),
+    str | None, format_option("text, json or csv." + BY_ENDING.format("text"), complete_study)
 ]

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_kind
-from lagcli.cli.options import Output, State
+from lagcli.cli.options import Output, State, samples_option
 from lagcli.cli.simulate import Accuracy, File, Method, Project, Set, Show, StopWhen, Until
 
 Kind = Annotated[
@@ -21,12 +21,7 @@ Kind = Annotated[
         autocompletion=complete_kind,
     ),
 ]
-Samples = Annotated[
-    int,
-    typer.Option(
-        "--samples", metavar="N", min=2, max=1_000_000, help="Points of a curve over time."
-    ),
-]
+Samples = Annotated[int, samples_option("Points of a curve over time.")]
 Dark = Annotated[bool, typer.Option("--dark", help="Light lines on a dark page.")]
 Section = Annotated[
     str | None,

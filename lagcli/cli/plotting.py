@@ -15,7 +15,7 @@ from lagcli.cli.printing import PIPE_WIDTH
 from lagcli.cli.running import is_known, shared, understood
 from lagcli.cli.simulating import SimulateOptions, asked_of
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell, tell_line
+from lagcli.cli.telling import tell, tell_line, tell_refusal
 from lagcli.record import record, replace
 
 if TYPE_CHECKING:
@@ -79,8 +79,7 @@ def drawn(problem: Problem, work: Callable[[], tuple[bytes, str]], output: Path 
     try:
         data, refusal = work()
     except Refusal as mistake:
-        tell(problem.source, mistake.diagnostics)
-        return Status.USAGE if mistake.mistake else Status.NOT_FOUND
+        return tell_refusal(problem.source, mistake)
     except ProblemError as mistakes:
         tell(mistakes.source, mistakes.diagnostics)
     except CannotDraw as reason:

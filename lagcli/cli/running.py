@@ -22,6 +22,17 @@ _USUAL_ACCURACY = 1e-9
 Options = TypeVar("Options")
 
 
+def problem_of(file: str, request: Request | None = None) -> Problem | None:
+    """The problem of a file, of standard input or of the library; None once it is told why not."""
+    try:
+        found = read(file, read_input(file), request or Request())
+    except OSError as error:
+        tell_line(f"{file}: error: {reason(error)}")
+        return None
+    tell(found.source, found.diagnostics)
+    return found.problem
+
+
 def understood(
     file: str,
     settings: tuple[str, ...],

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_column, complete_method, complete_problem, complete_table
-from lagcli.cli.options import Output, State
+from lagcli.cli.options import BY_ENDING, Output, State, format_option, samples_option
 from lagcli.problem_data import METHODS
 
 File = Annotated[
@@ -37,10 +37,7 @@ Accuracy = Annotated[
         help="Bound on the error of every number.  [default: the file's, or 1e-9]",
     ),
 ]
-Samples = Annotated[
-    int,
-    typer.Option("--samples", metavar="N", min=2, max=1_000_000, help="Rows, both ends included."),
-]
+Samples = Annotated[int, samples_option("Rows, both ends included.")]
 Set = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="NAME=VALUE", help="Give a parameter a value."),
@@ -58,13 +55,7 @@ Show = Annotated[
 ]
 Format = Annotated[
     str | None,
-    typer.Option(
-        "--format",
-        "-f",
-        metavar="NAME",
-        help="table, json, csv, npz or parquet.  [default: by the ending of -o, else table]",
-        autocompletion=complete_table,
-    ),
+    format_option("table, json, csv, npz or parquet." + BY_ENDING.format("table"), complete_table),
 ]
 Project = Annotated[
     bool, typer.Option("--project", help="Start from the nearest state on the constraints.")

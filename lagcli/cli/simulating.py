@@ -14,7 +14,7 @@ from lagcli.cli.delivering import has_place, place
 from lagcli.cli.endings import TABLES as ENDINGS
 from lagcli.cli.running import NumericOptions, is_known, shared, understood
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell, tell_line
+from lagcli.cli.telling import tell, tell_line, tell_refusal
 from lagcli.diagnostics import ProblemError
 from lagcli.formatters.grammar import to_grammar
 from lagcli.problem_data import METHODS
@@ -110,39 +110,37 @@ def _table(wish: SimulateOptions) -> tuple[bytes | None, Status]:
 
 
 def _run(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes | None, Status]:
-    from lagcli.numerics.certified.simulate import simulate
+    """The table of a run, or None, and how it ended."""
     from lagcli.numerics.equations.refusal import Refusal
+
+    try:
+        made = _proved if wish.rigorous or wish.shadow else _integrated
+        data, why = made(problem, asked, wish)
+    except Refusal as refusal:
+        return None, tell_refusal(problem.source, refusal)
+    if why:
+        tell_line(f"{problem.source.name}: {why}")
+    return data, Status.NOT_FOUND if why else Status.WELL
+
+
+def _integrated(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes, str]:
+    """The table of a run, and why it ends early."""
+    from lagcli.numerics.certified.simulate import simulate
     from lagcli.numerics.tables.formats import WRITERS
 
-    if wish.rigorous or wish.shadow:
-        return _proved(problem, asked, wish)
-    try:
-        with shared("integrating") as progress:
-            result = simulate(problem, asked, progress)
-    except Refusal as refusal:
-        tell(problem.source, refusal.diagnostics)
-        return None, Status.USAGE if refusal.mistake else Status.NOT_FOUND
-    if result.refusal:
-        tell_line(f"{problem.source.name}: {result.refusal}")
-    return WRITERS[wish.format_name](result), (Status.NOT_FOUND if result.refusal else Status.WELL)
+    with shared("integrating") as progress:
+        result = simulate(problem, asked, progress)
+    return WRITERS[wish.format_name](result), result.refusal
 
 
-def _proved(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes | None, Status]:
-    """The table of a proof, or None, and how it ended."""
-    from lagcli.numerics.equations.refusal import Refusal
+def _proved(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes, str]:
+    """The table of a proof, and why it ends early."""
     from lagcli.numerics.rigorous import Shadowing, prove
     from lagcli.numerics.rigorous.writing import WRITERS
 
-    try:
-        with shared("proving") as progress:
-            proof = prove(problem, asked, progress, Shadowing if wish.shadow else None)
-    except Refusal as refusal:
-        tell(problem.source, refusal.diagnostics)
-        return None, Status.USAGE if refusal.mistake else Status.NOT_FOUND
-    if proof.refusal:
-        tell_line(f"{problem.source.name}: {proof.refusal}")
-    status = Status.NOT_FOUND if proof.refusal else Status.WELL
-    return WRITERS[wish.format_name](proof), status
+    with shared("proving") as progress:
+        proof = prove(problem, asked, progress, Shadowing if wish.shadow else None)
+    return WRITERS[wish.format_name](proof), proof.refusal
 
 
 def can_be_written(wish: SimulateOptions) -> bool:

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_format, complete_problem, complete_section
-from lagcli.cli.options import Latex, Output, WithMotion
+from lagcli.cli.options import BY_ENDING, Latex, Output, WithMotion, format_option
 
 Files = Annotated[
     list[str],
@@ -18,14 +18,7 @@ Files = Annotated[
     ),
 ]
 Format = Annotated[
-    str | None,
-    typer.Option(
-        "--format",
-        "-f",
-        metavar="NAME",
-        help="See: lagcli formats.  [default: by the ending of -o, else text]",
-        autocompletion=complete_format,
-    ),
+    str | None, format_option("See: lagcli formats." + BY_ENDING.format("text"), complete_format)
 ]
 Show = Annotated[
     list[str] | None,

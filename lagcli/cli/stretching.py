@@ -9,7 +9,7 @@ from lagcli.cli.choices import STUDIES
 from lagcli.cli.delivering import has_place, place
 from lagcli.cli.running import NumericOptions, counted, is_known, understood
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell, tell_line
+from lagcli.cli.telling import tell_line, tell_refusal
 from lagcli.record import record
 
 if TYPE_CHECKING:
@@ -54,8 +54,7 @@ def _study(problem: Problem, wanted: Wanted, wish: ExtremesOptions) -> Status:
         tell_line(f"lagcli: error: --cases: no case '{error.word}': {advice}")
         return Status.USAGE
     except Refusal as refusal:
-        tell(problem.source, refusal.diagnostics)
-        return Status.USAGE if refusal.mistake else Status.NOT_FOUND
+        return tell_refusal(problem.source, refusal)
     if not place(WRITERS[wish.format_name](made).encode(), wish.output):
         return Status.USAGE
     return Status.NOT_FOUND if made.bad else Status.WELL

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.options import Output, State
+from lagcli.cli.options import Jobs, Output, State, samples_option
 from lagcli.cli.simulate import Accuracy, File, Format, Method, Set, Show, StopWhen, Until
 
 Vary = Annotated[
@@ -23,10 +23,7 @@ Random = Annotated[
     typer.Option("--random", metavar="N", min=1, help="N draws between FIRST:LAST instead."),
 ]
 Seed = Annotated[int, typer.Option("--seed", metavar="N", help="Of the draws.")]
-Samples = Annotated[
-    int,
-    typer.Option("--samples", metavar="N", min=2, max=1_000_000, help="With --along: rows."),
-]
+Samples = Annotated[int, samples_option("With --along: rows.")]
 Along = Annotated[bool, typer.Option("--along", help="Every row of each motion, not its end.")]
 Times = Annotated[
     str | None,
@@ -35,10 +32,6 @@ Times = Annotated[
         metavar="T,T",
         help="Rows at these times instead: 100:250:25 (first, last, count), or 1,2,5.",
     ),
-]
-Jobs = Annotated[
-    int | None,
-    typer.Option("--jobs", "-j", metavar="N", min=1, help="Processes.  [default: one per core]"),
 ]
 Scheduler = Annotated[
     str | None,

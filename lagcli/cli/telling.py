@@ -6,8 +6,11 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from lagcli.cli.status import Status
+
 if TYPE_CHECKING:
     from lagcli.diagnostics import Diagnostic, Source
+    from lagcli.numerics.equations.refusal import Refusal
 
 
 def tell(source: Source, diagnostics: Sequence[Diagnostic]) -> str:
@@ -19,6 +22,12 @@ def tell(source: Source, diagnostics: Sequence[Diagnostic]) -> str:
     text = render(source, diagnostics)
     tell_text(text)
     return text
+
+
+def tell_refusal(source: Source, refusal: Refusal) -> Status:
+    """Show why there is no motion, and give the exit status."""
+    tell(source, refusal.diagnostics)
+    return Status.USAGE if refusal.mistake else Status.NOT_FOUND
 
 
 def tell_text(text: str) -> None:

@@ -8,15 +8,10 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_cost, complete_methods
-from lagcli.cli.options import Output, State, StudyFormat
+from lagcli.cli.options import Output, State, StudyFormat, limit_option, samples_option
 from lagcli.cli.simulate import File, Project, Set, Until
 
-Samples = Annotated[
-    int,
-    typer.Option(
-        "--samples", metavar="N", min=2, max=1_000_000, help="Times at which errors are taken."
-    ),
-]
+Samples = Annotated[int, samples_option("Times at which errors are taken.")]
 Plot = Annotated[
     Path | None,
     typer.Option(
@@ -47,15 +42,7 @@ Repeat = Annotated[
     int,
     typer.Option("--repeat", metavar="N", min=1, help="Make each run N times; the best counts."),
 ]
-Limit = Annotated[
-    float,
-    typer.Option(
-        "--limit",
-        metavar="SECONDS",
-        min=0.1,
-        help="Processor time of one run; all together take 20 times as much.",
-    ),
-]
+Limit = Annotated[float, limit_option("one run; all together take 20 times as much")]
 
 
 def tradeoff(

@@ -10,7 +10,7 @@ from lagcli.cli.delivering import has_place, place
 from lagcli.cli.plotting import ending, is_drawn_as
 from lagcli.cli.running import NumericOptions, counted, is_known, understood
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell, tell_line
+from lagcli.cli.telling import tell_line, tell_refusal
 from lagcli.problem_data import METHODS
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
@@ -84,8 +84,7 @@ def _study(
         with counted("measuring") as progress:
             made = study(given, methods, cost=wish.cost, repeat=wish.repeat, progress=progress)
     except Refusal as refusal:
-        tell(problem.source, refusal.diagnostics)
-        return Status.USAGE if refusal.mistake else Status.NOT_FOUND
+        return tell_refusal(problem.source, refusal)
     if not _written(made, wish):
         return Status.USAGE
     return Status.NOT_FOUND if made.broken else Status.WELL
