@@ -49,10 +49,7 @@ def load(path: str | PathLike[str]) -> Problem:
     >>> load("kepler").title
     'Kepler problem with the Laplace-Runge-Lenz vector'
     """
-    from lagcli.library import find_problem
-
-    file = Path(path)
-    return _read(fspath(path), (file if file.exists() else find_problem(fspath(path))).read_bytes())
+    return _read(fspath(path), _bytes(path))
 
 
 def loads(text: str) -> Problem:
@@ -277,12 +274,17 @@ def explain(problem: Problem, also: Sequence[str] = ()) -> Account:
 
 def check(path: str | PathLike[str]) -> Report:
     """Compare the answers to a file with its `expect` block, and with the mathematics."""
-    from lagcli.library import find_problem
     from lagcli.studies.check.one import check_problem
 
+    return check_problem(fspath(path), _bytes(path))
+
+
+def _bytes(path: str | PathLike[str]) -> bytes:
+    """A file, or a problem of the library."""
+    from lagcli.library import find_problem
+
     file = Path(path)
-    found = file if file.exists() else find_problem(fspath(path))
-    return check_problem(fspath(path), found.read_bytes())
+    return (file if file.exists() else find_problem(fspath(path))).read_bytes()
 
 
 def _read(name: str, data: bytes) -> Problem:

@@ -44,31 +44,11 @@ class Motion(Columns):
         self.title = problem.title
         self.columns = result.columns
         self.rows = result.rows
-
-    @property
-    def certificate(self) -> Certificate:
-        """How well the numbers are known."""
-        return self._result.certificate
-
-    @property
-    def events(self) -> tuple[Event, ...]:
-        """What happened on the way."""
-        return self._result.events
-
-    @property
-    def method(self) -> str:
-        """The method of integration."""
-        return self._result.method
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What should be known beside the numbers."""
-        return self._result.warnings
-
-    @property
-    def refusal(self) -> str:
-        """Why the rows end early; empty when they do not."""
-        return self._result.refusal
+        self.certificate: Certificate = result.certificate
+        self.events: tuple[Event, ...] = result.events
+        self.method = result.method
+        self.warnings = result.warnings
+        self.refusal = result.refusal
 
     def to_pandas(self) -> Any:
         """A pandas table with t as its index."""

@@ -6,6 +6,7 @@ writer has its own colours, dashes and characters for them.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 from lagcli.record import field, record
@@ -155,6 +156,19 @@ def drawn_by(panel: Panel) -> list[Curve | Marks | Rule]:
         if not isinstance(item, Band | Cells) and item.label is not None:
             found.setdefault(item.label.plain, item)
     return sorted(found.values(), key=lambda item: not isinstance(item, Curve))
+
+
+def equilibria(
+    marked: Sequence[tuple[MarkRole, Sequence[float], int]], span: tuple[float, float]
+) -> list[Item]:
+    """Signs on the axis q' = 0: by role the places within a range, and their colour."""
+    items: list[Item] = []
+    for role, places, colour in marked:
+        points = tuple((q, 0.0) for q in places if span[0] - 0.02 <= q <= span[1] + 0.02)
+        if points:
+            label = words(f"{role} equilibrium")
+            items.append(Marks(points=points, role=role, colour=colour, label=label))
+    return items
 
 
 def extent(values: list[float], room: float = 0.05) -> tuple[float, float]:

@@ -114,12 +114,9 @@ def _over_the_first(labels: Labels, motions: Motions, place: int) -> Panel:
     item: Item = Marks(points=points, role="dots")
     if motions.is_grid and not motions.along:
         item = Curve(pieces=tuple(_unbroken(motions, place)), role="series")
-    low, high = extent([value for _, value in found] or [0.0])
     column = motions.columns[place]
-    y = Axis(
-        label=labels.axis(column.expression, column.name), low=low, high=high,
-        angle=labels.is_angle(column.expression),
-    )  # fmt: skip
+    span = extent([value for _, value in found] or [0.0])
+    y = labels.axis_over((column.name, column.expression), span)
     x = _axis(labels, motions.varied[0], [row[0] for row in motions.rows])
     return Panel(x=x, y=y, items=(item,))
 

@@ -95,16 +95,7 @@ def _mp4(
 
     from matplotlib.animation import FFMpegWriter
 
-    exact = [
-        "-fflags",
-        "+bitexact",
-        "-flags:v",
-        "+bitexact",
-        "-pix_fmt",
-        "yuv420p",
-        "-threads",
-        "1",
-    ]
+    exact = "-fflags +bitexact -flags:v +bitexact -pix_fmt yuv420p -threads 1".split()
     writer: Any = FFMpegWriter(fps=_RATES["mp4"], codec="h264", extra_args=exact)
     with TemporaryDirectory() as folder:
         path = Path(folder) / "film.mp4"

@@ -13,33 +13,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from fractions import Fraction
 
-from lagcli.expression import Expression, Name, Negative, Number
+from lagcli.expression import Expression, Name, Negative
 from lagcli.graph.nodes import mask_of
-from lagcli.numerics.equations.arithmetic import Doubles
-from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.contact import with_contacts
 from lagcli.numerics.equations.equations import Equations
-from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.equations.start import initial_state
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.contours import grid, quiet, roots
 from lagcli.pictures.drawing import (
-    Axis,
     CannotDraw,
     Curve,
     Item,
-    MarkRole,
-    Marks,
-    Panel,
     Picture,
+    equilibria,
     words,
 )
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.run import PicturedRun, run_with
-from lagcli.pictures.turning import wrapped
+from lagcli.pictures.starts import begun, exact
+from lagcli.pictures.turning import is_periodic, wrapped
 from lagcli.problem_data import Expect, Problem
 from lagcli.reader.columns import Shown
 from lagcli.record import record, replace
@@ -83,7 +76,7 @@ class Flow:
 
     def __init__(self, problem: Problem, labels: Labels) -> None:
         self.problem, self.labels = problem, labels
-        e, arithmetic = Equations(with_contacts(problem)), Doubles()
+        e = Equations(with_contacts(problem))
         name = e.q[0].name
         mask = mask_of((*(x for row in e.mass for x in row), *e.forcing))
         if len(e.q) != 1 or e.rows or mask & e.t.mask:
@@ -92,19 +85,11 @@ class Flow:
                 f"without the time: --kind phase --show {name} draws the motion by itself, --kind "
                 "poincare cuts it"
             )
-        initial = [e.form.read(value) for value in problem.initial.values()]
-        nodes = [*(x for row in e.mass for x in row), *e.forcing, *initial]
-        motion = Motion(e, constants_of(e, nodes, arithmetic), arithmetic)
+        motion, q, _ = begun(e)
         self.acceleration = quiet(lambda q, v: float(motion.accelerations(0.0, q, v)[0]))
-        q, _ = initial_state(motion)
         self.start = float(q[0])
         self.name = Name(name)
-        self.turns = labels.is_angle(self.name) and self._is_periodic()
-
-    def _is_periodic(self) -> bool:
-        a = self.acceleration
-        pairs = [(a(x, 0.0), a(x + 2 * math.pi, 0.0)) for x in (0.3, 1.1, 2.7)]
-        return all(abs(x - y) <= 1e-9 * (1 + abs(x)) for x, y in pairs)
+        self.turns = labels.is_angle(self.name) and is_periodic(lambda x: self.acceleration(x, 0.0))
 
     def rests(self) -> list[Rest]:
         """The equilibria near the motion."""
@@ -147,32 +132,13 @@ def flow(problem: Problem, asked: Asked, progress: Progress | None = None) -> tu
         if rest.saddle:
             items += _manifolds(made, rest, high - low, time, columns)
     if run is not None:
-        pieces = _shown(run, made)
-        items.append(Curve(pieces=pieces, role="motion", colour=0, label=words("motion")))
-        items.append(Marks(points=pieces[0][:1], role="start", colour=0, label=words("start")))
-    items += _marked(rests, low, high)
-    (name, q), (rate, v) = columns
-    panel = Panel(
-        x=Axis(label=labels.axis(q, name), low=low, high=high, angle=labels.is_angle(q)),
-        y=Axis(label=labels.axis(v, rate), low=-fastest, high=fastest),
-        items=tuple(items),
-    )
+        items += run.in_the_plane(turns=made.turns)
+    stable, unstable = ([rest.q for rest in rests if rest.stable == kind] for kind in (True, False))
+    items += equilibria((("stable", stable, 2), ("unstable", unstable, 1)), (low, high))
+    panel = labels.panel(columns, ((low, high), (-fastest, fastest)), items)
     notes = run.notes() if run is not None else ()
     picture = Picture(title=problem.title, panels=(panel,), notes=notes)
     return picture, run.result.refusal if run is not None else ""
-
-
-def _marked(rests: list[Rest], low: float, high: float) -> list[Item]:
-    """The equilibria in the window, those that are stable and the others."""
-    kinds: tuple[tuple[MarkRole, bool, int], ...] = (("stable", True, 2), ("unstable", False, 1))
-    items: list[Item] = []
-    for role, stable, colour in kinds:
-        kept = [rest.q for rest in rests if rest.stable == stable]
-        points = tuple((q, 0.0) for q in kept if low - 0.02 <= q <= high + 0.02)
-        if points:
-            label = words(f"{role} equilibrium")
-            items.append(Marks(points=points, role=role, colour=colour, label=label))
-    return items
 
 
 def _window(
@@ -255,12 +221,6 @@ def _shown(run: PicturedRun, made: Flow) -> tuple[tuple[tuple[float, float], ...
     if made.turns:
         return tuple(part for piece in pieces for part in wrapped(piece))
     return pieces
-
-
-def exact(value: float) -> Expression:
-    """A double as a formula; its numbers are not negative."""
-    number = Number(Fraction(abs(value)))
-    return Negative(number) if value < 0 else number
 
 
 def reversed_in_time(problem: Problem) -> Problem:

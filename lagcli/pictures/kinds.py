@@ -10,6 +10,8 @@ from lagcli.problem_data import Problem
 from lagcli.record import record
 
 Progress = Callable[[float], None]
+#: What can be drawn.
+NAMES = ("series", "phase", "path", "potential", "poincare", "drift", "error")
 
 
 @record(kw_only=True)
@@ -44,68 +46,35 @@ def picture_of(
     Refusal
         When there is nothing to run.
     """
-    return _KINDS[request.kind](problem, asked, request, progress)
+    match request.kind:
+        case "phase":
+            from lagcli.pictures.portrait import plane, portrait
 
+            return (plane if request.chosen else portrait)(problem, asked, progress)
+        case "path":
+            from lagcli.pictures.path import path
 
-Drawn = tuple[Picture, str]
+            return path(problem, asked, progress)
+        case "potential":
+            from lagcli.pictures.potential import potential
 
+            return potential(problem, asked)
+        case "poincare":
+            from lagcli.pictures.section import section
 
-def _series(problem: Problem, asked: Asked, _: PictureRequest, progress: Progress | None) -> Drawn:
-    from lagcli.pictures.run import PicturedRun
-    from lagcli.pictures.series import series
+            where, orbits = request.section, request.orbits
+            return section(problem, asked, where, orbits, progress, chosen=request.chosen)
+        case "drift":
+            from lagcli.pictures.drift import drift
 
-    run = PicturedRun(problem, asked, progress)
-    return series(run), run.result.refusal
+            return drift(problem, asked, progress)
+        case "error":
+            from lagcli.pictures.error import error
 
+            return error(problem, asked, progress)
+        case _:
+            from lagcli.pictures.run import PicturedRun
+            from lagcli.pictures.series import series
 
-def _path(problem: Problem, asked: Asked, _: PictureRequest, progress: Progress | None) -> Drawn:
-    from lagcli.pictures.path import path
-
-    return path(problem, asked, progress)
-
-
-def _drift(problem: Problem, asked: Asked, _: PictureRequest, progress: Progress | None) -> Drawn:
-    from lagcli.pictures.drift import drift
-
-    return drift(problem, asked, progress)
-
-
-def _error(problem: Problem, asked: Asked, _: PictureRequest, progress: Progress | None) -> Drawn:
-    from lagcli.pictures.error import error
-
-    return error(problem, asked, progress)
-
-
-def _phase(
-    problem: Problem, asked: Asked, request: PictureRequest, progress: Progress | None
-) -> Drawn:
-    from lagcli.pictures.portrait import plane, portrait
-
-    return (plane if request.chosen else portrait)(problem, asked, progress)
-
-
-def _potential(problem: Problem, asked: Asked, _: PictureRequest, __: Progress | None) -> Drawn:
-    from lagcli.pictures.potential import potential
-
-    return potential(problem, asked)
-
-
-def _poincare(
-    problem: Problem, asked: Asked, request: PictureRequest, progress: Progress | None
-) -> Drawn:
-    from lagcli.pictures.section import section
-
-    return section(problem, asked, request.section, request.orbits, progress, chosen=request.chosen)
-
-
-_KINDS: dict[str, Callable[[Problem, Asked, PictureRequest, Progress | None], Drawn]] = {
-    "series": _series,
-    "phase": _phase,
-    "path": _path,
-    "potential": _potential,
-    "poincare": _poincare,
-    "drift": _drift,
-    "error": _error,
-}
-#: What can be drawn.
-NAMES = tuple(_KINDS)
+            run = PicturedRun(problem, asked, progress)
+            return series(run), run.result.refusal

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
 
@@ -16,8 +16,9 @@ from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.layout import joined
 from lagcli.formatters.unicode import AsciiPrinter, UnicodePrinter
 from lagcli.formatters.units import latex_unit, unicode_unit
-from lagcli.pictures.drawing import DrawnName, words
+from lagcli.pictures.drawing import Axis, DrawnName, Item, Panel, words
 from lagcli.problem_data import JACOBI_FUNCTION, Problem
+from lagcli.reader.columns import Shown
 from lagcli.units import Unit, read_unit
 
 #: A formula that is longer is called by what the user wrote.
@@ -74,6 +75,21 @@ class Labels:
         for name, power in time.factors if time else ():
             powers[name] = powers.get(name, Fraction(0)) - primes * power
         return Unit(tuple((n, p) for n, p in powers.items() if p), unit.number)
+
+    def axis_over(self, shown: Shown, span: tuple[float, float]) -> Axis:
+        """The axis of a column over a range; an angle is marked as one."""
+        name, expression = shown
+        return Axis(
+            label=self.axis(expression, name), low=span[0], high=span[1],
+            angle=self.is_angle(expression),
+        )  # fmt: skip
+
+    def panel(
+        self, columns: Sequence[Shown], spans: Sequence[tuple[float, float]], items: Sequence[Item]
+    ) -> Panel:
+        """One column over another."""
+        x, y = map(self.axis_over, columns, spans)
+        return Panel(x=x, y=y, items=tuple(items))
 
     def axis(self, expression: Expression | None, name: str = "") -> DrawnName:
         """A column with its unit in brackets behind it."""

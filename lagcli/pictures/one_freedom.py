@@ -18,13 +18,11 @@ from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom as Reduced
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.numerics.equations.arithmetic import Doubles, UndefinedFunction
-from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.equations import Equations
-from lagcli.numerics.equations.motion import Motion
-from lagcli.numerics.equations.start import initial_state
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.pictures.contours import quiet
 from lagcli.pictures.drawing import CannotDraw
+from lagcli.pictures.starts import begun
 from lagcli.problem_data import Coordinate, Problem
 
 
@@ -86,16 +84,14 @@ class RemainingFreedom:
 
     def _prepare(self, energy: Node, momenta: tuple[str, ...]) -> None:
         e, arithmetic = self._equations, Doubles()
-        kinds = [*(x for row in e.mass for x in row), *e.forcing, *e.positions, energy]
-        initial = [e.form.read(value) for value in self.problem.initial.values()]
-        constants = constants_of(e, [*kinds, *initial], arithmetic)
-        motion = Motion(e, constants, arithmetic)
+        motion, q, v = begun(e, [*e.positions, energy])
+        constants = motion.constants
         place = {q.name: j for j, q in enumerate(e.q)}
         needed = [e.momenta[place[name.removeprefix("p_")]] for name in momenta]
-        q, v = initial_state(motion)
         values = straight_line(e.state, needed, constants, arithmetic)(0.0, *q, *v)
         self.momenta: Mapping[str, float] = dict(zip(momenta, map(float, values), strict=True))
-        constants |= {e.graph.symbol(name): value for name, value in self.momenta.items()}
+        held = {e.graph.symbol(name): value for name, value in self.momenta.items()}
+        constants = {**motion.constants, **held}
         j = place[self.coordinate.name]
         self.start = (float(q[j]), float(v[j]))
         pair = (e.q[j], e.qdot[j])

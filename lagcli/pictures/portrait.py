@@ -16,22 +16,19 @@ from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.contours import Contours, grid
 from lagcli.pictures.drawing import (
-    Axis,
     CannotDraw,
     Curve,
     DrawnName,
     Item,
-    Marks,
-    Panel,
     Picture,
+    equilibria,
     extent,
     words,
 )
 from lagcli.pictures.flow import flow
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.one_freedom import EnergyNotConserved, RemainingFreedom
-from lagcli.pictures.run import PicturedRun, run_with
-from lagcli.pictures.turning import wrapped
+from lagcli.pictures.run import run_with
 from lagcli.pictures.window import Window
 from lagcli.problem_data import Problem
 
@@ -41,7 +38,7 @@ _ACROSS, _UP = 221, 161
 #: So many levels, closer where the energy is low; none where a separatrix is as near as this.
 _LEVELS, _TOO_NEAR = 10, 0.03
 _IN_A_WELL = (0.11, 0.44)
-_MOTION, _SEPARATRIX, _START = 0, 1, 2
+_SEPARATRIX = 1
 
 
 def portrait(
@@ -62,18 +59,11 @@ def portrait(
     run = run_with(problem, asked, freedom.columns, progress) if asked.until > 0 else None
     seen = tuple(run.values(1)) if run is not None else ()
     window = Window(freedom, labels, (min(seen), max(seen)) if seen else ())
-    items: list[Item] = [*_levels(freedom, window)]
+    items = _levels(freedom, window)
     if run is not None:
-        items += _motion(run, window)
-    items += _equilibria(window)
-    (name, q), (rate, v) = freedom.columns
-    panel = Panel(
-        x=Axis(
-            label=labels.axis(q, name), low=window.q[0], high=window.q[1], angle=labels.is_angle(q)
-        ),
-        y=Axis(label=labels.axis(v, rate), low=window.v[0], high=window.v[1]),
-        items=tuple(items),
-    )
+        items += run.in_the_plane(turns=window.turns)
+    items += equilibria(window.marked, window.q)
+    panel = labels.panel(freedom.columns, (window.q, window.v), items)
     notes = (*constants(freedom), *(run.notes() if run is not None else ()))
     picture = Picture(title=problem.title, panels=(panel,), notes=notes)
     return picture, run.result.refusal if run is not None else ""
@@ -111,39 +101,11 @@ def _levels(freedom: RemainingFreedom, window: Window) -> list[Item]:
         if energy <= window.highest:
             pieces = lines.at(energy)
             if pieces:
+                name = words("separatrix")
                 items.append(
-                    Curve(
-                        pieces=pieces,
-                        role="separatrix",
-                        colour=_SEPARATRIX,
-                        label=words("separatrix"),
-                    )
+                    Curve(pieces=pieces, role="separatrix", colour=_SEPARATRIX, label=name)
                 )
     return items
-
-
-def _equilibria(window: Window) -> list[Item]:
-    items: list[Item] = []
-    low, high = window.q
-    for role, places, colour in window.marked:
-        points = tuple((x, 0.0) for x in places if low - 0.02 <= x <= high + 0.02)
-        if points:
-            items.append(
-                Marks(points=points, role=role, colour=colour, label=words(f"{role} equilibrium"))
-            )
-    return items
-
-
-def _motion(run: PicturedRun, window: Window) -> list[Item]:
-    pieces = run.curve(1, 2)
-    if not pieces:
-        return []
-    if window.turns:
-        pieces = tuple(part for piece in pieces for part in wrapped(piece))
-    return [
-        Curve(pieces=pieces, role="motion", colour=_MOTION, label=words("motion")),
-        Marks(points=pieces[0][:1], role="start", colour=_MOTION, label=words("start")),
-    ]
 
 
 # -- any two columns -----------------------------------------------------------------------------
@@ -168,20 +130,10 @@ def plane(problem: Problem, asked: Asked, progress: Progress | None = None) -> t
             "--show x draws x' over x, --show x,y draws y over x"
         )
     run = run_with(problem, asked, [(c.name, c.expression) for c in columns], progress)
-    pieces = run.curve(1, 2)
-    if not pieces:
+    items = run.in_the_plane(named=False)
+    if not items:
         raise CannotDraw("the columns have no values together")
-    axes = []
-    for place, column in enumerate(columns, start=1):
-        low, high = extent(run.values(place))
-        label = run.labels.axis(column.expression, column.name)
-        axes.append(
-            Axis(label=label, low=low, high=high, angle=run.labels.is_angle(column.expression))
-        )
-    items = (
-        Curve(pieces=pieces, role="motion", colour=_MOTION),
-        Marks(points=pieces[0][:1], role="start", colour=_MOTION, label=words("start")),
-    )
-    panel = Panel(x=axes[0], y=axes[1], items=items)
+    spans = [extent(run.values(place)) for place in (1, 2)]
+    panel = run.labels.panel([(c.name, c.expression) for c in columns], spans, items)
     picture = Picture(title=problem.title, panels=(panel,), notes=run.notes())
     return picture, run.result.refusal

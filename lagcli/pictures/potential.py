@@ -62,9 +62,8 @@ def potential(problem: Problem, asked: Asked) -> tuple[Picture, str]:
         if points:
             text = words("minimum" if role == "stable" else "maximum")
             items.append(Marks(points=points, role=role, colour=colour, label=text))
-    name, q = freedom.columns[0]
     panel = Panel(
-        x=Axis(label=labels.axis(q, name), low=low, high=high, angle=labels.is_angle(q)),
+        x=labels.axis_over(freedom.columns[0], window.q),
         y=Axis(label=_energies(labels, freedom), low=bottom, high=top),
         items=tuple(items),
     )

@@ -15,8 +15,9 @@ from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.hybrid.events import Event
 from lagcli.numerics.hybrid.request import Asked, Result
-from lagcli.pictures.drawing import Axis, Band, Item, Piece, Rule, extent, words
+from lagcli.pictures.drawing import Axis, Band, Curve, Item, Marks, Piece, Rule, extent, words
 from lagcli.pictures.labels import Labels
+from lagcli.pictures.turning import wrapped
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 
@@ -80,6 +81,19 @@ class PicturedRun:
                     line.append((a, b))
             found.append(tuple(line))
         return tuple(line for line in found if line)
+
+    def in_the_plane(self, *, turns: bool = False, named: bool = True) -> list[Item]:
+        """The second column over the first, and where it begins; `turns`: over an angle."""
+        pieces = self.curve(1, 2)
+        if not pieces:
+            return []
+        if turns:
+            pieces = tuple(part for piece in pieces for part in wrapped(piece))
+        label = words("motion") if named else None
+        return [
+            Curve(pieces=pieces, role="motion", label=label),
+            Marks(points=pieces[0][:1], role="start", label=words("start")),
+        ]
 
     def values(self, column: int) -> list[float]:
         """All values of a column that are defined."""

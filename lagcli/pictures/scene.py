@@ -8,7 +8,7 @@ does not state that there is a body.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 
 from lagcli.expression import Expression, Name
@@ -166,17 +166,19 @@ class _Maker:
         place = self.run.names.index(name)
         return [row[place] for row in self.rows]
 
-    def _places(self, name: str, axes: str) -> tuple[Place, ...]:
-        """A vector in all axes of the picture; what is not defined stays where it was."""
+    def _vectors(self, name: str, axes: str) -> Iterator[Place | None]:
+        """A vector in all axes of the picture; None where it is not defined."""
         given = [self._values(f"{name} {k}") for k in range(len(axes))]
-        found: list[Place] = []
         for values in zip(*given, strict=True):
             by_axis = dict(zip(axes, values, strict=True))
             place = tuple(by_axis.get(axis, 0.0) for axis in self.axes)
             defined = tuple(x for x in place if x is not None)
-            whole = len(defined) == len(place)
-            found.append(defined if whole else found[-1] if found else (0.0,) * len(place))
-        return tuple(found)
+            yield defined if len(defined) == len(place) else None
+
+    def _places(self, name: str, axes: str) -> tuple[Place, ...]:
+        """The same of a place: what is not defined stays where it was."""
+        last: Place = (0.0,) * len(self.axes)
+        return tuple(last := place or last for place in self._vectors(name, axes))
 
     def made(self) -> tuple[Scene, str]:
         places = {track.name: self._places(f"{track.name} at", track.axes) for track in self.tracks}
@@ -239,14 +241,7 @@ class _Maker:
     def _arrow(self, arrow: Arrow) -> Vector:
         name = f"{arrow.name} on {arrow.on}"
         track = next(track for track in self.tracks if track.name == arrow.on)
-        given = [self._values(f"{name} {k}") for k in range(len(arrow.components))]
-        values: list[Place | None] = []
-        for parts in zip(*given, strict=True):
-            by_axis = dict(zip(track.axes, parts, strict=True))
-            place = tuple(by_axis.get(axis, 0.0) for axis in self.axes)
-            defined = tuple(x for x in place if x is not None)
-            values.append(defined if len(defined) == len(place) else None)
-        return Vector(name=arrow.name, on=arrow.on, values=tuple(values))
+        return Vector(name=arrow.name, on=arrow.on, values=tuple(self._vectors(name, track.axes)))
 
     def _links(
         self,

@@ -21,11 +21,8 @@ from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.extrema import crossing
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import (
-    Axis,
     CannotDraw,
-    Item,
     Marks,
-    Panel,
     Picture,
     Point,
     extent,
@@ -259,18 +256,12 @@ def _picture(
     points: Sequence[list[Point]],
     runs: Sequence[PicturedRun],
 ) -> Picture:
-    axes = []
     everything = [point for line in points for point in line]
     if not everything:
         raise CannotDraw("the columns have no values in the section")
-    for k, (name, formula) in enumerate(columns):
-        low, high = extent([point[k] for point in everything])
-        angle = labels.is_angle(formula)
-        axes.append(Axis(label=labels.axis(formula, name), low=low, high=high, angle=angle))
-    items: list[Item] = [
-        Marks(points=tuple(line), role="dots", colour=k) for k, line in enumerate(points)
-    ]
-    panel = Panel(x=axes[0], y=axes[1], items=tuple(items))
+    spans = [extent([point[k] for point in everything]) for k in (0, 1)]
+    items = [Marks(points=tuple(line), role="dots", colour=k) for k, line in enumerate(points)]
+    panel = labels.panel(columns, spans, items)
     notes = (_told(surface, points, runs), *_certain(runs))
     return Picture(title=problem.title, panels=(panel,), notes=notes)
 

@@ -12,9 +12,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
 from itertools import islice
 
-from lagcli.expression import Name
+from lagcli.expression import Expression, Name, Negative, Number
+from lagcli.graph.nodes import Node
 from lagcli.numerics.equations.arithmetic import Doubles
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.contact import with_contacts
@@ -24,7 +26,6 @@ from lagcli.numerics.equations.start import initial_state
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.pictures.contours import quiet
 from lagcli.pictures.drawing import CannotDraw, Point
-from lagcli.pictures.flow import exact
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import Shown
 from lagcli.record import replace
@@ -92,6 +93,20 @@ def other_starts(
         yield replace(problem, initial={name: exact(x) for name, x in values.items()})
 
 
+def begun(e: Equations, further: Sequence[Node] = ()) -> tuple[Motion, list[float], list[float]]:
+    """The motion in doubles with its state at t = 0; its constants are those of `further` too."""
+    initial = [e.form.read(value) for value in e.problem.initial.values()]
+    needed = [*(x for row in e.mass for x in row), *e.forcing, *initial, *further]
+    motion = Motion(e, constants_of(e, needed, Doubles()), Doubles())
+    return motion, *initial_state(motion)
+
+
+def exact(value: float) -> Expression:
+    """A double as a formula; its numbers are not negative."""
+    number = Number(Fraction(abs(value)))
+    return Negative(number) if value < 0 else number
+
+
 def _spans(
     points: Sequence[Point], start: Callable[[float, float], object] | None
 ) -> list[tuple[float, float]]:
@@ -135,11 +150,8 @@ def _inverse(number: int, base: int) -> float:
 
 
 def _state(problem: Problem) -> dict[Name, float]:
-    e, arithmetic = Equations(with_contacts(problem)), Doubles()
-    initial = [e.form.read(value) for value in problem.initial.values()]
-    kinds = [*(x for row in e.mass for x in row), *e.forcing, e.energy, *initial]
-    motion = Motion(e, constants_of(e, kinds, arithmetic), arithmetic)
-    q, v = initial_state(motion)
+    e = Equations(with_contacts(problem))
+    _, q, v = begun(e, [e.energy])
     state = {Name(s.name): float(x) for s, x in zip(e.q, q, strict=True)}
     return state | {Name(s.name, 1): float(x) for s, x in zip(e.q, v, strict=True)}
 

@@ -3,8 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from lagcli.pictures.drawing import Piece, Point
+
+
+def is_periodic(f: Callable[[float], float]) -> bool:
+    """Whether a function of an angle is the same one turn later."""
+    pairs = [(f(x), f(x + 2 * math.pi)) for x in (0.3, 1.1, 2.7)]
+    return all(abs(a - b) <= 1e-9 * (1 + abs(a)) for a, b in pairs)
 
 
 def wrapped(piece: Piece) -> list[Piece]:

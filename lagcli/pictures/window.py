@@ -13,6 +13,7 @@ from lagcli.pictures.contours import grid, roots
 from lagcli.pictures.drawing import CannotDraw, MarkRole
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.one_freedom import RemainingFreedom
+from lagcli.pictures.turning import is_periodic
 
 _PLACES = 2001
 #: How far away equilibria and turning points are looked for, in lengths of the motion.
@@ -35,14 +36,9 @@ class Window:
         self.freedom = freedom
         self.energy = freedom.energy(*freedom.start)
         name = freedom.columns[0][1]
-        self.turns = labels.is_angle(name) and self._is_periodic()
+        self.turns = labels.is_angle(name) and is_periodic(freedom.potential)
         self.positive = freedom.coordinate.assume in {"positive", "nonnegative"}
         self._motion = tuple(x for x in (*motion, freedom.start[0]) if math.isfinite(x))
-
-    def _is_periodic(self) -> bool:
-        u = self.freedom.potential
-        pairs = [(u(x), u(x + 2 * math.pi)) for x in (0.3, 1.1, 2.7)]
-        return all(abs(a - b) <= _SAME * (1 + abs(a)) for a, b in pairs)
 
     @cached_property
     def scale(self) -> float:
