@@ -7,7 +7,7 @@ are atoms besides those of the single angles.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from typing import TypeAlias
 
@@ -41,6 +41,9 @@ Term: TypeAlias = tuple[tuple[int, Exponent], ...]  # (atom, exponent), ascendin
 Coefficient: TypeAlias = int | Fraction
 Terms: TypeAlias = dict[Term, Coefficient]
 Angles: TypeAlias = tuple[tuple[int, int], ...]  # (cosine generator, multiple), ascending
+
+#: Functions whose arguments are shaped.
+_SHORTENED = ("abs", "sign", "exp", "cosh", "sinh")
 
 
 class Atoms:
@@ -112,20 +115,25 @@ class Atoms:
             except TypeError:  # nothing that the grammar can say, such as a Piecewise
                 tree = Name(f"#{number}")
             if generator.kind == "opaque" and isinstance(tree, Call | PartialCall):
-                tree = self._with_short_arguments(tree, generator.expression)
-            if generator.kind in ("abs", "sign") and isinstance(tree, Call):
-                short = self._with_short_arguments(tree, generator.expression)
-                if short != tree:  # |sin(a + b)|, whose expression is that of the tree
-                    return ((self.add(short), 1),)
+                given = written_arguments(generator.expression)
+                tree = self._with_short_arguments(tree, given)
+            if generator.kind in _SHORTENED and isinstance(tree, Call):
+                given = written_arguments(generator.expression)
+                return ((self._shortened(tree, given, generator.expression), 1),)
             return ((self.add(tree, generator.expression), 1),)
         return tuple((a, exact(Fraction(e) / generator.index)) for a, e in self._inside(number))
 
+    def _shortened(self, tree: Call, arguments: Iterable[Expr], expression: Expr) -> int:
+        """The atom of a function with the shortest shape of its argument, as |sin(a + b)|."""
+        short = self._with_short_arguments(tree, arguments)
+        return self.add(tree, expression) if short == tree else self.add(short)
+
     def _with_short_arguments(
-        self, tree: Call | PartialCall, expression: Expr
+        self, tree: Call | PartialCall, given_arguments: Iterable[Expr]
     ) -> Call | PartialCall:
         """U'(d) with the shortest shape of d."""
         arguments = []
-        for given, argument in zip(tree.arguments, written_arguments(expression), strict=True):
+        for given, argument in zip(tree.arguments, given_arguments, strict=True):
             try:
                 shaped = self.shape(self.field(argument))
             except ZeroDivisionError:
@@ -182,7 +190,7 @@ class Atoms:
             argument = sympy.Add(*(sympy.Mul(k, generators[g].argument) for g, k in angles))
             tree = Call(function, (self._translator.tree(argument),))
             expression = getattr(sympy, function)(argument)
-            known = self._trigonometric[key] = self.add(tree, expression)
+            known = self._trigonometric[key] = self._shortened(tree, (argument,), expression)
         return known
 
     def has_double_angle(self, terms: Terms) -> bool:
