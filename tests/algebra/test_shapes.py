@@ -183,3 +183,20 @@ def test_what_is_linear_in_the_velocities_shares_a_bracket(charge: Expr, written
 
     velocities = [s.name for s in (dx, dy, du, dv, dtheta, dphi)]
     assert to_grammar(terms(sp.expand(charge), ORDER, velocities)) == written
+
+
+@pytest.mark.parametrize("function", [cos, sin, exp, sp.cosh])
+@pytest.mark.parametrize(
+    "square",
+    [
+        (g + l1 * k**2 * sin(alpha) ** 2) / l1,
+        (m1 + m2) * (4 * m1 * m2 * k - (m1 + m2) * c**2),
+        g - l1 * k**2 * cos(alpha) ** 2,
+    ],
+)
+def test_a_radicand_has_one_shape_within_a_function_and_beside_it(function, square) -> None:
+    found = simplify(x * sqrt(square) * function(2 * sqrt(square) * t) + function(sqrt(square) * t))
+    functions = {f for f in found.atoms(function) if f.has(t)}
+    within = {p for f in functions for p in f.args[0].atoms(sp.Pow) if p.exp.q == 2}
+    beside = found.xreplace(dict.fromkeys(functions, sp.S.One)).atoms(sp.Pow)
+    assert within == {p for p in beside if p.exp.q == 2}
