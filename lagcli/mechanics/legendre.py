@@ -161,7 +161,8 @@ class Inversion:
         if linear is not None:
             yield Inverse(linear)
             return
-        yield from self._through_exponentials(block, momenta)
+        yield from self._through(sympy.exp, sympy.log, block, momenta)
+        yield from self._through(sympy.log, sympy.exp, block, momenta)
         yield from self._through_one_function(block, momenta)
         if len(block) == 1:
             for root in _real_inverses(momenta[0], variables[0], self.images[block[0]]):
@@ -172,11 +173,13 @@ class Inversion:
         images = [self.images[j] for j in block]
         return _linear_in([self.variables[j] for j in block], momenta, images)
 
-    def _through_exponentials(self, block: Block, momenta: list[Expr]) -> Iterator[Inverse]:
+    def _through(
+        self, function: type[Expr], inverse: type[Expr], block: Block, momenta: list[Expr]
+    ) -> Iterator[Inverse]:
         """With E_k = exp(a_k v + b_k) the images are linear in v and E: solve, then take logs."""
         variables, images = ([each[j] for j in block] for each in (self.variables, self.images))
-        powers = {e for p in momenta for e in p.atoms(sympy.exp) if not free_of(e, variables)}
-        flow = {e: sympy.Dummy(positive=True) for e in sorted(powers, key=sympy.default_sort_key)}
+        powers = {e for p in momenta for e in p.atoms(function) if not free_of(e, variables)}
+        flow = {e: sympy.Dummy() for e in sorted(powers, key=sympy.default_sort_key)}
         replaced = [p.xreplace(flow) for p in momenta]
         outside = [v for v in variables if any(not free_of(p, [v]) for p in replaced)]
         if not flow or len(outside) + len(flow) != len(block):
@@ -186,13 +189,10 @@ class Inversion:
             return
         values = dict(zip(outside, found, strict=False))
         rest = [v for v in variables if v not in values]
-        logs = _linear_in(
-            rest,
-            [e.args[0].xreplace(values) for e in flow],
-            [sympy.log(x) for x in found[len(outside) :]],
-        )
-        if logs is not None:
-            values |= zip(rest, logs, strict=True)
+        inside = [e.args[0].xreplace(values) for e in flow]
+        others = _linear_in(rest, inside, [inverse(x) for x in found[len(outside) :]])
+        if others is not None:
+            values |= zip(rest, others, strict=True)
             yield Inverse(tuple(values[v] for v in variables))
 
     def _through_one_function(self, block: Block, momenta: list[Expr]) -> Iterator[Inverse]:

@@ -59,8 +59,12 @@ def test_lagrangian(name: str):
     assert same(d, d.system.L, expected)
 
 
+#: Of which the way back has no closed form that is found.
+ONE_WAY = {"relativistic", "an exponential of both momenta"}
+
+
 @pytest.mark.long
-@pytest.mark.parametrize("name", [name for name in CASES if name != "relativistic"])
+@pytest.mark.parametrize("name", [name for name in CASES if name not in ONE_WAY])
 def test_back_and_forth(name: str):
     """The Hamiltonian of the Lagrangian is the one of the file, and so are its equations."""
     d = derive(CASES[name][0])
