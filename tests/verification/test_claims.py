@@ -327,6 +327,16 @@ def test_a_charge_that_moves_is_not_called_constant() -> None:
     assert not found.complete
 
 
+def test_a_steady_motion_that_is_left_out_is_found() -> None:
+    """Of the bead on the hoop, which has no cyclic coordinate."""
+    problem, answers = derived("steady/bead-on-rotating-hoop", ("steady_motions",))
+    assert verified(problem, answers) is answers
+    section = answers.sections["steady_motions"]
+    kept = tuple(each for each in section.motions if each.where)
+    sheet = {"steady_motions": replace(section, motions=kept)}
+    assert not verified(problem, replace(answers, sections=sheet)).complete
+
+
 def test_that_no_place_is_reached_is_examined() -> None:
     """From rest on top of the sphere the mass leaves it, at cos(theta) = 2/3."""
     problem, answers = derived("contact/mass-sliding-off-sphere", ("find",))

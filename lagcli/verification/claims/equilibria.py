@@ -111,9 +111,9 @@ def _another_motion(x: Examination, section: SteadySection, found: list[SteadyMo
     """A steady motion that none of these is; empty where none was found."""
     if x.reference.large or x.reference.rows or section.eliminated or section.acting:
         return ""
-    turning = sorted({name for each in found for name in each.momenta})
-    if not turning or x.problem.contacts:
+    if x.problem.contacts or any(each.rolling for each in found):
         return ""
+    turning = section.momenta
     places = [
         RestPlace(x, "the steady motions", each.at, each.rates or {}, each.on, each.where)
         for each in found
