@@ -26,6 +26,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.notation.letters import names_in
+from lagcli.notation.naming import Names
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt, rewritten
 from lagcli.statements.answers import Answers
@@ -102,7 +103,7 @@ class _Abbreviations:
     """The names chosen for some formulas, the one that saves most first."""
 
     def __init__(self, trees: Sequence[Expression], taken: Collection[str]) -> None:
-        self._taken = set(taken)
+        self._taken = Names(taken)
         self._labels: dict[Expression, str] = {}  # what is named, as it stood when it was chosen
         self._chosen: dict[str, Expression] = {}
         self._trees = list(trees)

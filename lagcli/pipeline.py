@@ -151,8 +151,9 @@ def state(derivation: Derivation, request: Request) -> Answers:
     )
     if request.abbreviate and not request.expand:
         from lagcli.abbreviations import abbreviated
+        from lagcli.notation.given_formulas import names_of
 
-        answers = abbreviated(answers, _names_of(derivation.given))
+        answers = abbreviated(answers, names_of(derivation.given))
     if VERIFYING:
         unverified = _with_charges(derivation, answers)
         problem = derivation.given if derivation.no_lagrangian else derivation.problem
@@ -185,13 +186,14 @@ def _without_charges(request: Request, answers: Answers) -> Answers:
 
 def _with_words(problem: Problem, sections: Mapping[str, Section]) -> Mapping[str, Section]:
     """The reason of the energy without the letters that mean something else in the file."""
+    from lagcli.notation.given_formulas import names_of
     from lagcli.notation.letters import sentence
     from lagcli.statements.answers import EnergySection
 
     energy = sections.get("energy")
     if not isinstance(energy, EnergySection):
         return sections
-    told = sentence(energy.reason, _names_of(problem))
+    told = sentence(energy.reason, names_of(problem))
     return {**sections, "energy": replace(energy, reason=told)}
 
 
@@ -312,25 +314,17 @@ def _ended(work: Callable[[], Made]) -> Made:
 def _in_the_manner(derivation: Derivation, told: Explanation) -> Explanation:
     """The explanation with its formulas as the file writes its own, and no letter twice."""
     from lagcli.abbreviations import in_steps
-    from lagcli.notation.letters import settled
+    from lagcli.notation.given_formulas import names_of
+    from lagcli.notation.letters import sentence, settled
     from lagcli.notation.manner import Manner
     from lagcli.rewriting import rewritten
 
-    taken = _names_of(derivation.given)
+    taken = names_of(derivation.given)
     told = replace(told, steps=rewritten(told.steps, Manner(derivation.given)))
     if derivation.large_form is None:
         told = in_steps(told, taken)
-    return replace(told, steps=settled(told.steps, taken))
-
-
-def _names_of(problem: Problem) -> set[str]:
-    """Every name that the file gives a meaning."""
-    return {
-        *(q.name for q in (*problem.coordinates, *problem.parameters)),
-        *problem.definitions,
-        *problem.functions,
-        *(c.multiplier for c in problem.constraints),
-    }
+    said = tuple(sentence(warning, taken) for warning in told.warnings)
+    return replace(told, steps=settled(told.steps, taken), warnings=said)
 
 
 def _statements(derivation: Derivation) -> Stating:

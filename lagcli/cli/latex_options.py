@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 
 import click
 
-from lagcli.formatters.greek import VARIANTS
 from lagcli.formatters.options import LatexOptions
+from lagcli.notation.greek import VARIANTS
 from lagcli.reader.suggest import did_you_mean
 
 _KNOWN = ("labels", "align", "equation", *VARIANTS)

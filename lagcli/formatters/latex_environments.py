@@ -11,9 +11,9 @@ from itertools import count
 
 from lagcli.document import Formula, Label
 from lagcli.expression import Name
-from lagcli.formatters.greek import romanized
 from lagcli.formatters.latex_display import Display, Set
 from lagcli.formatters.options import LatexOptions
+from lagcli.notation.greek import romanized
 
 _NUMBER = re.compile(r"^\d+\. ")
 #: An equation of more lines than this, a third of a page, may go on on the next page.

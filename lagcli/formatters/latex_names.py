@@ -7,10 +7,10 @@ from collections.abc import Collection, Mapping
 from unicodedata import normalize
 
 from lagcli.document import Label
-from lagcli.formatters.greek import BY_NAME, LATEX, latex_of_name
 from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.latex_width import SCRIPT, text_width
-from lagcli.formatters.naming import name_parts
+from lagcli.notation.greek import BY_NAME, LATEX, latex_of_name
+from lagcli.notation.naming import name_parts
 from lagcli.record import replace
 
 _DOTS = {1: r"\dot", 2: r"\ddot"}

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import unicodedata
 
-from lagcli.formatters.greek import CYRILLIC, LATEX, PUNCTUATION
 from lagcli.formatters.plain import harmless
+from lagcli.notation.greek import CYRILLIC, LATEX, PUNCTUATION
 
 _SIGNS = {
     "≤": r"\le",

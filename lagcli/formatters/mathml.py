@@ -22,11 +22,11 @@ from lagcli.expression import (
     Sum,
 )
 from lagcli.formatters.functions import FIXED, ON_PAPER, TRIGONOMETRIC
-from lagcli.formatters.greek import BY_NAME
-from lagcli.formatters.naming import name_parts
 from lagcli.formatters.numbers import decimal_parts, digit_groups
 from lagcli.formatters.precedence import Level, Printer, begins_with_number
+from lagcli.notation.greek import BY_NAME
 from lagcli.notation.letters import bold
+from lagcli.notation.naming import name_parts
 from lagcli.record import replace
 
 _DOTS = {1: "˙", 2: "¨"}

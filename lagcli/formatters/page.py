@@ -5,6 +5,7 @@ from __future__ import annotations
 from lagcli.document import Block, Document, Heading, Paragraph
 from lagcli.expression import Expression, Name, walk
 from lagcli.notation.letters import names_in, settled
+from lagcli.notation.naming import Names
 from lagcli.rewriting import rewritten
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration
@@ -30,8 +31,9 @@ def to_document(answers: Answers) -> Document:
         blocks.append(Heading("Warnings"))
         blocks.extend(Paragraph((warning,)) for warning in answers.warnings)
     page = Document(answers.title, tuple(blocks), answers.coordinates, answers.symbols)
-    given = {*answers.coordinates, *answers.parameters, *answers.multipliers}
-    return settled(page, given | names_in(answers.sections) - set(answers.where))
+    given = (*answers.coordinates, *answers.parameters, *answers.multipliers)
+    used = names_in(answers.sections) - set(answers.where)
+    return settled(page, Names((*given, *answers.symbols.values(), *used)))
 
 
 def _first_abbreviated(answers: Answers, declared: list[Declaration]) -> str:

@@ -19,12 +19,12 @@ from lagcli.expression import (
 )
 from lagcli.formatters.functions import ON_PAPER, TRIGONOMETRIC
 from lagcli.formatters.grammar import GrammarPrinter, text
-from lagcli.formatters.greek import BY_NAME, romanized
 from lagcli.formatters.layout import PRODUCT, Layout, TextPiece, joined
-from lagcli.formatters.naming import name_parts
 from lagcli.formatters.numbers import DecimalParts, decimal_parts
 from lagcli.formatters.precedence import Level
+from lagcli.notation.greek import BY_NAME, romanized
 from lagcli.notation.letters import in_ascii
+from lagcli.notation.naming import name_parts
 from lagcli.record import replace
 
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")

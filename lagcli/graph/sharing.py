@@ -94,7 +94,7 @@ def _stems() -> Iterator[str]:
 
 
 def _collides(stem: str, taken: Iterable[str]) -> bool:
-    return any(re.fullmatch(r"\d+", name.removeprefix(stem)) for name in taken)
+    return any(re.fullmatch(r"_?\d+", name.removeprefix(stem)) for name in taken)
 
 
 def in_order_of_use(roots: Sequence[Node]) -> Iterator[Node]:

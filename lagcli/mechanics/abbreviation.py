@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from lagcli.expression import Expression, operation_count
 from lagcli.graph.nodes import Call, Node, Sum, Symbol, mask_of
 from lagcli.graph.sharing import GraphWriter, in_order_of_use, repeated
+from lagcli.notation.naming import Names
 from lagcli.record import record
 
 #: More abbreviations than this fill more than a page; a chain of six links on a cart has 74.
@@ -82,7 +83,7 @@ class PartLabels:
     """
 
     def __init__(self, taken: Collection[str]) -> None:
-        self._taken = set(taken)
+        self._taken = Names(taken)
         self._stem = free_stem(("k", "h", "shared"), taken)
         self._of: dict[Node, str] = {}
         self._count = 0
@@ -94,7 +95,7 @@ class PartLabels:
 
     def take(self, names: Iterable[str]) -> None:
         """Give no part one of these names."""
-        self._taken.update(names)
+        self._taken.add(*names)
 
     def __call__(self, node: Node) -> str:
         """The name of a part."""

@@ -39,7 +39,6 @@ from lagcli.mechanics.identities import vanish
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.mechanics.symbolic_elimination import StepNames, SymbolicElimination
 from lagcli.notation.given_formulas import order_of_parameters
-from lagcli.problem_data import Problem
 from lagcli.record import record
 
 _CLOSE = 30  # digits to which the residuals vanish
@@ -53,20 +52,6 @@ class ClosedSolution:
     accelerations: tuple[Expression, ...]
     multipliers: tuple[Expression, ...]
     where: Mapping[str, Expression]
-
-
-def names_of(problem: Problem) -> set[str]:
-    """Every name that the file gives a meaning."""
-    return {
-        *(q.name for q in (*problem.parameters, *problem.coordinates)),
-        *(f"p_{q.name}" for q in problem.coordinates),
-        *problem.definitions,
-        *problem.functions,
-        *(c.multiplier for c in problem.constraints),
-        *(point.name for point in problem.points),
-        "t",
-        "pi",
-    }
 
 
 class ClosedForm:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import Expression
+from lagcli.notation.given_formulas import names_of
+from lagcli.notation.naming import Names
 from lagcli.platform.effort import OutOfWork
 from lagcli.platform.failures import describe
 from lagcli.platform.limited import limited
@@ -133,11 +135,9 @@ class Stating:
         return ClosedForm(self._matrix_form_of_problem(), self.taken)
 
     @property
-    def taken(self) -> set[str]:
+    def taken(self) -> Names:
         """Every name that the file gives a meaning."""
-        from lagcli.mechanics.closed_form import names_of
-
-        return names_of(self.problem) | self.reserved
+        return Names((*names_of(self.problem), *self.reserved))
 
     def abbreviated(self, find: Callable[[ClosedForm], Kept | None]) -> Kept | None:
         """A closed form with its abbreviations noted; None where there is none."""

@@ -18,6 +18,7 @@ from lagcli.expression import (
     Sum,
     walk,
 )
+from lagcli.notation.naming import Names
 from lagcli.problem_data import Problem
 
 _PARTS = (
@@ -127,3 +128,20 @@ def decimals_of(problem: Problem, settings: Iterable[str] = ()) -> list[Fraction
         value = setting.partition("=")[2]
         found += [Fraction(text) for text in _DECIMAL.findall(value)]
     return [value for value in found if value.denominator != 1]
+
+
+def names_of(problem: Problem) -> Names:
+    """Every name that the file gives a meaning."""
+    quantities = (*problem.coordinates, *problem.parameters)
+    return Names(
+        (
+            *(q.name for q in quantities),
+            *(q.symbol for q in quantities if q.symbol),
+            *problem.definitions,
+            *problem.functions,
+            *(c.multiplier for c in problem.constraints),
+            *(c.multiplier for c in problem.contacts),
+            "t",
+            "pi",
+        )
+    )

@@ -14,6 +14,7 @@ from unicodedata import normalize
 
 from lagcli.document import Items, Label, Paragraph
 from lagcli.expression import FUNCTIONS, Call, Expression, Name, PartialCall, Sum, walk
+from lagcli.notation.naming import INDEX, free
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt
 
@@ -21,7 +22,6 @@ Page = TypeVar("Page")
 
 #: What stands before a letter of ours until it is known whether the file has it.
 _OWN = "&"
-_INDEX = "sys"
 #: What a sentence says where a letter is the file's; the first that fits counts.
 _WORDS = (
     ("T + V", "TV", "the sum of the kinetic and the potential energy"),
@@ -65,7 +65,7 @@ def names_in(value: object) -> set[str]:
 
 def settled(page: Page, taken: Collection[str]) -> Page:
     """The page with every letter of its own free of those that are taken."""
-    return cast(Page, _settled(page, frozenset(taken)))
+    return cast(Page, _settled(page, taken))
 
 
 def sentence(text: str, taken: Collection[str]) -> str:
@@ -77,12 +77,12 @@ def sentence(text: str, taken: Collection[str]) -> str:
     return text
 
 
-def _settled(value: Any, taken: frozenset[str]) -> Any:
+def _settled(value: Any, taken: Collection[str]) -> Any:
     match value:
         case Label():
             return _label(value, taken)
         case Name(name=name) if name.startswith(_OWN):
-            return replace(value, name=_free(name.removeprefix(_OWN), taken))
+            return replace(value, name=free(taken, name.removeprefix(_OWN)))
         case Expression():
             if not any(isinstance(p, Name) and p.name.startswith(_OWN) for p in walk(value)):
                 return value
@@ -101,7 +101,7 @@ def _settled(value: Any, taken: frozenset[str]) -> Any:
             return value
 
 
-def _said(parts: tuple[Any, ...], taken: frozenset[str]) -> tuple[Any, ...]:
+def _said(parts: tuple[Any, ...], taken: Collection[str]) -> tuple[Any, ...]:
     found: list[Any] = []
     for part in parts:
         if isinstance(part, str):
@@ -132,19 +132,15 @@ def bold(letter: str) -> str:
 
 def in_ascii(letter: str) -> str:
     """The letter itself; M_sys of a bold 𝐌, where the file has an M of its own."""
-    return letter if letter == (plain := normalize("NFKC", letter)) else f"{plain}_{_INDEX}"
+    return letter if letter == (plain := normalize("NFKC", letter)) else f"{plain}_{INDEX}"
 
 
-def _label(label: Label, taken: frozenset[str]) -> Label:
+def _label(label: Label, taken: Collection[str]) -> Label:
     if label.matrix and label.letter in taken:
         return replace(label, letter=bold(label.letter))
-    spelled = "_".join((label.letter, *label.index))
-    if label.matrix or label.change or label.unit or spelled not in taken:
+    spelled, index = "_".join((label.letter, *label.index)), label.index
+    if label.matrix or label.change or label.unit:
         return label
-    return replace(label, index=(*label.index, _INDEX))
-
-
-def _free(letter: str, taken: frozenset[str]) -> str:
-    while letter in taken:
-        letter += f"_{_INDEX}"
-    return letter
+    while spelled in taken:
+        spelled, index = f"{spelled}_{INDEX}", (*index, INDEX)
+    return replace(label, index=index)

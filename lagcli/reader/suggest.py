@@ -5,6 +5,8 @@ from __future__ import annotations
 import unicodedata
 from typing import TYPE_CHECKING
 
+from lagcli.notation.greek import BY_LETTER
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -34,11 +36,6 @@ _ELSEWHERE = {
 
 #: Names longer than this, and more names than these, are not compared.
 _LONGEST, _MOST = 60, 300
-
-_GREEK = {
-    letter: unicodedata.name(letter).rpartition(" ")[2].lower().replace("lamda", "lambda")
-    for letter in "αβγδεζηθικλμνξοπρςστυφχψω"
-}
 
 #: Cyrillic letters, which look like Latin ones.
 _CYRILLIC = dict(zip("асеорхуіјкмтн", "aceopxyijkmth", strict=True))
@@ -82,7 +79,7 @@ def closest(name: str, known: Iterable[str]) -> str:
 
 def _spelled_out(name: str) -> str:
     """Greek letters by their names: `theta` for θ, and `theta_1` for θ_1."""
-    return "".join(_GREEK.get(letter, letter) for letter in name)
+    return "".join(BY_LETTER.get(letter, letter) for letter in name)
 
 
 def _folded(name: str) -> str:

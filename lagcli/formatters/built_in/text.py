@@ -19,7 +19,6 @@ from lagcli.document import (
     Row,
 )
 from lagcli.formatters.display_width import display_width
-from lagcli.formatters.greek import romanized
 from lagcli.formatters.layout import (
     COMMA,
     RELATION,
@@ -34,6 +33,7 @@ from lagcli.formatters.page import to_document
 from lagcli.formatters.plain import FIRM_SPACE, filled, harmless
 from lagcli.formatters.unicode import AsciiPrinter, UnicodePrinter
 from lagcli.formatters.units import unicode_unit
+from lagcli.notation.greek import romanized
 from lagcli.statements.answers import Answers
 from lagcli.units import Unit
 

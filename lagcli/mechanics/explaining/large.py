@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from lagcli.document import Block, Equations, Items, Row
 from lagcli.expression import Diff, Name, Product, Rate
 from lagcli.graph.sharing import operations
-from lagcli.mechanics.closed_form import ClosedForm, ClosedSolution, names_of
+from lagcli.mechanics.closed_form import ClosedForm, ClosedSolution
 from lagcli.mechanics.explaining.words import (
     Letters,
     Part,
@@ -19,6 +19,7 @@ from lagcli.mechanics.explaining.words import (
 )
 from lagcli.mechanics.large_charges import LargeCharges
 from lagcli.mechanics.matrix_form import MatrixForm
+from lagcli.notation.given_formulas import names_of
 from lagcli.statements.explanation import Explanation, ExplanationStep
 
 UNSOLVED = "the accelerations and multipliers were not solved in closed form"

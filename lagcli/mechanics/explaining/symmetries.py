@@ -212,7 +212,10 @@ def _brackets(teller: Teller, *, closed: bool) -> Iterator[Block]:
                 "linear combinations of them and of constants."
             )
         return
-    known = {each.name: hamiltonian.in_phase_space(each.charge) for each in charges}
+    known = {
+        teller.letters.free(each.name).name: hamiltonian.in_phase_space(each.charge)
+        for each in charges
+    }
     rows, commuting, other = [], 0, 0
     for one, two in combinations(known, 2):
         value = poisson(known[one], known[two], teller.system)

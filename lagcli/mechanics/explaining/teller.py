@@ -18,7 +18,7 @@ class Teller:
         self.system = derivation.system
         self.dynamics = derivation.dynamics
         self.readable = Readable(self.dynamics)
-        self.letters = Letters(self.problem)
+        self.letters = Letters(derivation.given)
 
     @property
     def velocities(self) -> tuple[Name, ...]:

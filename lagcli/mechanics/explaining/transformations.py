@@ -13,6 +13,7 @@ from lagcli.expression import Diff, Expression, Name, Negative, Number, Product,
 from lagcli.mechanics.canonical.transformation import CanonicalTest
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import says, shows
+from lagcli.notation.letters import own
 from lagcli.statements.answers import Section
 from lagcli.statements.phase_space import ExaminedTransformation, TransformationsSection
 
@@ -200,10 +201,12 @@ def _explicit(each: ExaminedTransformation) -> tuple[str | Formula, ...]:
     if each.generator is not None and each.generator.kind != "F":
         return (", plus the partial derivative of ", Label("F", (each.generator.kind[1],)),
                 " with respect to t")  # fmt: skip
-    P, Q, t = Name("P"), Name("Q"), Name("t")
-    whose = ", plus a function of P, Q and t, determined up to a function of t, whose "
-    by = "derivatives with respect to P and Q are "
-    return (whose + by, Diff(Q, t), " and ", Negative(Diff(P, t)), " at constant q and p")
+    P, Q, t = own("P"), own("Q"), Name("t")
+    return (
+        *(", plus a function of ", P, ", ", Q, " and t, determined up to a function of t, whose "),
+        *("derivatives with respect to ", P, " and ", Q, " are "),
+        *(Diff(Q, t), " and ", Negative(Diff(P, t)), " at constant q and p"),
+    )
 
 
 def _names(tree: Expression) -> set[str]:

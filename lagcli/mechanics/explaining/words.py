@@ -6,6 +6,8 @@ from collections.abc import Iterable, Sequence
 
 from lagcli.document import Equations, Formula, Label, Paragraph, Row
 from lagcli.expression import Expression, Name, Negative, Sum
+from lagcli.notation.given_formulas import names_of
+from lagcli.notation.naming import free
 from lagcli.problem_data import Problem
 
 Part = str | Formula
@@ -80,19 +82,13 @@ class Letters:
     """The letters of mechanics, with `_sys` added where the file means something else by them."""
 
     def __init__(self, problem: Problem) -> None:
-        quantities = (*problem.coordinates, *problem.parameters)
-        self._taken = {
-            *(quantity.name for quantity in quantities),
-            *problem.definitions,
-            *problem.functions,
-            *(c.multiplier for c in problem.constraints),
-        }
+        self._taken = names_of(problem)
         self.L, self.T, self.V, self.D, self.h, self.Q, self.G = map(self.free, "LTVDhQG")
         #: any one of the coordinates, where there are several
         self.several = len(problem.coordinates) > 1
-        self.q = Name("q_j") if self.several else Name(problem.coordinates[0].name)
+        self.q = self.free("q_j") if self.several else Name(problem.coordinates[0].name)
         self.velocity = Name(self.q.name, 1)
-        self.force = Name(f"Q_{self.q.name if not self.several else 'j'}")
+        self.force = self.free(f"Q_{'j' if self.several else self.q.name}")
 
     @property
     def moved(self) -> list[str]:
@@ -101,7 +97,7 @@ class Letters:
 
     def free(self, letter: str) -> Name:
         """The letter, or another one where the file has it."""
-        return Name(f"{letter}_sys" if letter in self._taken else letter)
+        return Name(free(self._taken, letter))
 
     def f(self, constraint: str) -> Name:
         """Left side minus right side of a constraint."""

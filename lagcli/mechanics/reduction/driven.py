@@ -12,15 +12,15 @@ Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., chapter 10, exercise 8.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 from sympy import Add, Expr, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of, symbol
-from lagcli.mechanics.reduction.minimal import unused_name
 from lagcli.mechanics.system import System
+from lagcli.notation.naming import free
 from lagcli.record import record
 
 
@@ -50,7 +50,7 @@ class Driven:
 
 
 def driven(
-    H: Expr, system: System, alpha: Callable[[int], Symbol], taken: set[str]
+    H: Expr, system: System, alpha: Callable[[int], Symbol], taken: Collection[str]
 ) -> Driven | None:
     """The complete integral, put back into the equation; None where H is not of that form."""
     q, p, t = system.q, system.momenta, system.t
@@ -65,7 +65,7 @@ def driven(
         constants.append(alpha(1 + sum(c not in p for c in constants)) if pushed else p[j])
         impulse = antiderivative(force, t) if pushed else S.Zero
         if impulse is None:
-            impulse = symbol(unused_name([f"I_{q[j].name}"], taken))
+            impulse = symbol(free(taken, f"I_{q[j].name}"))
             integrals[impulse] = force
         momenta.append(constants[j] + impulse)
     rest = simplify(Add(H, *(x * force for x, force in zip(q, forces, strict=True))))

@@ -11,9 +11,8 @@ Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., section 1.4.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from itertools import chain, count
 
 import sympy
 from sympy import Expr, S, Symbol
@@ -143,9 +142,3 @@ def with_lagrangian(
         initial={name: value for name, value in old.initial.items() if name.name in names},
     )
     return Derivation(problem)
-
-
-def unused_name(choices: Sequence[str], used: Collection[str]) -> str:
-    """The first of the names that is not used, or else the first of all with a number."""
-    numbered = (f"{choices[0]}_{number}" for number in count(1))
-    return next(name for name in chain(choices, numbered) if name not in used)

@@ -26,11 +26,12 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.parameter_values import DIGITS, admissible_values
-from lagcli.mechanics.reduction.minimal import unused_name
 from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady import SteadyMotions
 from lagcli.mechanics.stability.near import contradictory
+from lagcli.notation.given_formulas import names_of
+from lagcli.notation.naming import free
 
 _ZERO = mpf(10) ** -(DIGITS - 15)
 _TRIED = 24
@@ -155,6 +156,6 @@ class ReducedFreedom:
 def free_name(routh: Routh, choices: tuple[str, ...]) -> str:
     """The first name that the problem does not use."""
     assert routh.reduced is not None
-    used = {*routh.reduced.system.order, *routh.full.system.order}
-    used |= {*routh.full.problem.functions, *routh.full.problem.definitions}
-    return unused_name(choices, used)
+    used = names_of(routh.full.problem)
+    used.add(*routh.reduced.system.order)
+    return free(used, *choices)

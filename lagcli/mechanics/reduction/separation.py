@@ -32,7 +32,9 @@ from lagcli.algebra.factors import factors_of
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.driven import Driven, driven
 from lagcli.mechanics.reduction.known_signs import KnownSigns
-from lagcli.mechanics.reduction.minimal import minimal, unused_name
+from lagcli.mechanics.reduction.minimal import minimal
+from lagcli.notation.given_formulas import names_of
+from lagcli.notation.naming import free
 from lagcli.record import record
 
 #: More coordinates than this are not tried.
@@ -93,10 +95,9 @@ class Separation:
         self.derivation = minimal(derivation)
         self.system = self.derivation.system
         self.reason = ""
-        used = {*self.system.order, *self.system.problem.functions}
-        used |= {*derivation.problem.definitions, *derivation.system.order}
-        self._used = used
-        self.E = symbol(unused_name(("E", "h", "E_0", "h_0"), used))
+        self._used = used = names_of(derivation.given)
+        used.add(*self.system.order)
+        self.E = symbol(free(used, "E", "h", "E_0", "h_0"))
         self._letter = next(
             x for x in LETTERS if not any(f"{x}_{n}" in used for n in range(1, MOST))
         )
