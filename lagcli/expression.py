@@ -16,6 +16,9 @@ from lagcli.record import field, record
 
 Value = TypeVar("Value")
 
+#: A fraction within the numerator of another is worth that many operations: the spherical
+#: p_r²/(2 m) + (p_theta² + p_phi²/sin²)/(2 m r²), not (p_r² + (p_theta² + …)/r²)/(2 m).
+_WITHIN = 2
 #: Functions of the grammar with a fixed meaning, and their number of arguments.
 FUNCTIONS: dict[str, int] = {
     **dict.fromkeys(
@@ -240,6 +243,14 @@ def operation_count(node: Expression) -> int:
             case _:
                 count += 1
     return count
+
+
+def length(node: Expression) -> int:
+    """How long a formula is to read: its operations, and more for fractions within fractions."""
+    above = (part.numerator for part in walk(node) if isinstance(part, Quotient))
+    brackets = (part for numerator in above for part in walk(numerator) if isinstance(part, Sum))
+    within = sum(isinstance(term, Quotient) for bracket in brackets for term in bracket.terms)
+    return operation_count(node) + _WITHIN * within
 
 
 def has_nested_fraction(node: Expression) -> bool:

@@ -28,6 +28,7 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    length,
     operation_count,
     walk,
 )
@@ -77,16 +78,16 @@ def terms(
     if split is None:
         assert given is not None
         result = shape(expression, order)
-        return given if operation_count(given) <= _GIVEN * operation_count(result) else result
+        return given if length(given) <= _GIVEN * length(result) else result
     static = writer.sum(split.static)
     at_rest = _given_at_rest(expression, leading, writer) if as_given and growth.is_one() else None
-    if at_rest is not None and operation_count(at_rest) <= _GIVEN * operation_count(static):
+    if at_rest is not None and length(at_rest) <= _GIVEN * length(static):
         static = at_rest
     result = writer.sum([*split.moving, static])
     if not growth.is_one():
         one = Fraction(1)
         result = writer.product(one, [(result, one), (shaper.shape(growth), one)])
-    return given if given and operation_count(given) <= operation_count(result) else result
+    return given if given and length(given) <= length(result) else result
 
 
 def _common_exponential(field: Field, element: Element) -> Element:

@@ -19,14 +19,13 @@ from lagcli.algebra.writing import Writer
 from lagcli.expression import (
     Expression,
     Name,
-    Quotient,
     Sum,
     has_nested_fraction,
+    length,
     operation_count,
     sum_of,
-    walk,
 )
-from lagcli.mechanics.hamiltonian import Hamiltonian
+from lagcli.mechanics.hamiltonian import GivenHamiltonian, Hamiltonian
 from lagcli.mechanics.legendre import coupled
 from lagcli.mechanics.readable import Readable
 from lagcli.rewriting import rebuilt
@@ -34,15 +33,14 @@ from lagcli.rewriting import rebuilt
 #: How many times the operations of one bracket over all the energies apart may take: 1.6 for
 #: a block on a movable wedge, the most that was worth it in 52 systems of textbooks.
 _APART = 1.75
-#: A fraction within the numerator of another is worth that many operations: the spherical
-#: p_r²/(2 m) + (p_theta² + p_phi²/sin²)/(2 m r²), not (p_r² + (p_theta² + …)/r²)/(2 m).
-_WITHIN = 2
 #: Stands for a potential energy beside which the kinetic one is shaped.
 _OTHER = Symbol("_V", real=True)
 
 
-def hamiltonian_form(hamiltonian: Hamiltonian, readable: Readable) -> Expression | None:
-    """The tree of H; None where it was not found.
+def hamiltonian_form(
+    hamiltonian: Hamiltonian | GivenHamiltonian, readable: Readable
+) -> Expression | None:
+    """The tree of H, as the file has it if it gives H; None where it was not found.
 
     Raises
     ------
@@ -53,26 +51,14 @@ def hamiltonian_form(hamiltonian: Hamiltonian, readable: Readable) -> Expression
     if function is None:
         return None
     whole = readable.as_written(function)
-    if not hamiltonian.legendre.is_quadratic:
+    if isinstance(hamiltonian, GivenHamiltonian) or not hamiltonian.legendre.is_quadratic:
         return whole
-    least = min(_apart(hamiltonian, readable), key=_length, default=whole)
-    return least if operation_count(least) <= _APART * operation_count(whole) else whole
-
-
-def _length(node: Expression) -> tuple[bool, int]:
-    return has_nested_fraction(node), operation_count(node) + _WITHIN * _fractions_within(node)
-
-
-def _fractions_within(node: Expression) -> int:
-    """How many fractions stand in sums over something, each counted once for every one."""
-    above = (part.numerator for part in walk(node) if isinstance(part, Quotient))
-    return sum(
-        isinstance(part, Quotient)
-        for numerator in above
-        for bracket in walk(numerator)
-        if isinstance(bracket, Sum)
-        for part in bracket.terms
+    least = min(
+        _apart(hamiltonian, readable),
+        key=lambda form: (has_nested_fraction(form), length(form)),
+        default=whole,
     )
+    return least if operation_count(least) <= _APART * operation_count(whole) else whole
 
 
 def _apart(hamiltonian: Hamiltonian, readable: Readable) -> Iterator[Expression]:

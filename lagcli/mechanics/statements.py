@@ -88,13 +88,9 @@ class Statements(Stating):
 
     def hamiltonian(self) -> Expression | None:
         """H with its energies apart; None where it was not found."""
-        from lagcli.mechanics.hamiltonian import GivenHamiltonian
         from lagcli.mechanics.hamiltonian_form import hamiltonian_form
 
-        found = self.derivation.hamiltonian
-        if isinstance(found, GivenHamiltonian):
-            return self.as_written(found.function)
-        return hamiltonian_form(found, self.readable)
+        return hamiltonian_form(self.derivation.hamiltonian, self.readable)
 
     def on_surface(self, expression: Expr) -> Expression:
         """Readable, with the constraints used."""

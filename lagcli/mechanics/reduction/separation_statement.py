@@ -9,6 +9,8 @@ from lagcli.algebra import shape, terms
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Call, Expression, Name, operation_count
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.hamiltonian_form import hamiltonian_form
+from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.reduction.driven import Driven
 from lagcli.mechanics.reduction.quadrature import ElementaryAction, closed_forms
 from lagcli.mechanics.reduction.readable import conditions
@@ -37,7 +39,7 @@ def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Miss
     closed = _functions(separation)
     return (
         HamiltonJacobiSection(
-            hamiltonian=None if H is None else shape(H, writer.order),
+            hamiltonian=None if H is None else _hamiltonian(separation),
             energy=separation.E.name,
             separable=separation.separable,
             obstacle=() if obstacle is None else tuple(system.names[j] for j in obstacle),
@@ -73,8 +75,7 @@ def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Miss
 
 
 def _by_forces_of_time(separation: Separation, found: Driven) -> HamiltonJacobiSection:
-    system, H = separation.system, separation.derivation.hamiltonian.function
-    assert H is not None
+    system = separation.system
     constants = tuple(constant.name for constant in found.constants)
     order = (*(n for n in system.order if n not in constants), *constants)
     order = (*order, *(i.name for i in found.integrals))
@@ -83,7 +84,7 @@ def _by_forces_of_time(separation: Separation, found: Driven) -> HamiltonJacobiS
         return shape(expression, order)
 
     return HamiltonJacobiSection(
-        hamiltonian=sum_(H),
+        hamiltonian=_hamiltonian(separation),
         energy=separation.E.name,
         separable=True,
         constants=constants,
@@ -92,6 +93,11 @@ def _by_forces_of_time(separation: Separation, found: Driven) -> HamiltonJacobiS
         of_time=None if found.of_time is None else sum_(found.of_time),
         integrals={i.name: sum_(force) for i, force in found.integrals.items()},
     )
+
+
+def _hamiltonian(separation: Separation) -> Expression | None:
+    found = separation.derivation
+    return hamiltonian_form(found.hamiltonian, Readable(found.dynamics))
 
 
 def _functions(separation: Separation) -> dict[str, tuple[ElementaryAction, ...]]:
@@ -118,7 +124,7 @@ class _Writing:
 
     def sum(self, expression: Expr) -> Expression:
         """The shorter of the terms by constants and the whole."""
-        by_terms = terms(expression, self.order, self.leading)
+        by_terms = terms(expression, self.order, self.leading, as_given=True)
         whole = shape(expression, self.order)
         return whole if operation_count(whole) < operation_count(by_terms) - 2 else by_terms
 
