@@ -56,7 +56,7 @@ class GivenSums:
                 self._keep(cast(Sum, part), value)
 
     def _keep(self, node: Sum, value: Polynomial | None) -> None:
-        if value and is_tidy(node):
+        if value and len(value) >= len(node.terms) and is_tidy(node):  # M + M is 2 M
             shown = cast(Sum, _arranged(node, self._ordering))
             self._found.setdefault(_leaves(node), []).append((value, shown))
 

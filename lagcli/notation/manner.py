@@ -281,7 +281,8 @@ class Manner:
                 if like is not None and like[0] != 1:
                     number *= like[0] ** (sign * exponent)
                     factors[place] = with_base(factor, like[1])
-        if number == 1:
+        whole = [any(isinstance(f, Number) for f in factors) for factors in (above, below)]
+        if number == 1 and not all(whole):
             return minus, above, below
         for factors, sign in (above, 1), (below, -1):
             numbers = [f for f in factors if isinstance(f, Number)]
