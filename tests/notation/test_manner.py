@@ -15,7 +15,7 @@ from lagcli.graph.nodes import Graph
 from lagcli.graph.reading import GraphReader
 from lagcli.graph.values import Floats, Program
 from lagcli.notation.manner import Manner
-from lagcli.pipeline import read
+from lagcli.pipeline import Request, derive, read, state
 from lagcli.reader.expressions import parse_text
 
 FILE = """
@@ -120,3 +120,31 @@ def test_rows_that_differ_by_a_coordinate_have_their_factors_in_one_order():
     assert [to_grammar(write(parse_text(row))) for row in rows] == [
         f"k*({first})*{near}" for first in ("a - b", "c - d")
     ]
+
+
+@pytest.mark.parametrize(
+    ("kinetic", "hamiltonian"),
+    [
+        ("(m + M/3)*x'^2/2", "p_x^2/(2*(m + M/3))"),
+        ("m*(b^2/3 + r^2*x^2)*x'^2/2", "p_x^2/(2*m*(b^2/3 + r^2*x^2))"),
+        ("(M + M + m/3)*x'^2/2", "3*p_x^2/(2*(6*M + m))"),
+    ],
+)
+def test_numbers_beside_a_sum_of_the_file_cancel(kinetic, hamiltonian):
+    text = (
+        "title: t\ncoordinates: [x]\nparameters: {m: {assume: positive}, M: {assume: positive}, "
+        f'b: {{assume: positive}}, r: {{assume: positive}}}}\nT: "{kinetic}"\nV: 0\n'
+    )
+    found = state(derive(read("t.yaml", text.encode()).problem), Request(sections=("hamiltonian",)))
+    assert to_grammar(found.sections["hamiltonian"].hamiltonian) == hamiltonian
+
+
+@pytest.mark.parametrize("section", ["hamiltonian", "hamilton_jacobi"])
+def test_a_potential_keeps_the_terms_of_the_file(section):
+    text = (
+        "title: t\ncoordinates: {r: {assume: positive}, phi: {}}\n"
+        "parameters: {m: {assume: positive}, k: {assume: positive}, beta: {}}\n"
+        "T: m*(r'^2 + r^2*phi'^2)/2\nV: -k/r + beta/r^2\n"
+    )
+    found = state(derive(read("t.yaml", text.encode()).problem), Request(sections=(section,)))
+    assert to_grammar(found.sections[section].hamiltonian).endswith("/(2*m) - k/r + beta/r^2")
