@@ -7,7 +7,7 @@ back, the formatters print them.  So neither reading nor printing imports SymPy.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import TypeVar
 
@@ -221,6 +221,22 @@ def product_of(factors: Iterable[Expression]) -> Expression:
 def quotient_of(above: Iterable[Expression], below: Collection[Expression]) -> Expression:
     """The product of the factors above over that of those below, where there are any."""
     return Quotient(product_of(above), product_of(below)) if below else product_of(above)
+
+
+def multiple_of(
+    number: Fraction, above: Sequence[Expression], below: Sequence[Expression]
+) -> Expression:
+    """A number times factors over others: its numerator and denominator stand in front of them."""
+    size = abs(number)
+    over = [Number(Fraction(size.numerator))] if size.numerator != 1 or not above else []
+    under = [Number(Fraction(size.denominator))] if size.denominator != 1 else []
+    found = quotient_of(
+        *(
+            [part for factor in factors for part in factors_of(factor)]
+            for factors in ([*over, *above], [*under, *below])
+        )
+    )
+    return Negative(found) if number < 0 else found
 
 
 def opposite(node: Expression) -> Expression:

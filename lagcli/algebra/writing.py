@@ -17,7 +17,7 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
-    factors_of,
+    multiple_of,
     operation_count,
     opposite,
     product_of,
@@ -55,15 +55,7 @@ class Writer:
             coefficient, pairs = self._turned(coefficient, pairs)
         above = self._factors(pairs, 1)
         below = self._factors(pairs, -1)
-        size = abs(coefficient)
-        if size.numerator != 1 or not above:
-            above.insert(0, Number(Fraction(size.numerator)))
-        if size.denominator != 1:
-            below.insert(0, Number(Fraction(size.denominator)))
-        result = _product(above)
-        if below:
-            result = Quotient(result, _product(below))
-        return Negative(result) if coefficient < 0 else result
+        return multiple_of(coefficient, above, below)
 
     def _into_exponentials(self, pairs: list[Factor]) -> list[Factor]:
         """exp(-2 x) - exp(-x) for (1 - exp(x)) exp(-2 x)."""
@@ -223,13 +215,6 @@ def _is_exponential(node: Expression) -> bool:
 def _grows(node: Expression) -> bool:
     """Whether an exponential is among the factors of a term."""
     return any(map(_is_exponential, bases(node)))
-
-
-def _product(factors: list[Expression]) -> Expression:
-    flat: list[Expression] = []
-    for factor in factors:
-        flat.extend(factors_of(factor))
-    return product_of(flat)
 
 
 def _merged(pairs: Iterable[Factor]) -> list[Factor]:

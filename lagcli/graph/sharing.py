@@ -13,7 +13,7 @@ from fractions import Fraction
 from itertools import count
 
 from lagcli import expression as tree
-from lagcli.expression import ONE, Expression
+from lagcli.expression import Expression
 from lagcli.graph.nodes import Call, Constant, Node, Product, Sum, Symbol, split
 from lagcli.record import record
 
@@ -238,15 +238,7 @@ class GraphWriter:
         factors.sort(key=lambda each: each[0])
         above = [_raised(base, e) for _, base, e in factors if e > 0]
         below = [_raised(base, -e) for _, base, e in factors if e < 0]
-        size = abs(number)
-        if size.numerator != 1 or not above:
-            above.insert(0, _number(Fraction(size.numerator)))
-        if size.denominator != 1:
-            below.insert(0, _number(Fraction(size.denominator)))
-        result = _times(above)
-        if below:
-            result = tree.Quotient(result, _times(below))
-        return tree.Negative(result) if number < 0 else result
+        return tree.multiple_of(number, above, below)
 
     def _key(self, base: Node) -> tuple[int, ...]:
         """Leading names, parameters, t, q, q'; then other names of parts; sums; functions."""
@@ -279,12 +271,3 @@ def _raised(base: Expression, exponent: Fraction) -> Expression:
     if exponent == Fraction(1, 2):
         return tree.Call("sqrt", (base,))
     return tree.Power(base, _number(exponent))
-
-
-def _times(factors: list[Expression]) -> Expression:
-    if not factors:
-        return ONE
-    flat: list[Expression] = []
-    for factor in factors:
-        flat.extend(tree.factors_of(factor))
-    return flat[0] if len(flat) == 1 else tree.Product(tuple(flat))
