@@ -137,7 +137,7 @@ def _value(formula: Expression) -> float:
 
 
 def is_known(option: str, name: str, names: tuple[str, ...]) -> bool:
-    """Whether a name is one of those that there are; told where it is not."""
+    """Whether a name is a known one; a message where it is not."""
     if name in names:
         return True
     advice = did_you_mean(name, names) or f"there are {', '.join(names)}"

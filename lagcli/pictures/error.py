@@ -21,7 +21,7 @@ from lagcli.pictures.run import PicturedRun, short
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 
-#: So much more exact is the reference, and so many digits it may carry.
+#: By this factor the reference is more exact; the most digits it may carry.
 _FINER, _DIGITS = 1e-3, 40
 _MOST = 7
 

@@ -42,7 +42,7 @@ Progress = Callable[[float], None]
 
 #: Motions that enter through each edge, their accuracy and their rows.
 _EDGE, _ACCURACY, _ROWS = 6, 1e-6, 301
-#: A motion is followed for so many times of the quickest equilibrium.
+#: A motion is followed for this multiple of the time of the quickest equilibrium.
 _LONG = 12.0
 #: How near to a saddle its manifolds begin, in widths of the window.
 _NEAR = 1e-4

@@ -68,7 +68,7 @@ class Labels:
         return unit if unit is not None and _is_written(unit) else None
 
     def _rate(self, unit: Unit, primes: int) -> Unit:
-        """The unit by the time, so many times."""
+        """The unit divided by the time, once for each derivative."""
         assert self._inference is not None
         time = self._inference.unit(TIME)
         powers = dict(unit.factors)

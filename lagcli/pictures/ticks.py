@@ -26,7 +26,7 @@ _ANGLE_FROM = 0.9 * math.pi
 
 
 def ticks(axis: Axis, most: int = 7) -> list[Tick]:
-    """Round values within the axis, at most so many of them."""
+    """Round values within the axis, at most this number of them."""
     if axis.logarithmic:
         return _powers(axis, most)
     if axis.angle and _ANGLE_FROM <= axis.high - axis.low <= 600:

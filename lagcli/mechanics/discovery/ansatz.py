@@ -114,7 +114,7 @@ def affine(found: Kinds) -> list[Expr]:
 
 
 def quadratic(found: Kinds, most: int) -> list[Expr]:
-    """At most so many functions for Killing tensors: second degree in lengths, sin and cos."""
+    """A bounded number of functions for Killing tensors: second degree in lengths, sin and cos."""
     one = sympy.S.One
     x = [y - found.centre.get(y, 0) for y in found.lengths]
     squares = [a * b for i, a in enumerate(x) for b in x[: i + 1]]

@@ -42,7 +42,7 @@ class Relation:
         self.tree = Tree([*more, *(e for v in self.vectors for e in v)], variables, allowed)
 
     def rows(self, count: int) -> list[list[int]]:
-        """At least so many rows of values, modulo a prime; columns are the vectors."""
+        """At least this number of rows of values, modulo a prime; columns are the vectors."""
         return self.tree.rows(self.vectors, count)
 
     def independent(self) -> list[int]:
@@ -52,7 +52,7 @@ class Relation:
     def kernel(self, components: int = 1) -> list[dict[int, int]]:
         """A basis of the relations modulo the prime: each has one vector that no other has.
 
-        The rows are drawn for a rank that so many components of the vectors have.
+        The rows are drawn for a rank of this number of components of the vectors.
         """
         width = len(self.vectors)
         return kernel_modulo(self.rows((width + 8) * components), width)[1]

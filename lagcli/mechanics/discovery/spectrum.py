@@ -79,7 +79,7 @@ def roots_of(determinant: Expr, lam: Symbol) -> Iterator[Exponent]:
 
 
 def differences(found: Sequence[Exponent], most: int = 8) -> list[Exponent]:
-    """Twice each frequency, then differences and sums of two exponents: at most so many."""
+    """Twice each frequency, then differences and sums of two exponents: at most this number."""
     result: list[Exponent] = []
 
     def add(growth: Expr, frequency: Expr) -> None:

@@ -21,12 +21,12 @@ from lagcli.mechanics.explaining.words import matrix_law, names, quoted, says
 
 #: A matrix is set when its entries show no more operations than this together.
 _SHOWN = 80
-#: Accelerations in terms of the multipliers are worked out for so many coordinates; for any
-#: number where M is diagonal.
+#: Most coordinates for which accelerations in terms of the multipliers are worked out; any number
+#: where M is diagonal.
 _COUPLED = 3
 #: Formulas on the way that show more operations than this are not written down.
 _ON_THE_WAY = 200
-#: A formula with so many operations stands within a sentence.
+#: Most operations of a formula within a sentence.
 _INLINE = 5
 
 

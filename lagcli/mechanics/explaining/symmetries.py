@@ -162,20 +162,20 @@ def _no_brackets(teller: Teller) -> str:
 
 def _dimension(found: AlgebraSection) -> Iterator[Block]:
     """What the dimension counts, and the name of the algebra."""
-    which = "the symmetries" if found.dimension_counts == "charges" else "the point symmetries"
+    kind = "symmetries" if found.dimension_counts == "charges" else "point symmetries"
     if not found.name:
         if found.in_involution is not None:
             yield says(
-                f"The dimension of {which} is {found.dimension}. Their algebra is not one of those "
-                "with a name here."
+                f"The dimension of the {kind} found is {found.dimension}. Their algebra is not "
+                "one of those with a name here."
             )
         return
     name = found.name.removesuffix(MODULO_CONSTANTS)
     if name == found.name:
-        yield says(f"The algebra of {which} has dimension {found.dimension}: {name}.")
+        yield says(f"The algebra of the {kind} found has dimension {found.dimension}: {name}.")
     else:
         yield says(
-            f"Constants occur among the brackets. The algebra of {which} has dimension "
+            f"Constants occur among the brackets. The algebra of the {kind} found has dimension "
             f"{found.dimension} modulo constants and {found.dimension + 1} with them: {name}."
         )
 

@@ -20,7 +20,7 @@ from lagcli.algebra.writing import Writer
 from lagcli.expression import ZERO, Expression, operation_count
 from lagcli.statements.motions import Above
 
-#: A potential may have so many operations more than another form, and is left as it was given.
+#: Operations by which a potential as given may exceed another form and is left as it is.
 _LONGER = 1
 
 

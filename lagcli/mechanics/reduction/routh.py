@@ -31,7 +31,7 @@ from lagcli.mechanics.reduction.minimal import minimal, with_lagrangian
 from lagcli.mechanics.system import System
 from lagcli.problem_data import Constraint, Parameter
 
-#: Why there is no reduced system where the momenta are all that there is.
+#: Why there is no reduced system where there are only momenta.
 ALL_CYCLIC = "every coordinate is cyclic"
 #: Why there is none where the constraints prescribe the whole motion.
 NONE_LEFT = "the constraints leave no coordinate"

@@ -207,7 +207,7 @@ class _SteadyStatement:
     def _on_all(
         self, family: Family, squares: Sequence[Expr], matrices: Sequence[Matrix]
     ) -> tuple[tuple[Expr, ...], tuple[Matrix, ...]]:
-        """What was found on a branch, as far as it holds on the whole family."""
+        """What was found on a branch and holds on the whole family."""
         back = [family.written_back(square) for square in squares]
         known = tuple(s for s in back if s is not None and free_of(s, self.steady.system.q))
         whole = [[[family.written_back(e) for e in row] for row in m] for m in matrices]

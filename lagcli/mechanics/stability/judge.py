@@ -1,4 +1,4 @@
-"""Whether an equilibrium or a steady motion is stable, as far as that can be proved.
+"""Whether an equilibrium or a steady motion is stable, where that can be proved.
 
 The one judge of all sections: what it is given is the linearised motion M x'' + C x' + K x = 0 of
 a system without cyclic coordinates left (for a steady motion, of the Routhian), and what holds
@@ -332,13 +332,14 @@ def by_higher_order(near: Near) -> Stability | None:
     """Of one coordinate whose potential has no second derivative there; None: not known."""
     if not (near.has_energy and near.inertia_is_definite):
         return None
-    order = order_of_minimum(potential_derivatives(near.linear), near.positive)
-    if order == 0:
-        return unstable("{V} has no minimum there")
-    return None if order is None else _minimum_of_order(order)
+    return _by_order(potential_derivatives(near.linear), near.positive)
 
 
-def _minimum_of_order(order: int) -> Stability:
+def _by_order(derivatives: Sequence[Expr], positive: Sequence[Expr]) -> Stability | None:
+    """The verdict by the first derivative of V that is not 0 there."""
+    order = order_of_minimum(derivatives, positive)
+    if not order:
+        return None if order is None else unstable("{V} has no minimum there")
     reason = f"{{V}} has a strict minimum of order {order} there ({LAGRANGE_DIRICHLET.name})"
     return Stability(stable=True, reason=reason, by=LAGRANGE_DIRICHLET, minimum=())
 
@@ -500,10 +501,7 @@ def by_curvature(
         reason = f"{{V}} has a strict minimum there ({LAGRANGE_DIRICHLET.name})"
         return Stability(stable=True, reason=reason, by=LAGRANGE_DIRICHLET, minimum=())
     if known == 0:
-        order = order_of_minimum(derivatives, positive)
-        if order:
-            return _minimum_of_order(order)
-        return undecided(_NO_SECOND) if order is None else unstable("{V} has no minimum there")
+        return _by_order(derivatives, positive) or undecided(_NO_SECOND)
     if weak_sign(square, positive) == -1:
         return undecided(_NO_SECOND)
     critical = order_at_critical_values(derivatives, positive)

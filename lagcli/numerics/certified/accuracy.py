@@ -45,7 +45,7 @@ from lagcli.record import record, replace
 BETWEEN = 100.0
 _SHARE = 100.0  # the first tolerance is A / 100
 _PROBES = 1000
-#: A defect that a step would turn into an error of so many A is a feature stepped over.
+#: A defect that a step would turn into an error of this multiple of A is a feature stepped over.
 _DEFECT = 3.0
 #: So many differences of two runs bound the error; where the finer one meets rounding, the two
 #: differ by chance.  Against 34 digits the error was then up to 9 differences in 390 pairs of
@@ -67,7 +67,7 @@ _SHARP = 1e-16
 #: Where the longest step binds both runs their steps must still differ, or so would nothing.
 _FINER_STEPS = 1.37
 
-#: (tolerance, longest step, peaks of the run before, probes every so many steps) -> run
+#: (tolerance, longest step, peaks of the run before, probes at this interval of steps) -> run
 Runner = Callable[[float, float, "Sequence[float] | None", int], Run]
 
 
@@ -83,7 +83,7 @@ class Outcome:
     held_scales: list[float]  # and their scales
     times: list[float]  # the errors of the times of the events
     lost_at: float  # the time from which no digit is known
-    good_rows: int  # so many rows from the beginning are within the accuracy
+    good_rows: int  # rows from the beginning that are within the accuracy
     reached: bool
     reason: str
     runs: int
@@ -104,8 +104,8 @@ class Controller:
     first, finest
         No run is made with a tolerance above, or below.
     rounded, chance
-        Runs with this tolerance or less meet rounding: so many differences bound the error, at
-        the finest tolerance 20.
+        Runs with this tolerance or less meet rounding: a multiple of the differences bounds the
+        error, at the finest tolerance 20.
     span
         Of time.
     charges

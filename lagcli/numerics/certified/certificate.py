@@ -20,7 +20,7 @@ from lagcli.record import replace
 
 #: A motion that is known up to this part of the time at which its run stops, stops there.
 _KNOWN = 0.5
-#: Accelerations that move a coordinate by less than so many times itself do not end the motion.
+#: Accelerations that move a coordinate by less than this multiple of itself do not end the motion.
 _BOUNDED = 1e3
 #: What does.
 IRREGULAR = "a function in the equations has a corner, a jump or a pole there"

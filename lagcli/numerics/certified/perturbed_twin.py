@@ -28,7 +28,7 @@ from lagcli.numerics.hybrid.setup import Setup
 Vector = list[Any]
 
 _EPSILON = 2.0**-52
-#: The other parameters lie so many times the rounding beyond the file's.
+#: The other parameters lie this multiple of the rounding beyond the file's.
 _TIMES = 16
 _PI_ULP = math.ulp(math.pi)
 #: What the clock's rounding, and the factor of the bound, make up for.

@@ -36,7 +36,7 @@ def precision(digits: int) -> Iterator[None]:
 
 
 def prepared(simulation: Setup, doubles: Modes, digits: int | None = None) -> Prepared | str:
-    """Power series with so many digits made ready, or why only doubles can do it.
+    """Power series with this number of digits made ready, or why only doubles can do it.
 
     Parameters
     ----------

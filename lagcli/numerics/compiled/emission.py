@@ -62,7 +62,7 @@ def convolution(numbers: Numbers, how: str) -> str:
 
 
 def convolution_for(numbers: Numbers, ops: int) -> str:
-    """The same, for so many operations of its own module."""
+    """The same, for a number of operations of its own module."""
     return convolution(numbers, "alwaysinline" if ops <= _COPIED else "noinline")
 
 

@@ -35,7 +35,7 @@ class Ints(Protocol):
 
 
 def at(place: Reals, index: int) -> Reals:
-    """The place so many numbers further on."""
+    """The address of the number `index` places further on."""
     raise NotImplementedError
 
 

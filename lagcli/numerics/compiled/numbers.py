@@ -166,7 +166,7 @@ class Quadruple(Extended):
 
 
 def _bits(value: Fraction, bits: int) -> tuple[int, int]:
-    """The fraction of so many bits, rounded to even, and the exponent with the sign.
+    """The fraction of this number of bits, rounded to even, and the exponent with the sign.
 
     Raises
     ------

@@ -48,7 +48,7 @@ FAR = 150.0
 WAVE = 3.0
 #: The last terms of a series that settles are this part of the largest.
 SETTLED = 1e-4
-#: So many times as far as the zero does a step go that passes it.
+#: The length of a step that passes a zero, as a multiple of the distance to it.
 INNER = 1.5
 SHORTER = 0.8
 ATTEMPTS = 400

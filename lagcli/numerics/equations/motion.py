@@ -27,7 +27,7 @@ _NUDGE = 1e-6
 #: In which the argument of an event is worked out.
 _BITS = 160
 _EPSILON = 2.2e-16
-#: An argument of a sign within so many roundings of its terms is 0.
+#: An argument of a sign within this multiple of the rounding of its terms is 0.
 _ROUNDINGS = 100 * _EPSILON
 
 

@@ -317,7 +317,7 @@ class CompiledTaylor:
     ) -> Run:
         """A run without conditions and kinks; at least `probes` places are looked at.
 
-        It takes so many steps at `most`; `foreseen` is told how many there will be.
+        It takes at `most` this number of steps; `foreseen` gets the expected number.
 
         Raises
         ------

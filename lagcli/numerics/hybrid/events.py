@@ -29,7 +29,7 @@ Kind = Literal["stop", "loss", "gap", "slip"]
 _PLACES = (0.25, 0.5, 0.75, 1.0)
 #: A margin whose polynomial falls below this part of its variation is looked at closely.
 _NEAR = 0.1
-#: Margins within so many roundings of the state are 0.
+#: Margins within this multiple of the rounding of the state are 0.
 _ROUNDINGS = 100.0
 _NUDGE = 1e-6
 #: Within this part of a step two things happen together: stopping comes first.

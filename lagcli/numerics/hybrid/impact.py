@@ -33,7 +33,7 @@ Vector = list[float]
 
 #: Beside the largest of its kind, this is 0.
 _ROUNDING = 1e-12
-#: A bounce whose height is below so many roundings of the gap is timed by its speed.
+#: A bounce whose height is below this multiple of the rounding of the gap is timed by its speed.
 UNRESOLVED = 1e3
 
 

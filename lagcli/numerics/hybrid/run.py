@@ -40,7 +40,7 @@ _COINCIDES = 1e-9
 _WINDOWS = 200
 #: So many changes of mode at one time are an end.
 _AT_ONCE = 20
-#: The first of so many parts of the rows; what has grown so much has another scale there.
+#: The first of this number of parts of the rows; growth by this factor is another scale there.
 _BEGINNING, _GROWN = 20, 1e3
 #: A part of the span over which the rate of a margin is found.
 _RATE_OVER = 1e-7

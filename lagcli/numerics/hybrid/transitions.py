@@ -19,9 +19,9 @@ Vector = list[Any]
 
 #: Bounces are over when what is left of them is this part of the accuracy.
 _REST = 0.02
-#: A gap that begins within so many roundings of 0 is closed; below it, the state is refused.
+#: A gap that begins within this multiple of the rounding is closed; below it, the state is refused.
 _TOUCHING = 1e-12
-#: A gap of so many roundings of the state is closed while others are.
+#: A gap below this multiple of the rounding of the state is closed while others are.
 _NEAR = 100.0
 #: Two speeds that differ by less come to rest together, when they strike together.
 _SAME = 4.0
@@ -283,7 +283,7 @@ class Transitions:
     def _together(
         self, t: float, q: Vector, v: Vector, hinge: Hinge, known: frozenset[int | None]
     ) -> frozenset[int]:
-        """Other open contacts that close at the same time, as far as anybody can tell."""
+        """Other open contacts that close at the same time, within rounding."""
         opened = [k for k in self.modes.simulation.gaps if k not in known]
         if not opened:
             return frozenset()

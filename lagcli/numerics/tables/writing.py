@@ -10,7 +10,7 @@ from typing import Any
 from lagcli.numerics.hybrid.events import Event
 from lagcli.numerics.hybrid.request import Cut, Result
 
-#: Of many events so many are told at the beginning and at the end of the list.
+#: Of many events this number is listed at the beginning and at the end.
 _LISTED = 5
 #: Marks a row of a table, and names the column that marks it elsewhere.
 _BEYOND, _CERTIFIED = "  ~", "certified"

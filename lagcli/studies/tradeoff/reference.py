@@ -1,6 +1,6 @@
 """The motion better than any of the methods: the exact one, or two runs in many digits.
 
-Power series with so many digits that two runs, one with more digits and a finer tolerance
+Power series with enough digits that two runs, one with more digits and a finer tolerance
 than the other, agree far below what doubles can resolve; twice their difference is the
 bound.  Where the file knows the motion (`expect: trajectory`) its formulas are taken,
 after a look at whether the motion computed follows them.
