@@ -165,7 +165,7 @@ class Discovery(Setting):
             return
         if len(self.system.q) > _MOST_FOR_TENSORS:
             self.words.append(
-                "no integrals of second degree, because there are too many coordinates"
+                "integrals of second degree were not sought, because there are too many coordinates"
             )
             return
         if self._by_killing_vectors():
@@ -206,7 +206,7 @@ class Discovery(Setting):
             found = self._of_frame(frame, degree)
             self.listing.add_hidden(("", charge) for charge in found)
         if len(self.fixed_charges) < n:
-            self.words.append(f"none of degree {degree + 1} or higher")
+            self.words.append(f"those of degree {degree + 1} or higher were not sought")
 
     def _by_killing_vectors(self) -> bool:
         """Those of T of constant curvature, which are all; else of T without a factor w(q)."""
