@@ -202,3 +202,37 @@ def test_a_root_that_divides_ends_the_motion():
     result = simulated(given_to('forces: {x: "1/sqrt(abs(t - 3))"}'), 8, 1e-6)
     assert not result.certificate.reached
     assert "t = 3:" in result.refusal
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_force_that_jumps_without_a_sign(seed):
+    """x'' = atan(tan(w t)), a saw tooth with the period P = pi/w: x' = w s^2/2, s = t - n P."""
+    draw = random.Random(seed)
+    rate, until = f"{draw.uniform(0.4, 2):.4g}", draw.uniform(5, 12)
+    mpmath.mp.dps = 25
+    w, t = mpmath.mpf(rate), mpmath.mpf(until)
+    period = mpmath.pi / w
+    n = mpmath.nint(t / period)
+    s = t - n * period
+    result = simulated(given_to(f'forces: {{x: "atan(tan({rate}*t))"}}'), until, 1e-9)
+    assert result.certificate.reached
+    assert held(result, "x", n * w * period**3 / 24 + w * s**3 / 6)
+    assert held(result, "x'", w * s**2 / 2)
+
+
+@pytest.mark.parametrize("accuracy", ACCURACIES)
+def test_a_force_with_a_vertical_tangent(accuracy):
+    """x'' = |t - c|^(1/2): x' = 2/3 (c^(3/2) + (t - c)^(3/2))."""
+    result = simulated(given_to('forces: {x: "sqrt(abs(t - 2.7))"}'), 8.0, accuracy)
+    mpmath.mp.dps = 25
+    c = mpmath.mpf("2.7")
+    assert result.certificate.reached
+    assert held(result, "x'", 2 * (c**1.5 + (8 - c) ** 1.5) / 3)
+
+
+@pytest.mark.parametrize("strength", ["1", "1e-6", "1e-11"])
+@pytest.mark.parametrize("force", ["{a}/(t - 3)", "{a}/(t - 3)^2", "{a}*tan(t*pi/6)"])
+def test_a_pole_is_not_passed_however_weak(force, strength):
+    result = simulated(given_to(f'forces: {{x: "{force.format(a=strength)}"}}', "1"), 8.0, 1e-6)
+    assert not result.certificate.reached
+    assert result.certificate.holds_until < 3

@@ -35,15 +35,12 @@ class Narrow:
         What is regular though the argument is 0, if its own series says so.
     power : int
         Of what is HIGH.
-    is_finite : bool
-        Whether what is singular where the argument is 0 has a value there, as a root does.
     """
 
     kind: int
     argument: Node
     whole: Node | None = None
     power: int = 0
-    is_finite: bool = False
 
     @property
     def nodes(self) -> tuple[Node, ...]:
@@ -129,7 +126,7 @@ def _of_power(node: Product, base: Node, exponent: Fraction) -> Iterator[Narrow]
     elif whole and isinstance(base, Call) and base.function == "exp":
         return
     elif not whole or exponent < 0:
-        yield Narrow(DIVIDES, base, node if whole else None, is_finite=exponent > 0)
+        yield Narrow(DIVIDES, base, node if whole else None)
     elif exponent > _SEEN:
         yield Narrow(HIGH, base, node, int(exponent))
 
@@ -148,7 +145,7 @@ def _of_function(graph: Graph, name: str, x: Node) -> Iterator[Narrow]:
         case "log":
             yield Narrow(DIVIDES, x)
         case "asin" | "acos" | "atanh":
-            yield Narrow(DIVIDES, graph.difference(one, square), is_finite=name != "atanh")
+            yield Narrow(DIVIDES, graph.difference(one, square))
         case "atan" | "asinh":
             yield Narrow(DIVIDES, graph.sum([one, square]))
         case "acosh":

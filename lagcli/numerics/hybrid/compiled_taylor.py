@@ -35,8 +35,11 @@ _LIMIT = 1_000_000_000
 #: Of the order in the logarithm of the tolerance, by what was measured.
 _ORDER, _LOWEST = 0.7, 8
 #: Roundings of the time over which a place without a series is passed, in one run and the other;
-#: at most _AT_ONE_PLACE times within _NEARBY of them.
-_NARROW, _WIDE, _AT_ONE_PLACE, _NEARBY = 16, 32, 8, 1e4
+#: _WIDER times as many each time, at most _AT_ONE_PLACE times within _NEARBY of them.
+_NARROW, _WIDE, _WIDER, _AT_ONE_PLACE, _NEARBY = 16, 32, 8, 8, 1e9
+#: In the first of these times the velocity changes by less than this part of its scale: more is
+#: what a pole does.
+_IMPULSE = 1e-12
 #: Constraints are held to _HELD roundings, and one that the others imply to _IMPLIED.
 _HELD, _IMPLIED = 3.6, 1e-12
 
@@ -222,13 +225,15 @@ class CompiledTaylor:
         blocked, machine = self._counts[k.BLOCKED], self.machine
         if not blocked or machine.numbers.type != "double":
             return 0.0
-        argument = machine.narrow[blocked - 1].argument
-        if not all(each.is_finite for each in machine.narrow if each.argument is argument):
+        unit = self._unit(t)
+        self._leaps = [*(before for before in self._leaps if t - before < _NEARBY * unit), t]
+        if len(self._leaps) > _AT_ONE_PLACE:
             return 0.0
-        self._leaps = [*self._leaps[-_AT_ONE_PLACE:], t]
-        unit = 2 * machine.numbers.rounding * max(t, 1e-3 * float(self._facts[k.UNTIL]))
-        if len(self._leaps) > _AT_ONE_PLACE and t - self._leaps[0] < _NEARBY * unit:
-            return 0.0
+        return unit * float(_WIDER ** (len(self._leaps) - 1))
+
+    def _unit(self, t: float) -> float:
+        """The shortest time over which such a place is passed."""
+        unit = 2 * self.machine.numbers.rounding * max(t, 1e-3 * float(self._facts[k.UNTIL]))
         return unit * (_WIDE if self._facts[k.KICK] else _NARROW)
 
     def _straight(self, start: float, q: Any, v: Any) -> Any:
@@ -243,9 +248,18 @@ class CompiledTaylor:
         return inside
 
     def _leap(self, state: Any, end: float, q: Any, v: Any) -> tuple[list[Any], list[Any]]:
-        """As `_move`."""
-        both, ahead = 2 * self.n, self._ahead
-        places, speeds, _ = self._straight(float(state[both]), q, v)(end)
+        """As `_move`, where what acts is no impulse.
+
+        Raises
+        ------
+        CannotGoOn
+            Where it grows without bound.
+        """
+        both, ahead, t = 2 * self.n, self._ahead, float(state[2 * self.n])
+        places, speeds, rates = self._straight(t, q, v)(end)
+        pairs = zip(rates, self._scales[self.n : both], strict=True)
+        if any(abs(a) * self._unit(t) > _IMPULSE * scale for a, scale in pairs):
+            raise CannotGoOn(t, q, v, "")
         for i, x in enumerate((*places, *speeds)):
             ahead[i], ahead[both + 1 + i] = x, 0.0
         return places, speeds
