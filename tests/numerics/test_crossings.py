@@ -230,6 +230,21 @@ def test_a_force_with_a_vertical_tangent(accuracy):
     assert held(result, "x'", 2 * (c**1.5 + (8 - c) ** 1.5) / 3)
 
 
+@pytest.mark.parametrize(
+    ("force", "method", "what"),
+    [
+        ("atan(tan({w}*t))", "taylor80", "jumps there"),
+        ("asin(sin({w}*t))", "taylor64", "has a corner there"),
+        ("tan({w}*t)", "taylor64", "grows without bound"),
+        ("sqrt(2 - {w}*t)", "taylor64", "are not defined there"),
+    ],
+)
+@pytest.mark.parametrize("rate", ["0.7", "1.9"])
+def test_corners_jumps_and_poles_are_distinguished(force, method, what, rate):
+    file = given_to(f'forces: {{x: "{force.format(w=rate)}"}}')
+    assert what in simulated(file, 8.0, 1e-9, method=method).refusal
+
+
 @pytest.mark.parametrize("strength", ["1", "1e-6", "1e-11"])
 @pytest.mark.parametrize("force", ["{a}/(t - 3)", "{a}/(t - 3)^2", "{a}*tan(t*pi/6)"])
 def test_a_pole_is_not_passed_however_weak(force, strength):

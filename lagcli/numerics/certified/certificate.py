@@ -22,8 +22,8 @@ from lagcli.record import replace
 _KNOWN = 0.5
 #: Accelerations that move a coordinate by less than this multiple of itself do not end the motion.
 _BOUNDED = 1e3
-#: What does.
-IRREGULAR = "a function in the equations has a corner, a jump or a pole there"
+#: Parts of the time over which the forces change: what changes by as much over the shorter jumps.
+_SIDES = (1e-4, 1e-6)
 
 
 def result_of(simulation: Setup, motion: Motion, outcome: Outcome) -> Result:
@@ -208,11 +208,30 @@ def why_stopped(motion: Motion, stop: CannotGoOn) -> str:
         rates: Any = motion.accelerations(stop.t, *stop.q, *stop.v)
         j = max(range(len(names)), key=lambda k: abs(float(rates[k])))
         if abs(float(rates[j])) * stop.t**2 <= _BOUNDED * _size(stop.q):
-            return stop.reason or IRREGULAR
+            return stop.reason or _irregularity(motion, stop)
         grows = f"{names[j]}'' grows without bound there"
     except (ArithmeticError, ValueError) as error:
         return f"the accelerations are not defined there: {told(error)}"
     return f"{grows} ({stop.reason})" if stop.reason else grows
+
+
+def _irregularity(motion: Motion, stop: CannotGoOn) -> str:
+    """What ends a motion whose accelerations stay finite."""
+
+    def rates(time: float) -> Sequence[Any]:
+        places = (x + time * u for x, u in zip(stop.q, stop.v, strict=True))
+        return motion.accelerations(stop.t + time, *places, *stop.v)
+
+    def change(time: float) -> float:
+        pairs = (zip(rates(h), rates(0.0), strict=True) for h in (-time, time))
+        return max(abs(float(b - a)) for pair in pairs for a, b in pair)
+
+    try:
+        far, near = (change(part * (stop.t or 1.0)) for part in _SIDES)
+    except (ArithmeticError, ValueError):
+        return "a function in the equations is not defined beyond"
+    what = "jumps" if 2 * near > far else "has a corner"
+    return f"a function in the equations {what} there"
 
 
 def _warnings(simulation: Setup, rows: list[Any], events: list[Event]) -> list[str]:
