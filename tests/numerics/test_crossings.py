@@ -86,12 +86,6 @@ def test_the_branch_cut_of_a_phase(until):
     claims_hold(file, until, x, v)
 
 
-def test_a_jump_in_a_composed_function_is_an_end():
-    result = simulated(given_to('forces: {x: "atan(tan(t))"}'), 10, 1e-6)
-    assert not result.certificate.reached
-    assert result.certificate.holds_until < 1.5708
-
-
 BALL = """
 coordinates: [x]
 T: x'^2/2
