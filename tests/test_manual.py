@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from lagcli.cli.app import COMMANDS
+from lagcli.cli.app import COMMANDS, load_command
 from lagcli.manual import ORDER, find_page, pages
 from lagcli.pipeline import read
 from tests.cli.transcript import answer
@@ -119,6 +119,12 @@ def test_every_command_section_and_key_has_a_page():
         name for name in (*(each.name for each in built_in()), *KEYS) if f"`{name}`" not in text
     ] == []
     assert [name for name in COMMANDS if f"lagcli {name}" not in text] == []
+
+
+def test_every_option_has_a_place_in_the_manual():
+    text = README.read_text("utf-8") + "".join(page.text for page in pages())
+    options = {word for name in COMMANDS for p in load_command(name).params for word in p.opts}
+    assert sorted(word for word in options if word.startswith("--") and word not in text) == []
 
 
 def test_the_readme_is_short():
