@@ -47,7 +47,7 @@ def animate(
       lagcli animate problems/impact/bouncing-ball.yaml --until 4 -o ball.gif
       lagcli animate problems/pendulums/pendulum-cartesian.yaml --until 5 --forces -o forces.html
     """  # noqa: D301 - click reads the control character \b
-    from lagcli.cli.animating import AnimationWish, animate_file
+    from lagcli.cli.animating import animate_file
     from lagcli.cli.simulating import SimulateOptions
 
     run = SimulateOptions(
@@ -62,4 +62,4 @@ def animate(
         method=method,
         stop_when=stop_when,
     )
-    return animate_file(AnimationWish(run=run, forces=forces, dark=dark))
+    return animate_file(run, forces=forces, dark=dark)

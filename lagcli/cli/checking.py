@@ -8,9 +8,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
 
 from lagcli.cli.files import print_result
+from lagcli.cli.running import is_known
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line
-from lagcli.reader.suggest import did_you_mean
 from lagcli.studies.check import CheckOutcome, NothingToCheck, Report, check_all, problem_files
 from lagcli.studies.check.reports import FORMS
 
@@ -19,17 +19,14 @@ def check_paths(
     paths: Sequence[str], form: str, jobs: int | None, limit: float, shard: str | None = None
 ) -> Status:
     """Check, print, and say how it ended."""
-    part = _part(shard)
-    if form not in FORMS:
-        advice = did_you_mean(form, FORMS) or f"there are {', '.join(FORMS)}"
-        tell_line(f"lagcli: error: --format: unknown format '{form}': {advice}")
+    part, known = _part(shard), is_known("--format", form, tuple(FORMS))
     try:
         files = problem_files(paths)
     except NothingToCheck as error:
         for line in error.lines:
             tell_line(line)
         return Status.USAGE
-    if form not in FORMS or part is None:
+    if not known or part is None:
         return Status.USAGE
     files = files[part]
     worst = Status.WELL

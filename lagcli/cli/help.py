@@ -44,6 +44,7 @@ def help(  # noqa: A001 - the command's name
     from lagcli.cli.choices import MANUAL_FORMATS
     from lagcli.cli.delivering import has_place, place
     from lagcli.cli.reading import open_in_browser
+    from lagcli.cli.running import is_known
     from lagcli.cli.status import Status
     from lagcli.cli.telling import tell_line
     from lagcli.manual import find_page
@@ -52,9 +53,7 @@ def help(  # noqa: A001 - the command's name
     if topic is not None and page is None:
         tell_line(_unknown(topic))
         return Status.USAGE
-    if format_name is not None and format_name not in MANUAL_FORMATS:
-        known = ", ".join(MANUAL_FORMATS)
-        tell_line(f"--format: error: unknown format {format_name!r}: the formats are {known}")
+    if format_name is not None and not is_known("--format", format_name, MANUAL_FORMATS):
         return Status.USAGE
     if open_page:
         return open_in_browser(page)
@@ -81,11 +80,9 @@ def _title(page: Page | None) -> str:
 
 
 def _unknown(topic: str) -> str:
-    from difflib import get_close_matches
-
     from lagcli.manual import pages
+    from lagcli.reader.suggest import did_you_mean
 
     known = [name for page in pages() for name in (page.name, *page.topics)]
-    close = get_close_matches(topic.lower(), known, n=1, cutoff=0.5)
-    hint = f"did you mean {close[0]!r}?" if close else "lagcli help lists the topics"
+    hint = did_you_mean(topic.lower(), known) or "lagcli help lists the topics"
     return f"error: the manual has no topic {topic!r}: {hint}"

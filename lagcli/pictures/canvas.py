@@ -7,7 +7,7 @@ as far apart along x as along y.  Where only ASCII is to be had, a cell is one d
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
+from itertools import pairwise, product
 
 from lagcli.pictures.drawing import Point
 
@@ -30,7 +30,7 @@ class Canvas:
         self.width, self.height = width, height
         self.low, self.high = low, high
         self.unicode, self.dashed = unicode, dashed
-        across, down = (2, 4) if unicode else (1, 1)
+        self.cell = across, down = (2, 4) if unicode else (1, 1)
         self.dots = (width * across, height * down)
         self._bits = [[0] * width for _ in range(height)]
         self._letters: list[list[str]] = [[""] * width for _ in range(height)]
@@ -62,36 +62,33 @@ class Canvas:
         """A character over whatever is drawn there."""
         found = self._place(point)
         if found is not None:
-            column, row = found
-            self._signs[row // (4 if self.unicode else 1), column // (2 if self.unicode else 1)] = (
-                sign,
-                colour,
-            )
+            self._signs[found[1] // self.cell[1], found[0] // self.cell[0]] = sign, colour
 
     def column(self, x: float, sign: str, colour: int | None) -> None:
         """A line from top to bottom, behind the curves."""
         found = self._place((x, self.low[1]))
         if found is not None:
-            column = found[0] // (2 if self.unicode else 1)
-            for row in range(self.height):
-                self._signs.setdefault((row, column), ("behind" + sign, colour))
+            self._behind(range(self.height), [found[0] // self.cell[0]], sign, colour)
 
     def row(self, y: float, sign: str, colour: int | None) -> None:
         """A line from left to right, behind the curves."""
         found = self._place((self.low[0], y))
         if found is not None:
-            row = found[1] // (4 if self.unicode else 1)
-            for column in range(self.width):
-                self._signs.setdefault((row, column), ("behind" + sign, colour))
+            self._behind([found[1] // self.cell[1]], range(self.width), sign, colour)
 
     def shade(self, low: float, high: float, sign: str) -> None:
         """Fill what lies between two x, behind everything."""
         scale = self.width / (self.high[0] - self.low[0])
         first = max(0, round((low - self.low[0]) * scale))
         last = min(self.width, round((high - self.low[0]) * scale))
-        for row in range(self.height):
-            for column in range(first, last):
-                self._signs.setdefault((row, column), ("behind" + sign, None))
+        self._behind(range(self.height), range(first, last), sign, None)
+
+    def _behind(
+        self, rows: Sequence[int], columns: Sequence[int], sign: str, colour: int | None
+    ) -> None:
+        """A sign in many cells where nothing else is drawn."""
+        for place in product(rows, columns):
+            self._signs.setdefault(place, ("behind" + sign, colour))
 
     def rows(self) -> Iterator[list[Cell]]:
         """The cells from top to bottom, each a character and its colour."""
