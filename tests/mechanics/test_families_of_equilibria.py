@@ -191,3 +191,14 @@ def test_a_pole_of_a_sphere_is_not_judged_apart_from_all_other_places_of_rest():
     section, _ = steady_motions(derivation(text))
     assert section.motions is not None
     assert all(motion.rates is not None for motion in section.motions)
+
+
+def test_an_equilibrium_in_decimals_is_kept_where_one_is_worked_out_of_another():
+    """One of three, all found in Cartesian coordinates: x = u + v²/2 in a turning trap."""
+    found = states(
+        "coordinates: [u, v]\n"
+        "T: ((u' + v*v' - v/4)^2 + (v' + (u + v^2/2)/4)^2)/2\n"
+        "V: -2*(u + v^2/2)^2 + 7*v^2/10 + ((u + v^2/2)^2 + v^2)^2\n"
+        "dissipation: 3*((u' + v*v' - v/4)^2 + (v' + (u + v^2/2)/4)^2)/4\n"
+    )
+    assert [stable for _, _, _, stable in found] == [False, True, True]

@@ -144,6 +144,8 @@ def _released(problem: Problem, state: Equilibrium) -> bool:
 
 
 def _says(verdict: Verdict, numbers: Numbers) -> bool | None:
+    if verdict.rapid is not None:
+        return None  # of the averaged motion, where the drive is rapid and its amplitude small
     if verdict.stable is not None:
         return verdict.stable
     if any(numbers.holds(each) for each in verdict.unstable):

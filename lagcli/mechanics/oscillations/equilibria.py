@@ -14,17 +14,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from functools import cached_property
 from itertools import combinations, product
 
+import mpmath
 import sympy
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra import Field, dot, is_zero, nullspace, simplify
 from lagcli.algebra.build import CIRCULAR, free_of
-from lagcli.algebra.equations import is_decimal, rounded
+from lagcli.algebra.equations import decimal, is_decimal, rounded
 from lagcli.algebra.field import common_denominator
-from lagcli.algebra.numeric import vanishes_at_random
+from lagcli.algebra.numeric import Evaluator, vanishes_at_random
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
 from lagcli.mechanics.dynamics import Dynamics
@@ -42,6 +44,8 @@ _NO_CLOSED_SOLUTION = "the conditions of equilibrium have no closed solution"
 #: Why nothing is solved for that is constant.
 TIMED = "the equations depend explicitly on the time"
 _AT_A_KINK = "a force jumps where its sign changes, and rest at such a kink is not decided"
+#: Digits to which decimals are worked out.
+_DIGITS = 40
 _LONGEST = 60  # operations of conditions that are quoted
 _LAST_DIGITS = sympy.Float("1e-13")
 
@@ -112,7 +116,8 @@ class RestPoints:
         solved = solve_system(equations, self.system.q, families=True)
         self.complete = solved.complete
         found, lost = [], False
-        for solution in solved.solutions:
+        for each in solved.solutions:
+            solution = replace(each, values=self._to_the_last_digit(each.values))
             point = self._point(solution)
             if any(not free_of(x, [self.system.t]) for x in solution.values.values()):
                 lost |= len(solution.values) < len(self.system.q)
@@ -123,6 +128,23 @@ class RestPoints:
             else:
                 self.at_singular_constraints |= self._loses_rank(solution.values)
         return found, lost or not (found or solved.complete)
+
+    def _to_the_last_digit(self, values: Mapping[Symbol, Expr]) -> Mapping[Symbol, Expr]:
+        """The same, the decimals among them by Newton's method: some come from rounded ones."""
+        decimals = any(map(is_decimal, values.values()))
+        if not decimals or self.dynamics.constraints.equations or len(values) < len(self.system.q):
+            return values
+        forces = Evaluator(self.forces_at_rest, _DIGITS)
+        try:
+            with mpmath.workdps(_DIGITS):
+                start = [mpmath.mpf(int(x.p)) / int(x.q) for x in values.values()]
+                root = mpmath.findroot(lambda *x: forces(dict(zip(values, x, strict=True))), start)
+        except (ArithmeticError, AttributeError, ValueError, KeyError):
+            return values
+        return {
+            q: decimal(sympy.Float(x, _DIGITS)) if is_decimal(old) else old
+            for (q, old), x in zip(values.items(), root, strict=True)
+        }
 
     def _point(self, solution: SystemSolution) -> RestPoint | None:
         q, values, known = self.system.q, dict(solution.values), None
