@@ -15,7 +15,7 @@ SH = re.MULTILINE | re.DOTALL
 
 #: Needs a scheduler that answers, a browser, a folder of problems, or minutes.
 NOT_HERE = ("--scheduler", "--open", "check problems/", "--orbits 40", "--plot kepler.svg",
-            "extremes problems/", "tests/benchmarks/")  # fmt: skip
+            "extremes problems/", "tests/benchmarks/", "snakeboard")  # fmt: skip
 
 
 def examples():
