@@ -11,7 +11,7 @@ import lagcli
 from lagcli.cli.run import run
 from lagcli.interface.motion import asked_of
 from lagcli.numerics.rigorous import Shadowing, prove
-from lagcli.numerics.rigorous.shadowing import Link, bounds, hold
+from lagcli.numerics.rigorous.shadowing import SplitStep, bounds, hold
 
 #: Errors grow as exp(2 t): in 80 bits the motion of the file itself is lost after t = 28.
 SHAKEN = "{coordinates: [x], L: x'^2/2 + 20*cos(x)*cos(3*t), initial: {x: 1}}"
@@ -71,14 +71,14 @@ def test_a_motion_that_shooting_finds_is_where_the_shadow_says(many_bits):
 
 def test_boxes_hold_for_a_saddle_and_not_where_axes_are_mixed():
     """x -> 2 x, y -> y/2 with errors of 1e-20: bounds are 1e-20 and 2e-20."""
-    saddle = Link(arb_mat(2, 1, [arb(0, 1e-20)] * 2), arb_mat(2, 2, [2, 0, 0, 0.5]))
+    saddle = SplitStep(arb_mat(2, 1, [arb(0, 1e-20)] * 2), arb_mat(2, 2, [2, 0, 0, 0.5]))
     links = [saddle] * 50
     radii = bounds(links)
     assert hold(links, radii)
     assert max(rho[0] for rho in radii) == pytest.approx(1e-20, rel=1e-6)
     assert max(rho[1] for rho in radii) == pytest.approx(2e-20, rel=1e-6)
     assert not hold(links, [[x / 2 for x in rho] for rho in radii])
-    mixed = Link(saddle.defect, arb_mat(2, 2, [2, 1, 1, 0.5]))
+    mixed = SplitStep(saddle.defect, arb_mat(2, 2, [2, 1, 1, 0.5]))
     assert not hold([mixed] * 50, bounds([mixed] * 50))
 
 

@@ -50,8 +50,8 @@ _FLOW_ORDER, _FINER = 0.7, 2.0**-30
 
 
 @record
-class Link:
-    """d and R of a step.
+class SplitStep:
+    """A step with its contracting and expanding directions apart: d and R.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class Shadowing(Attempt):
             raise Refusal(message, mistake=False)
         trial = max(1.0, *(abs(float(x)) for x in start.middle)) * 2.0 ** (-_TRIAL * self.bits)
         box = _around_zero(start, [trial] * len(start.middle))
-        links: list[Link] = []
+        links: list[SplitStep] = []
         pieces: dict[int, Piece] = {}
         ended: NotEnclosed | None = None
         try:
@@ -99,7 +99,7 @@ class Shadowing(Attempt):
         t: Any,
         here: LohnerSet,
         mode: ProofMode,
-        links: list[Link],
+        links: list[SplitStep],
         pieces: dict[int, Piece],
     ) -> None:
         """All steps, and those in which rows are."""
@@ -117,14 +117,14 @@ class Shadowing(Attempt):
             t = piece.end
 
 
-def _linked(piece: Piece) -> tuple[Link, LohnerSet]:
+def _linked(piece: Piece) -> tuple[SplitStep, LohnerSet]:
     """d and R of a step, and the box about the next point."""
     found = piece.middle(piece.end)
     points = [x.mid() for x in found]
     turned = piece.derivative(piece.end) * piece.start.frame
     frame, inverse = orthonormal(turned, range(len(points)))
     column = type(frame)(len(points), 1, [x - y for x, y in zip(found, points, strict=True)])
-    link = Link(inverse * column, inverse * turned)
+    link = SplitStep(inverse * column, inverse * turned)
     return link, LohnerSet(points, frame, piece.start.radii)
 
 
@@ -141,7 +141,7 @@ def _near(piece: Piece, radii: Sequence[float]) -> Piece:
     return Piece(piece.begin, piece.end, piece.centre, piece.flow, start)
 
 
-def bounds(links: Sequence[Link]) -> list[list[float]]:
+def bounds(links: Sequence[SplitStep]) -> list[list[float]]:
     """rho_k of every point, shape (N + 1, n), which `hold` is to confirm."""
     n = links[0].map.nrows()
     defects = [[float(x.abs_upper()) for x in link.defect.entries()] for link in links]
@@ -181,7 +181,7 @@ def _grows(diagonal: Sequence[float]) -> bool:
     return forwards > backwards
 
 
-def hold(links: Sequence[Link], radii: Sequence[Sequence[float]]) -> bool:
+def hold(links: Sequence[SplitStep], radii: Sequence[Sequence[float]]) -> bool:
     """Whether the boxes contain their images, with outward rounding."""
     return all(
         _holds(links, radii, i, _grows([float(link.map[i, i].mid()) for link in links]))
@@ -190,7 +190,7 @@ def hold(links: Sequence[Link], radii: Sequence[Sequence[float]]) -> bool:
 
 
 def _holds(
-    links: Sequence[Link], radii: Sequence[Sequence[float]], i: int, backwards: bool
+    links: Sequence[SplitStep], radii: Sequence[Sequence[float]], i: int, backwards: bool
 ) -> bool:
     """Whether they do along one axis."""
     for link, rho, following in zip(links, radii, radii[1:], strict=False):
