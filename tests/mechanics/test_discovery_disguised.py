@@ -95,9 +95,11 @@ def test_a_driven_damped_oscillator_has_its_charges_proved():
     assert (len(found.charges), found.stopped, summary(found).name) == (5, [], LINE)
 
 
-def test_a_lagrangian_that_is_no_square_has_a_second_integral():
+def test_a_lagrangian_that_is_no_square_has_the_charges_of_a_free_particle():
+    """x'' + 3 k x x' + k^2 x^3 = 0, the modified Emden equation: k x = y'/y makes it y''' = 0."""
     found, algebra, digits = known("1/(x' + k*x^2)", "{x: {assume: positive}}", "k")
-    assert (len(found.charges), algebra.independent) == (4, 2)
+    assert (len(found.charges), algebra.independent) == (5, 2)
+    assert algebra.name.startswith("Schrödinger sch(1)")
     assert digits > 20
 
 

@@ -105,8 +105,9 @@ class KillingIntegrals:
         """(A.p)...(D.p) of degree N."""
         for fields in self.frame.products(self.degree):
             value, slopes, pushed = self._moved(fields)
-            above, below = (0, pushed) if self.degree == 2 else (pushed[0], [sympy.S.Zero])
-            yield _Part(value, slopes, sympy.sympify(above), below, self.degree)
+            zero = sympy.S.Zero
+            above, below = (zero, pushed) if self.degree == 2 else (pushed[0], [zero])
+            yield _Part(value, slopes, above, below, self.degree)
 
     def _lower(self) -> Iterator[_Part]:
         """g (A.p)...(B.p) of degree N - 2."""
