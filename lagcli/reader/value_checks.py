@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import (
+    ZERO,
     Call,
     Name,
     Negative,
@@ -92,7 +93,7 @@ def _check_dissipation(sections: Sections, problem: Problem) -> None:
     Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd edition, section 1.5.
     """
     formula = problem.dissipation
-    if formula is None:
+    if formula is None or formula == ZERO:
         return
     hint = "a friction force -c*x' is written dissipation: c*x'^2/2"
     if derivative_order(formula, sections.scope) < 1:

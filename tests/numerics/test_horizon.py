@@ -67,7 +67,7 @@ def test_chaos_holds_no_shorter_over_a_longer_span(seed):
         holds.append(result.certificate.holds_until)
         assert column(result, "t") == sorted(set(column(result, "t")))
         if not result.certificate.reached:
-            assert f"not reached until t = {until}" in result.refusal
+            assert f"not reached until t = {until:g}" in result.refusal
     assert all(b >= a * (1 - 1e-12) for a, b in pairwise(holds))
 
 

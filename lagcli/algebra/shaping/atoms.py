@@ -118,7 +118,8 @@ class Atoms:
                 given = written_arguments(generator.expression)
                 tree = self._with_short_arguments(tree, given)
             if generator.kind in _SHORTENED and isinstance(tree, Call):
-                given = written_arguments(generator.expression)
+                own = generator.argument  # SymPy writes exp(1) as a number without arguments
+                given = (own,) if own is not None else written_arguments(generator.expression)
                 return ((self._shortened(tree, given, generator.expression), 1),)
             return ((self.add(tree, generator.expression), 1),)
         return tuple((a, exact(Fraction(e) / generator.index)) for a, e in self._inside(number))

@@ -112,7 +112,7 @@ def _up_to(result: Result, until: float, rows: Sequence[float]) -> Result:
     """The part of a result up to a time, with its last row and those that are wanted."""
     same = _SAME_TIME * until
     kept = [row for row in result.rows if (row[0] or 0.0) <= until + same]
-    last = kept[-1][0] or 0.0
+    last = (kept[-1][0] if kept else None) or 0.0
     wanted = [*rows, last]
     return replace(
         result,
