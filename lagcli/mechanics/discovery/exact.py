@@ -21,7 +21,8 @@ _TOGETHER = 3  # parameters in one recognized monomial
 _MOST_OPERATIONS = 30000
 _MOST_ATOMS = 8
 _MOST_LINEAR = 12
-_MOST_COMMON = 10_000  # terms: of hyperbolic functions of three differences 35,000 take 17 s
+#: Terms: two bodies in space need more than 10,000; 35,000 of hyperbolic functions take 17 s.
+_MOST_COMMON = 20_000
 _POWERS = (-2, -1, 1, 2)
 
 
