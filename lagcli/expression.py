@@ -206,6 +206,12 @@ def folded(root: Expression, combine: Callable[[Expression, list[Value]], Value]
     return values[0]
 
 
+def signed(value: float | Fraction, *, decimal: bool = False) -> Expression:
+    """A number, which is exact, with a `Negative` for its sign."""
+    size = Number(abs(Fraction(value)), decimal=decimal)
+    return Negative(size) if value < 0 else size
+
+
 def sum_of(terms: Iterable[Expression]) -> Expression:
     """The sum of some terms; a single one is its own, none are 0."""
     kept = tuple(terms)

@@ -21,7 +21,7 @@ from lagcli.algebra.field import Element
 from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.roots import substitute_square
 from lagcli.algebra.simplification import shape, simplify
-from lagcli.expression import Expression, Negative, Number
+from lagcli.expression import Expression, signed
 
 _DECIMALS = 15
 _MAX_DEGREE = 24
@@ -212,8 +212,7 @@ def written(value: Expr, order: Sequence[str]) -> Expression:
     """The readable shape of a root; one that was rounded is written with a decimal point."""
     if not is_decimal(value) or 10**400 % int(value.q):
         return shape(value, order)
-    number = Number(abs(Fraction(int(value.p), int(value.q))), decimal=True)
-    return Negative(number) if value < 0 else number
+    return signed(Fraction(int(value.p), int(value.q)), decimal=True)
 
 
 def rounded(value: Expr) -> Expr:

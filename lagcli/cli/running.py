@@ -23,7 +23,7 @@ Options = TypeVar("Options")
 
 
 def problem_of(file: str, request: Request | None = None) -> Problem | None:
-    """The problem of a file, of standard input or of the library; None once it is told why not."""
+    """The problem of a file, of standard input or the library; None with its mistakes printed."""
     try:
         found = read(file, read_input(file), request or Request())
     except OSError as error:

@@ -19,6 +19,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
     quotient_of,
+    signed,
     sum_of,
 )
 from lagcli.rewriting import rebuilt
@@ -156,8 +157,7 @@ def number(value: Constant) -> Expression:
         rounded = exact
     else:
         rounded = Fraction(_ROUNDING.divide(Decimal(exact.numerator), Decimal(exact.denominator)))
-    digits = Number(abs(rounded), decimal=True)
-    return Negative(digits) if rounded < 0 else digits
+    return signed(rounded, decimal=True)
 
 
 def _known(node: Expression) -> Constant | None:

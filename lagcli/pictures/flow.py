@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
-from lagcli.expression import Expression, Name, Negative
+from lagcli.expression import Expression, Name, Negative, signed
 from lagcli.graph.nodes import mask_of
 from lagcli.numerics.equations.contact import with_contacts
 from lagcli.numerics.equations.equations import Equations
@@ -31,7 +31,7 @@ from lagcli.pictures.drawing import (
 )
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.run import PicturedRun, run_with
-from lagcli.pictures.starts import begun, exact
+from lagcli.pictures.starts import begun
 from lagcli.pictures.turning import is_periodic, wrapped
 from lagcli.problem_data import Expect, Problem
 from lagcli.reader.columns import Shown
@@ -206,7 +206,7 @@ def _line(
 ) -> tuple[tuple[tuple[float, float], ...], ...]:
     """A motion from a state; none where it cannot be run."""
     q, v = start
-    initial = {made.name: exact(q), Name(made.name.name, 1): exact(v)}
+    initial = {made.name: signed(q), Name(made.name.name, 1): signed(v)}
     asked = Asked(until=time, accuracy=_ACCURACY, samples=_ROWS, columns=())
     try:
         run = run_with(replace(problem, initial=initial), asked, columns)

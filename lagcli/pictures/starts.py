@@ -12,10 +12,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from fractions import Fraction
 from itertools import islice
 
-from lagcli.expression import Expression, Name, Negative, Number
+from lagcli.expression import Name, signed
 from lagcli.graph.nodes import Node
 from lagcli.numerics.equations.arithmetic import Doubles
 from lagcli.numerics.equations.constants import constants_of
@@ -90,7 +89,7 @@ def other_starts(
     spans = _spans(points, None if cut is None else start)
     starts = (start(x, y) for x, y in _filling(spans))
     for values in islice((values for values in starts if values is not None), count):
-        yield replace(problem, initial={name: exact(x) for name, x in values.items()})
+        yield replace(problem, initial={name: signed(x) for name, x in values.items()})
 
 
 def begun(e: Equations, further: Sequence[Node] = ()) -> tuple[Motion, list[float], list[float]]:
@@ -99,12 +98,6 @@ def begun(e: Equations, further: Sequence[Node] = ()) -> tuple[Motion, list[floa
     needed = [*(x for row in e.mass for x in row), *e.forcing, *initial, *further]
     motion = Motion(e, constants_of(e, needed, Doubles()), Doubles())
     return motion, *initial_state(motion)
-
-
-def exact(value: float) -> Expression:
-    """A double as a formula; its numbers are not negative."""
-    number = Number(Fraction(abs(value)))
-    return Negative(number) if value < 0 else number
 
 
 def _spans(

@@ -4,10 +4,11 @@ from math import asin, pi, sqrt
 
 import pytest
 
+from lagcli.expression import signed
 from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import Curve, Marks
-from lagcli.pictures.flow import Flow, exact, reversed_in_time
+from lagcli.pictures.flow import Flow, reversed_in_time
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.portrait import portrait
 from lagcli.pictures.run import run_with
@@ -62,7 +63,7 @@ def test_with_the_time_reversed_a_motion_runs_back():
     columns = [(str(name), name) for name in problem.initial]
     there = run_with(problem, asked, columns).result.rows
     names = list(problem.initial)
-    end = dict(zip(names, (exact(there[-1][1]), exact(-there[-1][2])), strict=True))
+    end = dict(zip(names, (signed(there[-1][1]), signed(-there[-1][2])), strict=True))
     back = run_with(replace(reversed_in_time(problem), initial=end), asked, columns).result.rows
     for row, other in zip(there, reversed(back), strict=True):
         assert other[1:] == pytest.approx((row[1], -row[2]), abs=1e-8)

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 
-from lagcli.expression import Expression, Name, Negative, Number
+from lagcli.expression import Expression, Name, signed
 from lagcli.graph.nodes import Node, Symbol, mask_of, with_values
 from lagcli.numerics.equations.arithmetic import Doubles
 from lagcli.numerics.equations.constants import constants_of
@@ -30,9 +30,7 @@ _ELSEWHERE, _SAME = 0.37, 1e-12
 
 def number(value: float | Fraction) -> Expression:
     """A number as a tree, decimal where it is one."""
-    exact = Fraction(value)
-    size = Number(abs(exact), decimal=exact.denominator != 1)
-    return Negative(size) if exact < 0 else size
+    return signed(value, decimal=Fraction(value).denominator != 1)
 
 
 def with_all_values(problem: Problem) -> tuple[Problem, dict[str, Fraction]]:

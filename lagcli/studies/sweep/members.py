@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from fractions import Fraction
 from itertools import groupby
 from math import ulp
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import ProblemError
-from lagcli.expression import Expression, Name, Negative, Number
+from lagcli.expression import Name, signed
 from lagcli.numerics.certified.ensemble import Ensemble
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked, Result
@@ -49,7 +48,7 @@ def rows_of(
     split = sum(name in free for name in names)
     rows: list[Row] = []
     for values, group in groupby(members, key=lambda member: tuple(member[:split])):
-        fixed = problem.with_values(dict(zip(names[:split], map(exact, values), strict=True)))
+        fixed = problem.with_values(dict(zip(names[:split], map(signed, values), strict=True)))
         rows += _of_one_system(fixed, asked, names[split:], list(group), values, along=along)
     return rows
 
@@ -95,15 +94,9 @@ def _row(
     return [*member, *row, reached, until, error]
 
 
-def exact(value: float) -> Expression:
-    """The double as an exact number."""
-    number = Number(abs(Fraction(value)))
-    return Negative(number) if value < 0 else number
-
-
 def _with_state(problem: Problem, names: Sequence[str], values: Sequence[float]) -> Problem:
     initial = dict(problem.initial)
     for name, value in zip(names, values, strict=True):
         primes = len(name) - len(name.rstrip("'"))
-        initial[Name(name.rstrip("'"), primes)] = exact(value)
+        initial[Name(name.rstrip("'"), primes)] = signed(value)
     return replace(problem, initial=initial)
