@@ -37,7 +37,8 @@ from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
 from lagcli.mechanics.oscillations.singular import OnMeridians, is_singular
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.routh import Routh
-from lagcli.mechanics.reduction.steady import Steady, SteadyMotions
+from lagcli.mechanics.reduction.steady import SteadyMotions
+from lagcli.mechanics.reduction.steady_motion import Steady
 from lagcli.mechanics.stability.judge import (
     DRIFTS,
     EXCLUDED,

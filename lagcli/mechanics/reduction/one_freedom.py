@@ -28,7 +28,7 @@ from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.parameter_values import DIGITS, admissible_values
 from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.routh import Routh
-from lagcli.mechanics.reduction.steady import SteadyMotions
+from lagcli.mechanics.reduction.steady_contacts import SteadyContacts
 from lagcli.mechanics.stability.near import contradictory
 from lagcli.notation.given_formulas import names_of
 from lagcli.notation.naming import free
@@ -53,7 +53,7 @@ class ReducedFreedom:
         self.mass: Expr = simplify(self.dynamics.lagrange.mass_matrix[0][0])
         self.potential: Expr = routh.effective_potential
         self.E: Symbol = symbol(free_name(routh, ENERGY))
-        self.contacts = SteadyMotions(routh)
+        self.contacts = SteadyContacts(routh)
 
     @cached_property
     def why_not_conserved(self) -> str:

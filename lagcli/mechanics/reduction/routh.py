@@ -17,6 +17,7 @@ Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., section 8.3.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 
 from sympy import Expr, S, Symbol
@@ -27,6 +28,8 @@ from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.legendre import Inverse, LegendreTransform
+from lagcli.mechanics.oscillations.characteristic import determinant
+from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.reduction.minimal import minimal, with_lagrangian
 from lagcli.mechanics.system import System
 from lagcli.problem_data import Constraint, Parameter
@@ -212,6 +215,25 @@ class Routh:
         """U_eff = -R at q' = 0."""
         assert self.reduced is not None
         return -self._at_rest(self.reduced.system.L)
+
+    @cached_property
+    def balance(self) -> tuple[Expr, ...]:
+        """dU_eff/dq, shape (n,): 0 on a steady motion where no force acts beside."""
+        assert self.reduced is not None
+        return tuple(simplify(self.effective_potential.diff(q)) for q in self.reduced.system.q)
+
+    def rates_at(self, values: Mapping[Symbol, Expr]) -> dict[int, Expr]:
+        """q_c' by coordinate index, where the other coordinates rest."""
+        assert self.velocities is not None
+        pairs = zip(self.cyclic, self.velocities, strict=True)
+        return {j: at(self._at_rest(v), values) for j, v in pairs}
+
+    def regular_at(self, values: Mapping[Symbol, Expr]) -> bool:
+        """Whether the mass matrix of all coordinates can be inverted there, at rest."""
+        still = dict.fromkeys(self.system.qdot, S.Zero)
+        mass = self.full.dynamics.lagrange.mass_matrix
+        whole = determinant([[at(x.xreplace(still), values) for x in row] for row in mass])
+        return whole is not None and is_zero(whole) is not True
 
     @cached_property
     def gyroscopic(self) -> tuple[Expr, ...]:

@@ -19,12 +19,14 @@ from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
+from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
 from lagcli.mechanics.reduction.readable import conditions, without_moduli
 from lagcli.mechanics.reduction.rolling import RollingMotions
 from lagcli.mechanics.reduction.rolling_statement import rolling_section
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.statement import Missing
-from lagcli.mechanics.reduction.steady import Steady, SteadyMotions
+from lagcli.mechanics.reduction.steady import SteadyMotions
+from lagcli.mechanics.reduction.steady_motion import Steady
 from lagcli.mechanics.stability.judge import (
     GRAZES,
     Stability,
@@ -93,7 +95,7 @@ class _SteadyStatement:
                 complete=steady.complete,
                 singular_where=()
                 if steady.complete
-                else tuple(map(self._shape, steady.singular_where)),
+                else tuple(map(self._shape, CoincidingAxes(self.routh).singular_where)),
                 acting=steady.acting,
                 momenta=cyclic,
                 unless=() if found else unless_written(steady.unless, self.order),
@@ -120,7 +122,7 @@ class _SteadyStatement:
             if not motion.derivatives:
                 linear = Linearization(self.steady.rest, self.steady.point(motion))
                 judged = judge(linear)
-                if not (linear.drifts or not linear.smooth or self.steady.grazes(motion)):
+                if not (linear.drifts or not linear.smooth or self.steady.contacts.grazes(motion)):
                     matrices = (linear.M, linear.C, linear.K)
                     squares, turning = squares_of(linear), held_by_gyroscopic_terms(linear)
                 if motion.family is not None:
@@ -135,7 +137,7 @@ class _SteadyStatement:
         except ZeroDivisionError:
             pass
         potential = potential_of(self.steady.rest, "U_eff")
-        if self.steady.grazes(motion):
+        if self.steady.contacts.grazes(motion):
             judged = undecided(GRAZES)
         elif judged.is_open and (resting := self._at_rest(motion)) is not None:
             judged, potential = resting, potential_of(RestPoints(self.routh.full.dynamics))

@@ -1,0 +1,94 @@
+"""The one-sided contacts on a steady motion: those that are closed must press.
+
+References
+----------
+Pfeiffer, Glocker, *Multibody Dynamics with Unilateral Contacts* (1996), section 2.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import is_zero
+from lagcli.algebra.signs import sign
+from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.held import one_sided
+from lagcli.mechanics.reduction.readable import weak_sign
+from lagcli.mechanics.reduction.routh import Routh
+from lagcli.mechanics.reduction.steady_motion import Steady
+from lagcli.record import replace
+
+
+class SteadyContacts:
+    """What presses, and what may open, on the steady motions of a reduced system."""
+
+    def __init__(self, routh: Routh) -> None:
+        assert routh.reduced is not None
+        self.routh = routh
+        self.system = routh.reduced.system
+
+    @cached_property
+    def _demands(self) -> tuple[tuple[Expr, bool], ...]:
+        """What is not negative on the motion, and what is not 0 either, in q and q' of `full`."""
+        given, constraints = self.routh.given.dynamics, self.routh.given.dynamics.constraints
+        demands: list[tuple[Expr, bool]] = []
+        for each in one_sided(given):
+            parts = each.demands if each.given else (each.gap,)
+            found = [given.on_motion(part) for part in parts if part is not None]
+            demands += [(part, not each.given) for part in found if part is not None]
+        solved = {} if constraints.relations is None else dict(constraints.relations.solved)
+        demands += [(q, bool(q.is_positive)) for q in solved if q.is_nonnegative]
+        flow = dict(zip(given.system.q, given.system.qdot, strict=True))
+        for q, value in reversed([(q, v) for q, v in solved.items() if q in flow]):
+            put_in = {q: value, flow[q]: given.system.total_derivative(value)}
+            demands = [(part.xreplace(put_in), strict) for part, strict in demands]
+        return tuple(demands)
+
+    def standing(self, motion: Steady) -> Steady | None:
+        """The motion where every one-sided contact holds; None where one does not."""
+        positive = list(motion.positive)
+        for value, strict in self._pressing(motion):
+            known = sign(value, positive)
+            if known == -1 or (known == 0 and strict) or weak_sign(value, positive) == -1:
+                return None
+            positive += [value] if known is None else []
+        return replace(motion, positive=tuple(dict.fromkeys(positive)))
+
+    def _pressing(self, motion: Steady) -> list[tuple[Expr, bool]]:
+        """What is not negative on it, and whether it is not 0; none where that is not known."""
+        rates = motion.rates
+        if rates is None:
+            if any(is_zero(motion.values.get(p, p)) is not True for p in self.routh.momenta):
+                return []
+            rates = dict.fromkeys(self.routh.cyclic, S.Zero)
+        still: dict[Expr, Expr] = dict.fromkeys(self.system.qdot, S.Zero)
+        still |= {self.routh.system.qdot[j]: rate for j, rate in rates.items()}
+        try:
+            found = [(at(x.xreplace(still), motion.values), strict) for x, strict in self._demands]
+        except ZeroDivisionError:
+            return []
+        return [] if any(x.has(S.NaN, S.ComplexInfinity) for x, _ in found) else found
+
+    def where_pressed(self, values: Mapping[Symbol, Expr]) -> tuple[Expr, ...] | None:
+        """What must be positive for all one-sided contacts to press; None where one does not.
+
+        `values` are a place, at the momenta of the cyclic coordinates.
+        """
+        try:
+            anywhere, there = (
+                self._pressing(Steady(x, self.routh.rates_at(x))) for x in ({}, values)
+            )
+        except ZeroDivisionError:
+            return ()
+        known = {k for k, (value, _) in enumerate(anywhere) if sign(value) == 1}
+        open_ = [value for k, (value, _) in enumerate(there) if k not in known and sign(value) != 1]
+        if any(sign(value) in (0, -1) or weak_sign(value) == -1 for value in open_):
+            return None
+        return tuple(open_)
+
+    def grazes(self, motion: Steady) -> bool:
+        """Whether nothing presses on something that is closed, so that it may open."""
+        return any(is_zero(value) is True for value, _ in self._pressing(motion))

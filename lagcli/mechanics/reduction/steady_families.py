@@ -1,0 +1,188 @@
+"""Families of steady motions: the conditions solved for one rate or momentum.
+
+The conditions dU_eff/dq = 0 are polynomials in one rate (or momentum) u, the other quantities
+given: solved for u, they are a family over the places q; a factor without u gives places for
+every u.
+
+References
+----------
+Whittaker, *Analytical Dynamics*, 4th ed., sections 83 and 84.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
+
+import sympy
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import free_of
+from lagcli.algebra.equations import solve_for
+from lagcli.algebra.factors import factors_of
+from lagcli.algebra.signs import sign
+from lagcli.algebra.systems import SystemSolution, solve_system
+from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.reduction.readable import deciding, weak_sign
+from lagcli.mechanics.reduction.routh import Routh
+from lagcli.mechanics.reduction.steady_motion import Steady
+
+_ROOT_COST = 6  # operations that a root is worth
+
+
+class SteadyFamilies:
+    """The steady motions of a reduced system on which nothing acts beside U_eff.
+
+    Attributes
+    ----------
+    complete
+        Whether each that was found holds by substitution.
+    """
+
+    def __init__(self, routh: Routh) -> None:
+        assert routh.reduced is not None
+        self.routh = routh
+        self.full, self.system = routh.system, routh.reduced.system
+        self.conditions = routh.balance
+        self.complete = True
+
+    def motions(self) -> list[Steady] | None:
+        """Those of the choice of the unknown with the shortest answer; None without any."""
+        best: list[Steady] | None = None
+        least = 0
+        for unknown, chart in self._charts():
+            found = self._solved(unknown, chart)
+            if found is None:
+                continue
+            cost = sum(_cost(v) for each in found for v in each.values.values())
+            if best is None or cost < least:
+                best, least = found, cost
+        if best is None:
+            return None
+        q = self.system.q
+        return [one for one in best if not any(one.within(other, q) for other in best)]
+
+    def _charts(self) -> Iterator[tuple[Symbol, dict[Expr, Expr]]]:
+        """What to solve for, and p_c by the rate of c where the rate is what is given."""
+        potential = self.routh.effective_potential
+        momenta, cyclic = self.routh.momenta, self.routh.cyclic
+        entering = [p for p in momenta if not all(free_of(f, [p]) for f in self.conditions)]
+        for p, j in zip(momenta, cyclic, strict=True):
+            if p not in entering:
+                continue
+            rate, slope = self.full.qdot[j], simplify(potential.diff(p))
+            stiffness = simplify(slope.diff(p))
+            if is_zero(stiffness) is not False or not free_of(stiffness, momenta):
+                continue
+            chart = {p: simplify((rate - slope.xreplace({p: S.Zero})) / stiffness)}
+            yield rate, chart
+            for other in entering:
+                if other != p:
+                    yield other, chart
+
+    def _solved(self, unknown: Symbol, chart: Mapping[Expr, Expr]) -> list[Steady] | None:
+        """All steady motions by one unknown; None where a closed form is missing."""
+        conditions = [simplify(c.xreplace(dict(chart))) for c in self.conditions]
+        conditions = [c for c in conditions if c != 0]
+        within = [c for c in conditions if not free_of(c, [unknown])]
+        if not within:
+            return None
+        first = min(within, key=lambda c: int(sympy.count_ops(c)))
+        rest = [c for c in conditions if c is not first]
+        found: list[Steady] = []
+        for factor, power in factors_of(first):
+            if power < 0 or sign(factor) in (1, -1):
+                continue
+            if free_of(factor, [unknown]):
+                if free_of(factor, self.system.q):
+                    continue
+                solved = solve_system([factor, *rest], self.system.q)
+                if not solved.complete:
+                    return None
+                for each in solved.solutions:
+                    found += self._checked(each.values, chart, each.positive)
+                continue
+            roots = solve_for(factor, unknown)
+            if roots is None:
+                return None
+            for root, mirrored in _without_mirrors(roots.values, self.routh.momenta):
+                root = simplify(root)
+                put_in = {unknown: root}
+                others = self._others([c.xreplace(put_in) for c in rest])
+                if others is None:
+                    return None
+                for each in others:
+                    value = at(root, each.values)
+                    values = {**each.values, unknown: value}
+                    positive = (*each.positive, *_radicands(value))
+                    found += self._checked(values, chart, positive, mirrored=mirrored)
+        return found
+
+    def _others(self, conditions: list[Expr]) -> Sequence[SystemSolution] | None:
+        """The other conditions solved for as many coordinates, the rest of them given."""
+        for chosen in combinations(self.system.q, len(conditions)):
+            solved = solve_system(conditions, chosen)
+            if solved.complete and solved.solutions:
+                return solved.solutions
+        return None
+
+    def _checked(
+        self,
+        values: Mapping[Symbol, Expr],
+        chart: Mapping[Expr, Expr],
+        positive: Sequence[Expr],
+        *,
+        mirrored: bool = False,
+    ) -> list[Steady]:
+        """The motion with its momenta and rates, put back into dU_eff/dq and q' = dU_eff/dp."""
+        state = {q: values[q] for q in self.system.q if q in values}
+        rates_given = {v: values[v] for v in self.full.qdot if v in values}
+        momenta = {p: values[p] for p in self.routh.momenta if p in values}
+        try:
+            for p, by_rate in chart.items():
+                momenta[p] = at(by_rate.xreplace({**momenta, **rates_given}), state)
+            whole = {**state, **momenta}
+            if not self.routh.regular_at(state) or -1 in map(weak_sign, positive):
+                return []
+            if not all(is_zero(at(c, whole)) is True for c in self.conditions):
+                self.complete = False
+                return []
+            rates = self.routh.rates_at(whole)
+            if any(x.has(sympy.I) for x in (*whole.values(), *rates.values())):
+                return []
+            for j, rate in rates.items():
+                given = values.get(self.full.qdot[j])
+                if given is not None and is_zero(rate - given) is True:
+                    rates[j] = given
+            return [Steady(whole, rates, tuple(positive), mirrored)]
+        except ZeroDivisionError:
+            return []
+
+
+def _cost(value: Expr) -> int:
+    powers = value.atoms(sympy.Pow)
+    roots = sum(1 for power in powers if power.exp.is_Rational and power.exp.q > 1)
+    return int(sympy.count_ops(value)) + _ROOT_COST * roots
+
+
+def _without_mirrors(
+    roots: Sequence[Expr], momenta: Sequence[Symbol]
+) -> Iterator[tuple[Expr, bool]]:
+    """One of x and -x where nothing else changes its sign with them."""
+    seen: list[Expr] = []
+    for root in sorted(roots, key=lambda root: bool(root.could_extract_minus_sign())):
+        if any(is_zero(root + other) is True for other in seen):
+            continue
+        opposite = any(is_zero(root + other) is True for other in roots if other is not root)
+        seen.append(root)
+        yield root, opposite and free_of(root, momenta)
+
+
+def _radicands(value: Expr) -> list[Expr]:
+    """What stands under square roots and may be negative."""
+    return [
+        deciding(power.base)
+        for power in value.atoms(sympy.Pow)
+        if power.exp.is_Rational and power.exp.q % 2 == 0 and sign(power.base) != 1
+    ]

@@ -1,0 +1,65 @@
+"""One steady motion, or a family of them, as a value."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from sympy import Expr, Symbol
+
+from lagcli.algebra import is_zero
+from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.mechanics.oscillations.family import Family
+from lagcli.record import record
+
+
+@record
+class Steady:
+    """One steady motion, or a family of them.
+
+    Attributes
+    ----------
+    values
+        The coordinates that are fixed, and the momenta p_c, in what is free.
+    rates
+        q_c' by coordinate index; None where the coordinates are singular.
+    positive
+        It is there where each of these is > 0.
+    mirrored
+        It is there with all rates and momenta reversed, too.
+    derivatives
+        The second and higher derivatives of U_eff, of a singular place; empty elsewhere.
+    family
+        What ties the coordinates where the values are one branch of a family.
+    """
+
+    values: Mapping[Symbol, Expr]
+    rates: Mapping[int, Expr] | None
+    positive: tuple[Expr, ...] = ()
+    mirrored: bool = False
+    derivatives: tuple[Expr, ...] = ()
+    family: Family | None = None
+
+    @property
+    def free_rates(self) -> set[Expr]:
+        """Rates that are given as themselves: any value will do."""
+        return {rate for rate in (self.rates or {}).values() if rate.is_Symbol}
+
+    def within(self, family: Steady, q: Sequence[Symbol]) -> bool:
+        """Whether it is one of a family in which more coordinates are free."""
+        if sum(s in self.values for s in q) <= sum(s in family.values for s in q):
+            return False
+        power = 2 if family.mirrored else 1
+        return all(
+            is_zero(self.values.get(s, s) ** power - at(value, self.values) ** power) is True
+            for s, value in family.values.items()
+        )
+
+    def member_of(self, family: Steady, q: Sequence[Symbol]) -> bool:
+        """Whether it is another at the same coordinates but for momenta that are free."""
+        try:
+            return set(q) <= set(family.values) and all(
+                is_zero(self.values.get(s, s) - at(value, self.values)) is True
+                for s, value in family.values.items()
+            )
+        except ZeroDivisionError:
+            return False
