@@ -17,6 +17,8 @@ from tests.solved import solve
 from .derived import derive
 from .test_discovery_literature import kept, problem
 
+pytestmark = pytest.mark.long  # of discovery, test_discovery.py is what runs before a commit
+
 LINE = r"Schrödinger sch(1): sl(2,R) with Heisenberg h(1), modulo constants"
 
 

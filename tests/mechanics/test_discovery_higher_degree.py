@@ -13,6 +13,8 @@ from tests.marks import mostly_long
 from .derived import derive
 from .test_discovery_literature import kept, problem
 
+pytestmark = pytest.mark.long  # of discovery, test_discovery.py is what runs before a commit
+
 T2, T3 = "m*(x'^2 + y'^2)/2", "m*(x'^2 + y'^2 + z'^2)/2"
 TURNED = "((3*x + 4*y)/5)", "((3*y - 4*x)/5)"
 

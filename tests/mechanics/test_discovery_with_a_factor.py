@@ -15,6 +15,8 @@ from lagcli.mechanics.discovery.summary import summary
 from .derived import derive
 from .test_discovery_literature import kept, problem
 
+pytestmark = pytest.mark.long  # of discovery, test_discovery.py is what runs before a commit
+
 SQUARES = "(x'^2 + y'^2)"
 
 
