@@ -231,6 +231,7 @@ def test_a_force_with_a_vertical_tangent(accuracy):
         ("asin(sin({w}*t))", "taylor64", "has a corner there"),
         ("tan({w}*t)", "taylor64", "grows without bound"),
         ("sqrt(2 - {w}*t)", "taylor64", "are not defined there"),
+        ("-exp(-exp(300*{w}*t))", "taylor64", "is beyond all numbers there"),
     ],
 )
 @pytest.mark.parametrize("rate", ["0.7", "1.9"])

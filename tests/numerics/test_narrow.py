@@ -238,7 +238,11 @@ initial: {{x: 0, y: 0.9, x': 1}}
 @pytest.mark.parametrize("width", ["1e-2", "1e-4", "1e-6"])
 @pytest.mark.parametrize(
     ("gap", "reach"),
-    [("exp(-((x - 5)/{w})^2)", (-mpmath.log(0.9)) ** 0.5), ("1/(1 + ((x - 5)/{w})^2)", 1 / 3)],
+    [
+        ("exp(-((x - 5)/{w})^2)", (-mpmath.log(0.9)) ** 0.5),
+        ("1/(1 + ((x - 5)/{w})^2)", 1 / 3),
+        ("1/cosh((x - 5)/{w})", mpmath.acosh(1 / 0.9)),
+    ],
 )
 def test_a_narrow_bump_of_a_contact_is_met(gap, reach, width):
     result = simulated(BUMP.format(gap=gap.format(w=width)), UNTIL, 1e-9)

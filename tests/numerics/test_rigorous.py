@@ -44,9 +44,9 @@ def test_a_pendulum_lies_in_its_enclosure_by_jacobis_functions():
 
 
 def test_the_radius_of_a_pendulum_is_some_roundings_after_many_turns():
-    """What steps leave out is below 2^-bits, and 100 times that is never reached."""
+    """What steps leave out is below 2^-kept, and 100 times that is never reached."""
     found = proof(lagcli.load("plane-pendulum"), 20.0, 1e-12, samples=2)
-    assert all(float(x.rad()) < 100 * 2.0**-found.bits for x in found.rows[-1][1:])
+    assert all(float(x.rad()) < 100 * 2.0**-found.kept for x in found.rows[-1][1:])
 
 
 @pytest.mark.parametrize("k", ["3", "1/7", "0.1"])

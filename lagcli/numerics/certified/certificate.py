@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -22,8 +23,9 @@ from lagcli.record import replace
 _KNOWN = 0.5
 #: Accelerations that move a coordinate by less than this multiple of itself do not end the motion.
 _BOUNDED = 1e3
-#: Parts of the time over which the forces change: what changes by as much over the shorter jumps.
-_SIDES = (1e-4, 1e-6)
+#: Parts of the time over which the forces bend: what bends by as much over the shorter one jumps;
+#: a corner bends by 1e-2 of it, what is smooth by 1e-4.
+_SIDES, _SMOOTH = (1e-4, 1e-6), 1e-3
 
 
 def result_of(simulation: Setup, motion: Motion, outcome: Outcome) -> Result:
@@ -207,6 +209,8 @@ def why_stopped(motion: Motion, stop: CannotGoOn) -> str:
     try:
         rates: Any = motion.accelerations(stop.t, *stop.q, *stop.v)
         j = max(range(len(names)), key=lambda k: abs(float(rates[k])))
+        if any(math.isnan(float(x)) for x in rates):  # 0 times what is larger than any double
+            raise OverflowError
         if abs(float(rates[j])) * stop.t**2 <= _BOUNDED * _size(stop.q):
             return stop.reason or _irregularity(motion, stop)
         grows = f"{names[j]}'' grows without bound there"
@@ -222,14 +226,17 @@ def _irregularity(motion: Motion, stop: CannotGoOn) -> str:
         places = (x + time * u for x, u in zip(stop.q, stop.v, strict=True))
         return motion.accelerations(stop.t + time, *places, *stop.v)
 
-    def change(time: float) -> float:
-        pairs = (zip(rates(h), rates(0.0), strict=True) for h in (-time, time))
-        return max(abs(float(b - a)) for pair in pairs for a, b in pair)
+    def bend(time: float) -> float:
+        """|a(t + h) - 2 a(t) + a(t - h)|: of h^0 where a jumps, of h where it has a corner."""
+        sides = zip(rates(-time), rates(0.0), rates(time), strict=True)
+        return max(abs(float(a - 2 * b + c)) for a, b, c in sides)
 
     try:
-        far, near = (change(part * (stop.t or 1.0)) for part in _SIDES)
+        far, near = (bend(part * (stop.t or 1.0)) for part in _SIDES)
     except (ArithmeticError, ValueError):
         return "a function in the equations is not defined beyond"
+    if not near > _SMOOTH * far:
+        return "the power series of a function in the equations is beyond all numbers there"
     what = "jumps" if 2 * near > far else "has a corner"
     return f"a function in the equations {what} there"
 

@@ -14,6 +14,13 @@ times around it.  So nothing is passed over
 - where the u of a sine that is looked at in a few places turns by r <= 3;
 - where the u of a sign or an absolute value has no zero, or one at the most: u' has none.
 
+The u are those of the polynomial that the step keeps: r bounds all its values at all times of the
+step, none of it is a sample.  It leaves out the terms beyond the order, which the length of the
+step holds at the tolerance, and the rounding of the coefficients, for both of which ROOM is left;
+a zero that is divided out is judged by coefficients alone.  So a certificate is no proof.  A
+polynomial is watched where a power in it is above 8; of products within products, whose degree the
+reader limits, the probes of `kernels.probe` see what lasts for 1/2000 of the span.
+
 References
 ----------
 Moore, Kearfott, Cloud, *Introduction to Interval Analysis* (SIAM 2009), chapters 5 and 8.

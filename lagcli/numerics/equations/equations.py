@@ -13,10 +13,11 @@ from functools import cached_property
 from itertools import chain
 
 from lagcli.expression import Expression
+from lagcli.graph.bounded import bounded
 from lagcli.graph.corners import with_corners
 from lagcli.graph.derivative import partial
 from lagcli.graph.expansion import TooLong
-from lagcli.graph.nodes import Call, Node, Symbol, ancestry, mask_of
+from lagcli.graph.nodes import Call, Graph, Node, Symbol, ancestry, mask_of
 from lagcli.graph.stable import Stable, stable_dynamics
 from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
 from lagcli.mechanics.rates import ConstraintRow
@@ -24,6 +25,7 @@ from lagcli.numerics.equations.elimination import Eliminated, Factored
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.straight_line import Generated
 from lagcli.problem_data import Constraint, Problem
+from lagcli.record import replace
 
 _HALF = Fraction(1, 2)
 #: What is worked out of the constraints.
@@ -76,7 +78,7 @@ class Equations:
             self.mass, self.forcing = (
                 _stable(form) if whole is None else (whole.mass, whole.forcing)
             )
-            every = form.constraints
+            every = [_bounded(form.graph, row) for row in form.constraints]
         except NotStructural as reason:
             raise Refusal(f"no numbers for this problem: {reason}") from None
         except ArithmeticError as error:
@@ -273,6 +275,12 @@ class Equations:
             if ignorable and all(row[j] is zero for row in self.rows):
                 found[f"p_{q.name}"] = self.momenta[j]
         return found
+
+
+def _bounded(graph: Graph, row: ConstraintRow) -> ConstraintRow:
+    """The same constraint without quotients of functions that are no doubles."""
+    f, drift, bias, *entries = bounded(graph, [row.f, row.drift, row.bias, *row.row])
+    return replace(row, f=f, drift=drift, bias=bias, row=tuple(entries))
 
 
 def _stable(form: MatrixForm) -> tuple[tuple[tuple[Node, ...], ...], tuple[Node, ...]]:

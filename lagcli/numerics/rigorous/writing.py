@@ -33,6 +33,7 @@ def to_json(proof: Proof) -> bytes:
         "method": {
             "name": "interval Taylor series with Lohner's sets",
             "bits": proof.bits,
+            "kept": proof.kept,
             "order": proof.order,
             "steps": proof.steps,
         },
@@ -102,7 +103,7 @@ def to_table(proof: Proof) -> bytes:
     whole = "proved" if proof.reached else f"proved until t = {proof.holds_until:g}"
     if proof.events:
         whole += ", order and number of the events, too"
-    made = f"{proof.steps} steps of order {proof.order} in {proof.bits} bits"
+    made = f"{proof.steps} steps of order {proof.order} in {proof.bits} bits, {proof.kept} kept"
     lines += [
         "",
         *_claim(whole, proof.within),
