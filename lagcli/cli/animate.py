@@ -13,7 +13,7 @@ from lagcli.cli.simulate import Accuracy, File, Method, Project, Set, StopWhen, 
 Samples = Annotated[int, samples_option("Frames of the page.", 20_000)]
 Forces = Annotated[
     bool,
-    typer.Option("--forces", help="Show forces as arrows: applied ones and those of constraints."),
+    typer.Option("--forces", help="Show forces, also of constraints, as arrows."),
 ]
 
 
@@ -43,9 +43,9 @@ def animate(
 
     \b
     Examples:
-      lagcli animate problems/pendulums/double-pendulum.yaml -o double.html
-      lagcli animate problems/impact/bouncing-ball.yaml --until 4 -o ball.gif
-      lagcli animate problems/pendulums/pendulum-cartesian.yaml --until 5 --forces -o forces.html
+      lagcli animate double-pendulum -o double.html
+      lagcli animate bouncing-ball --until 4 -o ball.gif
+      lagcli animate pendulum-cartesian --until 5 --forces -o forces.html
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.animating import animate_file
     from lagcli.cli.simulating import SimulateOptions

@@ -65,6 +65,22 @@ def _unknown(name: str, known: Known) -> str:
         return str(broken)
     except LookupError:
         pass
-    every = [each.name for each in known(None)]
-    advice = did_you_mean(name, every) or f"there are {', '.join(every)}"
-    return f"unknown section '{name}': {advice}"
+    every = known(None)
+    names = [each.name for each in every]
+    advice = _headed(name, every) or did_you_mean(name, names) or _topic(name)
+    return f"unknown section '{name}': {advice or 'there are ' + ', '.join(names)}"
+
+
+def _headed(word: str, sections: Sequence[Declaration]) -> str:
+    """The section whose heading has the words, first of all one that begins with them."""
+    wanted = word.casefold().replace("_", " ")
+    held = [one for one in sections if wanted in one.heading.casefold()]
+    held.sort(key=lambda one: not one.heading.casefold().startswith(wanted))
+    return f"'{held[0].heading}' is the section {held[0].name}" if held and len(word) > 2 else ""
+
+
+def _topic(word: str) -> str:
+    """The page of the manual about a word that is a topic of it."""
+    from lagcli.manual import find_page
+
+    return f"see lagcli help {word}" if find_page(word) else ""

@@ -11,17 +11,18 @@ from lagcli.cli.options import Output
 from lagcli.cli.simulate import File, Set
 
 To = Annotated[
-    str,
+    str | None,
     typer.Option(
         "--to",
         metavar="LANGUAGE",
-        help="python, c, julia, fortran, matlab, modelica, sympy or mathematica.",
+        help="python, c, julia, fortran, matlab, modelica, sympy or mathematica.  "
+        "[default: by the ending of -o]",
         autocompletion=complete_language,
     ),
 ]
 
 
-def export(file: File, to: To, output: Output = None, settings: Set = None) -> int:
+def export(file: File, to: To = None, output: Output = None, settings: Set = None) -> int:
     """Write the equations of motion as code in another language.
 
     The right-hand side and its Jacobian, the mass matrix, the constraint matrices, the
@@ -30,9 +31,16 @@ def export(file: File, to: To, output: Output = None, settings: Set = None) -> i
 
     \b
     Examples:
-      lagcli export double-pendulum --to c -o pendulum.c
+      lagcli export double-pendulum -o pendulum.c
       lagcli export kepler --to julia
     """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.endings import format_of
     from lagcli.cli.exporting import export_file
+    from lagcli.export import LANGUAGES
 
-    return export_file(file, to, output, tuple(settings or ()))
+    # of the two that write .py, the first
+    endings = {ending: name for name, (ending, _) in reversed(LANGUAGES.items())}
+    language = format_of(to, output, endings, "", "--to")
+    if not language:
+        raise typer.BadParameter(f"give one of {', '.join(LANGUAGES)}", param_hint="--to")
+    return export_file(file, language, output, tuple(settings or ()))

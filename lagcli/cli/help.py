@@ -38,11 +38,12 @@ def help(  # noqa: A001 - the command's name
       lagcli help
       lagcli help problem-format
       lagcli help steady_motions --open
-      lagcli help simulate -f html -o simulate.html
-      lagcli help -f man -o lagcli.1
+      lagcli help simulate -o simulate.html
+      lagcli help -o lagcli.1
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.choices import MANUAL_FORMATS
     from lagcli.cli.delivering import has_place, place
+    from lagcli.cli.endings import MANUAL, format_of
     from lagcli.cli.reading import open_in_browser
     from lagcli.cli.running import is_known
     from lagcli.cli.status import Status
@@ -60,7 +61,7 @@ def help(  # noqa: A001 - the command's name
     if not has_place(output):
         return Status.USAGE
     terminal = output is None and sys.stdout.isatty()
-    chosen = format_name or ("text" if terminal else "markdown")
+    chosen = format_of(format_name, output, MANUAL, "text" if terminal else "markdown")
     done = place(_shown(page, chosen).encode(), output)
     return Status.WELL if done else Status.USAGE
 

@@ -46,9 +46,7 @@ Output = Annotated[
 ]
 State = Annotated[
     list[str] | None,
-    typer.Option(
-        "--at", metavar="X=VALUE", help='Begin with another coordinate or velocity: --at "x\'=1".'
-    ),
+    typer.Option("--at", metavar="X=VALUE", help='Begin elsewhere or faster: --at "x\'=1".'),
 ]
 Latex = Annotated[
     list[str] | None,

@@ -16,27 +16,25 @@ Kind = Annotated[
         "--kind",
         "-k",
         metavar="NAME",
-        help="series, phase, path, potential, poincare, drift or error.  [default: series, or "
-        "phase where there is no end]",
+        help="series, phase, path, potential, poincare, drift, error.  [default: series; "
+        "phase without an end]",
         autocompletion=complete_kind,
     ),
 ]
-Samples = Annotated[int, samples_option("Points of a curve over time.")]
+Samples = Annotated[int, samples_option("Points of a curve.")]
 Dark = Annotated[bool, typer.Option("--dark", help="Light lines on a dark page.")]
 Section = Annotated[
     str | None,
     typer.Option(
         "--section",
         metavar="X=VALUE",
-        help="Of poincare: where it is passed upwards, or --section t=T for every T.  "
-        "[default: the first coordinate = 0]",
+        help="Of poincare: where it is passed upwards, or t=T.  [default: the first "
+        "coordinate = 0]",
     ),
 ]
 Orbits = Annotated[
     int,
-    typer.Option(
-        "--orbits", metavar="N", min=1, max=200, help="Of poincare: motions of the same energy."
-    ),
+    typer.Option("--orbits", metavar="N", min=1, max=200, help="Of poincare: motions."),
 ]
 Width = Annotated[
     int | None,
@@ -77,10 +75,10 @@ def plot(
 
     \b
     Examples:
-      lagcli plot problems/pendulums/plane-pendulum.yaml
-      lagcli plot problems/pendulums/plane-pendulum.yaml --kind phase -o pendulum.pdf
-      lagcli plot problems/central/kepler.yaml --kind path --dark -o kepler.svg
-      lagcli plot problems/central/kepler.yaml --show "x,y,energy" --until 20
+      lagcli plot plane-pendulum
+      lagcli plot plane-pendulum --kind phase -o pendulum.pdf
+      lagcli plot kepler --kind path --dark -o kepler.svg
+      lagcli plot kepler --show "x,y,energy" --until 20
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.plotting import PlotWish, plot_file
     from lagcli.cli.simulating import SimulateOptions

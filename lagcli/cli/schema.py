@@ -32,11 +32,13 @@ def schema(what: What = "problem", output: Output = None) -> int:
 
     from lagcli.cli.choices import SCHEMAS
     from lagcli.cli.delivering import has_place, place
+    from lagcli.cli.endings import JSON, format_of
     from lagcli.cli.running import is_known
     from lagcli.cli.status import Status
     from lagcli.formatters.schema import answers_schema
     from lagcli.reader.schema import problem_schema
 
+    format_of(None, output, JSON, "json")
     if not is_known("the schema", what, SCHEMAS) & has_place(output):
         return Status.USAGE
     made = problem_schema() if what == "problem" else answers_schema()

@@ -8,7 +8,6 @@ import typer
 
 from lagcli.cli.choices import complete_column, complete_method, complete_problem, complete_table
 from lagcli.cli.options import BY_ENDING, Output, State, format_option, samples_option
-from lagcli.problem_data import METHODS
 
 File = Annotated[
     str,
@@ -34,10 +33,10 @@ Accuracy = Annotated[
     typer.Option(
         "--accuracy",
         metavar="A",
-        help="Bound on the error of every number.  [default: the file's, or 1e-9]",
+        help="Bound on all errors.  [default: file's, or 1e-9]",
     ),
 ]
-Samples = Annotated[int, samples_option("Rows, both ends included.")]
+Samples = Annotated[int, samples_option("Rows.")]
 Set = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="NAME=VALUE", help="Give a parameter a value."),
@@ -47,9 +46,8 @@ Show = Annotated[
     typer.Option(
         "--show",
         metavar="A,B,C",
-        help="Columns: any expression, energy, p_x, multipliers, rod.x (the force of a "
-        "constraint), or all of coordinates, velocities, accelerations, multipliers, "
-        "constraint_forces, momenta, charges.",
+        help="Columns: any expression, energy, p_x, rod.x (a force), or all coordinates, "
+        "velocities, accelerations, multipliers, constraint_forces, momenta, charges.",
         autocompletion=complete_column,
     ),
 ]
@@ -71,7 +69,7 @@ Method = Annotated[
     typer.Option(
         "--method",
         metavar="NAME",
-        help=f"{', '.join(METHODS)}: see `lagcli help simulate`.",
+        help="See `lagcli help simulate`.",
         autocompletion=complete_method,
     ),
 ]
@@ -83,7 +81,7 @@ WholeModel = Annotated[
     bool,
     typer.Option(
         "--whole-model",
-        help="Integrate every coordinate of the file: eliminate none, leave none out.",
+        help="Integrate every coordinate of the file.",
     ),
 ]
 
@@ -93,11 +91,11 @@ Rigorous = Annotated[
 ]
 Shadow = Annotated[
     bool,
-    typer.Option("--shadow", help="Prove that a motion from nearby values stays at these rows."),
+    typer.Option("--shadow", help="Prove that a nearby motion stays at these rows."),
 ]
 Beyond = Annotated[
     bool,
-    typer.Option("--beyond", help="Print the rows after the certified ones as well, marked."),
+    typer.Option("--beyond", help="Print rows without a certificate as well, marked."),
 ]
 
 

@@ -30,7 +30,7 @@ Times = Annotated[
     typer.Option(
         "--times",
         metavar="T,T",
-        help="Rows at these times instead: 100:250:25 (first, last, count), or 1,2,5.",
+        help="Rows at these times: 100:250:25, or 1,2,5.",
     ),
 ]
 Scheduler = Annotated[
@@ -38,7 +38,7 @@ Scheduler = Annotated[
     typer.Option(
         "--scheduler",
         metavar="ADDRESS",
-        help="Run on the workers of a Dask cluster: tcp://host:8786.",
+        help="A Dask cluster: tcp://host:8786.",
     ),
 ]
 
@@ -76,11 +76,11 @@ def sweep(
 
     \b
     Examples:
-      lagcli sweep plane-pendulum --vary theta=0.1:3:30 --until 10 --show theta,energy
-      lagcli sweep plane-pendulum --vary l=0.5,1,2 --vary theta=0.1:3:20 -o swings.csv
+      lagcli sweep plane-pendulum --vary theta=0.1:3:30 --show theta,energy
+      lagcli sweep plane-pendulum --vary l=0.5,1,2 --vary theta=0.1:3:20 -o a.csv
       lagcli sweep kepler --random 20 --seed 7 --vary "y'=0.5:1.2" -o orbits.npz
-      lagcli sweep plane-pendulum --vary theta=-3:3:9 --vary "theta'=-9:9:9" -o map.png
-      lagcli sweep kepler --vary "y'=0.5:1.2:900" -o o.csv --scheduler tcp://host:8786
+      lagcli sweep plane-pendulum --vary theta=-3:3:9 --vary l=1:2:9 -o map.png
+      lagcli sweep kepler --vary "y'=0.5:1:9" --scheduler tcp://host:8786
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import PICTURES, TABLES, format_of
     from lagcli.cli.simulating import SimulateOptions

@@ -53,6 +53,12 @@ def server() -> None:
     def changed(params: Any) -> None:
         check(params.text_document.uri)
 
+    def closed(params: Any) -> None:
+        uri = params.text_document.uri
+        made.text_document_publish_diagnostics(
+            types.PublishDiagnosticsParams(uri=uri, diagnostics=[])
+        )
+
     def completed(params: Any) -> Any:
         document, place = _place(made, params)
         kinds = types.CompletionItemKind
@@ -75,6 +81,7 @@ def server() -> None:
 
     made.feature(types.TEXT_DOCUMENT_DID_OPEN)(changed)
     made.feature(types.TEXT_DOCUMENT_DID_CHANGE)(changed)
+    made.feature(types.TEXT_DOCUMENT_DID_CLOSE)(closed)
     made.feature(types.TEXT_DOCUMENT_COMPLETION)(completed)
     made.feature(types.TEXT_DOCUMENT_HOVER)(hovered)
     made.start_io()

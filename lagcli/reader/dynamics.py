@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from lagcli.problem_data import Point, Problem
@@ -28,7 +29,8 @@ def check_energies(sections: Sections, given: dict[str, Scalar]) -> None:
         both = [key for key in others if whole in given and key in given]
         if both:
             related = ((given[whole].span, f"{whole} is given here"),)
-            message = f"both {whole} and {' and '.join(both)} are given"
+            message = f"both {whole} and {both[0]} are given"
+            message = f"{whole}, T and V are given" if both[1:] else message
             hint = "give L, or H" if "L" in both else f"give {whole}, or T and V"
             sections.error(message, given[both[0]].span, hint, related)
             sections.scope.refused += both  # as in L: T - V
@@ -169,14 +171,13 @@ def read_by_coordinate(
 ) -> dict[str, Expression]:
     """A map coordinate → expression."""
     found = {}
-    first = next(sections.scope.of_kind("coordinate"), "x")
-    given = node.value.rpartition("=")[2].strip() if isinstance(node, Scalar) else ""
-    for key, value in sections.entries(node, section, f"write {first}: {given or '…'}"):
+    for key, value in sections.entries(node, section, sections.by_name(node)):
         if sections.scope.kinds.get(key.label) != "coordinate":
             coordinates = list(sections.scope.of_kind("coordinate"))
-            hint = did_you_mean(key.label, coordinates)
-            along = f"it is given along a coordinate: {', '.join(coordinates)}"
-            hint = hint or along
+            along = re.sub(r"^[FQf]_?", "", key.label)
+            hint = f"write {along}" if along in coordinates else ""
+            hint = hint or did_you_mean(key.label, coordinates)
+            hint = hint or f"it is given along a coordinate: {', '.join(coordinates)}"
             if not sections.scope.refused:
                 sections.error(f"'{key.label}' in {section} is not a coordinate", key.span, hint)
         found[key.label] = sections.expression(value, what.format(key.label), role)

@@ -29,7 +29,9 @@ KEYS = {
     **dict.fromkeys(("e", "cor", "elasticity", "coefficient_of_restitution"), "restitution"),
     "force": "forces", "external_forces": "forces", "particles": "points", "masses": "points",
     "constraint": "constraints", "symmetry": "symmetries", "simulate": "simulation",
-    **dict.fromkeys(("time", "t_end", "tend", "t_max", "tmax", "end", "duration"), "until"),
+    **dict.fromkeys(
+        ("time", "t_end", "tend", "t_max", "tmax", "end", "duration", "tspan", "t_span", "stop",
+         "t1", "tf", "t_final"), "until"),
     **dict.fromkeys(("tol", "tolerance", "rtol", "precision"), "accuracy"),
     **dict.fromkeys(("solver", "integrator"), "method"),
     **dict.fromkeys(("author", "book"), "source"),
@@ -50,6 +52,8 @@ _PARTS = {
     **dict.fromkeys(("accelerations", "charges", "equilibria", "modes", "trajectory"), "expect"),
 }
 COMMENT = "a comment begins with '#'"
+CASES = frozenset("if for when where else otherwise piecewise Piecewise".split())
+CASE = "(1 + sign(x))/2 is 1 for x > 0, else 0"
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(/\d+)?")
 #: A number with a unit behind it, as in `10 kg` and `9.81 m/s^2`.
 _WITH_UNIT = re.compile(
@@ -72,12 +76,16 @@ _WRITTEN_OUT = {
 IN_FULL = {
     **dict.fromkeys(("integrate", "Integral", "int", "integral"), "write the antiderivative"),
     **dict.fromkeys(("sum", "Sum", "prod", "Product"), "write each term"),
+    **dict.fromkeys(("dot", "norm", "cross"), "write the sum over the components"),
 }  # fmt: skip
 _VULGAR = {"½": "1/2", "⅓": "1/3", "⅔": "2/3", "¼": "1/4", "¾": "3/4", "⅛": "1/8"}
 
 
 def key_meant(word: str, known: tuple[str, ...]) -> str | None:
-    """The key of a problem that a word stands for elsewhere."""
+    """The key of a problem that a word stands for elsewhere, also with arguments: `V(x)`."""
+    word = re.sub(r"\s*\(.*\)$", "", word)
+    if word in known:
+        return word
     meant = KEYS.get(word) or KEYS.get(word.casefold().replace(" ", "_").replace("-", "_"))
     return meant if meant in known else None
 
@@ -107,6 +115,8 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
         return f"write initial: {{{start[1]}: {value.strip()}}}"
     if word in {"initial", "start", "init"} and "symbol" in known and "value" not in known:
         return "a state stands under initial, as in initial: {x: 1}"
+    if "accelerations" in known and word.endswith("''"):
+        return f"write accelerations: {{{word[:-2]}: {value.strip()}}}"
     part = _PARTS.get(KEYS.get(word, word))
     if part in known:
         return f"write {part}: {{{KEYS.get(word, word)}: {value or '…'}}}"
@@ -198,8 +208,8 @@ def function_meant(name: str, arguments: list[str]) -> str:
         return f"write {_group(arguments[0])}^{_group(arguments[1])}"
     if name in {"sq", "square"} and len(arguments) == 1:
         return f"write {_group(arguments[0])}^2"
-    if name in {"dot", "norm"}:
-        return "write the sum over the components"
+    if name in CASES:
+        return CASE
     if name in IN_FULL:
         return IN_FULL[name]
     if name in _WRITTEN_OUT and len(arguments) == _WRITTEN_OUT[name].count("{}"):

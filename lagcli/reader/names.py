@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, get_args
 
 from lagcli.diagnostics import Diagnostic
@@ -220,11 +221,17 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return "did you mean " + product + "'" * primes + "?"
     if what.startswith("the symmetry") and name in {"eps", "epsilon", "ε", "s", "a", "delta"}:
         return "the value is the change by itself: write x: 1 for x → x + ε"
+    if what.startswith("the constraint") and name in {"lambda", "λ", "lam"}:
+        return "a constraint is written without its multiplier"
     hint = did_you_mean(name, scope.usable(role))
+    if re.fullmatch(r"_?\d+", name.removeprefix(closest(name, scope.usable(role)))):
+        return UNDECLARED  # x0 beside x is another quantity
     if not hint and name in {"T", "V", "L", "H"}:
         return f"{name} is a key and not a name: write its formula"
     if not hint and name in {"v", "velocity", "speed", "d"} and role.order > 0 and coordinates:
-        return f"the velocity of {coordinates[0]} is {coordinates[0]}'"
+        velocities = " and ".join(f"{each}'" for each in coordinates)
+        one = f"the velocity of {coordinates[0]} is {velocities}"
+        return f"the velocities are {velocities}" if coordinates[1:] else one
     if not hint and primes and role.order > 0:
         return "declare it under 'coordinates'"
     if not hint and name in {"e", "E"}:
@@ -296,7 +303,7 @@ def _integral(node: Call, role: Role, what: str) -> Iterator[Diagnostic]:
     """`integral(f, x, a, b)` of f by x from a to b."""
     count = len(node.arguments)
     if not role.integrals:
-        yield Diagnostic(f"an integral cannot stand in {what}", node.span, "only in an answer")
+        yield Diagnostic(f"an integral cannot stand in {what}", node.span, IN_FULL["integral"])
     elif count != 4 or node.primes:
         yield _wrong_count("integral", 4, count, node)
     elif not isinstance(node.arguments[1], Name):

@@ -36,7 +36,7 @@ from lagcli.reader.scope import PHASE_SPACE, STATE, Role
 from lagcli.reader.sections import Sections
 from lagcli.reader.text import Mistake, SourceText, decode
 from lagcli.reader.undeclared import one_for_undeclared
-from lagcli.reader.value_checks import check_values, without_inertia
+from lagcli.reader.value_checks import check_values, slips
 from lagcli.record import record, replace
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ def read_problem(source_name: str, data: bytes) -> ProblemReading:
     sections = Sections(diagnostics=diagnostics)
     problem = _read(sections, source, root)
     if problem is not None and not sections.diagnostics:
-        sections.diagnostics += [*_dimension_mistakes(problem), *without_inertia(problem)]
+        sections.diagnostics += [*_dimension_mistakes(problem), *slips(problem)]
     found = one_for_undeclared(
         sorted(sections.diagnostics, key=lambda each: each.span), together=not _declares(root)
     )

@@ -50,7 +50,7 @@ def read_initial(sections: Sections, node: DocumentNode) -> dict[Name, Expressio
     """The state at t = 0, by coordinate and by velocity."""
     initial: dict[Name, Expression] = {}
     coordinates = list(sections.scope.of_kind("coordinate"))
-    for key, value in sections.entries(node, "initial", "write x: 1"):
+    for key, value in sections.entries(node, "initial", sections.by_name(node)):
         what = f"the initial '{key.label}'"
         if is_decimal_part(key, value):
             message = f"'{key.label}' is not a coordinate"
@@ -70,9 +70,11 @@ def read_initial(sections: Sections, node: DocumentNode) -> dict[Name, Expressio
 
 def _state_name(sections: Sections, key: Scalar, coordinates: list[str]) -> Name | None:
     letters = key.label.rstrip("'’′″")
+    if letters not in coordinates and sections.scope.refused:
+        return None
     if letters not in coordinates:
         hint = velocity_meant(letters, coordinates) or did_you_mean(letters, coordinates)
-        hint = hint or "give coordinates x and velocities x'"
+        hint = hint or f"known are {', '.join(coordinates)} and velocities: {coordinates[0]}'"
         plain = re.sub(r"(\(\s*0\s*\)|_?0)$", "", key.label)
         if plain != key.label and plain.rstrip("'") in coordinates:
             hint = f"write {plain}"

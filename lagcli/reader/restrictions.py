@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from lagcli.problem_data import Constraint, Symmetry, pushing_sign
 from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitution
 from lagcli.reader.names import derivative_order
-from lagcli.reader.nodes import DocumentNode, Mapping
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.scope import QUESTION, STATE
 from lagcli.reader.suggest import did_you_mean
 
@@ -124,12 +125,17 @@ def read_symmetries(sections: Sections, node: DocumentNode) -> tuple[Symmetry, .
     """The candidate symmetries."""
     coordinates = list(sections.scope.of_kind("coordinate"))
     symmetries = []
-    for key, value in sections.entries(node, "symmetries", "write shift: {x: 1}"):
+    change_of = "{{{}: 1}}".format
+    hint = f"write shift: {change_of(next(iter(coordinates), 'x'))}"
+    for key, value in sections.entries(node, "symmetries", hint):
         what = f"the symmetry '{key.label}'"
         changes = {}
         if isinstance(value, Mapping) and not value.entries:
-            sections.error(f"{what} changes nothing", value.span, "write shift: {x: 1}")
-        for name, change in sections.entries(value, what, "write shift: {x: 1}"):
+            sections.error(f"{what} changes nothing", value.span, hint)
+        written = re.findall(r"\w+", value.value) if isinstance(value, Scalar) else []
+        changed = [name for name in written if name in {*coordinates, "t"}]
+        here = f"write {key.label}: {change_of(changed[0])}" if changed else hint
+        for name, change in sections.entries(value, what, here):
             if name.label in coordinates or name.label in {"t", "gauge"}:
                 changes[name.label] = sections.expression(change, what, STATE)
                 continue

@@ -94,6 +94,17 @@ class Sections:
         else:
             self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
 
+    def by_name(self, node: DocumentNode) -> str:
+        """How a list or a text of values is written as a map by coordinate."""
+        names = list(self.scope.of_kind("coordinate")) or ["x"]
+        given = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+        if len(given) == 2 * len(names):
+            names += [f"{name}'" for name in names]
+        values = [each.rpartition("=")[2].strip() or "…" for each in given]
+        fits = len(values) == len(names)
+        pairs = zip(names, values, strict=True) if fits else [(names[0], "…")]
+        return "write " + ", ".join(f"{name}: {value}" for name, value in pairs)
+
     def items(self, node: DocumentNode, what: str, hint: str = "") -> list[DocumentNode]:
         """The items of a list; a mistake when it is none."""
         if isinstance(node, Sequence):
@@ -302,6 +313,8 @@ def _as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
         return "a state stands under initial, as in initial: {x: 1}"
     if isinstance(node, Scalar) and names[0] == "unit" and written == "angle":
         return "write {unit: rad}"
+    if isinstance(node, Scalar) and names[0] == "unit" and "value" not in names:
+        return f"write {{description: {written}}}"
     if isinstance(node, Scalar) and names[0] == "where":
         return f"write {{value: {written}, in_terms_of: [x]}}"
     if isinstance(node, Sequence) and names[0] == "until" and node.items:

@@ -9,14 +9,21 @@ from lark.exceptions import UnexpectedCharacters
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import FUNCTIONS
-from lagcli.reader.habits import COMMENT, fraction, latex_meant, superscript, unit_behind
+from lagcli.reader.habits import (
+    CASE,
+    CASES,
+    COMMENT,
+    fraction,
+    latex_meant,
+    superscript,
+    unit_behind,
+)
 
 if TYPE_CHECKING:
     from lark.lexer import Token
 
     from lagcli.reader.positions import Excerpt
 
-_CASES = frozenset({"if", "for", "when", "where", "else", "otherwise"})
 _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
 _END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
 
@@ -81,6 +88,10 @@ def explain(error: Exception, tokens: list[Token], excerpt: Excerpt, start: str)
             hint = f"did you mean {function}(…)^{previous}?"
             return Diagnostic(f"'{function}' needs arguments", _span(function, excerpt), hint)
         return _missing_product(previous, token, following, excerpt)
+    if token.type == "COMPARISON" and CASES & {str(other) for other in tokens}:
+        return Diagnostic("a formula has no cases", _span(token, excerpt), CASE)
+    if [str(other) for other in tokens[place - 1 : place + 1]] == ["-", ">"]:
+        return Diagnostic("'->' has no meaning", _span(token, excerpt), "write '='")
     if token.type == "COMPARISON":
         message = f"'{token}' stands only in 'holds_while' and in the gap of a contact, and once"
         hint = _contact_advice(excerpt.value) if start == "equation" else ""
@@ -163,8 +174,8 @@ def _missing_product(
     if left.type == "NAME" and str(left) in FUNCTIONS:
         message = f"the argument of {left} stands in parentheses"
         return Diagnostic(message, span, f"did you mean {left}({right})?")
-    if {str(left), str(right)} & _CASES:
-        return Diagnostic("a formula has no cases", span, "(1 + sign(x))/2 is 1 for x > 0, else 0")
+    if {str(left), str(right)} & CASES:
+        return Diagnostic("a formula has no cases", span, CASE)
     before = _written(left) if left.type != "RPAR" else "(…)"
     if str(right) in {"rad", "radian", "radians"}:
         return Diagnostic("angles are in radians", span, f"leave out '{right}'")

@@ -36,19 +36,69 @@ if TYPE_CHECKING:
 
 _ODD = frozenset("sin tan sinh tanh asin atan asinh atanh sign".split())
 _EVEN = frozenset("abs cos cosh sec".split())
+_FRICTION = "a friction force -c*x' is written dissipation: c*x'^2/2"
 _SIGNS = {"positive": Fraction(1), "negative": Fraction(-1)}
 
 
-def without_inertia(problem: Problem) -> list[Diagnostic]:
+def slips(problem: Problem) -> list[Diagnostic]:
+    """Warnings of what is legitimate, and mostly a slip: no inertia, energies of the wrong sign."""
+    found = []
+    known = _known(problem)
+    if (kinetic := problem.kinetic) is not None:
+        found += _without_inertia(problem, kinetic)
+        if _parity(kinetic, problem.definitions) == -1:
+            message = "T changes its sign with the velocities"
+            hint = "a kinetic energy is of second degree in them, as in m*x'^2/2"
+            found.append(Diagnostic(message, kinetic.span, hint, severity="warning"))
+        elif _sign(kinetic, problem, known) == -1:
+            message, hint = "T is negative", "a kinetic energy is positive, as in m*x'^2/2"
+            found.append(Diagnostic(message, kinetic.span, hint, severity="warning"))
+    if (lost := problem.dissipation) is not None and _sign(lost, problem, known) == -1:
+        message, hint = "the dissipation is negative", f"it drives the motion; {_FRICTION}"
+        found.append(Diagnostic(message, lost.span, hint, severity="warning"))
+    return found
+
+
+def _sign(formula: Expression, problem: Problem, known: Mapping[str, Fraction]) -> int:
+    """1 or -1 for what is never negative or never positive, 0 where that is not plain to see.
+
+    A parameter of which nothing is known counts as positive, as masses and stiffnesses are.
+    """
+    signs = {p.name: -1 if p.assume == "negative" else 1 for p in problem.parameters}
+    signs |= {name: (value > 0) - (value < 0) for name, value in known.items()}
+
+    def sign(node: Expression, parts: list[int]) -> int:
+        match node:
+            case Number(value=value):
+                return (value > 0) - (value < 0)
+            case Name(name=name) if name in problem.definitions:
+                return folded(problem.definitions[name], sign)
+            case Name(name=name, primes=0):
+                return signs.get(name, 0)
+            case Negative():
+                return -parts[0]
+            case Sum():
+                return parts[0] if len(set(parts)) == 1 else 0
+            case Product() | Quotient():
+                return prod(parts)
+            case Power(exponent=Number(value=power)) if power.denominator == 1:
+                return 1 if power % 2 == 0 else parts[0]
+            case Call(function=function):
+                return int(function in {"abs", "exp", "cosh"})
+            case _:
+                return 0
+
+    return folded(formula, sign)
+
+
+def _without_inertia(problem: Problem, kinetic: Expression) -> list[Diagnostic]:
     """A warning for each coordinate that T forgets, unless a constraint or contact holds it."""
-    if problem.kinetic is None:
-        return []
     equations = [one.equation for one in problem.constraints]
     equations += [one.equation for one in problem.contacts]
     elsewhere = [side for equation in equations for side in (equation.left, equation.right)]
     elsewhere += problem.definitions.values()
     held = {name.name for formula in elsewhere for name in _names(formula)}
-    moving = {name.name for name in _names(problem.kinetic) if name.primes}
+    moving = {name.name for name in _names(kinetic) if name.primes}
     return [
         Diagnostic(
             f"the coordinate '{one.name}' is missing in T: {one.name}' does not occur there",
@@ -95,12 +145,11 @@ def _check_dissipation(sections: Sections, problem: Problem) -> None:
     formula = problem.dissipation
     if formula is None or formula == ZERO:
         return
-    hint = "a friction force -c*x' is written dissipation: c*x'^2/2"
     if derivative_order(formula, sections.scope) < 1:
-        sections.error("the dissipation contains no velocity", formula.span, hint)
+        sections.error("the dissipation contains no velocity", formula.span, _FRICTION)
     elif _parity(formula, problem.definitions) == -1:
         message = "the dissipation changes its sign with the velocities"
-        sections.error(message, formula.span, hint)
+        sections.error(message, formula.span, _FRICTION)
 
 
 def _parity(formula: Expression, definitions: Mapping[str, Expression]) -> int:

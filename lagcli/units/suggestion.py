@@ -19,7 +19,7 @@ _ELSEWHERE = {
     "c": "m/s",
     "lbs": "lb",
     "gauß": "gauss",
-    "kilos": "kg",
+    **dict.fromkeys(("kilos", "kilogramm", "kilogramme"), "kg"),
     "kg": "kg",  # Kg, KG
 }
 

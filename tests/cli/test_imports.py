@@ -95,6 +95,17 @@ def test_the_help_is_one_screen(capsys):
     assert [name for name in COMMANDS if name not in shown] == []
 
 
+def test_the_help_of_each_command_is_one_screen(capsys, monkeypatch):
+    from lagcli.cli.app import COMMANDS
+    from lagcli.cli.run import run
+
+    monkeypatch.setenv("COLUMNS", "80")
+    for name in COMMANDS:
+        assert run([name, "--help"]) == 0
+        lines = capsys.readouterr().out.splitlines()
+        assert (len(lines) <= 48, max(map(len, lines)) <= 80) == (True, True), name
+
+
 def test_the_help_names_every_section():
     from lagcli.statements.registry import built_in
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 
@@ -122,12 +123,42 @@ def test_the_ending_of_the_output_chooses_the_format(ending, shown, tmp_path):
 
 @pytest.mark.parametrize(
     "command",
-    [["solve", "hoop", "-f", "latex"], ["explain", "hoop", "-f", "text"],
-     ["simulate", "kepler", "-f", "csv"], ["tradeoff", "kepler", "-f", "csv"]],
+    ["solve hoop", "explain hoop", "simulate hoop", "sweep hoop --vary x=1,2", "plot hoop",
+     "animate hoop", "export hoop", "tradeoff hoop", "extremes hoop", "help solve", "schema"],
 )  # fmt: skip
-def test_an_ending_that_disagrees_with_the_format_is_an_error(command, shown, tmp_path):
-    status, _, told = shown(*command, "-o", "out.json")
-    assert (status, "out.json requires json" in told, list(tmp_path.iterdir())) == (2, True, [])
+def test_an_ending_that_no_format_has_is_an_error_with_those_that_are_known(
+    command, shown, tmp_path
+):
+    status, _, told = shown(*command.split(), "-o", "out.xyz")
+    assert (status, list(tmp_path.iterdir())) == (2, [])
+    assert re.search(r"'\.xyz' is not one of \.\w+", told)
+
+
+@pytest.mark.parametrize(
+    ("command", "begins"),
+    [("help solve -o a.html", "<!DOCTYPE"), ("help -o a.1", ".TH LAGCLI"),
+     ("export kepler -o a.jl", "# Kepler"), ("export kepler -o a.py", '"""Kepler')],
+)  # fmt: skip
+def test_the_manual_and_code_follow_the_ending(command, begins, shown, tmp_path):
+    assert shown(*command.split())[0] == 0
+    assert next(tmp_path.iterdir()).read_text().startswith(begins)
+
+
+def test_code_needs_a_language(shown):
+    status, _, told = shown("export", "kepler")
+    assert (status, "--to: give one of python" in told) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("command", "requires"),
+    [("solve hoop -f latex -o a.json", "json"), ("explain hoop -f text -o a.json", "json"),
+     ("simulate kepler -f csv -o a.json", "json"), ("tradeoff kepler -f csv -o a.json", "json"),
+     ("export kepler --to c -o a.jl", "julia"), ("help solve -f html -o a.md", "markdown")],
+)  # fmt: skip
+def test_an_ending_that_disagrees_with_the_format_is_an_error(command, requires, shown, tmp_path):
+    status, _, told = shown(*command.split())
+    assert (status, list(tmp_path.iterdir())) == (2, [])
+    assert f"requires {requires}, but --" in told
 
 
 def test_a_folder_is_solved_file_by_file(shown, tmp_path):

@@ -100,9 +100,9 @@ def test_a_name_that_no_file_may_have_is_told(tmp_path, capsys):
 @pytest.mark.parametrize("link", ["itself", "symbolic", "hard", "through a folder"])
 @pytest.mark.parametrize("command", ["solve", "explain", "simulate", "extremes", "tradeoff"])
 def test_the_problem_is_not_replaced_by_its_answer(command, link, tmp_path, capsysbinary):
-    problem = tmp_path / "problem.yaml"
+    problem = tmp_path / "problem.json"
     problem.write_bytes((FILES / "pendulum.yaml").read_bytes())
-    output = tmp_path / "answer.csv"
+    output = tmp_path / "answer.json"
     if link == "itself":
         output = problem
     elif link == "symbolic":
@@ -111,7 +111,7 @@ def test_the_problem_is_not_replaced_by_its_answer(command, link, tmp_path, caps
         output.hardlink_to(problem)
     else:
         (tmp_path / "folder").mkdir()
-        output = tmp_path / "folder" / ".." / "problem.yaml"
+        output = tmp_path / "folder" / ".." / "problem.json"
     assert run([command, str(problem), "-o", str(output)]) == 2
     assert b"is the problem itself" in capsysbinary.readouterr().err
     assert problem.read_bytes() == (FILES / "pendulum.yaml").read_bytes()

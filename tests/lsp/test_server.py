@@ -85,6 +85,14 @@ def test_an_editor_gets_mistakes_completions_and_formulas(editor):
     assert later["params"]["diagnostics"] == []
 
 
+def test_a_file_that_is_closed_has_no_mistakes_left(editor):
+    document = {"uri": "file:///a.yaml", "languageId": "yaml", "version": 1, "text": FILE}
+    editor.send("textDocument/didOpen", textDocument=document)
+    editor.receive(lambda m: m.get("params", {}).get("diagnostics"))
+    editor.send("textDocument/didClose", textDocument={"uri": "file:///a.yaml"})
+    assert editor.receive(lambda m: m.get("params", {}).get("diagnostics") == [])
+
+
 def test_without_pygls_it_says_what_to_install(monkeypatch, capsys):
     from lagcli.lsp.__main__ import main
 

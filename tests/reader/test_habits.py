@@ -280,6 +280,32 @@ HABITS = [
     (" coordinates: [x]\nT: x'^2\n", "begin them alike"),
     ("{coordinates: [x], T: x'^2,\n", "write its ']' or '}'"),
     ("coordinates: [x]\nT:x'^2\n", "write T: x'^2"),
+    (text(coordinates="[x, y]", T="m*v^2/2"), "the velocities are x' and y'"),
+    (text(initial="[1, 0]"), "write x: 1, x': 0"),
+    (text(initial="x = 1"), "write x: 1"),
+    (text(initial="{omega: 1}"), "known are x and velocities: x'"),
+    (text(coordinates="[x₁]", T="x₁'^2", V=None, initial="{x₁: 1, x: 0}"), "write x_1"),
+    ("T: x'^2/2\nV: x\ninitial: {x: 1, x': 0}\n", "write coordinates: [x]"),
+    (text(simulation="{tspan: 10}"), "the key is until"),
+    (text(forces="[-g*x']"), "write x: -g*x'"),
+    (text(forces="{F_x: -g*x'}"), "write x"),
+    (text(symmetries="[rotation]"), "write shift: {x: 1}"),
+    (text(symmetries="{later: t -> t + eps}"), "write later: {t: 1}"),
+    (text(constraints="{rod: x -> 1}"), "write '='"),
+    (text(constraints="{rod: lambda*(x - 1)}"), "written without its multiplier"),
+    (text(V="integral(k*x, x)"), "write the antiderivative"),
+    (text(V="m*dot(g, r)"), "write the sum over the components"),
+    (text(V="piecewise(x < 0, 0, k)"), "(1 + sign(x))/2"),
+    (text(V="if(x > 0, k*x, 0)"), "(1 + sign(x))/2"),
+    (text(V="k*(x - x0)^2/2"), "declare it under 'parameters'"),
+    (text(V=None) + "V(x): k*x\n", "the key is V"),
+    (text(expect="{x'': -g}"), "write accelerations: {x: -g}"),
+    (text(coordinates="{x: height}"), "write {description: height}"),
+    (text(parameters="{m: {unit: kilogramm}, k: 1}"), "did you mean 'kg'?"),
+    (text(T="-m*x'^2/2"), "a kinetic energy is positive"),
+    (text(T="m*x*x'"), "of second degree"),
+    (text(dissipation="-k*x'^2/2"), "it drives the motion"),
+    (text(definitions="{v: x'}", T="-m*v^2/2"), "a kinetic energy is positive"),
     ("---\n", "write coordinates: [x]"),
     ("{}\n", "write coordinates: [x]"),
 ]
@@ -306,6 +332,18 @@ def test_a_coordinate_that_is_missing_in_T_is_pointed_out():
 def test_what_an_odd_dissipation_may_be_taken_for_is_read(even):
     reading = read_problem("p.yaml", text(dissipation=even, definitions="{v: x'}").encode())
     assert reading.diagnostics == ()
+
+
+@pytest.mark.parametrize(
+    "kinetic",
+    ["m*x'^2/2 + g*x'", "-m*sqrt(1 - x'^2)", "m*(x'^2 - k)/2", "b*x'^2/2", "-b*x'^2/2", "m*x'^2*x"],
+)
+def test_what_a_kinetic_energy_may_be_is_read_without_a_warning(kinetic):
+    parameters = "{m, g, k, b: {assume: negative}}"
+    if kinetic == "b*x'^2/2":
+        assert "T is negative" in messages(text(T=kinetic, parameters=parameters))[0]
+    else:
+        assert messages(text(T=kinetic, parameters=parameters)) == []
 
 
 @pytest.mark.parametrize("entry", entries(), ids=lambda entry: entry.name)
