@@ -132,8 +132,8 @@ def read_symmetries(sections: Sections, node: DocumentNode) -> tuple[Symmetry, .
         changes = {}
         if isinstance(value, Mapping) and not value.entries:
             sections.error(f"{what} changes nothing", value.span, hint)
-        written = re.findall(r"\w+", value.value) if isinstance(value, Scalar) else []
-        changed = [name for name in written if name in {*coordinates, "t"}]
+        words = re.findall(r"\w+", value.value) if isinstance(value, Scalar) else []
+        changed = [name for name in words if name in {*coordinates, "t"}]
         here = f"write {key.label}: {change_of(changed[0])}" if changed else hint
         for name, change in sections.entries(value, what, here):
             if name.label in coordinates or name.label in {"t", "gauge"}:
