@@ -61,20 +61,46 @@ def test_a_force_that_switches_with_the_time_does_so_exactly():
 
 
 def test_friction_that_is_passed_with_speed_and_friction_that_holds():
-    """x'' = -x - sign(x')/10 from 3: half a period takes pi and 1/5 of the amplitude; from 1 it
-    stops after five halves of a period, where no single motion without sticking goes on.
+    """x'' = -x - sign(x')/10 from 3: half a period takes pi and 1/5 of the amplitude; from 1.05 it
+    stops at 0.05 after five halves of a period, and stays.
     """
     text = "{coordinates: [x], T: x'^2/2, V: x^2/2, forces: {x: -sign(x')/10}, initial: {x: %s}}"
     row = proof(lagcli.loads(text % 3), 6.0, samples=2).rows[-1]
+    stopped = proof(lagcli.loads(text % 1.05), 20.0, samples=21)
+    assert stopped.reached
+    [event] = stopped.events
+    assert (event.name, event.what) == ("x'", "sticks")
     with mpmath.workdps(40):
         amplitude = mpmath.mpf(27) / 10  # from -2.8, about -1/10
         assert contains(row[1], -mpmath.mpf(1) / 10 - amplitude * mpmath.cos(6 - mpmath.pi))
-    stopped = proof(lagcli.loads(text % 1), 20.0, samples=21)
-    assert not stopped.reached
-    assert stopped.holds_until == 15.0
-    assert (
-        "stays where the argument of abs or sign is 0, as where friction holds" in stopped.refusal
+        assert contains(event.t, 5 * mpmath.pi)
+        assert contains(stopped.rows[-1][1], -mpmath.mpf(5) / 100)
+        assert contains(stopped.rows[-1][2], 0)
+
+
+def test_what_a_belt_carries_slips_where_its_spring_pulls_as_much_as_friction_holds():
+    """x = v t until mu m g = k x, then d + v/w sin(w (t - d/v))."""
+    belt = lagcli.load("block-on-belt")
+    found = proof(belt, 1.0, samples=2)
+    assert [(e.name, e.what) for e in found.events] == [("x'", "sticks"), ("x'", "slips")]
+    with mpmath.workdps(40):
+        slips = mpmath.mpf(4) / 10 * mpmath.mpf(981) / 100 / 25 / (mpmath.mpf(1) / 2)
+        assert contains(found.events[1].t, slips)
+        exact = slips / 2 + mpmath.sin(5 * (1 - slips)) / 10
+        assert contains(found.rows[-1][1], exact)
+
+
+def test_two_bodies_that_rub_move_together_in_the_end():
+    """x'' = -f, y'' = f/2 from speeds 1 and 0: together at 1/(3 f/2), with two thirds less."""
+    text = (
+        "{coordinates: [x, y], T: x'^2/2 + y'^2, forces: {x: -0.3*sign(x' - y'), "
+        "y: -0.3*sign(y' - x')}, initial: {x': 1}}"
     )
+    found = proof(lagcli.loads(text), 5.0, samples=2)
+    assert [(e.name, e.what) for e in found.events] == [("x', y'", "sticks")]
+    with mpmath.workdps(40):
+        assert contains(found.events[0].t, mpmath.mpf(20) / 9)
+        assert all(contains(x, mpmath.mpf(1) / 3) for x in found.rows[-1][3:5])
 
 
 def test_impacts_that_accumulate_end_the_proof():

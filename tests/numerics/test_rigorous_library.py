@@ -11,8 +11,8 @@ from lagcli.interface.motion import asked_of
 from lagcli.numerics.rigorous import prove
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
-#: Friction that holds, impacts that accumulate.
-NOT_PROVED = {"block-on-belt", "block-stops-on-incline", "bouncing-ball"}
+#: Impacts that accumulate.
+NOT_PROVED = {"bouncing-ball"}
 #: What doubles round on the way to the table.
 ROUNDING = 1e-15
 

@@ -18,6 +18,7 @@ from lagcli.graph.corners import with_corners
 from lagcli.graph.derivative import partial
 from lagcli.graph.expansion import TooLong
 from lagcli.graph.nodes import Call, Graph, Node, Symbol, ancestry, mask_of
+from lagcli.graph.rewriting import rewritten
 from lagcli.graph.stable import Stable, stable_dynamics
 from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
 from lagcli.mechanics.rates import ConstraintRow
@@ -112,6 +113,40 @@ class Equations:
             fewer.__dict__.pop(name, None)
         fewer.hold({k: self.constraints[k] for k in independent}, self.declared)
         return fewer
+
+    def sticking(self, k: int) -> Equations:
+        """The equations while a switching function s(t, q, q') stays at 0, as a constraint."""
+        graph, s = self.graph, self.kinks[k]
+        fewer = copy(self)
+        for name in _OF_ROWS:
+            fewer.__dict__.pop(name, None)
+        row = tuple(partial(graph, v)(s) for v in self.qdot)
+        along = [
+            graph.product(partial(graph, x)(s), v) for x, v in zip(self.q, self.qdot, strict=True)
+        ]
+        speed = graph.sum([graph.product(a, v) for a, v in zip(row, self.qdot, strict=True)])
+        bias = graph.sum([partial(graph, self.t)(s), *along])
+        held = ConstraintRow(s, False, row, graph.difference(s, speed), bias)
+        fewer.constraints = (*self.constraints, held)
+        fewer.rows, fewer.bias = (*self.rows, row), (*self.bias, bias)
+        return fewer
+
+    def friction(self, k: int) -> Node | None:
+        """c of a force -c sign(s) ds/dq'; None where what jumps with s is not of this form."""
+        graph, s = self.graph, self.kinks[k]
+        jumps, sign = graph.call("sign", (s,)), graph.symbol("sign of s")  # no file can name it
+        forces = rewritten(graph, self.forcing, lambda _, node: sign if node is jumps else node)
+        found = [graph.scaled(partial(graph, sign)(force), -1) for force in forces]
+        slopes = [partial(graph, v)(s) for v in self.qdot]
+        j = next((j for j, slope in enumerate(slopes) if slope is not graph.zero), None)
+        if j is None or mask_of(found) & sign.mask:
+            return None
+        limit = graph.quotient(found[j], slopes[j])
+        return limit if [graph.product(limit, slope) for slope in slopes] == found else None
+
+    def kink_name(self, k: int) -> str:
+        """The velocities on which a force that jumps depends."""
+        return ", ".join(f"{v.name}'" for v in self.qdot if v.mask & self.kinks[k].mask)
 
     @cached_property
     def generated(self) -> Generated:

@@ -90,7 +90,9 @@ class Mode:
             if k not in self.held
         ]
         found += [
-            Condition(modes.kink_name(k), "slips", self._friction(place), "slip", k)
+            Condition(
+                modes.simulation.equations.kink_name(k), "slips", self._friction(place), "slip", k
+            )
             for place, k in enumerate(sorted(self.stuck))
         ]
         if simulation.stop is not None:
@@ -201,9 +203,3 @@ class Modes:
         """The motion with every constraint, for its matrices only."""
         every = frozenset(range(len(self.simulation.equations.rows)))
         return self.mode(every).motion
-
-    def kink_name(self, kink: int) -> str:
-        """The velocities on which a force that jumps depends."""
-        e = self.simulation.equations
-        mask = e.kinks[kink].mask
-        return ", ".join(f"{v.name}'" for v in e.qdot if v.mask & mask)

@@ -348,8 +348,9 @@ class Transitions:
                 break
             stuck.discard(k)
             modes.signs[k] = 1.0 if value > 0 else -1.0
-        events = [Event(t, modes.kink_name(k), "sticks") for k in sorted(stuck - was)]
-        events += [Event(t, modes.kink_name(k), "slips") for k in sorted(was - stuck)]
+        name = modes.simulation.equations.kink_name
+        events = [Event(t, name(k), "sticks") for k in sorted(stuck - was)]
+        events += [Event(t, name(k), "slips") for k in sorted(was - stuck)]
         return Turn(q=q, v=v, mode=modes.mode(held, frozenset(stuck)), events=tuple(events))
 
     # -- numbers ---------------------------------------------------------------------------------

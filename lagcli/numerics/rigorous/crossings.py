@@ -47,7 +47,7 @@ class Watched:
     Attributes
     ----------
     kind, index
-        "kink", "gap", "force" or "stop", and of which.
+        "kink", "slip", "gap", "force" or "stop", and of which.
     name : str
         As the events have it.
     sign : int
@@ -80,13 +80,17 @@ class Watched:
         return self.sign * field.system.evaluated(self.value, [t, 1], series, order + 1)[0][order]
 
 
+#: What a watched function does where it becomes 0.
+_WHAT = {
+    "kink": "passes 0", "slip": "slips", "gap": "closes", "force": "is lost", "stop": "holds",
+}  # fmt: skip
+
+
 class UndecidedCrossing(NotEnclosed):
     """Whether something becomes 0 at a time is not decided."""
 
     def __init__(self, watched: Watched, t: Any) -> None:
-        what = {"kink": "passes 0", "gap": "closes", "force": "is lost", "stop": "holds"}[
-            watched.kind
-        ]
+        what = _WHAT[watched.kind]
         super().__init__(f"whether {watched.name} {what} near t = {float(t):.6g} is not decided")
         self.t = t
 

@@ -20,6 +20,8 @@ from lagcli.numerics.rigorous.field import VectorField
 from lagcli.numerics.rigorous.initial import vanishing
 from lagcli.numerics.rigorous.solution import LinearSystem
 
+_ARGUMENT = "the argument of abs or sign"
+
 Key = tuple[frozenset[int], tuple[int, ...]]
 
 
@@ -102,30 +104,47 @@ class ProofModes:
         return self(mode.held | closed, mode.signs)
 
     def _leaving(self, t: Any, x: Sequence[Any], signs: Sequence[int]) -> list[int]:
-        """The signs just after the beginning, where some are 0 there."""
+        """The signs just after the beginning, where some are 0 there; 0 where friction holds."""
         found = [sign or 1 for sign in signs]
         for _ in range(2):
-            mode = self(self.setup.given, found)
-            kinks = [each for each in mode.watched if each.kind == "kink"]
-            rates = {each.index: each.rate(mode.field, t, x) for each in kinks}
-            wrong = [k for k, sign in enumerate(signs) if sign == 0 and not rates[k] > 0]
+            wrong = self._returning(t, x, signs, found)
             if not wrong:
                 return found
             found = [-sign if k in wrong else sign for k, sign in enumerate(found)]
-        raise NotEnclosed(
-            "the argument of abs or sign is 0 at the beginning and may stay so, as where friction "
-            "holds: this is not enclosed"
+        wrong = self._returning(t, x, signs, found)
+        found = [0 if k in wrong else sign for k, sign in enumerate(found)]
+        kinks = self.setup.equations.kinks
+        self.assumed += vanishing(
+            self(self.setup.given, found).motion, x, [kinks[k] for k in wrong]
         )
+        return found
+
+    def _returning(
+        self, t: Any, x: Sequence[Any], signs: Sequence[int], trial: Sequence[int]
+    ) -> set[int]:
+        """What is 0 and does not leave 0 to the side of its sign."""
+        mode = self(self.setup.given, trial)
+        return {
+            each.index
+            for each in mode.watched
+            if each.kind == "kink" and not signs[each.index] and not each.rate(mode.field, t, x) > 0
+        }
 
 
 class ProofMode:
-    """The motion while some constraints act and the switching functions keep their signs."""
+    """The motion while some constraints act and the switching functions keep their signs.
+
+    Where a sign is 0, dry friction holds its argument at 0: see `Equations.sticking`.
+    """
 
     def __init__(self, modes: ProofModes, held: frozenset[int], signs: tuple[int, ...]) -> None:
         self.modes, self.held, self.signs = modes, held, signs
         setup = modes.setup
         whole = setup.equations.holding(held)
         self.equations = _without(whole, modes.implied)
+        self.stuck = [k for k, sign in enumerate(signs) if not sign]
+        for k in self.stuck:
+            self.equations = self.equations.sticking(k)
         self.motion = Motion(
             self.equations, modes.constants, modes.arithmetic, [float(sign) for sign in signs]
         )
@@ -145,9 +164,12 @@ class ProofMode:
         setup, equations = self.modes.setup, self.equations
         names = [c.name for c in setup.whole.constraints]
         found = [
-            self._watch("kink", k, "the argument of abs or sign", sign, node)
+            self._watch("kink", k, equations.kink_name(k) or _ARGUMENT, sign, node)
             for (k, node), sign in zip(enumerate(equations.kinks), self.signs, strict=True)
+            if sign
         ]
+        for k in self.stuck:
+            found += self._slipping(k)
         if setup.stop is not None:
             sign = self.modes.stop_sign or 1
             found.append(self._watch("stop", 0, setup.asked.stop_name, sign, setup.stop))
@@ -162,6 +184,21 @@ class ProofMode:
             if k in self.held
         ]
         return found
+
+    def _slipping(self, k: int) -> list[Watched]:
+        """c - lambda and c + lambda of friction that holds: |sigma| < 1, sigma = -lambda/c."""
+        equations, name = self.equations, self.equations.kink_name(k)
+        graph, limit = equations.graph, equations.friction(k)
+        if limit is None or equations.eliminated is None:
+            raise NotEnclosed(
+                f"what holds {name} at 0 is not dry friction of its own: not enclosed"
+            )
+        _, forces = equations.eliminated.motion(equations.forcing, equations.bias)
+        held = forces[len(forces) - len(self.stuck) + self.stuck.index(k)]
+        return [
+            self._watch("slip", k, name, sign, graph.sum([held, graph.scaled(limit, sign)]))
+            for sign in (1, -1)
+        ]
 
     def _of_state(self, node: Node) -> Node:
         """A node without accelerations and multipliers."""
@@ -219,14 +256,21 @@ class ProofMode:
         same = Restart(lambda _, y: list(y), self._unmoved)
         if watched.kind == "force":
             return self.modes(self.held - {watched.index}, self.signs), same, "contact lost"
-        signs = [-s if k == watched.index else s for k, s in enumerate(self.signs)]
-        after = self.modes(self.held, signs)
-        if not watched.rate(after.field, t, x) < 0:
-            raise NotEnclosed(
-                f"near t = {float(t):.6g} the motion stays where {watched.name} is 0, as where "
-                "friction holds: this is not enclosed"
-            )
-        return after, same, "switch"
+        if watched.kind == "slip":
+            return self._with_sign(watched.index, watched.sign), same, "slips"
+        after = self._with_sign(watched.index, -watched.sign)
+        rate = watched.rate(after.field, t, x)
+        if rate < 0:
+            return after, same, "switch"
+        if rate > 0:
+            return self._with_sign(watched.index, 0), same, "sticks"
+        raise NotEnclosed(
+            f"whether friction holds {watched.name} at 0 near t = {float(t):.6g} is not decided"
+        )
+
+    def _with_sign(self, k: int, sign: int) -> ProofMode:
+        """The mode with another sign of a switching function."""
+        return self.modes(self.held, [*self.signs[:k], sign, *self.signs[k + 1 :]])
 
     def _struck(self, watched: Watched, t: Any, x: Sequence[Any]) -> tuple[ProofMode, Restart, str]:
         """An impact by Newton's law: M (v+ - v) = A^T Lambda, g'+ = -e g'."""
@@ -256,7 +300,11 @@ class ProofMode:
         return mode, restart, "impact"
 
     def _signs_after(self, t: Any, x: Sequence[Any]) -> list[int]:
-        found = []
+        found: list[int] = []
+        if self.stuck:
+            raise NotEnclosed(
+                f"an impact while friction holds, at t = {float(t):.6g}: not enclosed"
+            )
         for each in self.watched:
             if each.kind == "kink":
                 found.append(_sign_of(each.sign * each.at(t, x)))

@@ -294,6 +294,8 @@ class Attempt:
     def _go(self) -> None:
         t, start, mode, leaving = self._begin()
         self._take(mode, t, start.box)
+        for k in mode.stuck:
+            self._happened(t, mode.equations.kink_name(k), "sticks", mode, start.box)
         following: Following | None = (t, start, mode, leaving)
         while following is not None and len(self.rows) < len(self.times):
             following = self._through_mode(*following)
@@ -389,7 +391,7 @@ class Attempt:
             self._take(mode, tau, state)
             return None
         after, restart, what = mode.through(watched, tau, state)
-        if watched.kind != "kink":
+        if what != "switch":
             self._happened(tau, watched.name, what, mode, state)
         for t in self.times[len(self.rows) :]:
             tau = tau.union(t) if t.overlaps(tau) else tau
@@ -472,12 +474,14 @@ def _middle(x: Any) -> float | None:
 
 
 def _order(each: Watched, crossed: Watched) -> int:
-    """The order of its zero at an event: a contact is lost with gap, speed and force 0."""
+    """The order of its zero at an event.
+
+    A contact is lost with gap, speed and force 0, what slips begins with speed and force 0.
+    """
     if each.index != crossed.index or crossed.kind == "stop":
         return 0
-    if crossed.kind == "force":
-        return 3 if each.kind == "gap" else 0
-    return 1 if each.kind == crossed.kind else 0
+    lost = {("force", "gap"): 3, ("slip", "kink"): 2}
+    return lost.get((crossed.kind, each.kind), int(each.kind == crossed.kind))
 
 
 def _good(rows: Sequence[Enclosure], accuracy: float) -> tuple[int, float]:
