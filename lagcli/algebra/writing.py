@@ -74,27 +74,37 @@ class Writer:
     def _joined_exponentials(self, pairs: list[Factor]) -> list[Factor]:
         """exp(a)^k exp(b) = exp(k a + b), x^n x^k = x^(n + k)."""
         result: list[Factor] = []
-        exponents: list[Expression] = []
-        powers: dict[Expression, list[Expression]] = {}
+        exponents: list[Factor] = []
+        powers: dict[Expression, list[Factor]] = {}
         for base, exponent in pairs:
             if isinstance(base, Call) and base.function == "exp":
-                exponents.append(self.product(exponent, [(base.arguments[0], Fraction(1))]))
+                exponents.append((base.arguments[0], exponent))
             elif isinstance(base, Power) and exponent.denominator == 1:
-                part = self.product(exponent, [(base.exponent, Fraction(1))])
-                powers.setdefault(base.base, []).append(part)
+                powers.setdefault(base.base, []).append((base.exponent, exponent))
             else:
                 result.append((base, exponent))
-        if exponents:
-            result.append((Call("exp", (self.sum(exponents),)), Fraction(1)))
+        whole = self._collected(exponents)
+        if whole != ZERO:
+            result.append((Call("exp", (whole,)), Fraction(1)))
         for base, parts in powers.items():
-            plain = [pair for pair in result if pair[0] == base]
+            plain = [(ONE, exponent) for b, exponent in result if b == base]
             result = [pair for pair in result if pair[0] != base]
-            whole = self.sum([*parts, *(self.number(exponent) for _, exponent in plain)])
+            whole = self._collected([*parts, *plain])
             if isinstance(whole, Negative):
                 result.append((Power(base, whole.operand), Fraction(-1)))
-            else:
+            elif whole != ZERO:
                 result.append((Power(base, whole), Fraction(1)))
         return result
+
+    def _collected(self, multiples: list[Factor]) -> Expression:
+        """k a + n b + ... for (a, k), (b, n), ..., like terms added."""
+        found: dict[tuple[Factor, ...], Fraction] = {}
+        for node, multiple in multiples:
+            for term in terms_of(node):
+                coefficient, pairs = _flattened(multiple, [(term, Fraction(1))])
+                key = tuple(_merged(pairs))
+                found[key] = found.get(key, Fraction(0)) + coefficient
+        return self.sum(self.product(coefficient, pairs) for pairs, coefficient in found.items())
 
     def _factors(self, pairs: list[Factor], sign: int) -> list[Expression]:
         chosen = [(base, exponent * sign) for base, exponent in pairs if exponent * sign > 0]

@@ -17,7 +17,7 @@ from lagcli.problem_data import Problem
 
 def export_file(name: str, language: str, output: Path | None, settings: tuple[str, ...]) -> Status:
     """Derive, write, and say how it ended."""
-    if not is_known("--to", language, LANGUAGES) & has_place(output):
+    if not is_known("--to", language, LANGUAGES) & has_place(output, name):
         return Status.USAGE
     problem = problem_of(name, Request(settings=settings))
     if problem is None:

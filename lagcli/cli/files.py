@@ -37,7 +37,8 @@ def read_input(name: str) -> bytes:
 def is_same_file(path: Path, name: str) -> bool:
     """Whether both lead to one regular file, through links of either kind."""
     try:
-        return name != STANDARD and path.is_file() and path.samefile(name)
+        read = sys.stdin.fileno() if name == STANDARD and sys.stdin else name
+        return path.is_file() and os.path.samestat(path.stat(), os.stat(read))  # noqa: PTH116
     except OSError:
         return False
 

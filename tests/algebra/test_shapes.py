@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from fractions import Fraction
 
 import pytest
 import sympy as sp
@@ -11,8 +12,10 @@ from sympy import Expr, Symbol, cos, exp, sin, sqrt, tan
 
 from lagcli.algebra import shape, simplify, to_expression
 from lagcli.algebra.build import unspecified
+from lagcli.algebra.writing import Writer
 from lagcli.expression import operation_count
 from lagcli.formatters.grammar import to_grammar
+from lagcli.reader import parse_text
 
 ORDER = "M m m1 m2 I1 I3 l l1 l2 R g k c alpha t x y r theta phi psi theta1 theta2".split()
 M, m, m1, m2, l1, l2, R, g, k, c, r, x0 = (
@@ -200,3 +203,18 @@ def test_a_radicand_has_one_shape_within_a_function_and_beside_it(function, squa
     within = {p for f in functions for p in f.args[0].atoms(sp.Pow) if p.exp.q == 2}
     beside = found.xreplace(dict.fromkeys(functions, sp.S.One)).atoms(sp.Pow)
     assert within == {p for p in beside if p.exp.q == 2}
+
+
+@pytest.mark.parametrize(
+    ("factors", "written"),
+    [
+        (("exp(2)", "exp(1)"), "exp(3)"),
+        (("exp(2*x + y)", "x", "exp(3*x)"), "x*exp(5*x + y)"),
+        (("exp(x)", "exp(-x)", "m"), "m"),
+        (("k^(x + 1)", "k^(2*x)", "k"), "k^(2 + 3*x)"),
+        (("k^x", "m", "k^(-x)"), "m"),
+    ],
+)
+def test_like_terms_of_exponents_are_added(factors: tuple[str, ...], written: str) -> None:
+    pairs = [(parse_text(each), Fraction(1)) for each in factors]
+    assert to_grammar(Writer(ORDER).product(Fraction(1), pairs)) == written

@@ -115,3 +115,16 @@ def test_the_problem_is_not_replaced_by_its_answer(command, link, tmp_path, caps
     assert run([command, str(problem), "-o", str(output)]) == 2
     assert b"is the problem itself" in capsysbinary.readouterr().err
     assert problem.read_bytes() == (FILES / "pendulum.yaml").read_bytes()
+
+
+@pytest.mark.parametrize("command", [["solve"], ["explain"], ["export", "--to", "c"]])
+def test_the_problem_on_standard_input_is_not_replaced(
+    command, tmp_path, capsysbinary, monkeypatch
+):
+    problem = tmp_path / "problem.yaml"
+    problem.write_bytes((FILES / "pendulum.yaml").read_bytes())
+    with problem.open() as standard_input:
+        monkeypatch.setattr("sys.stdin", standard_input)
+        assert run([*command, "-", "-o", str(problem)]) == 2
+    assert b"is the problem itself" in capsysbinary.readouterr().err
+    assert problem.read_bytes() == (FILES / "pendulum.yaml").read_bytes()

@@ -152,7 +152,13 @@ def judge(linear: Linearization, characteristic: Characteristic | None = None) -
     if not linear.M:
         return Stability(stable=True, reason=EXCLUDED)
     try:
-        reason = _not_to_be_judged(near)
+        reason = _not_smooth(near)
+        if reason:
+            return undecided(reason)
+        apart = by_separate_curvatures(near)
+        if apart is not None:
+            return apart
+        reason = _without_roots(near)
         if reason:
             return undecided(reason)
         found = by_a_growing_root(near) or _judged(near)
@@ -193,13 +199,17 @@ def judge_on_meridians(linear: OnMeridians) -> Stability:
     return replace(found, reverses=not turning, asymptotic=False)
 
 
-def _not_to_be_judged(near: Near) -> str:
+def _not_smooth(near: Near) -> str:
     if near.linear.drifts:
         return DRIFTS
     if not near.linear.regular:
         return "the mass matrix is singular there"
     if not near.linear.smooth:
         return "a force jumps there, or its derivative does"
+    return ""
+
+
+def _without_roots(near: Near) -> str:
     if near.powers is None:
         return "the characteristic polynomial was not found"
     if not near.same_on_branches:
@@ -239,6 +249,17 @@ def _judged(near: Near) -> Stability:
     if roots.stable is not None or found:
         return roots
     return energy if energy is not None and energy.reason else roots
+
+
+def by_separate_curvatures(near: Near) -> Stability | None:
+    """By the signs of a K that is diagonal, of which no determinant is needed; None: not so."""
+    linear = near.linear
+    if linear.nonholonomic or linear.damped or linear.gyroscopic or linear.point.family is not None:
+        return None
+    signs = near.signs(near.diagonal)
+    if None in signs or 0 in signs or not (near.has_energy and near.inertia_is_definite):
+        return None
+    return unstable(_FALLING) if -1 in signs else _strict_minimum(near) if signs else None
 
 
 # -- a growing root --------------------------------------------------------------------------------

@@ -166,9 +166,16 @@ class Near:
         powers = determinant_in(W, [[W * M[i][j] + K[i][j] for j in range(n)] for i in range(n)])
         if powers is not None:
             found.append([simplify(power / powers[-1]) for power in powers[-2::-1]])
-        if n > 1 and all(K[i][j] == 0 for i in range(n) for j in range(n) if i != j):
-            found.append(sorted((K[i][i] for i in range(n)), key=lambda k: k == 0))
-        return found
+        return [*found, self.diagonal] if self.diagonal else found
+
+    @cached_property
+    def diagonal(self) -> list[Expr]:
+        """The entries of a K that is diagonal, those that vanish last; empty for any other."""
+        K = self.restoring.K
+        n = len(K)
+        if n == 1 or any(K[i][j] != 0 for i in range(n) for j in range(n) if i != j):
+            return []
+        return sorted((K[i][i] for i in range(n)), key=lambda k: k == 0)
 
     # -- velocity terms ----------------------------------------------------------------------------
 
