@@ -121,7 +121,7 @@ def test_the_problem_is_not_replaced_by_its_answer(command, link, tmp_path, caps
 def test_the_problem_on_standard_input_is_not_replaced(
     command, tmp_path, capsysbinary, monkeypatch
 ):
-    problem = tmp_path / "problem.yaml"
+    problem = tmp_path / "problem"
     problem.write_bytes((FILES / "pendulum.yaml").read_bytes())
     with problem.open() as standard_input:
         monkeypatch.setattr("sys.stdin", standard_input)
