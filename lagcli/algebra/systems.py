@@ -202,6 +202,7 @@ class _Solver:
 
     def _factors(self, equation: Expr) -> list[Expr] | None:
         """The factors that can vanish: None for 0 = 0, empty for a contradiction."""
+        equation = _without_signs(equation)
         field = Field([equation])
         try:
             element = field(equation)
@@ -327,6 +328,20 @@ class _Solver:
         if not any({*other.positive} <= {*conditions} for other in same):
             kept = SystemSolution(ordered, tuple(dict.fromkeys(conditions)), relation)
             self.found.solutions.append(kept)
+
+
+def divisors(product: Expr) -> set[Expr]:
+    """What a product is divided by, in powers."""
+    powers = (factor.as_base_exp() for factor in sympy.Mul.make_args(product))
+    return {base for base, exponent in powers if exponent.is_negative}
+
+
+def _without_signs(equation: Expr) -> Expr:
+    """v/u^k of v sgn(u)/u^k, which has no value where u = 0."""
+    below = divisors(equation)
+    signs = (u for u in sympy.Mul.make_args(equation) if isinstance(u, sympy.sign))
+    void = [u for u in signs if {u.args[0], -u.args[0]} & below]
+    return equation.xreplace(dict.fromkeys(void, sympy.S.One)) if void else equation
 
 
 def _pairs(

@@ -16,7 +16,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
-from itertools import combinations, product
+from itertools import chain, combinations, product
 
 import mpmath
 import sympy
@@ -25,6 +25,7 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import Field, dot, is_zero, nullspace, simplify
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.equations import decimal, is_decimal, rounded
+from lagcli.algebra.factors import factors_of
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.numeric import Evaluator, vanishes_at_random
 from lagcli.algebra.signs import sign
@@ -94,6 +95,9 @@ class RestPoints:
             return None
         equations = self._at_all_times
         found, lost = self._found(equations)
+        if not (found or self.complete or self.depends_on_time) and self.sums:
+            self.complete = True
+            return ()
         kinks = not (self.depends_on_time or self._kinks_apart) and at_kinks(
             self.forces_at_rest, equations, self.system.q, found
         )
@@ -123,6 +127,8 @@ class RestPoints:
                 lost |= len(solution.values) < len(self.system.q)
             elif point is not None and self.balanced(point.values, solution.positive):
                 found.append(point)
+            elif self._without_value(solution.values):
+                continue
             elif len(solution.values) < len(self.system.q) and self._may_be_real(solution):
                 lost = True
             else:
@@ -193,7 +199,7 @@ class RestPoints:
         """Whether the equations or the constraints have t in them."""
         system, constraints = self.system, self.dynamics.constraints
         everything = [
-            *self.dynamics.lagrange.forcing,
+            *self.forcing,
             *(entry for e in constraints.equations for entry in (*e.row, e.drift)),
             *(e.f for e in constraints.equations if e.holonomic),
         ]
@@ -202,17 +208,43 @@ class RestPoints:
         )
 
     @cached_property
+    def _growth(self) -> Expr:
+        """f(t) > 0 of equations of motion that are f(t) times others without t, else 1."""
+        t, lagrange = self.system.t, self.dynamics.lagrange
+        entries = [x for x in (*chain(*lagrange.mass_matrix), *lagrange.forcing) if x != 0]
+        if not entries or free_of(entries[0], [t]):
+            return S.One
+        timed = (f**k for f, k in factors_of(simplify(entries[0])) if f.free_symbols & {t})
+        growth = sympy.Mul(*timed)
+        alike = all(free_of(simplify(entry / growth), [t]) for entry in entries)
+        return growth if alike and sign(growth) == 1 else S.One
+
+    @cached_property
+    def forcing(self) -> tuple[Expr, ...]:
+        """Of M q'' = forcing + A^T lambda, without a factor f(t) that all equations have."""
+        forcing = self.dynamics.lagrange.forcing
+        return forcing if self._growth == 1 else tuple(simplify(f / self._growth) for f in forcing)
+
+    @cached_property
+    def mass_matrix(self) -> tuple[tuple[Expr, ...], ...]:
+        """M, without the factor that `forcing` is without."""
+        rows = self.dynamics.lagrange.mass_matrix
+        if self._growth == 1:
+            return rows
+        return tuple(tuple(simplify(x / self._growth) for x in row) for row in rows)
+
+    @cached_property
     def energy_never_grows(self) -> bool:
         """Whether no force, dissipation or constraint feeds the energy function."""
         from lagcli.mechanics.stability.energy import never_grows
 
-        return never_grows(self.dynamics)
+        return self._growth == 1 and never_grows(self.dynamics)
 
     @cached_property
     def forces_at_rest(self) -> tuple[Expr, ...]:
         """forcing(q, q' = 0)."""
         at_rest = dict.fromkeys(self.system.qdot, S.Zero)
-        return tuple(f.xreplace(at_rest) for f in self.dynamics.lagrange.forcing)
+        return tuple(f.xreplace(at_rest) for f in self.forcing)
 
     @property
     def has_no_value(self) -> bool:
@@ -229,8 +261,20 @@ class RestPoints:
         if self._one_gradient:
             forces = self._along_one
         elif constraints.equations:
-            forces = [dot(v, forces) for v in _polynomial(nullspace(constraints.jacobian))]
+            forces = [dot(v, forces) for v in _polynomial(self._displacements)]
         return [e for e in (*conditions, *forces) if is_zero(e) is not True]
+
+    @property
+    def _displacements(self) -> list[list[Expr]]:
+        """A basis of the v with A v = 0, solved for coordinates whose factors vanish nowhere."""
+        rows, q = self.dynamics.constraints.jacobian, self.system.q
+
+        def may_vanish(j: int) -> bool:
+            return not any(free_of(row[j], q) and is_zero(row[j]) is False for row in rows)
+
+        order = sorted(range(len(q)), key=may_vanish)
+        back = [order.index(j) for j in range(len(q))]
+        return [[v[k] for k in back] for v in nullspace([[row[j] for j in order] for row in rows])]
 
     @cached_property
     def _at_all_times(self) -> list[Expr]:
@@ -249,13 +293,27 @@ class RestPoints:
         return tuple(short) if sum(int(e.count_ops()) for e in short) <= _LONGEST else ()
 
     @cached_property
+    def sums(self) -> list[Expr]:
+        """Sums of multiples of the equations in which the coordinates cancel, and not all does.
+
+        Newton's third law: of bodies that push each other, the outer forces are left.
+        """
+        equations, q = [e for e in self.equations if not free_of(e, self.system.q)], self.system.q
+        if len(equations) < 2:
+            return []
+        slopes = [[e.diff(x) for e in equations] for x in q]
+        multiples = constant_nullspace(slopes, q)
+        sums = (simplify(dot(c, equations)) for c in multiples)
+        return [x for x in sums if is_zero(x) is not True]
+
+    @cached_property
     def unless(self) -> tuple[Expr, ...] | None:
         """What has no coordinate in it and is 0 for some values of the parameters only.
 
         None where special values were not excluded.
         """
         timed = [self.system.t] if self.depends_on_time else []
-        return without_unknowns(self._at_all_times, (*self.system.q, *timed))
+        return without_unknowns((*self._at_all_times, *self.sums), (*self.system.q, *timed))
 
     @property
     def edge(self) -> tuple[str, ...]:
@@ -311,6 +369,14 @@ class RestPoints:
             return all(_nearly_vanishes(f, values, rounded) for f in self.forces_at_rest)
         residuals = (where_positive(each, positive) for each in self._residuals(values))
         return all(is_zero(each) is True or _vanishes(each) for each in residuals)
+
+    def _without_value(self, values: Mapping[Symbol, Expr]) -> bool:
+        """Whether some force has no value at any member of a family."""
+        forces = (at(f, values) for f in self.forces_at_rest)
+        try:
+            return any(f.has(S.NaN, S.ComplexInfinity) for f in forces)
+        except ZeroDivisionError:
+            return True
 
     def _residuals(self, values: Mapping[Symbol, Expr]) -> list[Expr]:
         constraints = self.dynamics.constraints
@@ -377,10 +443,13 @@ def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
         roots = filter(_divides_by_root, expression.atoms(sympy.Pow))
         if any(is_zero(p.base.xreplace(present)) is True for p in roots):
             return S.NaN
-    field = Field([expression])
+    field, below = Field([expression]), S.One
     with suppress(ZeroDivisionError):
-        expression = field.to_sympy(field(expression))
-    return rounded(simplify(expression.xreplace(present)))
+        element = field(expression)
+        below = field.to_sympy(field.polynomial(element.denominator))
+        expression = field.to_sympy(element)
+    value = rounded(simplify(expression.xreplace(present)))
+    return S.NaN if value == 0 and is_zero(below.xreplace(present)) is True else value
 
 
 def where_positive(expression: Expr, positive: Sequence[Expr]) -> Expr:

@@ -18,7 +18,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.signs import sign
-from lagcli.algebra.systems import solve_system
+from lagcli.algebra.systems import divisors, solve_system
 
 
 class KinkPlace(Protocol):
@@ -58,6 +58,8 @@ def _may_rest(
     u: Expr, equations: Sequence[Expr], coordinates: Sequence[Symbol], known: Sequence[KinkPlace]
 ) -> bool:
     if any(is_zero(u.xreplace(dict(place.values))) is True for place in known):
+        return False
+    if any({u, -u} & divisors(e) for e in equations):  # no value where u = 0
         return False
     s = sympy.Dummy("s", real=True)
     there = {sympy.sign(u): s, sympy.Abs(u): s * u}

@@ -65,12 +65,12 @@ class Linearization:
     @cached_property
     def M(self) -> Matrix:
         """The mass matrix."""
-        return self._along(self.dynamics.lagrange.mass_matrix)
+        return self._along(self.rest.mass_matrix)
 
     @cached_property
     def C(self) -> Matrix:
         """Damping (symmetric part) and gyroscopic terms (antisymmetric part)."""
-        forcing = self.dynamics.lagrange.forcing
+        forcing = self.rest.forcing
         return self._along([[-f.diff(v) for v in self.system.qdot] for f in forcing])
 
     @cached_property

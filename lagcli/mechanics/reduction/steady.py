@@ -114,7 +114,9 @@ class SteadyMotions:
     @property
     def unless(self) -> tuple[Expr, ...] | None:
         """What only values of the parameters make 0, so that there may be a steady motion."""
-        return without_unknowns(self.balance, (*self.system.q, *self.routh.momenta))
+        return without_unknowns(
+            (*self.balance, *self.rest.sums), (*self.system.q, *self.routh.momenta)
+        )
 
     @property
     def acting(self) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from lagcli.algebra.equations import written
 from lagcli.mechanics.oscillations.characteristic import determinant
 from lagcli.mechanics.oscillations.equilibria import RestPoints
 from lagcli.mechanics.oscillations.linearization import Linearization
-from lagcli.mechanics.reduction.readable import conditions, opposites
+from lagcli.mechanics.reduction.readable import above, conditions, opposites
 from lagcli.mechanics.stability.judge import Stability, always
 from lagcli.mechanics.system import System
 from lagcli.statements.motions import Above, Verdict
@@ -38,6 +38,7 @@ def stated(
     for name in ("minimum", "hurwitz"):
         if found.rapid is None and getattr(found, name) and where(getattr(found, name)) == ():
             found = always(found, name)
+    grown = None if found.growing is None else above(found.growing, order, positive)
     decisive = found.hurwitz if found.hurwitz is not None else found.spectrum
     if decisive is None:
         decisive = found.minimum if found.reverses else found.opposed
@@ -53,7 +54,7 @@ def stated(
         spectrum=where(found.spectrum),
         unstable=opposites(decisive or (), order, (*positive, *given))
         if found.growing is None
-        else conditions([found.growing], order, positive),
+        else ((grown,) if grown is not None else ()),
         exact=found.exact,
         gyroscopic=gyroscopic and found.spectrum is not None,
         rapid=None if found.rapid is None else written(found.rapid, order),

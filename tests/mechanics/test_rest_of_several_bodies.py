@@ -1,0 +1,103 @@
+"""Rest where bodies push each other, in bowls, and under a common factor that grows with time."""
+
+import random
+
+import pytest
+
+from lagcli.formatters.built_in.json import to_object
+from lagcli.reader import read_problem
+from tests.solved import solve
+
+
+def answer(text):
+    return to_object(solve(read_problem("test.yaml", text.encode()).checked(), ("equilibria",)))
+
+
+def equilibria(text):
+    return answer(text)["equilibria"]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_inner_forces_cannot_hold_what_falls(seed):
+    """The sum of all forces is the outer one (Newton's third law): none, or none unless g = 0."""
+    source = random.Random(seed)
+    power, shift = source.choice((2, 4)), source.choice(("l", "2*l"))
+    inner = f"k*(sqrt((x1 - x2)^2 + (y1 - y2)^2) - {shift})^{power}/2"
+    for assumed in ("{assume: positive}", ""):
+        found = answer(f"""
+coordinates: [x1, y1, x2, y2]
+parameters: {{m: {{assume: positive}}, k: {{assume: positive}}, l: {{assume: positive}}, g: {assumed}}}
+T: m*(x1'^2 + y1'^2 + x2'^2 + y2'^2)/2
+V: {inner} + m*g*(y1 + y2)
+""")
+        assert found["equilibria"] == []
+        assert not found["warnings"]
+
+
+@pytest.mark.parametrize("power", [1, 2, 3])
+@pytest.mark.parametrize("part", [1, 2])
+def test_where_the_potential_is_infinite_nothing_rests(power, part):
+    """Like charges on a ring rest opposite to each other, and not in one place."""
+    found = equilibria(f"""
+coordinates: [a, b]
+parameters: {{m: {{assume: positive}}, e: {{assume: positive}}}}
+T: m*(a'^2 + b'^2)/2
+V: e^2/abs(sin((a - b)/{part}))^{power}
+""")
+    places = {each["at"]["a"] for each in found}
+    assert places == ({"b + pi"} if part == 2 else {"b - pi/2", "b + pi/2"})
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_bowl_has_one_place_of_rest(seed):
+    """As in minimal coordinates: V = m g (p x^2 + r y^2)/2 has one minimum and nothing else."""
+    source = random.Random(seed)
+    p, r = source.choice(("1/a", "2/a", "1/(3*a)")), source.choice(("1/a", "4/a"))
+    found = answer(
+        f"""
+coordinates: [x, y, z]
+parameters: {{m: {{assume: positive}}, g: {{assume: positive}}, a: {{assume: positive}}}}
+T: m*(x'^2 + y'^2 + z'^2)/2
+V: m*g*z
+constraints: {{bowl: "{source.choice(("2*z", "z + z"))} = {p}*x^2 + {r}*y^2"}}
+"""
+    )
+    assert [each["at"] for each in found["equilibria"]] == [{"x": "0", "y": "0", "z": "0"}]
+    assert not found["warnings"]
+
+
+@pytest.mark.parametrize("growth", ["exp(c*t)", "exp(2*c*t)"])
+def test_a_factor_that_grows_is_linear_friction(growth):
+    """L = exp(c t) (T - V) is T - V with the friction c dT/dq' (Caldirola 1941, Kanai 1948)."""
+    parameters = "{m: {assume: positive}, k: {assume: positive}, c: {assume: positive}}"
+    factor = growth.removeprefix("exp(").removesuffix("*t)")
+    grown = equilibria(f"""
+coordinates: [x]
+parameters: {parameters}
+L: {growth}*(m*x'^2/2 - k*x^2/2)
+""")
+    damped = equilibria(f"""
+coordinates: [x]
+parameters: {parameters}
+T: m*x'^2/2
+V: k*x^2/2
+dissipation: {factor}*m*x'^2/2
+""")
+    for one, other in zip(grown, damped, strict=True):
+        assert one["at"] == other["at"] == {"x": "0"}
+        assert one["stable"] is other["stable"] is True
+        assert one["asymptotic"] is other["asymptotic"] is True
+
+
+@pytest.mark.parametrize("factors", [["k"], ["k", "b"], ["k", "b", "c"]])
+def test_what_makes_it_unstable_is_one_condition(factors):
+    """V = -(k b c)^2 x^2/2 has a maximum only where no factor is 0."""
+    hill = "*".join(f"{name}^2" for name in factors)
+    found = equilibria(f"""
+coordinates: [x, y]
+parameters: {{m: {{assume: positive}}, g: {{assume: positive}}, {": , ".join(factors)}: }}
+T: m*(x'^2 + y'^2)/2
+V: -{hill}*x^2/2 + g*y^2/2
+""")
+    [condition] = found[0]["unstable"]
+    assert all(name in condition for name in factors)
