@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block, Heading, Paragraph
-from lagcli.formatters.grammar import to_grammar
+from lagcli.document import Block, Paragraph
+from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.problem_data import ExpectAlgebra
 from lagcli.reader.expected_algebra import read_algebra
@@ -73,14 +73,24 @@ def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
     yield Paragraph((f"Dimension {section.dimension}{counts}{named}; {charges}.",))
     lead = "The Hamilton-Jacobi equation separates: t" if section.separates else "T"
     yield Paragraph((integrable[section.integrable].replace("T", lead, 1),))
-    for case in section.special:
-        where = f"{case.parameter} = {to_grammar(case.value)}"
-        yield Heading(
-            f"Where {where}: {case.number} symmetr{'y' if case.number == 1 else 'ies'}, of "
-            f"which new",
-            2,
-        )
-        yield rows_by_name(case.charges)
+    for cases in _alike(section.special):
+        number = cases[0].number
+        where = [
+            part
+            for k, case in enumerate(cases)
+            for part in (" or " if k else "", Name(case.parameter), " = ", case.value)
+        ]
+        plural = "y" if number == 1 else "ies"
+        yield Paragraph(("Where ", *where, f": {number} symmetr{plural}, of which new"))
+        yield rows_by_name(cases[0].charges)
+
+
+def _alike(special: Sequence[SpecialValue]) -> list[list[SpecialValue]]:
+    """The values of parameters at which there are the same symmetries."""
+    found: dict[tuple[int, tuple[Expression, ...]], list[SpecialValue]] = {}
+    for case in special:
+        found.setdefault((case.number, tuple(case.charges.values())), []).append(case)
+    return list(found.values())
 
 
 def json(section: AlgebraSection) -> Object:
