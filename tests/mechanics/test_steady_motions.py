@@ -86,6 +86,17 @@ L: m*(x'^2 + y'^2)/2 + b*(x*y' - y*x')/2 + a*(x^2 + y^2)/2
         assert all(abs(r.real) < 1e-10 for r in roots) is stable
 
 
+def test_a_field_shifts_both_frequencies_by_larmors():
+    """omega = sqrt(k + w^2) ± w (Goldstein, Poole, Safko, 3rd ed., section 5.9), and squared."""
+    [rest] = motions("""
+coordinates: [x, y]
+parameters: {k: {assume: positive}, w: }
+L: (x'^2 + y'^2)/2 + w*(x*y' - y*x') - k*(x^2 + y^2)/2
+""")
+    found = {to_grammar(square) for square in rest.frequencies_squared}
+    assert found == {"(w + sqrt(k + w^2))^2", "(sqrt(k + w^2) - w)^2"}
+
+
 def test_a_saddle_with_one_falling_direction_is_never_held():
     """det K < 0: gyroscopic terms cannot help (Chetaev, chapter V)."""
     [found] = motions("""

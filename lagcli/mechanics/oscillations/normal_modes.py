@@ -46,8 +46,8 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
     factors = characteristic.squares
     if factors is None:
         return [NormalMode(None, None, (), len(linear.M), damped=True)]
-    choices = _choices(linear)
-    values = choices[0]
+    chosen = choices(linear)
+    values = chosen[0]
     modes: list[NormalMode] = []
     unknown, complex_ = 0, True
     for roots, multiplicity, degree in factors:
@@ -55,17 +55,17 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
             _is_root(characteristic, r, values) and not r.has(sympy.I) for r in roots
         ):
             unknown += multiplicity * degree
-            values_of = [(r, each) for r in roots or () for each in choices]
+            values_of = [(r, each) for r in roots or () for each in chosen]
             complex_ &= bool(values_of) and all(_is_complex(*pair) for pair in values_of)
             continue
         plain = [without_moduli(root, linear.point.positive) for root in roots]
         given, roots = roots, plain
-        pair = _beats(roots, values)
+        pair = beats(roots, values)
         for k, root in enumerate(roots):
             if pair:
                 frequency, square = pair[k], simplify(pair[k] ** 2)
             else:
-                frequency = _frequency(linear, root, choices)
+                frequency = _frequency(linear, root, chosen)
                 square = shorter(simplify(root), root)
             falls = frequency is None and sign(square, linear.point.positive) == -1
             shapes = _shapes(linear, square, values) or _shapes(linear, given[k], values)
@@ -77,16 +77,16 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
 
 
 def _frequency(
-    linear: Linearization, square: Expr, choices: Sequence[Mapping[Symbol, mpf]]
+    linear: Linearization, square: Expr, chosen: Sequence[Mapping[Symbol, mpf]]
 ) -> Expr | None:
     """sqrt(W); None where W < 0 or is not real.
 
     Where the sign is open, the root stands for both cases.
     """
-    if any(_is_complex(square, values) for values in choices):
+    if any(_is_complex(square, values) for values in chosen):
         return None
     known = sign(square, linear.point.positive)
-    if known is None and all(_number(square, values) < 0 for values in choices):
+    if known is None and all(_number(square, values) < 0 for values in chosen):
         known = -1
     if known == -1:
         return None
@@ -96,7 +96,7 @@ def _frequency(
     return root if known is None else shorter(simplify(sympy.sqrt(square)), root)
 
 
-def _beats(squares: Sequence[Expr], values: Mapping[Symbol, mpf]) -> list[Expr] | None:
+def beats(squares: Sequence[Expr], values: Mapping[Symbol, mpf]) -> list[Expr] | None:
     """omega = p ± q for omega^2 = a ± sqrt(b), where that is shorter.
 
     4 p^2 = W1 + W2 + 2 sqrt(W1 W2) and 4 q^2 = W1 + W2 - 2 sqrt(W1 W2).
@@ -168,7 +168,7 @@ def _displacement(linear: Linearization, vector: Sequence[Expr]) -> tuple[Expr, 
 # -- checks ------------------------------------------------------------------------------------
 
 
-def _choices(linear: Linearization) -> list[dict[Symbol, mpf]]:
+def choices(linear: Linearization) -> list[dict[Symbol, mpf]]:
     """Values of parameters (and free coordinates) at which the equilibrium is there.
 
     Raises

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 
 import sympy
 from sympy import Expr
@@ -18,6 +19,7 @@ from lagcli.mechanics.oscillations.exceptions import unless_written
 from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
+from lagcli.mechanics.oscillations.normal_modes import beats, choices, shorter
 from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
 from lagcli.mechanics.reduction.readable import conditions, without_moduli
@@ -238,10 +240,13 @@ def squares_of(linear: Linearization) -> tuple[Expr, ...]:
     for roots, multiplicity, _ in factors or ():
         if roots is None or any(root.has(sympy.I) for root in roots):
             return ()
-        found += [_shorter(root) for root in roots] * multiplicity
+        found += _squared_sums(linear, roots) * multiplicity
     return tuple(found)
 
 
-def _shorter(root: Expr) -> Expr:
-    short = rounded(simplify(root))
-    return root if sympy.count_ops(root) < sympy.count_ops(short) else short
+def _squared_sums(linear: Linearization, roots: Sequence[Expr]) -> list[Expr]:
+    """(p ± q)² where that is shorter than a ± sqrt(b), else the roots."""
+    with suppress(ZeroDivisionError):
+        if sums := beats(roots, choices(linear)[0]):
+            return [sympy.Pow(each, 2) for each in sums]
+    return [shorter(rounded(simplify(root)), root) for root in roots]
