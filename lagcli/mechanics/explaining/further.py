@@ -54,6 +54,7 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
     found = states.equilibria
     rest = RestPoints(teller.dynamics)
     constrained = bool(teller.dynamics.constraints.equations)
+    timed = rest.growth != 1
     sticking = any(each.sticking for each in found or ())
     solved = () if rest.has_no_value else rest.equations
     conditions = [teller.readable.as_written(e) for e in solved]
@@ -66,9 +67,11 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
     )
     yield says(
         "At an equilibrium all velocities and accelerations are 0. Lagrange's equations then "
-        "require that the generalized forces vanish"
+        "require that the generalized forces",
+        *((", divided by ", teller.readable.as_written(rest.growth), ",") if timed else ()),
+        " vanish"
         + (" along every displacement that the constraints allow" if constrained else "")
-        + end
+        + end,
     )
     if sticking:
         yield says(

@@ -14,6 +14,7 @@ from lagcli.document import Block, Equations, Label, Row
 from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, operation_count, sum_of
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, says, shows
+from lagcli.mechanics.reduction.readable import above
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
 from lagcli.statements.wording import linear_equations, place_rows
 
@@ -167,7 +168,9 @@ def _one(teller: Teller, M: Expr, C: Expr, K: Expr) -> Iterator[Block]:
     )
     if [sign(x) for x in (M, C, K)] != [1, 1, 1]:
         return
-    weak, critical = write(C**2), write(4 * M * K)
+    compared = above(4 * M * K - C**2, teller.system.order)
+    assert compared is not None
+    weak, critical = compared.right, compared.left
     yield says("For ", weak, " < ", critical, " the displacement oscillates with the frequency ",
                omega, " and decays as exp(−", delta, " t) (weak damping). For ", weak, " = ",
                critical, " it is exp(−", delta, " t) times a linear function of t (critical "

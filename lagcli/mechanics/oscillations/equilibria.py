@@ -208,7 +208,7 @@ class RestPoints:
         )
 
     @cached_property
-    def _growth(self) -> Expr:
+    def growth(self) -> Expr:
         """f(t) > 0 of equations of motion that are f(t) times others without t, else 1."""
         t, lagrange = self.system.t, self.dynamics.lagrange
         entries = [x for x in (*chain(*lagrange.mass_matrix), *lagrange.forcing) if x != 0]
@@ -223,22 +223,22 @@ class RestPoints:
     def forcing(self) -> tuple[Expr, ...]:
         """Of M q'' = forcing + A^T lambda, without a factor f(t) that all equations have."""
         forcing = self.dynamics.lagrange.forcing
-        return forcing if self._growth == 1 else tuple(simplify(f / self._growth) for f in forcing)
+        return forcing if self.growth == 1 else tuple(simplify(f / self.growth) for f in forcing)
 
     @cached_property
     def mass_matrix(self) -> tuple[tuple[Expr, ...], ...]:
         """M, without the factor that `forcing` is without."""
         rows = self.dynamics.lagrange.mass_matrix
-        if self._growth == 1:
+        if self.growth == 1:
             return rows
-        return tuple(tuple(simplify(x / self._growth) for x in row) for row in rows)
+        return tuple(tuple(simplify(x / self.growth) for x in row) for row in rows)
 
     @cached_property
     def energy_never_grows(self) -> bool:
         """Whether no force, dissipation or constraint feeds the energy function."""
         from lagcli.mechanics.stability.energy import never_grows
 
-        return self._growth == 1 and never_grows(self.dynamics)
+        return self.growth == 1 and never_grows(self.dynamics)
 
     @cached_property
     def forces_at_rest(self) -> tuple[Expr, ...]:
