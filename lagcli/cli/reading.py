@@ -9,26 +9,6 @@ from lagcli.cli.status import Status
 if TYPE_CHECKING:
     from lagcli.manual import Page
 
-_HEAD = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{title}</title>
-<style>
-:root {{ color-scheme: light dark; }}
-body {{ max-width: 46rem; margin: 2rem auto; padding: 0 1rem; line-height: 1.5;
-  font-family: system-ui, sans-serif; overflow-wrap: break-word; }}
-pre {{ overflow-x: auto; padding: 0.7rem; border: 1px solid #8886; border-radius: 4px; }}
-code, pre {{ font-family: ui-monospace, monospace; font-size: 0.92em; }}
-table {{ border-collapse: collapse; display: block; overflow-x: auto; }}
-th, td {{ border-bottom: 1px solid #8886; padding: 0.3rem 0.6rem; text-align: left;
-  vertical-align: top; }}
-</style>
-</head>
-<body>
-"""
-
 
 def contents() -> str:
     """The list of pages, in Markdown."""
@@ -44,7 +24,7 @@ def rendered(text: str, format_name: str, title: str) -> str:
     """A page of Markdown in one of the formats `text`, `markdown` and `html`."""
     match format_name:
         case "html":
-            return _HEAD.format(title=title) + _html(text) + "</body>\n</html>\n"
+            return _html(text, title)
         case "text":
             return _for_terminal(text)
     return text
@@ -73,18 +53,19 @@ def open_in_browser(page: Page | None) -> int:
     return Status.WELL
 
 
-def _html(text: str) -> str:
-    """Markdown as HTML; links between pages lead to pages of HTML, others into the package."""
+def _html(text: str, title: str) -> str:
+    """Markdown as a page of HTML; links between pages lead to pages of HTML, others into the package."""
     import re
+    from string import Template
 
     from markdown_it import MarkdownIt
 
-    from lagcli.manual import NOTEBOOKS
+    from lagcli.manual import HTML_PAGE, NOTEBOOKS
 
     text = text.replace("](notebooks/", f"]({NOTEBOOKS.as_uri()}/")
     linked = re.sub(r"\]\((?!https?:)([\w-]+)\.md(#[\w-]*)?\)", r"](\1.html\2)", text)
-    made: str = MarkdownIt("commonmark", {"html": False}).enable("table").render(linked)
-    return made
+    body = MarkdownIt("commonmark", {"html": False}).enable("table").render(linked)
+    return Template(HTML_PAGE.read_text("utf-8")).substitute(title=title, body=body)
 
 
 def _for_terminal(text: str) -> str:

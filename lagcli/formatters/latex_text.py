@@ -11,36 +11,11 @@ import unicodedata
 from lagcli.formatters.plain import harmless
 from lagcli.notation.greek import CYRILLIC, LATEX, PUNCTUATION
 
-_SIGNS = {
-    "≤": r"\le",
-    "≥": r"\ge",
-    "≠": r"\ne",
-    "≈": r"\approx",
-    "±": r"\pm",
-    "×": r"\times",
-    "÷": r"\div",
-    "∞": r"\infty",
-    "√": r"\surd",
-    "∫": r"\int",
-    "∂": r"\partial",
-    "∇": r"\nabla",
-    "→": r"\to",
-    "←": r"\leftarrow",
-    "⇒": r"\Rightarrow",
-    "∈": r"\in",
-    "∝": r"\propto",
-    "⋅": r"\cdot",
-    "∙": r"\cdot",
-    "∗": r"\ast",
-    "°": r"{}^\circ",
-    "′": "'",
-    "″": "''",
-    "‴": "'''",
-    "…": r"\dots",
-    "•": r"\bullet",
-    "⟂": r"\perp",
-    "∥": r"\parallel",
-}
+_MACROS = (
+    r"\le \ge \ne \approx \pm \times \div \infty \surd \int \partial \nabla \to \leftarrow "
+    r"\Rightarrow \in \propto \cdot \cdot \ast {}^\circ ' '' ''' \dots \bullet \perp \parallel"
+)
+_SIGNS = dict(zip("≤≥≠≈±×÷∞√∫∂∇→←⇒∈∝⋅∙∗°′″‴…•⟂∥", _MACROS.split(), strict=True))
 _SPECIAL = {
     "\\": r"\textbackslash{}",
     "{": r"\{",
@@ -72,20 +47,11 @@ _SPECIAL = {
     "ł": r"\l{}",
     "Ł": r"\L{}",
 }
-_ACCENTS = {
-    "\u0300": "\\`",
-    "\u0301": "\\'",
-    "\u0302": "\\^",
-    "\u0303": "\\~",
-    "\u0304": "\\=",
-    "\u0306": "\\u",
-    "\u0307": "\\.",
-    "\u0308": '\\"',
-    "\u030a": "\\r",
-    "\u030b": "\\H",
-    "\u030c": "\\v",
-    "\u0327": "\\c",
-}
+_ACCENTS = dict(zip(
+    "\u0300\u0301\u0302\u0303\u0304\u0306\u0307\u0308\u030a\u030b\u030c\u0327",
+    r"""\` \' \^ \~ \= \u \. \" \r \H \v \c""".split(),
+    strict=True,
+))  # fmt: skip
 
 #: A longer word may be broken after this number of characters.
 _LONG_WORD = 16

@@ -25,6 +25,8 @@ ORDER = (
 )  # fmt: skip
 
 
+#: What is around a page that is shown as HTML.
+HTML_PAGE = Path(__file__).with_name("page.html")
 #: Where the notebooks of the page `python` are.
 NOTEBOOKS = Path(__file__).resolve().parent / "notebooks"
 

@@ -20,53 +20,6 @@ _DIGITS = 5
 _ROWS = 11
 _EVENTS = 40
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
-_PAGE = """<!DOCTYPE html>
-<html lang="en"{kind}>
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="{policy}">
-<title>{title}</title>
-<style>
-{style}</style>
-</head>
-<body>
-<main>
-<h1>{title}</h1>
-<figure>
-<svg id="stage" role="img" aria-labelledby="caption"></svg>
-<figcaption id="caption">{caption}</figcaption>
-</figure>
-<div class="controls" role="group" aria-label="Playback">
-<button id="play" type="button">Play</button>
-<label class="time">Time
-<input id="time" type="range" min="{first}" max="{last}" step="{step}" value="{first}"></label>
-<output id="clock" for="time"></output>
-<label>Speed
-<select id="speed">
-<option value="0.1">0.1×</option>
-<option value="0.25">0.25×</option>
-<option value="0.5">0.5×</option>
-<option value="1" selected>1×</option>
-<option value="2">2×</option>
-<option value="4">4×</option>
-</select></label>
-<label><input id="trails" type="checkbox" checked> Trails</label>
-{more}</div>
-<noscript><p>The motion is shown with JavaScript; the table below has its places.</p></noscript>
-{early}{key}{events}<details>
-<summary>Places as a table</summary>
-<div class="scroll" tabindex="0" role="region" aria-label="Places">
-{table}</div>
-</details>
-<p class="notes">{notes}</p>
-</main>
-<script id="scene" type="application/json">{data}</script>
-<script>
-{script}</script>
-</body>
-</html>
-"""
 
 
 def to_html(scene: Scene, *, embedded: bool = False) -> str:
@@ -80,7 +33,7 @@ def to_html(scene: Scene, *, embedded: bool = False) -> str:
         In a frame of another page, which has the title already.
     """
     first, last = scene.times[0], scene.times[-1]
-    return _PAGE.format(
+    return _part("animation.html").format(
         kind=' class="embedded"' if embedded else "",
         policy=_POLICY,
         title=_shown(scene.title),

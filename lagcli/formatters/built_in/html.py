@@ -5,6 +5,8 @@ from __future__ import annotations
 import html
 import re
 from collections.abc import Iterator, Sequence
+from pathlib import Path
+from string import Template
 
 from lagcli.document import (
     Block,
@@ -29,36 +31,7 @@ from lagcli.formatters.units import mathml_unit
 from lagcli.statements.answers import Answers
 from lagcli.units import Unit
 
-_HEAD = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{title}</title>
-<style>
-:root {{ color-scheme: light dark; --paper: #ffffff; --ink: #1a1a1a; }}
-@media (prefers-color-scheme: dark) {{ :root {{ --paper: #121212; --ink: #ececec; }} }}
-body {{ max-width: 50rem; margin: 0 auto; padding: 1rem; background: var(--paper);
-  color: var(--ink); font: 1.0625rem/1.5 "Latin Modern Roman", "STIX Two Text", serif; }}
-h1, h2, h3 {{ line-height: 1.25; overflow-wrap: break-word; margin: 2rem 0 0.5rem; }}
-h1 {{ font-size: 1.75rem; margin-top: 0.5rem; }}
-h2 {{ font-size: 1.3rem; }}
-h3 {{ font-size: 1.1rem; }}
-p, ul {{ margin: 0.7rem 0; }}
-article + article {{ border-top: 1px solid #8886; margin-top: 3rem; padding-top: 1rem; }}
-.display {{ background:
-  linear-gradient(90deg, var(--paper) 30%, transparent) left / 3rem 100% local,
-  linear-gradient(-90deg, var(--paper) 30%, transparent) right / 3rem 100% local,
-  linear-gradient(90deg, #888a, transparent) left / 0.6rem 100%,
-  linear-gradient(-90deg, #888a, transparent) right / 0.6rem 100%; background-repeat: no-repeat; }}
-img, iframe {{ display: block; margin: 0.7rem 0; }}
-</style>
-</head>
-<body>
-"""
-_END = """</body>
-</html>
-"""
+_PAGE = Path(__file__).with_name("page.html")
 _DISPLAY = (
     '<div class="display" style="overflow: auto hidden; padding: 0.2em 0; margin-bottom: 0.7em">'
     '<math display="block">'
@@ -95,7 +68,7 @@ def pages(documents: Sequence[Document], options: Options) -> str:
     if not options.standalone:
         return body
     title = ", ".join(escaped(document.title) for document in documents)
-    return _HEAD.format(title=title) + body + _END
+    return Template(_PAGE.read_text("utf-8")).substitute(title=title, body=body)
 
 
 def escaped(text: str) -> str:
