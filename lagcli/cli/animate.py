@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.options import Output, State, samples_option
+from lagcli.cli.options import Output, State, gathered, samples_option
 from lagcli.cli.plot import Dark
 from lagcli.cli.simulate import Accuracy, File, Method, Project, Set, StopWhen, Until
 
@@ -50,16 +50,5 @@ def animate(
     from lagcli.cli.animating import animate_file
     from lagcli.cli.simulating import SimulateOptions
 
-    run = SimulateOptions(
-        file=file,
-        until=until,
-        accuracy=accuracy,
-        samples=samples,
-        settings=tuple(settings or ()),
-        state=tuple(state or ()),
-        output=output,
-        project=project,
-        method=method,
-        stop_when=stop_when,
-    )
+    run = gathered(SimulateOptions, locals())
     return animate_file(run, forces=forces, dark=dark)

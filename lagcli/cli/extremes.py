@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.options import Output, State, StudyFormat, limit_option
+from lagcli.cli.options import Output, State, StudyFormat, gathered, limit_option
 from lagcli.cli.simulate import Accuracy, File, Set
 
 Until = Annotated[
@@ -59,15 +59,5 @@ def extremes(
     from lagcli.cli.endings import STUDIES, format_of
     from lagcli.cli.stretching import ExtremesOptions, stretch_file
 
-    wish = ExtremesOptions(
-        file=file,
-        until=until,
-        settings=tuple(settings or ()),
-        state=tuple(state or ()),
-        cases=cases,
-        accuracy=accuracy,
-        limit=limit,
-        format_name=format_of(format_name, output, STUDIES, "text"),
-        output=output,
-    )
-    return stretch_file(wish)
+    form = format_of(format_name, output, STUDIES, "text")
+    return stretch_file(gathered(ExtremesOptions, locals(), format_name=form))

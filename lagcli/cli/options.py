@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 import typer
 
 from lagcli.cli.choices import complete_study
 from lagcli.cli.files import STANDARD
 
+Wish = TypeVar("Wish")
+
 
 def _to_file(output: Path | None) -> Path | None:
     """None for standard output, which is also called `-`."""
     return None if output is None or str(output) == STANDARD else output
+
+
+def gathered(options: type[Wish], given: Mapping[str, Any], **others: Any) -> Wish:
+    """The options of a command, from its parameters of the same names; without one, its default."""
+    fields = [name for name in options.__annotations__ if given.get(name) is not None]
+    values = {name: given[name] for name in fields}
+    lists = {name: tuple(value) for name, value in values.items() if isinstance(value, list)}
+    return options(**values | lists | others)
 
 
 def format_option(names: str, complete: Callable[[str], list[str]]) -> Any:

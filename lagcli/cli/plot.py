@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_kind
-from lagcli.cli.options import Output, State, samples_option
+from lagcli.cli.options import Output, State, gathered, samples_option
 from lagcli.cli.simulate import Accuracy, File, Method, Project, Set, Show, StopWhen, Until
 
 Kind = Annotated[
@@ -83,26 +83,5 @@ def plot(
     from lagcli.cli.plotting import PlotWish, plot_file
     from lagcli.cli.simulating import SimulateOptions
 
-    run = SimulateOptions(
-        file=file,
-        until=until,
-        accuracy=accuracy,
-        samples=samples,
-        settings=tuple(settings or ()),
-        state=tuple(state or ()),
-        show=tuple(show or ()),
-        output=output,
-        project=project,
-        method=method,
-        stop_when=stop_when,
-    )
-    wish = PlotWish(
-        run=run,
-        kind=kind,
-        section=section,
-        orbits=orbits,
-        dark=dark,
-        width=width,
-        ascii_only=ascii_only,
-    )
-    return plot_file(wish)
+    run = gathered(SimulateOptions, locals())
+    return plot_file(gathered(PlotWish, locals()))

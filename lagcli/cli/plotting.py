@@ -34,11 +34,11 @@ class PlotWish:
     """The command line, as it was written."""
 
     run: SimulateOptions
-    kind: str | None
-    section: str | None
+    kind: str | None = None
+    section: str | None = None
     orbits: int
     dark: bool
-    width: int | None
+    width: int | None = None
     ascii_only: bool
 
 

@@ -54,7 +54,7 @@ def open_in_browser(page: Page | None) -> int:
 
 
 def _html(text: str, title: str) -> str:
-    """Markdown as a page of HTML; links between pages lead to pages of HTML, others into the package."""
+    """Markdown as a page of HTML; links lead to other such pages, or into the package."""
     import re
     from string import Template
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_column, complete_method, complete_problem, complete_table
-from lagcli.cli.options import BY_ENDING, Output, State, format_option, samples_option
+from lagcli.cli.options import BY_ENDING, Output, State, format_option, gathered, samples_option
 
 File = Annotated[
     str,
@@ -113,7 +113,7 @@ def simulate(
     precision: Precision = None,
     method: Method = "auto",
     stop_when: StopWhen = None,
-    whole_model: WholeModel = False,
+    whole: WholeModel = False,
     rigorous: Rigorous = False,
     shadow: Shadow = False,
     beyond: Beyond = False,
@@ -139,23 +139,6 @@ def simulate(
     from lagcli.cli.endings import TABLES, format_of
     from lagcli.cli.simulating import SimulateOptions, simulate_files
 
-    wish = SimulateOptions(
-        file=files[0],
-        until=until,
-        accuracy=accuracy,
-        samples=samples,
-        settings=tuple(settings or ()),
-        state=tuple(state or ()),
-        show=tuple(show or ()),
-        format_name=format_of(format_name, output, TABLES, "table"),
-        output=output,
-        project=project,
-        precision=precision,
-        method=method,
-        stop_when=stop_when,
-        whole=whole_model,
-        rigorous=rigorous,
-        shadow=shadow,
-        beyond=beyond,
-    )
+    form = format_of(format_name, output, TABLES, "table")
+    wish = gathered(SimulateOptions, locals(), file=files[0], format_name=form)
     return simulate_files(files, wish)

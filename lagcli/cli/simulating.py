@@ -32,18 +32,18 @@ class SimulateOptions:
     """The command line, as it was written."""
 
     file: str
-    until: str | None
-    accuracy: str | None
+    until: str | None = None
+    accuracy: str | None = None
     samples: int
-    settings: tuple[str, ...]
-    state: tuple[str, ...]
+    settings: tuple[str, ...] = ()
+    state: tuple[str, ...] = ()
     show: tuple[str, ...] = ()
     format_name: str = "table"
-    output: Path | None
+    output: Path | None = None
     project: bool = False
     precision: int | None = None
     method: str
-    stop_when: str | None
+    stop_when: str | None = None
     whole: bool = False
     rigorous: bool = False
     shadow: bool = False

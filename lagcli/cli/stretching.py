@@ -22,14 +22,14 @@ class ExtremesOptions:
     """The command line, as it was written."""
 
     file: str
-    until: str | None
-    settings: tuple[str, ...]
-    state: tuple[str, ...]
-    cases: str | None
-    accuracy: str | None
+    until: str | None = None
+    settings: tuple[str, ...] = ()
+    state: tuple[str, ...] = ()
+    cases: str | None = None
+    accuracy: str | None = None
     limit: float
     format_name: str
-    output: Path | None
+    output: Path | None = None
 
 
 def stretch_file(wish: ExtremesOptions) -> Status:

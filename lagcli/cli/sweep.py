@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.options import Jobs, Output, State, samples_option
+from lagcli.cli.options import Jobs, Output, State, gathered, samples_option
 from lagcli.cli.simulate import Accuracy, File, Format, Method, Set, Show, StopWhen, Until
 
 Vary = Annotated[
@@ -86,18 +86,8 @@ def sweep(
     from lagcli.cli.simulating import SimulateOptions
     from lagcli.cli.sweeping import sweep_file
 
-    wish = SimulateOptions(
-        file=file,
-        until=until,
-        accuracy=accuracy,
-        samples=samples if along else 2,
-        settings=tuple(settings or ()),
-        state=tuple(state or ()),
-        show=tuple(show or ()),
-        format_name=format_of(format_name, output, TABLES | PICTURES, "table"),
-        output=output,
-        method=method,
-        stop_when=stop_when,
-    )
+    form = format_of(format_name, output, TABLES | PICTURES, "table")
+    rows = samples if along else 2
+    wish = gathered(SimulateOptions, locals(), samples=rows, format_name=form)
     drawn = tuple(vary or ()), random, seed
     return sweep_file(wish, *drawn, along=along, times=times, jobs=jobs, scheduler=scheduler)

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from lagcli.cli.choices import complete_cost, complete_methods
-from lagcli.cli.options import Output, State, StudyFormat, limit_option, samples_option
+from lagcli.cli.options import Output, State, StudyFormat, gathered, limit_option, samples_option
 from lagcli.cli.simulate import File, Project, Set, Until
 
 Samples = Annotated[int, samples_option("Times at which errors are taken.")]
@@ -78,19 +78,5 @@ def tradeoff(
     from lagcli.cli.endings import STUDIES, format_of
     from lagcli.cli.weighing import TradeoffOptions, weigh_file
 
-    wish = TradeoffOptions(
-        file=file,
-        until=until,
-        settings=tuple(settings or ()),
-        state=tuple(state or ()),
-        samples=samples,
-        methods=methods,
-        cost=cost,
-        repeat=repeat,
-        limit=limit,
-        project=project,
-        format_name=format_of(format_name, output, STUDIES, "text"),
-        output=output,
-        plot=plot,
-    )
-    return weigh_file(wish)
+    form = format_of(format_name, output, STUDIES, "text")
+    return weigh_file(gathered(TradeoffOptions, locals(), format_name=form))

@@ -26,18 +26,18 @@ class TradeoffOptions:
     """The command line, as it was written."""
 
     file: str
-    until: str | None
-    settings: tuple[str, ...]
-    state: tuple[str, ...]
+    until: str | None = None
+    settings: tuple[str, ...] = ()
+    state: tuple[str, ...] = ()
     samples: int
-    methods: str | None
+    methods: str | None = None
     cost: str
     repeat: int
     limit: float
     project: bool
     format_name: str
-    output: Path | None
-    plot: Path | None
+    output: Path | None = None
+    plot: Path | None = None
 
 
 def weigh_file(wish: TradeoffOptions) -> Status:
