@@ -25,7 +25,7 @@ from lagcli.expression import (
 
 Constant: TypeAlias = Fraction | float
 
-#: The functions of the grammar, of doubles.
+#: The functions of the grammar, of doubles, with "power" and "pi" (of no arguments).
 FUNCTIONS: dict[str, Callable[..., float]] = {
     **{
         name: getattr(math, name)
@@ -38,6 +38,8 @@ FUNCTIONS: dict[str, Callable[..., float]] = {
     "cot": lambda x: 1 / math.tan(x),
     "sec": lambda x: 1 / math.cos(x),
     "csc": lambda x: 1 / math.sin(x),
+    "power": math.pow,  # ValueError where it is not real
+    "pi": lambda: math.pi,
 }
 #: Random states at which the sign of a formula is looked at.
 _STATES = 24

@@ -5,51 +5,23 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from typing import Any, Protocol
+from typing import Any
 
+from lagcli.evaluation import FUNCTIONS
 from lagcli.graph.nodes import Call, Constant, Node, Product, Sum, Symbol, ancestry
 
 #: f(arguments, indices) for a function that the file leaves unspecified
 Concrete = Callable[[Sequence[Any], Sequence[int]], Any]
 
 
-class ValueArithmetic(Protocol):
-    """Where numbers are taken from: `math` and its floats, or `mpmath` and its mpf."""
-
-    def number(self, value: Fraction) -> Any:
-        """A rational."""
-
-    def power(self, base: Any, exponent: Any) -> Any:
-        """base ^ exponent; real, or an error."""
-
-    def function(self, name: str) -> Callable[..., Any]:
-        """A function of the grammar, or "pi" of no arguments."""
-
-
 class Floats:
     """Double precision."""
 
-    _FUNCTIONS: Mapping[str, Callable[..., Any]] = {
-        "abs": abs,
-        "sign": lambda x: (x > 0) - (x < 0),
-        "cot": lambda x: 1 / math.tan(x),
-        "sec": lambda x: 1 / math.cos(x),
-        "csc": lambda x: 1 / math.sin(x),
-        "pi": lambda: math.pi,
-    }
+    functions: Mapping[str, Callable[..., Any]] = FUNCTIONS
 
     def number(self, value: Fraction) -> float:
         """A rational."""
         return float(value)
-
-    def power(self, base: float, exponent: float) -> float:
-        """base ^ exponent."""
-        return math.pow(base, exponent)  # ValueError where it is not real
-
-    def function(self, name: str) -> Callable[..., Any]:
-        """A function of the grammar."""
-        found: Callable[..., Any] = self._FUNCTIONS.get(name) or getattr(math, name)
-        return found
 
 
 class Digits:
@@ -59,24 +31,22 @@ class Digits:
         import mpmath
 
         self._mp = mpmath
+        self.functions: Mapping[str, Callable[..., Any]] = {
+            **{name: getattr(mpmath, name, None) for name in FUNCTIONS},
+            "abs": mpmath.fabs,
+            "power": self._power,
+            "pi": lambda: +mpmath.pi,
+        }
 
     def number(self, value: Fraction) -> Any:
         """A rational."""
         return self._mp.mpf(value.numerator) / value.denominator
 
-    def power(self, base: Any, exponent: Any) -> Any:
-        """base ^ exponent."""
+    def _power(self, base: Any, exponent: Any) -> Any:
         result = base ** (int(exponent) if exponent == int(exponent) else exponent)
         if isinstance(result, self._mp.mpc):
             raise ValueError("a power that is not real")  # noqa: TRY004 - as math.pow
         return result
-
-    def function(self, name: str) -> Callable[..., Any]:
-        """A function of the grammar."""
-        if name == "pi":
-            return lambda: +self._mp.pi
-        found: Callable[..., Any] = getattr(self._mp, {"abs": "fabs"}.get(name, name))
-        return found
 
 
 class Program:
@@ -95,7 +65,7 @@ class Program:
     def __init__(
         self,
         roots: Sequence[Node],
-        arithmetic: ValueArithmetic,
+        arithmetic: Floats | Digits,
         functions: Mapping[str, Concrete] | None = None,
     ) -> None:
         self._functions = functions or {}
@@ -110,7 +80,7 @@ class Program:
                 self._start[place] = arithmetic.number(node.value)
             elif isinstance(node, Symbol):
                 if node.name == "pi":
-                    self._start[place] = arithmetic.function("pi")()
+                    self._start[place] = arithmetic.functions["pi"]()
                 else:
                     self._symbols.append((str(node), place))
             else:
@@ -156,7 +126,7 @@ class Program:
         raised = [(self._place[base], e) for base, e in node.factors if e != 1]
         if not raised:
             return lambda v: math.prod([v[i] for i in plain])
-        power, number = self._arithmetic.power, self._arithmetic.number
+        power, number = self._arithmetic.functions["power"], self._arithmetic.number
         powers = [(place, number(e)) for place, e in raised]
         return lambda v: (
             math.prod([v[i] for i in plain]) * math.prod([power(v[i], e) for i, e in powers])
@@ -166,13 +136,13 @@ class Program:
         places = [self._place[argument] for argument in node.arguments]
         if node.function == "^":
             base, exponent = places
-            power = self._arithmetic.power
+            power = self._arithmetic.functions["power"]
             return lambda v: power(v[base], v[exponent])
         concrete = self._functions.get(node.function)
         if concrete is not None:
             indices = node.indices
             return lambda v: concrete([v[i] for i in places], indices)
-        function = self._arithmetic.function(node.function)
+        function = self._arithmetic.functions[node.function]
         if len(places) == 1:
             place = places[0]
             return lambda v: function(v[place])

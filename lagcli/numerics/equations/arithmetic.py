@@ -11,6 +11,8 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any, Protocol
 
+from lagcli.evaluation import FUNCTIONS
+
 
 class Arithmetic(Protocol):
     """What a generated function needs to know of its numbers."""
@@ -30,30 +32,14 @@ class UndefinedFunction(Exception):
     """A function that the file leaves unspecified has no numbers."""
 
 
-def _sign(x: float) -> int:
-    return (x > 0) - (x < 0)
-
-
 class Doubles:
     """Double precision; whatever is not defined raises ArithmeticError or ValueError."""
 
     ordered = True
 
     functions: Mapping[str, Callable[..., Any]] = {
-        **{
-            name: getattr(math, name)
-            for name in (
-                "sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh"
-            ).split()
-        },
-        "abs": abs,
-        "sign": _sign,
+        **FUNCTIONS,
         "side": lambda x: math.copysign(1.0, x),
-        "cot": lambda x: 1 / math.tan(x),
-        "sec": lambda x: 1 / math.cos(x),
-        "csc": lambda x: 1 / math.sin(x),
-        "power": math.pow,  # ValueError where it is not real
-        "pi": lambda: math.pi,
     }
 
     def number(self, value: Fraction) -> float:
