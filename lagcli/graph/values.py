@@ -32,8 +32,7 @@ class Digits:
 
         self._mp = mpmath
         self.functions: Mapping[str, Callable[..., Any]] = {
-            **{name: getattr(mpmath, name, None) for name in FUNCTIONS},
-            "abs": mpmath.fabs,
+            **{n: getattr(mpmath, {"abs": "fabs"}.get(n, n)) for n in FUNCTIONS},
             "power": self._power,
             "pi": lambda: +mpmath.pi,
         }
