@@ -34,7 +34,7 @@ from lagcli.rewriting import rebuilt
 #: a block on a movable wedge, the most that was worth it in 52 systems of textbooks.
 _APART = 1.75
 #: Stands for a potential energy beside which the kinetic one is shaped.
-_OTHER = Symbol("_V", real=True)
+_OTHER = Symbol("#V", real=True)
 
 
 def hamiltonian_form(

@@ -236,3 +236,17 @@ def test_a_point_transformation_hides_free_motion(k):
     """L = 1/(x' + k x^2) has x'' + 3 k x x' + k^2 x^3 = 0, Phys. Rev. E 72 (2005) 066203."""
     found = derive(f'{{coordinates: [x], parameters: {{k: {POS}}}, L: "1/(x\' + {k}*x^2)"}}')
     assert len(found.discovery.charges) == 5
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("letter", ["lambda", "s", "W"])
+def test_no_letter_of_the_file_is_an_unknown_of_ours(letter):
+    """A charge in a magnetic field and a harmonic well keeps its 8 symmetries by any letter."""
+    found = summary(
+        derive(f"""
+coordinates: [x, y]
+parameters: {{{letter}: , g: {{assume: positive}}}}
+L: (x'^2 + y'^2)/2 + {letter}*(x*y' - y*x') - g*(x^2 + y^2)/2
+""").discovery
+    )
+    assert (found.dimension, found.independent) == (8, 4)

@@ -142,7 +142,7 @@ def _along(x: Symbol, metric: Metric, K: Expr) -> Iterator[Expr]:
         *([-K * metric.g[i][c], *(metric.christoffel[k][i][c] for k in range(n))]
           for i in range(n)),
     ]  # fmt: skip
-    lam = Symbol("lambda", real=True)
+    lam = Symbol("#lambda", real=True)
     B = sympy.Matrix(rows)
     poly = (lam * sympy.eye(n + 1) - B).det(method="berkowitz").as_poly(lam)
     powers = [simplify(a) for a in poly.all_coeffs()]

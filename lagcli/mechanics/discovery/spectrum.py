@@ -51,7 +51,7 @@ def exponents(
     for block in _blocks(rows, n):
         if len(block) > _LARGEST_BLOCK:
             continue
-        lam = Symbol("lambda", real=True)
+        lam = Symbol("#lambda", real=True)
         matrix = sympy.Matrix(
             [
                 [
