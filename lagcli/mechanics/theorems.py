@@ -41,7 +41,7 @@ LAGRANGE_DIRICHLET = Theorem(
     "The equilibrium is stable, with gyroscopic terms and dissipation, too.",
     "Arnold, Mathematical Methods of Classical Mechanics, 2nd ed., section 22; "
     "Chetaev, The Stability of Motion, chapter IV",
-    f"{_PACKAGE}.judge:by_minimum",
+    f"{_PACKAGE}.lagrange_dirichlet",
 )
 ROUTH = Theorem(
     "Routh",
@@ -51,7 +51,7 @@ ROUTH = Theorem(
     "momenta are disturbed.",
     "Routh, Stability of a Given State of Motion, chapter IV; Merkin, Introduction to the Theory "
     "of Stability, section 3.5",
-    f"{_PACKAGE}.judge:by_minimum",
+    f"{_PACKAGE}.lagrange_dirichlet",
 )
 KELVIN_TAIT_CHETAEV = Theorem(
     "Kelvin, Tait and Chetaev",
@@ -77,7 +77,7 @@ LYAPUNOV = Theorem(
     "positive real part.",
     "The equilibrium is unstable.",
     "Lyapunov, The General Problem of the Stability of Motion (1892), chapter I, section 24",
-    f"{_PACKAGE}.judge:by_a_growing_root",
+    f"{_PACKAGE}.lyapunov:by_a_growing_root",
 )
 LYAPUNOV_MALKIN = Theorem(
     "Lyapunov and Malkin",

@@ -51,7 +51,7 @@ def _on_average(verdict: Verdict, frequency: Expression) -> list[Part]:
     parts: list[Part] = ["For ", frequency, " large against the frequencies without the drive "]
     parts += ["and a small amplitude of the drive: "]
     if verdict.minimum is None:
-        parts += ["unstable, since ", V, " has no minimum there "]
+        parts += ["unstable, since ", V, " has a maximum there "]
     elif not verdict.minimum:
         parts += ["stable, since ", V, " has a minimum there "]
     else:
@@ -101,7 +101,7 @@ def _critical(verdict: Verdict) -> list[Part]:
     [condition], potential = verdict.minimum, _potential(verdict.potential)
     equality: list[Part] = ["For ", condition.left, " = ", condition.right, " it is "]
     if verdict.critical == 0:
-        return [*equality, "unstable: ", potential, " has no minimum then. "]
+        return [*equality, "unstable: ", potential, " then decreases to one side at least. "]
     stable = "asymptotically stable: " if verdict.asymptotic else "stable: "
     return [*equality, stable, potential, f" then has a minimum of order {verdict.critical}. "]
 

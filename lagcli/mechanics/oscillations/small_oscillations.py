@@ -43,14 +43,13 @@ from lagcli.mechanics.stability.judge import (
     DRIFTS,
     EXCLUDED,
     GRAZES,
-    Stability,
-    by_routh,
     judge,
     judge_on_average,
     judge_on_meridians,
-    undecided,
 )
+from lagcli.mechanics.stability.lagrange_dirichlet import by_routh
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
+from lagcli.mechanics.stability.verdict import Stability, undecided
 from lagcli.record import replace
 from lagcli.statements.answers import EquilibriaSection, Equilibrium, ModesOfFrequency, ModesSection
 

@@ -29,7 +29,7 @@ from lagcli.mechanics.parameter_values import DIGITS, admissible_values
 from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_contacts import SteadyContacts
-from lagcli.mechanics.stability.near import contradictory
+from lagcli.mechanics.stability.inequalities import contradictory
 from lagcli.notation.given_formulas import names_of
 from lagcli.notation.naming import free
 

@@ -33,15 +33,10 @@ from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.reduction.minimal import integrated, minimal
-from lagcli.mechanics.stability.judge import (
-    ACCELERATES,
-    Stability,
-    by_polynomial,
-    judge,
-    undecided,
-    unstable,
-)
+from lagcli.mechanics.stability.judge import ACCELERATES, judge
+from lagcli.mechanics.stability.roots import by_polynomial
 from lagcli.mechanics.stability.uniform import displaced_it_accelerates
+from lagcli.mechanics.stability.verdict import Stability, undecided, unstable
 from lagcli.record import record
 
 _UNIFORM = "all velocities are constant in every motion"

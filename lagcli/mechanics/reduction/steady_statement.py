@@ -29,15 +29,12 @@ from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.statement import Missing
 from lagcli.mechanics.reduction.steady import SteadyMotions
 from lagcli.mechanics.reduction.steady_motion import Steady
-from lagcli.mechanics.stability.judge import (
-    GRAZES,
-    Stability,
-    by_curvature,
-    by_routh,
-    judge,
-    undecided,
-)
+from lagcli.mechanics.stability.judge import GRAZES, judge
+from lagcli.mechanics.stability.lagrange_dirichlet import by_derivatives, by_routh
+from lagcli.mechanics.stability.near import Hypotheses
+from lagcli.mechanics.stability.signs import is_positive
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
+from lagcli.mechanics.stability.verdict import Stability, undecided
 from lagcli.record import replace
 from lagcli.statements.motions import Above, SteadyMotion, SteadySection, Verdict
 
@@ -133,9 +130,10 @@ class _SteadyStatement:
                 [[mass]] = self.steady.dynamics.lagrange.mass_matrix
                 mass = at(mass, motion.values)
                 squares = (simplify(motion.derivatives[0] / mass),)
-                judged = by_curvature(motion.derivatives, mass, motion.positive)
-                if not self.steady.rest.energy_never_grows:
-                    judged = undecided("a force without a potential acts")
+                hypotheses = Hypotheses(
+                    self.steady.rest.energy_never_grows, is_positive(mass, motion.positive)
+                )
+                judged = by_derivatives(motion.derivatives, hypotheses, motion.positive)
         except ZeroDivisionError:
             pass
         potential = potential_of(self.steady.rest, "U_eff")

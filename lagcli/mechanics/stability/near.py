@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import random
 from collections.abc import Sequence
 from functools import cached_property
-from itertools import combinations, permutations
 
 import sympy
-from mpmath import mpf
 from sympy import Expr, S, Symbol
-from sympy.core.function import AppliedUndef
 
 from lagcli.algebra import dot, nullspace, rank, simplify
 from lagcli.algebra.build import free_of
-from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.oscillations.characteristic import (
     Characteristic,
     determinant,
@@ -22,14 +17,36 @@ from lagcli.mechanics.oscillations.characteristic import (
 )
 from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.oscillations.linearization import Linearization
-from lagcli.mechanics.reduction.readable import deciding
 from lagcli.mechanics.stability.evenness import even
 from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
 from lagcli.mechanics.stability.signs import is_positive, sign_of, weak_sign
 from lagcli.mechanics.stability.spectrum import real_and_distinct
+from lagcli.record import record
 
-_DRAWS = 400  # a region that takes a hundredth of the values is missed once in 50 times
-_DIGITS = 15
+#: What the file leaves open, and how it would say it.
+NOT_DEFINITE = (
+    "the kinetic energy is not known to be positive definite (a parameter is declared positive "
+    "by {assume: positive})"
+)
+_INDEFINITE = "the kinetic energy is not positive definite"
+
+
+@record
+class Hypotheses:
+    """What the theorems of Lagrange and Dirichlet and of Routh ask for beside the minimum."""
+
+    energy_never_grows: bool
+    definite: bool
+    indefinite: bool = False
+
+    @property
+    def lacking(self) -> str:
+        """The hypothesis that is not known to hold; empty where all do."""
+        if not self.energy_never_grows:
+            return "a force without a potential acts"
+        if not self.definite:
+            return _INDEFINITE if self.indefinite else NOT_DEFINITE
+        return ""
 
 
 class Near:
@@ -141,7 +158,7 @@ class Near:
         return there or self._definite_where_regular
 
     @cached_property
-    def inertia_is_indefinite(self) -> bool:
+    def _inertia_is_indefinite(self) -> bool:
         """Whether M surely has a negative eigenvalue: a diagonal entry or a minor says so."""
         M = self.restoring.M
         minors = [determinant([row[:k] for row in M[:k]]) for k in range(1, len(M) + 1)]
@@ -149,6 +166,12 @@ class Near:
             x is not None and sign_of(x, self.positive) in wrong
             for x, wrong in [*((M[i][i], (-1,)) for i in range(len(M))), (minors[-1], (-1,))]
         )
+
+    @cached_property
+    def hypotheses(self) -> Hypotheses:
+        """Of the theorems on a minimum of the potential."""
+        definite = self.inertia_is_definite
+        return Hypotheses(self.has_energy, definite, not definite and self._inertia_is_indefinite)
 
     @cached_property
     def curvatures(self) -> list[list[Expr]]:
@@ -186,9 +209,11 @@ class Near:
         return linear.damped and positive_definite(linear.damping, self.positive)
 
     @cached_property
-    def damping_is_even(self) -> bool:
-        """Whether no velocity term is antisymmetric: V alone decides."""
-        return not self.linear.gyroscopic
+    def potential_decides(self) -> bool:
+        """Whether it is unstable where K has a negative eigenvalue: see `lyapunov`."""
+        symmetric = self.linear.has_potential and self.restoring is self.linear
+        held = self.linear.gyroscopic and not self.complete
+        return symmetric and not held and self.inertia_is_definite
 
     # -- families ----------------------------------------------------------------------------------
 
@@ -305,46 +330,3 @@ def positive_definite(
         ):
             return False
     return True
-
-
-def contradictory(conditions: Sequence[Expr], positive: Sequence[Expr] = ()) -> bool:
-    """Whether conditions exclude each other: w² > 0 and -w² > 0, or no values fulfil them all.
-
-    The latter by trying: what is left out then is a statement on values that may not exist.
-    """
-    if len(conditions) < 2:
-        return False
-    if any(sign_of(simplify(a / b), ()) == -1 for a, b in combinations(conditions, 2)):
-        return True
-    evaluate = Evaluator([*conditions, *positive], _DIGITS)
-    symbols = sorted({s for e in (*conditions, *positive) for s in e.free_symbols}, key=str)
-    if any(e.atoms(AppliedUndef) for e in (*conditions, *positive)):
-        return False
-    source = random.Random(0)
-    return not any(_all_positive(evaluate, symbols, source) for _ in range(_DRAWS))
-
-
-def one_is_negative(conditions: Sequence[Expr], positive: Sequence[Expr] = ()) -> bool:
-    """Whether for all values one is negative: a positive multiple of one and another are."""
-    plain = [deciding(e, positive) for e in conditions]
-    for first, second in permutations(plain, 2):
-        own, other = (e.expand().as_coefficients_dict() for e in (first, second))
-        ratios = {-own[term] / other[term] for term in own if term in other}
-        if any(
-            ratio.is_positive and sign_of(simplify(first + ratio * second), positive) == -1
-            for ratio in ratios
-        ):
-            return True
-    return False
-
-
-def _all_positive(evaluate: Evaluator, symbols: Sequence[Symbol], source: random.Random) -> bool:
-    """Whether all are at values of random sizes."""
-    values = {
-        s: mpf(10 ** source.uniform(-1, 1)) * (1 if s.is_positive else source.choice((1, -1)))
-        for s in symbols
-    }
-    try:
-        return all(isinstance(x, mpf) and x > 0 for x in evaluate(values))
-    except (ArithmeticError, ValueError, TypeError):
-        return False

@@ -12,7 +12,8 @@ from lagcli.mechanics.oscillations.characteristic import determinant
 from lagcli.mechanics.oscillations.equilibria import RestPoints
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.reduction.readable import above, conditions, opposites
-from lagcli.mechanics.stability.judge import Stability, always
+from lagcli.mechanics.stability.lagrange_dirichlet import always
+from lagcli.mechanics.stability.verdict import Stability
 from lagcli.mechanics.system import System
 from lagcli.statements.motions import Above, Verdict
 

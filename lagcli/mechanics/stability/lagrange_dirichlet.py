@@ -1,0 +1,151 @@
+"""Stability where the potential has a strict minimum: Lagrange and Dirichlet, and Routh.
+
+The hypotheses: the energy function never grows, the kinetic energy is positive definite, and the
+potential (at given momenta of cyclic coordinates, U_eff) has a strict minimum.  Where all motions
+are damped, it is asymptotically stable (Kelvin, Tait and Chetaev).
+
+Of one coordinate the first derivative of V that is not 0 decides: where V decreases to one side,
+a motion that begins there at rest leaves on that side, with damping, too.
+
+References
+----------
+Arnold, *Mathematical Methods of Classical Mechanics*, 2nd ed., section 22.
+Merkin, *Introduction to the Theory of Stability*, sections 3.1 to 3.5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sympy import Expr, count_ops
+
+from lagcli.mechanics.stability.higher import (
+    order_at_critical_values,
+    order_of_minimum,
+    potential_derivatives,
+)
+from lagcli.mechanics.stability.inequalities import contradictory
+from lagcli.mechanics.stability.lyapunov import FALLING
+from lagcli.mechanics.stability.near import Hypotheses, Near
+from lagcli.mechanics.stability.roots import ALL_ROOTS, NEUTRAL, by_roots
+from lagcli.mechanics.stability.signs import sign_of, weak_sign
+from lagcli.mechanics.stability.verdict import Stability, undecided, unstable
+from lagcli.mechanics.theorems import (
+    HURWITZ,
+    KELVIN_TAIT_CHETAEV,
+    LAGRANGE_DIRICHLET,
+    ROUTH,
+    Theorem,
+)
+from lagcli.record import replace
+
+NO_FORCE = "there is no force to first order"
+_STRICT = "{V} has a strict minimum"
+_DECREASES = "{V} decreases to one side, where a motion from rest leaves"
+_FLAT = "{V} has no second derivative there"
+
+
+def by_minimum(near: Near) -> Stability | None:
+    """The verdict by the second derivatives of V; None where a hypothesis is not known to hold."""
+    if near.hypotheses.lacking:
+        return None
+    open_: list[tuple[Expr, ...]] = []
+    for curvatures in near.curvatures:
+        signs = near.signs(curvatures)
+        neutral = signs.count(0)
+        if set(signs) <= {0, 1} and set(signs[len(signs) - neutral :]) <= {0}:
+            return _minimum(near, neutral)
+        if -1 in signs or neutral or -1 in (weak_sign(e, near.positive) for e in curvatures):
+            continue
+        pairs = zip(curvatures, signs, strict=True)
+        left = tuple(e for e, known in pairs if known is None)
+        if not contradictory(left, near.positive):
+            open_.append(left)
+    if not open_:
+        return None
+    shortest = min(open_, key=lambda left: sum(int(count_ops(e)) for e in left))
+    derivatives = potential_derivatives(near.linear) if len(shortest) == 1 else []
+    return Stability(
+        by=KELVIN_TAIT_CHETAEV if near.complete else LAGRANGE_DIRICHLET,
+        asymptotic=near.complete,
+        minimum=shortest,
+        reverses=near.potential_decides,
+        critical=order_at_critical_values(derivatives, near.positive),
+    )
+
+
+def by_separate_curvatures(near: Near) -> Stability | None:
+    """By the signs of a K that is diagonal, of which no determinant is needed; None: not so."""
+    linear = near.linear
+    if linear.nonholonomic or linear.damped or linear.gyroscopic or linear.point.family is not None:
+        return None
+    signs = near.signs(near.diagonal)
+    if None in signs or 0 in signs or near.hypotheses.lacking:
+        return None
+    return unstable(FALLING) if -1 in signs else _strict_minimum(near) if signs else None
+
+
+def by_higher_order(near: Near) -> Stability | None:
+    """Of one coordinate whose V has no second derivative there; None: not known."""
+    derivatives = potential_derivatives(near.linear)
+    found = by_derivatives(derivatives, near.hypotheses, near.positive) if derivatives else None
+    return None if found is None or found.is_open else found
+
+
+def by_derivatives(
+    derivatives: Sequence[Expr], hypotheses: Hypotheses, positive: Sequence[Expr]
+) -> Stability:
+    """Of one coordinate, by the second and higher derivatives of V there."""
+    if hypotheses.lacking:
+        return undecided(hypotheses.lacking)
+    order, curvature = order_of_minimum(derivatives, positive), derivatives[0]
+    if order == 0:
+        return unstable(FALLING if sign_of(curvature, positive) == -1 else _DECREASES)
+    if order is not None:
+        return _stable(_STRICT + f" of order {order}" * (order > 2) + " there")
+    if sign_of(curvature, positive) == 0 or weak_sign(curvature, positive) == -1:
+        return undecided("{V} has no minimum of second order")
+    critical = order_at_critical_values(derivatives, positive)
+    return Stability(minimum=(curvature,), reverses=True, by=LAGRANGE_DIRICHLET, critical=critical)
+
+
+def _minimum(near: Near, neutral: int) -> Stability:
+    if neutral == 0:
+        return _strict_minimum(near)
+    if neutral == len(near.restoring.M):
+        return undecided(_FLAT if near.linear.gyroscopic else NO_FORCE)
+    if neutral > near.dimension_released:
+        return undecided(NEUTRAL)
+    if not near.is_even:
+        return undecided("{V} has a minimum across the family, perhaps not evenly along it")
+    return replace(_stable(f"{_STRICT} across the family"), across=True)
+
+
+def _strict_minimum(near: Near) -> Stability:
+    if near.complete and not near.linear.nonholonomic:
+        damped = f"{_STRICT} there, and all motions are damped"
+        return replace(_stable(damped, KELVIN_TAIT_CHETAEV), asymptotic=True)
+    if near.linear.damped and near.zeros == 0 and by_roots(near).stable:
+        reached = f"{_STRICT} there, and the damping reaches all motions"
+        return replace(_stable(reached, HURWITZ), asymptotic=True)
+    return _stable(f"{_STRICT} there")
+
+
+def _stable(why: str, by: Theorem = LAGRANGE_DIRICHLET) -> Stability:
+    return Stability(stable=True, reason=f"{why} ({by.name})", by=by, minimum=())
+
+
+def always(found: Stability, name: str) -> Stability:
+    """The verdict where the conditions for a `minimum`, or by `hurwitz`, turned out to hold."""
+    theorem = found.by or LAGRANGE_DIRICHLET
+    lead = f"{_STRICT} there" if name == "minimum" else ALL_ROOTS
+    reason = f"{lead} ({theorem.name})"
+    return replace(found, stable=True, reason=reason, minimum=(), hurwitz=None, spectrum=None)
+
+
+def by_routh(found: Stability) -> Stability:
+    """The same of a motion with momenta of cyclic coordinates."""
+    if found.by is not LAGRANGE_DIRICHLET:
+        return found
+    reason = found.reason.replace(LAGRANGE_DIRICHLET.name, ROUTH.name)
+    return replace(found, by=ROUTH, reason=reason)

@@ -1,0 +1,71 @@
+"""A verdict on stability: with its reason, or with the conditions that decide."""
+
+from __future__ import annotations
+
+from sympy import Expr
+
+from lagcli.mechanics.theorems import Theorem
+from lagcli.record import record
+
+
+@record(kw_only=True)
+class Stability:
+    """The verdict with its reason; "{V}" in the reason stands for the potential.
+
+    Attributes
+    ----------
+    by
+        The theorem that decides, or that does so where the conditions hold.
+    asymptotic
+        Whether it is asymptotically stable, where it is stable.
+    minimum, spectrum, hurwitz
+        What must be positive for a minimum of V, for frequencies that are real and distinct,
+        for roots that all have negative real parts; empty: it is always so.  None: not asked
+        for, never so, or not decided.
+    reverses
+        Whether it is unstable where one of `minimum` is negative.  (Of the others it is.)
+    exact
+        The equations of motion are linear: the spectrum decides beyond first order.
+    across
+        Stable up to displacements along a family of equilibria.
+    growing
+        It is unstable where this is positive, and it is nowhere negative.
+    opposed
+        It is unstable where one of these is negative, and they are nowhere all positive.
+    rapid
+        The frequency of a drive: the verdict is on the averaged motion where that is large.
+    critical
+        The order of the minimum where the one condition of `minimum` is an equality; 0: it is no
+        minimum, and unstable.  None: not known.
+    """
+
+    stable: bool | None = None
+    reason: str = ""
+    by: Theorem | None = None
+    asymptotic: bool = False
+    minimum: tuple[Expr, ...] | None = None
+    spectrum: tuple[Expr, ...] | None = None
+    hurwitz: tuple[Expr, ...] | None = None
+    reverses: bool = False
+    exact: bool = False
+    across: bool = False
+    growing: Expr | None = None
+    opposed: tuple[Expr, ...] = ()
+    rapid: Expr | None = None
+    critical: int | None = None
+
+    @property
+    def is_open(self) -> bool:
+        """Whether nothing was decided, not even under conditions."""
+        decided = (self.stable, self.minimum, self.spectrum, self.hurwitz, self.growing, self.rapid)
+        return all(each is None for each in decided) and not self.opposed
+
+
+def undecided(reason: str) -> Stability:
+    """No verdict, and why."""
+    return Stability(reason=reason)
+
+
+def unstable(reason: str) -> Stability:
+    """What leaves."""
+    return Stability(stable=False, reason=reason)
