@@ -27,8 +27,19 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
     if found is None and positive:
         known = [*positive, *_factors_of_known_sign(positive)]
         put_in = _with_signed(expression, known, (sympy.Symbol, sympy.Function))
-        return _sign(*put_in) if put_in[0] != expression else None
+        found = _sign(*put_in) if put_in[0] != expression else None
+        roots = {} if found is not None else _positive_roots(expression, positive)
+        return sign(expression.xreplace(roots), positive) if roots else found
     return found
+
+
+def _positive_roots(expression: Expr, positive: Sequence[Expr]) -> dict[Expr, Expr]:
+    """Positive symbols for the roots of what is known to be positive."""
+    return {
+        root: sympy.Dummy(positive=True)
+        for root in expression.atoms(sympy.Pow)
+        if root.exp.is_Rational and not root.exp.is_Integer and sign(root.base, positive) == 1
+    }
 
 
 def _factors_of_known_sign(positive: Sequence[Expr]) -> list[Expr]:

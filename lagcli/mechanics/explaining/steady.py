@@ -39,7 +39,7 @@ _BALANCED = {
 }
 
 
-_NO_MOMENTUM = "No coordinate is cyclic with a constant momentum"
+_NO_MOMENTUM = "No coordinate can be eliminated by a constant momentum"
 
 
 def steady(teller: Teller, section: Section) -> Iterator[Block]:
@@ -87,7 +87,7 @@ def _steady_without_momenta(teller: Teller, found: SteadySection) -> str:
         return ", so in these coordinates the steady motions are the equilibria:"
     if found.motions:
         return ". The equilibria are steady motions:"
-    return ". In a steady motion these vanish:"
+    return ". At rest these vanish:"
 
 
 def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
@@ -97,7 +97,7 @@ def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
     elif found.conditions and not found.eliminated:
         yield says("These are 0 everywhere.")
     if found.motions is None:
-        yield says(f"These were not solved: {found.reason}.")
+        yield says(f"No steady motion was found: {found.reason}.")
         return
     if not found.motions:
         yield says(_none(teller, found))

@@ -36,6 +36,7 @@ from lagcli.mechanics.reduction.steady_motion import Steady
 
 _AT_SINGULAR = "the conditions hold only where the coordinates are singular"
 _UNSOLVED = "the conditions of a steady motion have no closed solution"
+_ONLY_AT_REST = "under velocity constraints only states of rest were sought, and there is none"
 
 
 class SteadyMotions:
@@ -79,10 +80,21 @@ class SteadyMotions:
         standing = map(self.contacts.standing, found)
         found = [each for each in standing if each is not None]
         if not found and (self._singular or not self.complete):
-            self.reason = _AT_SINGULAR if self._singular else _UNSOLVED
+            unsolved = _ONLY_AT_REST if self._solved and self._velocity_constraints else _UNSOLVED
+            self.reason = _AT_SINGULAR if self._singular else unsolved
             return None
         self.reason = ""
         return tuple(found)
+
+    @property
+    def _solved(self) -> bool:
+        """Whether all states of rest are known."""
+        return self.rest.points is not None and self.rest.complete
+
+    @property
+    def _velocity_constraints(self) -> bool:
+        """Whether some states turn at rates that are no momenta's."""
+        return any(kind != "holonomic" for kind in self.dynamics.constraints.kinds.values())
 
     @property
     def _free(self) -> bool:
@@ -154,10 +166,7 @@ class SteadyMotions:
         real = [p for p in points or () if not any(x.has(sympy.I) for x in p.values.values())]
         regular = [point for point in real if self.routh.regular_at(point.values)]
         self._singular = bool(points) and not regular
-        # under velocity constraints others turn at rates that are no momenta's
-        kinds = self.dynamics.constraints.kinds.values()
-        known = points is not None and self.rest.complete
-        self.complete = known and all(kind == "holonomic" for kind in kinds)
+        self.complete = self._solved and not self._velocity_constraints
         return [
             Steady(
                 point.values, self.routh.rates_at(point.values), point.positive, family=point.family
