@@ -132,8 +132,9 @@ class SteadySection:
     What is not `complete` was not sought where each of `singular_where` vanishes.
     `where` restricts what was sought, in words.
 
-    Under velocity constraints the conditions are those of constant velocities, where the
-    `eliminated` ones follow from the constraints; each motion is then `rolling`.
+    Under velocity constraints, and where a force acts along what L does not contain, the
+    conditions are accelerations (`acting`), where the `eliminated` velocities follow from the
+    constraints; each motion is then `rolling`.
     """
 
     conditions: Mapping[str, Expression]

@@ -45,14 +45,8 @@ _NO_MOMENTUM = "No coordinate can be eliminated by a constant momentum"
 def steady(teller: Teller, section: Section) -> Iterator[Block]:
     """The relative equilibria: cyclic velocities constant, the other coordinates at rest."""
     found = cast(SteadySection, section)
-    if found.eliminated:
-        yield says(
-            "The constraints give ",
-            names(found.eliminated, 1),
-            " in terms of the other velocities, which are constant in a steady motion. So are the "
-            "coordinates that the accelerations depend on, and the accelerations vanish"
-            + (":" if any(each != ZERO for each in found.conditions.values()) else "."),
-        )
+    if "accelerations" in found.acting:
+        yield says(*_with_constant_velocities(found))
         yield from _steady_states(teller, found)
         return
     if found.motions is None and found.reason == ALL_CYCLIC:
@@ -79,6 +73,16 @@ def steady(teller: Teller, section: Section) -> Iterator[Block]:
         f" {_BALANCED[found.acting]}, with the momenta of the cyclic coordinates as constants:",
     )
     yield from _steady_states(teller, found)
+
+
+def _with_constant_velocities(found: SteadySection) -> list[Part]:
+    """What vanishes where rates are sought that no constant momentum gives."""
+    end = ":" if any(each != ZERO for each in found.conditions.values()) else "."
+    rest = f" the coordinates that the accelerations depend on, and the accelerations vanish{end}"
+    if not found.eliminated:
+        return [f"In a steady motion the velocities are constant. So are{rest}"]
+    given = [*names(found.eliminated, 1), " in terms of the other velocities, which are constant"]
+    return ["The constraints give ", *given, f" in a steady motion. So are{rest}"]
 
 
 def _steady_without_momenta(teller: Teller, found: SteadySection) -> str:

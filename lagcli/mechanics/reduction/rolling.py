@@ -72,9 +72,17 @@ class RollingMotions:
 
     @staticmethod
     def applies(derivation: Derivation) -> bool:
-        """Whether a constraint is on velocities: of these none need have a constant momentum."""
+        """Whether a coordinate may turn at a constant rate that no constant momentum gives.
+
+        Under a velocity constraint, or where a force acts along what L does not contain.
+        """
         kinds = derivation.dynamics.constraints.kinds.values()
-        return any(kind != "holonomic" for kind in kinds)
+        if any(kind != "holonomic" for kind in kinds):
+            return True
+        free = [derivation.system.q[j] for j in derivation.noether.cyclic]
+        forces = derivation.system.applied_forces
+        pushed = any(is_zero(forces[derivation.system.q.index(q)]) is not True for q in free)
+        return pushed and not kinds
 
     @property
     def drives(self) -> bool:

@@ -21,6 +21,7 @@ def rolling_section(found: RollingMotions) -> SteadySection:
         motions=tuple(_motion(found, motion) for motion in found.motions or ()),
         complete=found.complete,
         unless=() if found.motions else unless_written(found.unless, order),
+        acting=("accelerations",),
         eliminated=tuple(n for j, n in enumerate(names) if j not in found.velocities),
     )
 

@@ -49,8 +49,8 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
             y = with_closed_contacts(y, RestPlace(y, what, each.at, {}, each.on, each.where))
             place = RestPlace(y, what, each.at, {}, each.on, each.where)
             judged = Verdict(stable=None) if section.at_all_times else each.verdict
-            cyclic = _cyclic(x) if judged.potential == "U_eff" else 0
-            verdict = _stays(x, what, place, judged, cyclic=cyclic)
+            zeros = 2 * _cyclic(x) if judged.potential == "U_eff" else 0
+            verdict = _stays(x, what, place, judged, zeros=zeros)
             if verdict is None:
                 return replace(section, equilibria=None, reason=not_confirmed("an equilibrium"))
             found.append(each if verdict is judged else replace(each, verdict=verdict))
@@ -96,7 +96,8 @@ def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
                 found.append(each)
                 continue
             place = RestPlace(x, what, each.at, each.rates, each.on, each.where, section.eliminated)
-            verdict = _stays(x, what, place, each.verdict, cyclic=len(each.rates))
+            zeros = len(each.rates) * (1 if each.rolling else 2)
+            verdict = _stays(x, what, place, each.verdict, zeros=zeros)
             if verdict is None or not _with_momenta(x, what, place, each):
                 return replace(section, motions=None, reason=not_confirmed("a steady motion"))
             found.append(each if verdict is each.verdict else replace(each, verdict=verdict))
@@ -124,19 +125,22 @@ def _another_motion(x: Examination, section: SteadySection, found: list[SteadyMo
 
 
 def _stays(
-    x: Examination, what: str, place: RestPlace, verdict: Verdict, *, cyclic: int
+    x: Examination, what: str, place: RestPlace, verdict: Verdict, *, zeros: int
 ) -> Verdict | None:
-    """The verdict, an undecided one where it is refuted; None where the state does not stay."""
+    """The verdict, an undecided one where it is refuted; None where the state does not stay.
+
+    The linear motion near it has at least as many roots 0 as `zeros`.
+    """
     tried = 0
     for near in place.states() if place.readable else ():
         if not near.defined:
             continue
         tried += 1
-        stays = near.residual < NOTHING if not cyclic else _constant(near, place.eliminated)
+        stays = near.residual < NOTHING if not zeros else _constant(near, place.eliminated)
         if not stays:
             x.refute(what, "the equations of motion do not let it stay there")
             return None
-        why = "" if place.eliminated else refutes(x, what, near, verdict, cyclic)
+        why = "" if place.eliminated else refutes(x, what, near, verdict, zeros)
         if why:
             x.refute(f"the stability of {what}", why)
             return Verdict(stable=None, reason=_WHY)
@@ -144,7 +148,7 @@ def _stays(
         return None
     if not tried:
         x.unchecked.append(what)
-    why = "" if place.eliminated else _refuted_beside_bounds(x, what, place, verdict, cyclic)
+    why = "" if place.eliminated else _refuted_beside_bounds(x, what, place, verdict, zeros)
     if why:
         x.refute(f"the stability of {what}", why)
         return Verdict(stable=None, reason=_WHY)
@@ -152,16 +156,16 @@ def _stays(
 
 
 def _refuted_beside_bounds(
-    x: Examination, what: str, place: RestPlace, verdict: Verdict, cyclic: int
+    x: Examination, what: str, place: RestPlace, verdict: Verdict, zeros: int
 ) -> str:
     """Why a verdict cannot be right near where its conditions begin to hold, or always."""
     given = (verdict.minimum or (), verdict.hurwitz or (), verdict.spectrum or (), verdict.unstable)
     bounds = conditions(x, what, [each for group in given for each in group])
     always = () in (verdict.hurwitz, verdict.spectrum)
     found = (
-        refutes(x, what, near, verdict, cyclic)
+        refutes(x, what, near, verdict, zeros)
         for near in (place.spread() if always else place.beside(bounds))
-        if near.defined and (cyclic or near.residual < NOTHING)
+        if near.defined and (zeros or near.residual < NOTHING)
     )
     return next(filter(None, found), "")
 

@@ -15,10 +15,10 @@ from lagcli.verification.states import State
 class Judged:
     """What the linear motion says of a printed verdict at one state."""
 
-    def __init__(self, near: LinearMotion, cyclic: int) -> None:
+    def __init__(self, near: LinearMotion, zeros: int) -> None:
         everything = near.eigenvalues
         self.scale = max([1e-3, *map(abs, everything)])
-        self.values = everything[2 * cyclic :]  # two are 0 for each cyclic coordinate
+        self.values = everything[zeros:]  # two are 0 for the momentum of a cyclic coordinate
 
     @property
     def growing(self) -> bool:
@@ -48,16 +48,16 @@ class Judged:
         return apart and all(abs(z) > 1e-7 * self.scale for z in self.values)
 
 
-def refutes(x: Examination, what: str, near: LinearMotion, verdict: Verdict, cyclic: int) -> str:
+def refutes(x: Examination, what: str, near: LinearMotion, verdict: Verdict, zeros: int) -> str:
     """Why a verdict cannot be right at this state; empty where it can."""
     if not near.regular:
         return _at_a_pole(near, verdict)
-    judged = Judged(near, cyclic)
+    judged = Judged(near, zeros)
     if verdict.stable and judged.growing:
         return "a disturbance grows"
     given = x.problem
     pushed = given.forces or given.dissipation or any(p.force for p in given.points)
-    conservative = not (pushed or cyclic)
+    conservative = not (pushed or zeros)
     definite = all(_positive(value) for value in eigenvalues(near.laws.mass_matrix))
     free = not any(not row.holonomic for row in x.reference.rows)
     bowl = conservative and definite and free and all(k > 1e-8 for k in near.stiffness)
