@@ -143,6 +143,8 @@ def _linear(equations: Sequence[Expr], roots: Sequence[Symbol]) -> tuple[list[Ex
         return None
     none = dict.fromkeys(roots, sympy.S.Zero)
     rows = [[*row, -e.xreplace(none)] for row, e in zip(matrix, equations, strict=True)]
+    if any(x.has(sympy.zoo, sympy.nan) for row in rows for x in row):
+        return None
     solution = solve_linear([row[:-1] for row in rows], [row[-1] for row in rows])
     if solution is None or solution.determinant is None:
         return None

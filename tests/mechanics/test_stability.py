@@ -133,3 +133,27 @@ forces: {a: P*sin(a - b)}
         powers = mpmath.lu_solve(mpmath.matrix([[s**k for k in range(5)] for s in range(5)]), at)
         roots = mpmath.polyroots([powers[k] for k in range(4, -1, -1)], maxsteps=200)
         assert (max(root.real for root in roots) < 0) is stable
+
+
+@pytest.mark.parametrize("force", ["c*x'", "c*x' - x^2*x'", "2*c*x' - c*x'^3"])
+def test_where_damping_is_negative_the_potential_is_not_blamed(force):
+    """Van der Pol's oscillator: V has its minimum where it is unstable."""
+    found = origin(
+        f"coordinates: [x]\nparameters: {{k: POSITIVE, c: POSITIVE}}\nT: x'^2/2\nV: k*x^2/2\n"
+        f"forces: {{x: {force}}}\n"
+    )
+    assert found.verdict.stable is False
+    assert "root" in found.verdict.reason
+    assert "{V}" not in found.verdict.reason
+
+
+def test_a_pendulum_under_a_constant_torque_is_unstable_above_the_horizontal():
+    section = equilibria(
+        derive(
+            "coordinates: [a]\nparameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE, N: POSITIVE}\n"
+            "T: m*l^2*a'^2/2\nV: -m*g*l*cos(a)\nforces: {a: N}\n".replace(
+                "POSITIVE", "{assume: positive}"
+            )
+        ).dynamics
+    )
+    assert [each.verdict.stable for each in section.equilibria or ()] == [True, False]

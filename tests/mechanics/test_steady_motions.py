@@ -296,3 +296,21 @@ V: m*g*r*cot(alpha)
     assert circle.verdict.theorem == "Routh"
     [square] = circle.frequencies_squared
     assert to_grammar(square) == "3*g*sin(alpha)*cos(alpha)/r"
+
+
+@pytest.mark.parametrize("factor", ["1", "r^2", "(2 + r^2)"])
+def test_drag_in_a_turning_medium_lets_turn_with_it(factor):
+    """No momentum is constant, and yet k (r - a) = m r w² with phi' = w is steady."""
+    [motion] = motions(
+        f"""
+coordinates: [r, phi]
+parameters: {{m: POSITIVE, k: POSITIVE, a: POSITIVE, c: POSITIVE, w: POSITIVE}}
+T: m*(r'^2 + r^2*phi'^2)/2
+V: k*(r - a)^2/2
+forces: {{phi: -c*{factor}*(phi' - w)}}
+"""
+    )
+    assert motion.rates is not None
+    assert to_grammar(motion.rates["phi"]) == "w"
+    assert to_grammar(motion.at["r"]) == "k*a/(k - m*w^2)"
+    assert conditions(motion.verdict.hurwitz)[0] == "k > m*w^2"
