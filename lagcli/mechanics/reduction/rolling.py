@@ -200,7 +200,9 @@ class RollingMotions:
         """The branches, a velocity that is linear in a condition solved for first."""
         open_ = [c for c in dict.fromkeys(self._put(values, conditions)) if c != 0]
         if not open_:
-            yield RollingMotion(values, positive)
+            there = tuple(self._put(values, positive))
+            if not {0, -1} & set(map(sign, there)):
+                yield RollingMotion(values, there)
             return
         if depth > _MOST_DEPTH:
             self.complete = False
