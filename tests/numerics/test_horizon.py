@@ -24,9 +24,12 @@ def _rate(seed):
     return round(random.Random(seed).uniform(0.1, 9), 3)
 
 
-@pytest.mark.long
+#: Each takes ten seconds: two are for `make check-all`, the others by `-m hours`.
+SEEDS = [pytest.param(k, marks=pytest.mark.long if k < 2 else pytest.mark.hours) for k in range(6)]
+
+
 @pytest.mark.parametrize("method", ["auto", "taylor64"])
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_longer_span_never_holds_for_less(seed, method):
     k = _rate(seed)
     text, far = FALLING % (k, k), random.Random(seed)
@@ -55,8 +58,7 @@ def test_a_stop_long_after_the_accuracy_is_lost_is_not_one_of_the_motion():
     assert not result.events
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_chaos_holds_no_shorter_over_a_longer_span(seed):
     angles = random.Random(seed)
     text = PENDULUMS % (angles.uniform(1.5, 3), angles.uniform(1.5, 3))

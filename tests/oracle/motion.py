@@ -20,11 +20,11 @@ from .states import random_moments, with_motion
 
 STAGES = 10
 STARTS = 24
-SPAN = mpf(1) / 4
-FIRST_STEP = SPAN / 8
+SPAN = mpf(1) / 8
+FIRST_STEP = SPAN / 4
 #: The difference of the last two extrapolations, of which the better one is kept.
 ERROR = mpf(10) ** -28
-SMALLEST = SPAN / 300
+SMALLEST = SPAN / 150
 
 Row = list[mpf]
 Rates = Callable[[mpf, Row], Row]
