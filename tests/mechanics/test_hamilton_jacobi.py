@@ -124,7 +124,7 @@ def test_a_force_without_a_closed_integral_stays_one():
 
 def test_a_force_without_a_potential_has_no_action():
     _, missing = section("{coordinates: [x], parameters: [b], L: x'^2/2, dissipation: b*x'^2/2}")
-    assert missing[0][1] == "a force without a potential acts"
+    assert missing[0][1] == "a force that is not in L acts"
 
 
 def test_constants_get_names_that_are_free():

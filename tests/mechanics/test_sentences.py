@@ -157,9 +157,9 @@ def test_contacts_are_named_and_what_follows_is_limited_to_between_impacts():
 # -- cyclic coordinates that are kept ---------------------------------------------------------------
 
 KEPT = (
-    ("forces: {x: k}", False, "a force without a potential acts along it"),
-    ("dissipation: k*x'^2/2", False, "a force without a potential acts along it"),
-    ("forces: {y: k*x}", True, "a force without a potential depends on it"),
+    ("forces: {x: k}", False, "a force that is not in L acts along it"),
+    ("dissipation: k*x'^2/2", False, "a force that is not in L acts along it"),
+    ("forces: {y: k*x}", True, "a force that is not in L depends on it"),
     ("constraints: {c: x' = y'*z}", False, "the constraint 'c' acts along it"),
     ("constraints: {c: z' = y'*x}", True, "the constraint 'c' contains it"),
 )

@@ -171,7 +171,7 @@ symmetries: {{push: {{x: {factor}}}}}
 """)
     [(conserved, why)] = [Routh(derivation).irreducible[0]]
     assert conserved is False
-    assert why == "a force without a potential acts along it"
+    assert why == "a force that is not in L acts along it"
 
 
 @pytest.mark.parametrize("seed", SEEDS)

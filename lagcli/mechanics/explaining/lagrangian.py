@@ -106,7 +106,7 @@ def _without_potential(teller: Teller) -> Iterator[Block]:
     if teller.forced:
         pushed = any(particle.force is not None for particle in system.particles)
         yield says(
-            "The generalized forces without a potential are",
+            "The applied generalized forces are",
             " (those on points by their virtual work)" if pushed else "",
         )
         yield Equations(

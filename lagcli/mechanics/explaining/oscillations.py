@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 from sympy import Expr, Symbol
 
-from lagcli.algebra import is_zero, shape, simplify
+from lagcli.algebra import is_zero, nullspace, shape, simplify
 from lagcli.algebra.signs import sign
 from lagcli.document import Block, Equations, Label, Row
 from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, operation_count, sum_of
@@ -61,7 +61,7 @@ def _near(teller: Teller, place: Place, modes: Sequence[ModesOfFrequency]) -> It
     if place.characteristic.in_square is None:
         yield from _damped(teller, place)
     else:
-        yield from _undamped(teller, modes, gyroscopic=_moving(place.matrices[1]))
+        yield from _undamped(teller, modes, place)
 
 
 def _moving(velocity: Sequence[Sequence[Expr]]) -> bool:
@@ -80,14 +80,12 @@ def _linear(teller: Teller, place: Place) -> Iterator[Block]:
 # -- without damping -----------------------------------------------------------------------------
 
 
-def _undamped(
-    teller: Teller, modes: Sequence[ModesOfFrequency], *, gyroscopic: bool
-) -> Iterator[Block]:
+def _undamped(teller: Teller, modes: Sequence[ModesOfFrequency], place: Place) -> Iterator[Block]:
     """det(K - omega^2 M) = 0, or det(K + s C + s^2 M) = 0 in s^2 = -omega^2 alone."""
     omega, s = teller.letters.free("omega"), teller.letters.free("s")
     M, C, K = (Label(letter, matrix=True) for letter in "MCK")
     form: list[Part] = [K, " − ", Power(omega, _SQUARE), " ", M]
-    if gyroscopic:
+    if _moving(place.matrices[1]):
         form = [K, " + ", s, " ", C, " + ", Power(s, _SQUARE), " ", M, " with ", s, " = i ", omega]
     if all(mode.frequency is None and mode.frequency_squared is None for mode in modes):
         yield says("The squared frequencies are the roots of the determinant of ", form,
@@ -96,10 +94,10 @@ def _undamped(
     yield says("An oscillation with the angular frequency ", omega,
                " needs the determinant of ", form, " to vanish. The roots are")  # fmt: skip
     for mode in modes:
-        yield from _mode(mode, omega)
+        yield from _mode(mode, omega, place)
 
 
-def _mode(mode: ModesOfFrequency, omega: Name) -> Iterator[Block]:
+def _mode(mode: ModesOfFrequency, omega: Name, place: Place) -> Iterator[Block]:
     value = mode.frequency if mode.frequency is not None else mode.frequency_squared
     if value is None and mode.negative:
         yield says("No other root is real: the amplitudes of some displacements grow.")
@@ -119,11 +117,26 @@ def _mode(mode: ModesOfFrequency, omega: Name) -> Iterator[Block]:
         yield says("This is negative: the displacement does not oscillate, it grows exponentially.")
     elif mode.frequency is None:
         yield says("It oscillates only where this is real and positive.")
-    if value == ZERO and 0 < len(shapes) < mode.multiplicity:
-        yield says("The root is multiple and has fewer independent shapes: to first order other "
-                   "displacements grow in proportion to a higher power of the time.")  # fmt: skip
-    elif value == ZERO:
-        yield says("To first order this is not an oscillation but a uniform drift.")
+    if value == ZERO:
+        yield says(_without_oscillation(mode, len(shapes), place))
+
+
+def _without_oscillation(mode: ModesOfFrequency, shapes: int, place: Place) -> str:
+    """What a root 0 is: each is two roots s = 0, and a null vector of K stays displaced."""
+    if 0 < shapes < mode.multiplicity:
+        return (
+            "The root is multiple and has fewer independent shapes: to first order other "
+            "displacements grow in proportion to a higher power of the time."
+        )
+    staying = len(nullspace(place.linear.K))
+    if staying == mode.multiplicity:
+        return "To first order this is not an oscillation but a uniform drift."
+    if staying == 2 * mode.multiplicity:
+        return "To first order this is not an oscillation: what is displaced stays displaced."
+    return (
+        "To first order this is not an oscillation: displacements stay, or grow in proportion to "
+        "the time."
+    )
 
 
 def _amplitudes(shape: Mapping[str, Expression]) -> Equations:

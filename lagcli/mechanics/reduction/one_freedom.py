@@ -62,7 +62,7 @@ class ReducedFreedom:
         if is_zero(system.L.diff(system.t)) is not True:
             return "R depends explicitly on the time"
         if is_zero(system.applied_forces[0]) is not True:
-            return "a force without a potential acts"
+            return "a force that is not in L acts"
         return ""
 
     @property

@@ -86,12 +86,12 @@ class Routh:
             if is_zero(equation.row[j]) is not True:
                 return f"the constraint '{equation.name}' acts along it"
         if is_zero(forces[j]) is not True:
-            return "a force without a potential acts along it"
+            return "a force that is not in L acts along it"
         for equation in equations:
             if not self._untouched(equation, j):
                 return f"the constraint '{equation.name}' contains it"
         assert not all(_independent(f, q) for f in forces)
-        return "a force without a potential depends on it"
+        return "a force that is not in L depends on it"
 
     def _untouched(self, equation: ConstraintEquation, j: int) -> bool:
         q = self.system.q[j]

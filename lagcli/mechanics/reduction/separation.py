@@ -112,7 +112,7 @@ class Separation:
         elif not system.q:
             self.reason = "the constraints leave no coordinate"
         elif any(is_zero(force) is not True for force in system.applied_forces):
-            self.reason = "a force without a potential acts"
+            self.reason = "a force that is not in L acts"
         elif len(system.q) > MOST:
             self.reason = f"more than {MOST} coordinates are not tried"
         elif self.derivation.hamiltonian.function is None:

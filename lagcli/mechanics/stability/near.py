@@ -43,7 +43,7 @@ class Hypotheses:
     def lacking(self) -> str:
         """The hypothesis that is not known to hold; empty where all do."""
         if not self.energy_never_grows:
-            return "a force without a potential acts"
+            return "a force may feed energy"
         if not self.definite:
             return _INDEFINITE if self.indefinite else NOT_DEFINITE
         return ""
