@@ -40,6 +40,7 @@ POTENTIAL = Label("U", ("eff",))
 #: Said of what was sought on a constraint surface with a cone's apex, a crossing or an edge.
 INDEPENDENT = " where the gradients of the constraints are independent"
 NOT_ZERO = " where the gradient of the constraint is not 0"
+FINITE_MASS = " where the mass matrix is finite"
 #: The most operations of a value within a sentence.
 _SHORT = 3
 _SHORT_RELATION = 12

@@ -36,7 +36,7 @@ from lagcli.mechanics.oscillations.family import Family, exists_where, family
 from lagcli.mechanics.oscillations.kinks import at_kinks
 from lagcli.mechanics.translations import constant_nullspace
 from lagcli.record import record
-from lagcli.statements.wording import INDEPENDENT, NOT_ZERO
+from lagcli.statements.wording import FINITE_MASS, INDEPENDENT, NOT_ZERO
 
 _MAX_EVIDENT = 64
 #: Why nothing is solved for where the forces at rest are 0/0.
@@ -327,9 +327,18 @@ class RestPoints:
 
     @property
     def restricted_to(self) -> str:
-        """Where rest was decided, in words: everywhere, or with independent gradients only."""
+        """Where rest was decided, in words; empty: everywhere."""
+        if not self.points and self._mass_may_be_infinite:
+            return FINITE_MASS
         several = len(self.dynamics.constraints.equations) > 1
         return (INDEPENDENT if several else NOT_ZERO) if self.at_singular_constraints else ""
+
+    @property
+    def _mass_may_be_infinite(self) -> bool:
+        """Whether coordinates fail where a denominator of T vanishes, as on an ellipse's axis."""
+        entries = (entry for row in self.dynamics.lagrange.mass_matrix for entry in row)
+        below = (sympy.denom(sympy.together(entry)) for entry in entries)
+        return any(not free_of(d, self.system.q) and sign(d) not in (1, -1) for d in below)
 
     @property
     def _one_gradient(self) -> bool:
