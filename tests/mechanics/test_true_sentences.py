@@ -16,7 +16,7 @@ from lagcli.mechanics.oscillations.small_oscillations import equilibria
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_statement import steady_motions
-from lagcli.mechanics.stability.near import one_is_negative
+from lagcli.mechanics.stability.inequalities import one_is_negative
 from lagcli.pipeline import explain
 from lagcli.statements.wording import enumerated
 
