@@ -41,6 +41,9 @@ from lagcli.mechanics.discovery.spectrum import roots_of
 _MOST = 320
 _HIGHEST = 5  # power of a coordinate
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
+_PARTNERS = {
+    sympy.sin: sympy.cos, sympy.cos: sympy.sin, sympy.sinh: sympy.cosh, sympy.cosh: sympy.sinh
+}  # fmt: skip
 
 
 def ambient_functions(metric: Metric, allowed: Allowance) -> list[Expr]:
@@ -114,13 +117,15 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
     for a in _arguments(alone, _HYPERBOLIC):
         found |= dict.fromkeys(f(a / k) for k in (1, 2) for f in (sympy.sinh, sympy.cosh))
     for f in _below(alone):  # 1/cosh(x)^2 of Mercator's map comes from 1/cosh(x) and tanh(x)
-        other = sympy.sinh if f.func is sympy.cosh else sympy.cosh
-        found |= {1 / f: None, other(f.args[0]) / f: None}
+        found |= {1 / f: None, _PARTNERS[f.func](f.args[0]) / f: None}
     for a in _arguments(alone, (sympy.exp,)):
         found |= dict.fromkeys(sympy.exp(a * k / 2) for k in (-2, -1, 1, 2))
     shared = [1 / J for J in _joint(metric) if x in J.free_symbols]
     if any(not free_of(_without_functions(e), [x]) for e in (*alone, *shared)):
         found |= {1 / x: None, **dict.fromkeys(x**k for k in range(1, _degree(alone, x) + 1))}
+        # X has the slope x^(p/2) where the metric has x^p
+        powers = [p for e in alone for b, p in [e.as_base_exp()] if b == x and p.is_odd]
+        found |= {x ** (p / 2 + 1): None for p in powers}
         sums = [b for e in alone for b in _bases(e) if b.is_Add]
         for b in dict.fromkeys(sums):
             found |= {sympy.sqrt(b): None, 1 / sympy.sqrt(b): None, 1 / b: None}
@@ -179,9 +184,9 @@ def _arguments(expressions: Iterable[Expr], functions: tuple[type, ...]) -> list
 
 
 def _below(expressions: Iterable[Expr]) -> list[Expr]:
-    """cosh and sinh in denominators, that of tanh among them."""
+    """Sine and cosine, circular and hyperbolic, in denominators, that of tanh among them."""
     powers = {p for e in expressions for p in e.atoms(sympy.Pow) if p.exp.is_negative}
-    found = {f for p in powers for f in p.base.atoms(sympy.cosh, sympy.sinh)}
+    found = {f for p in powers for f in p.base.atoms(*_PARTNERS)}
     found |= {sympy.cosh(f.args[0]) for e in expressions for f in e.atoms(sympy.tanh)}
     return sorted(found, key=sympy.default_sort_key)
 

@@ -103,11 +103,12 @@ def _rotations(equations: SlotEquations) -> list[Vector]:
 
 
 def _common_factors(equations: SlotEquations) -> list[Expr]:
-    """w: the factors with coordinates that all components have in common, and sums among them."""
+    """w: M_kk, the factors with coordinates that all M_ik have in common, and sums among them."""
     if len(equations.q) not in _COORDINATES:
         return []
     entries = [sympy.factor(m) for row in equations.mass for m in row if m != 0]
     shared = set.intersection(*(set(sympy.Mul.make_args(e)) for e in entries))
     moving = [f for f in shared if not free_of(f, equations.q)]
-    found = (sympy.Mul(*moving), sympy.Mul(*(f for f in moving if f.as_base_exp()[0].is_Add)))
-    return [w for w in dict.fromkeys(found) if w != 1]
+    sums = [f for f in moving if f.as_base_exp()[0].is_Add]
+    own = [row[k] for k, row in enumerate(equations.mass) if moving]
+    return [w for w in dict.fromkeys((*own, sympy.Mul(*moving), sympy.Mul(*sums))) if w != 1]
