@@ -23,7 +23,7 @@ from lagcli.mechanics.discovery.constrained import tangent
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, is_gyroscopic
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
 from lagcli.mechanics.discovery.killing import KillingFrame
-from lagcli.mechanics.discovery.killing_integrals import DEGREES, KillingIntegrals
+from lagcli.mechanics.discovery.killing_integrals import KillingIntegrals
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Allowance, TooMuchWork
 from lagcli.mechanics.discovery.listing import more, times
@@ -63,6 +63,7 @@ class Discovery(Setting):
         self.cartesian: tuple[Expr, ...] = ()
         self.unproved = ""
         self._of_lagrangian: list[Transformation] = []
+        self._degree = 1  # of the integrals that were sought, in the velocities
         if self.unsearched:
             self.words.append("nothing")
             self.stopped.append(self.unusable)
@@ -94,6 +95,9 @@ class Discovery(Setting):
                 self.stopped.append(f"{what}: no sample point, so the search is incomplete")
             except ZeroDivisionError:
                 self.stopped.append(f"{what}: a formula is infinite, so the search is incomplete")
+        if len(self.system.q) > 1 and not self.dynamics.constraints.equations:
+            what = "those" if self._degree > 1 else "first integrals"
+            self.words.append(f"{what} of degree {self._degree + 1} or higher were not sought")
 
     def _search(self, kinds: Kinds, allowed: Allowance) -> tuple[Search, str]:
         """The linear system for the point symmetries, and what its ansatz is in words."""
@@ -163,14 +167,10 @@ class Discovery(Setting):
     def _hidden(self) -> None:
         if len(self.system.q) < 2 or not self.quadratic_mass or not self.canonical:
             return
-        if len(self.system.q) > _MOST_FOR_TENSORS:
-            self.words.append(
-                "integrals of second degree were not sought, because there are too many coordinates"
-            )
-            return
-        if self._by_killing_vectors():
+        if len(self.system.q) > _MOST_FOR_TENSORS or self._by_killing_vectors():
             return
         if self.system.t not in self.equations_symbols:
+            self._degree = 2
             self.words.append(
                 "first integrals of second degree in the velocities without explicit time, "
                 "coefficients up to second degree in the coordinates"
@@ -187,6 +187,7 @@ class Discovery(Setting):
                 self.noether, self.equations, self.centred_kinds, self.time_functions, self.allowed
             )
             if timed.functions:
+                self._degree = 2
                 self.words.append("and with the same functions of time as coefficients")
                 self._keep(timed.found(self.charges))
 
@@ -194,19 +195,22 @@ class Discovery(Setting):
         """Those of third and fourth degree, while fewer than n are known without the time."""
         if not (self.canonical and self.quadratic_mass and self.fixed_charges):
             return
-        n, degree = len(self.system.q), 2
+        n = len(self.system.q)
+        if len(self.fixed_charges) >= n:
+            return
         frame = KillingFrame.of(self.equations, self.isometries)
-        for degree in DEGREES.get(n, ()) if frame else ():
+        frame = frame or KillingFrame.found(self.equations, self.coordinate_kinds, self.allowed)
+        for degree in frame.degrees if frame else ():
             if frame is None or len(self.fixed_charges) >= n:
                 return
+            self._degree = degree
+            made = " made of Killing vectors of T" if frame.accelerations else ""
             self.words.append(
-                f"of degree {degree}, with the terms of V and of its gradient times monomials in "
-                "the lower parts"
+                f"of degree {degree}{made}, with the terms of V and of its gradient times "
+                "monomials in the lower parts"
             )
             found = self._of_frame(frame, degree)
             self.listing.add_hidden(("", charge) for charge in found)
-        if len(self.fixed_charges) < n:
-            self.words.append(f"those of degree {degree + 1} or higher were not sought")
 
     def _by_killing_vectors(self) -> bool:
         """Those of T of constant curvature, which are all; else of T without a factor w(q)."""
@@ -218,6 +222,7 @@ class Discovery(Setting):
                 self.words.append(f"{what} from Killing vectors of T without a common factor")
                 self._keep(((), charge) for charge in self._of_frame(frame, 2))
             return False
+        self._degree = 2
         self.words.append(f"all {what} without explicit time")
         whole = KillingFrame.of(equations, self.isometries)
         assert whole is not None

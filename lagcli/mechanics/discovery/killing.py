@@ -17,10 +17,13 @@ from sympy import Expr
 
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.build import free_of
+from lagcli.mechanics.discovery.ansatz import affine, quadratic_unknowns
 from lagcli.mechanics.discovery.hidden import is_gyroscopic
 from lagcli.mechanics.discovery.isometries import Isometries, Vector
+from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.slots import SlotEquations
+from lagcli.mechanics.discovery.search import Search
+from lagcli.mechanics.discovery.slots import SlotEquations, combined, point_slots
 
 _COORDINATES = (2, 3)
 
@@ -35,6 +38,8 @@ class KillingFrame:
         w of T = w T0.
     squares
         Killing tensors A B where the vectors themselves are not elementary.
+    accelerations
+        q'' of T alone where those that span are no Killing vectors but the M^-1 e_k, with A.p = q'.
     """
 
     fields: Sequence[Vector]
@@ -42,6 +47,7 @@ class KillingFrame:
     X: Sequence[Expr]
     factor: Expr = sympy.S.One
     squares: Sequence[tuple[Vector, ...]] = ()
+    accelerations: Sequence[Expr] = ()
 
     @classmethod
     def of(cls, equations: SlotEquations, isometries: Isometries | None) -> KillingFrame | None:
@@ -57,6 +63,31 @@ class KillingFrame:
             return None
         spanning = isometries.translations or isometries.rotations
         return cls(isometries.fields, spanning, isometries.functions)
+
+    @classmethod
+    def found(
+        cls, equations: SlotEquations, kinds: Kinds, allowed: Allowance
+    ) -> KillingFrame | None:
+        """For any other T(q, q') that has n Killing vectors or more, as that of a top."""
+        q, v, mass = equations.q, equations.v, sympy.Matrix(equations.mass)
+        timed = equations.t in sympy.Tuple(*mass, *equations.forcing).free_symbols
+        if timed or len(q) not in _COORDINATES or is_gyroscopic(equations):
+            return None
+        still = dict.fromkeys(v, sympy.S.Zero)
+        alone = replace(equations, forcing=tuple(f - f.xreplace(still) for f in equations.forcing))
+        slots = point_slots(alone)[1:]
+        unknowns = quadratic_unknowns((), range(len(q)), affine(kinds))
+        search = Search(alone, slots, unknowns, allowed)
+        fields = [combined(search.combination(s), len(q)) for s in search.solutions()]
+        if len(fields) < len(q):
+            return None
+        inverse = mass.inv(method="ADJ").applyfunc(simplify)
+        rows = [tuple(inverse.row(k)) for k in range(len(q))]
+        moving = [x for x in q if x in mass.free_symbols]
+        X = [
+            f for x in moving for f in ((sympy.sin(x), sympy.cos(x)) if x in kinds.angles else (x,))
+        ]
+        return cls(fields, rows, X, accelerations=[dot(row, alone.forcing) for row in rows])
 
     @classmethod
     def without_factor(cls, equations: SlotEquations, allowed: Allowance) -> Iterator[KillingFrame]:
@@ -81,6 +112,12 @@ class KillingFrame:
             return None
         squares = [(e, tuple(x / mass[k][k] for x in e)) for k, e in enumerate(units)]
         return cls((), (), equations.q, squares=squares)
+
+    @property
+    def degrees(self) -> Sequence[int]:
+        """Those that are searched after the second: in flat space the fourth takes too long."""
+        n = len(self.spanning[0])
+        return () if n not in _COORDINATES else (3, 4) if n == 2 or self.accelerations else (3,)
 
     def products(self, degree: int) -> Iterable[tuple[Vector, ...]]:
         """Killing tensors as symmetric products A B ..."""

@@ -8,7 +8,8 @@ with N factors in the first sum and N - 2 > 0 in the second, the rate has the de
 N - 3 in the velocities.  The first vanishes; so does the second for N = 3, where there is no S.
 For even N it is -dS/dt, so it has no curl.  All is linear in the constants c and in the functions
 g, which are sought among the terms of V and of A.grad V times monomials.  Where T has constant
-curvature those of second degree are all there are.
+curvature those of second degree are all there are.  For any other T(q, q') with n Killing
+vectors, as that of a top, the lower sum has g(q) q_i' q_j'.
 
 For T = w(q) T0 with Killing vectors of T0, w H = T0 + w V in the momenta p.  With the S[f] that the
 first sum has in a potential f, an integral of second degree is
@@ -19,6 +20,7 @@ References
 ----------
 Hietarinta, Phys. Rep. 147 (1987) 87, sections 3 and 4 (Holt, Fokas and Lagerstrom, Toda; 1:16).
 Henon, Phys. Rev. B 9 (1974) 1921 (Toda's lattice).
+Kowalevski, Acta Math. 12 (1889) 177 (the top with A = B = 2 C).
 Hietarinta, Grammaticos, Dorizzi, Ramani, Phys. Rev. Lett. 53 (1984) 1707 (exchange of H and w).
 """
 
@@ -35,15 +37,13 @@ from lagcli.algebra import dot, simplify
 from lagcli.mechanics.discovery.hidden import expanded, integral_of, potential
 from lagcli.mechanics.discovery.isometries import Vector
 from lagcli.mechanics.discovery.killing import KillingFrame
-from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import bare_terms, scaled
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.noether import Noether, NoetherCharge
 from lagcli.mechanics.total_derivative import boundary_term
 
-#: The degrees that are searched after the second, by the number of coordinates.
-DEGREES = {2: (3, 4), 3: (3,)}
 _MOST_UNKNOWNS = 400
 
 
@@ -86,7 +86,7 @@ class KillingIntegrals:
         """Those that are no combinations of products of the known ones."""
         parts = [*self._leading(), *(self._lower() if self.degree > 2 else ())]
         if len(parts) > _MOST_UNKNOWNS:
-            return []
+            raise TooMuchWork
         parts.reverse()  # the simplest last: each solution has one that no other has
         columns = [
             [part.above, *(x for rate in part.below for x in self._closed(rate))] for part in parts
@@ -114,9 +114,17 @@ class KillingIntegrals:
         degree = self.degree - 2
         for fields in combinations_with_replacement(self.frame.spanning, degree):
             value, slopes, [pushed] = self._moved(fields)
+            drift = self._drift(value)
             for g in self._functions():
-                above = self.equations.convected(g) * value
+                above = self.equations.convected(g) * value + g * drift
                 yield _Part(g * value, tuple(g * x for x in slopes), above, [g * pushed], degree)
+
+    def _drift(self, value: Expr) -> Expr:
+        """The rate under T alone, which is 0 for Killing vectors."""
+        v, accelerations = self.equations.v, self.frame.accelerations
+        if not accelerations:
+            return sympy.S.Zero
+        return self.equations.convected(value) + dot([value.diff(x) for x in v], accelerations)
 
     def _moved(self, fields: Sequence[Vector]) -> tuple[Expr, Vector, list[Expr]]:
         """(A.p)(B.p)..., dQ/dp of it and what each f adds to its rate: -(A.grad f)(B.p)... - ..."""
@@ -134,8 +142,10 @@ class KillingIntegrals:
     def _functions(self) -> list[Expr]:
         """Terms of V and of its slopes along the fields times monomials, the shortest first."""
         q, X = self.equations.q, self.frame.X
-        monomials = self._monomials if len(q) == 2 else [sympy.S.One, *X]
-        slopes = [dot(A, self._gradient(self._rest)) for A in self.frame.spanning]
+        curved = bool(self.frame.accelerations)
+        monomials = self._monomials if len(q) == 2 or curved else [sympy.S.One, *X]
+        gradient = self._gradient(self._rest)
+        slopes = gradient if curved else [dot(A, gradient) for A in self.frame.spanning]
         terms = [term for each in (self._rest, *slopes) for term in bare_terms(each, q)]
         made = dict.fromkeys(a * b for a in dict.fromkeys(terms) for b in monomials)
         return sorted(made, key=lambda e: (sympy.count_ops(e), str(e)))
