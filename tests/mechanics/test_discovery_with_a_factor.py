@@ -3,6 +3,7 @@
 Liouville, J. Math. Pures Appl. 11 (1846) 345; Koenigs, in Darboux, *Lecons sur la theorie generale
 des surfaces* IV (1896) 368; Jacobi, J. reine angew. Math. 19 (1839) 309 (the ellipsoid);
 Ballesteros, Enciso, Herranz, Ragnisco, Physica D 237 (2008) 505 (oscillator on a curved space);
+Kalnins, Kress, Miller, Winternitz, J. Math. Phys. 44 (2003) 5811 (spaces of Darboux);
 Evans, Phys. Rev. A 41 (1990) 5666 (three integrals beside the energy).
 """
 
@@ -13,7 +14,7 @@ import pytest
 from lagcli.mechanics.discovery.summary import summary
 
 from .derived import derive
-from .test_discovery_literature import kept, problem
+from .test_discovery_literature import POS, kept, problem
 
 pytestmark = pytest.mark.long  # of discovery, test_discovery.py is what runs before a commit
 
@@ -42,6 +43,8 @@ def test_coordinates_of_liouville_separate(seed):
     (f"m*(1 + b/x^2)*{SQUARES}/2", "[x, y]", 3),
     ("m*(exp(-x) + b*exp(-2*x))*(x'^2 + y'^2)/2", "[x, y]", 3),
     (f"(1 + b*(x^2 + y^2))*{SQUARES}/2 - k*(x^2 + y^2)/(2*(1 + b*(x^2 + y^2)))", "[x, y]", 3),
+    (f"(b + cos(x))*{SQUARES}/(2*sin(x)^2)", "[x, y]", 3),
+    ("(1 + b/r)*(r'^2 + r^2*phi'^2)/2 - k/(r + b)", f"{{r: {POS}, phi: {{}}}}", 3),
 ])  # fmt: skip
 def test_surfaces_of_koenigs_have_two_integrals_beside_a_momentum(L, coordinates, independent):
     text = problem(L, coordinates, "m b k")
