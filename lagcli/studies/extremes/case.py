@@ -82,8 +82,8 @@ class Trial:
     Attributes
     ----------
     verdict
-        `right`: the certificate is met by a run with more digits; `claimed`: there was no
-        such run; `refused`: with its reason; `wrong`, `undecided`: neither.
+        `right`: the certificate is met by a proof or a run with more digits; `claimed`: there was
+        none; `refused`: with its reason; `wrong`, `undecided`: neither.
     reason
         Why it is refused, wrong or undecided.
     losses
@@ -96,6 +96,8 @@ class Trial:
         The requested span, and the time until which the accuracy is claimed.
     accuracy, error
         The one claimed, and the true one.
+    proved
+        Whether the error is bounded by enclosures of the exact motion.
     drift
         The largest change of a charge.
     """
@@ -109,6 +111,7 @@ class Trial:
     holds_until: float | None = None
     accuracy: float | None = None
     error: float | None = None
+    proved: bool = False
     drift: float | None = None
     method: str = ""
     seconds: float | None = None

@@ -9,6 +9,7 @@ from decimal import Decimal
 from time import process_time
 
 from lagcli.numerics.certified.precise import precision
+from lagcli.numerics.certified.scales import relative
 from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.equations.arithmetic import Balls
 from lagcli.numerics.equations.columns import Column
@@ -16,6 +17,7 @@ from lagcli.numerics.equations.jacobian import jacobian
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked, Result
+from lagcli.numerics.rigorous import prove
 from lagcli.reader.columns import usual_columns
 from lagcli.record import record, replace
 from lagcli.studies.extremes.case import Case, CaseFormula, Loss, Trial, Verdict
@@ -32,8 +34,8 @@ _SAMPLES = 11
 _PRECISE = 60
 #: Of the run that confirms a claim: it must be right to the accuracy only.
 _DIGITS = 24
-#: A reference may take this part of the time that a case has.
-_SHARE = 0.25
+#: A proof, and a reference, may take this part of the time that a case has.
+_PROOF, _SHARE = 0.125, 0.25
 #: The factor by which a run that takes too long is shortened, and how often.
 _SHORTER, _ATTEMPTS = 100.0, 3
 
@@ -192,35 +194,58 @@ def _run(case: Case, asked: Asked, measured: Trial, end: float, wanted: Wanted) 
         drift=max(held.charges.values(), default=None),
         holds_until=held.holds_until,
     )
-    error, bound = _error(case, asked, result, _SHARE * wanted.limit)
+    error, bound, proved = _error(case, asked, result, _SHARE * wanted.limit)
     if error is not None and error > wanted.accuracy + bound:
         told = f"it claims {wanted.accuracy:g} and errs by {error:.1e}"
         return replace(known, verdict="wrong", reason=told, error=error)
     if not held.reached:
         return replace(known, verdict="refused", reason=result.refusal, error=error)
     verdict: Verdict = "claimed" if error is None or bound > wanted.accuracy else "right"
-    return replace(known, verdict=verdict, error=error)
+    return replace(known, verdict=verdict, error=error, proved=proved)
 
 
-def _error(case: Case, asked: Asked, result: Result, limit: float) -> tuple[float | None, float]:
-    """The true error of the rows that are claimed, and how well it is known."""
+def _error(
+    case: Case, asked: Asked, result: Result, limit: float
+) -> tuple[float | None, float, bool]:
+    """The true error of the rows that are claimed, how well it is known, and whether by a proof."""
     regular = {asked.until * k / (asked.samples - 1) for k in range(asked.samples)}
     rows = [row for row in result.rows if row[0] in regular or row is result.rows[-1]]
     rows = [row for row in rows if row[0] is not None and _is_before_events(row[0], result)]
     times = tuple(row[0] for row in rows if row[0] is not None)
     if len(times) < 2 or any(x is None for row in rows for x in row):
-        return None, math.inf
+        return None, math.inf, False
     same = replace(asked, until=times[-1], times=times, samples=len(times))
     found: Rows = tuple(tuple(Decimal(x) for x in row if x is not None) for row in rows)
+    scales = result.certificate.scales
     try:
+        bound = _proved_error(case, same, found, scales, limit)
+        if bound is not None:
+            return bound, 0.0, True
         near = precise_rows(case.problem, same, _DIGITS, limit)
-        scales = result.certificate.scales
         if near is not None and (error := difference(near, found, scales)) <= asked.accuracy:
-            return error, 0.0
+            return error, 0.0, False
         known = reference(case.problem, same, limit)
     except (Refusal, LimitReached):
-        return None, math.inf
-    return difference(known.rows, found, scales), known.bound
+        return None, math.inf, False
+    return difference(known.rows, found, scales), known.bound, False
+
+
+def _proved_error(
+    case: Case, asked: Asked, rows: Rows, scales: Sequence[float], limit: float
+) -> float | None:
+    """A bound of the error by enclosures of the exact motion; None where they are not so thin."""
+    try:
+        proof = prove(case.problem, asked, until(process_time() + limit * _PROOF / _SHARE))
+    except (Refusal, LimitReached):
+        return None
+    if not proof.reached or any(ball is None for row in proof.rows for ball in row):
+        return None
+    worst = max(
+        relative(float(abs(ball - type(ball)(str(x))).upper()), scale)
+        for balls, row in zip(proof.rows, rows, strict=True)
+        for ball, x, scale in zip(balls, row, scales, strict=True)
+    )
+    return worst if worst <= asked.accuracy else None
 
 
 def _is_before_events(t: float, result: Result) -> bool:

@@ -87,7 +87,9 @@ def to_text(study: ExtremesStudy) -> str:
         verdict: sum(t.verdict == verdict for _, t in study.trials)
         for verdict in ("right", "claimed", "refused", "wrong", "undecided")
     }
+    proved = sum(t.proved for _, t in study.trials)
     told = ", ".join(f"{n} {verdict}" for verdict, n in count.items() if n)
+    told += f"; {proved} proved" if proved else ""
     lines += ["", f"{len(study.trials)} case{'s' * (len(study.trials) != 1)}: {told}"]
     return "".join(f"{line.rstrip()}\n" for line in lines)
 
@@ -194,7 +196,7 @@ def _document(case: Case, trial: Trial) -> dict[str, Any]:
         "digits_lost_in_a_run": trial.run_loss,
         "condition": plain(trial.condition),
         "singular": trial.condition == float("inf"),
-        **fields_of(trial, "until holds_until accuracy error drift"),
+        **fields_of(trial, "until holds_until accuracy error proved drift"),
         "method": trial.method or None,
         "seconds": trial.seconds,
     }
