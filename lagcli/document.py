@@ -6,7 +6,7 @@ the formatters `text`, `latex`, `markdown` and `html` set it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from lagcli.expression import Expression
 from lagcli.record import field, record
@@ -104,6 +104,13 @@ class Equations:
     """Equations that belong together and are aligned at their `=`."""
 
     rows: tuple[Row, ...]
+
+
+def equations_of(
+    sides: Iterable[tuple[Formula, Formula] | tuple[Formula, Formula, str]],
+) -> Equations:
+    """A display with one equation for each pair of sides, with a word on it or without."""
+    return Equations(tuple(Row(*each) for each in sides))
 
 
 @record

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block, Bracket, Equations, Paragraph, Row
+from lagcli.document import Block, Bracket, Equations, Paragraph, Row, equations_of
 from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.reader.phase_space import read_expected_brackets
@@ -36,7 +36,7 @@ def derive(statements: Statements | PhaseSpaceStatements) -> BracketsSection:
 def blocks(section: BracketsSection, _: Answers) -> Iterator[Block]:
     """Say the observables, their brackets and their rates."""
     if section.observables:
-        yield Equations(tuple(Row(Name(name), f) for name, f in section.observables.items()))
+        yield equations_of((Name(name), f) for name, f in section.observables.items())
     yield Paragraph(("Poisson brackets, with the sign of {q, p} = 1:",))
     rows = []
     for each in section.brackets:
@@ -53,7 +53,7 @@ def blocks(section: BracketsSection, _: Answers) -> Iterator[Block]:
         yield Paragraph(("None: the file names no observables and no pairs.",))
     if section.rates:
         yield Paragraph(("Rates on the motion, from the brackets with H:",))
-        yield Equations(tuple(Row(Name(name, 1), value) for name, value in section.rates.items()))
+        yield equations_of((Name(name, 1), value) for name, value in section.rates.items())
     elif section.reason:
         yield Paragraph((f"No rates: {section.reason}.",))
 

@@ -7,7 +7,17 @@ from fractions import Fraction
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block, Bracket, Equations, Formula, Heading, Label, Paragraph, Row
+from lagcli.document import (
+    Block,
+    Bracket,
+    Equations,
+    Formula,
+    Heading,
+    Label,
+    Paragraph,
+    Row,
+    equations_of,
+)
 from lagcli.expression import Name, Number
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, fields_of
@@ -51,11 +61,11 @@ def blocks(section: TransformationsSection, _: Answers) -> Iterator[Block]:
         yield Paragraph(("The file gives no transformation.",))
     for each in section.transformations:
         yield Heading(each.name, 2)
-        yield Equations(tuple(Row(Name(name), f) for name, f in each.variables.items()))
+        yield equations_of((Name(name), f) for name, f in each.variables.items())
         yield Paragraph(tuple(_verdict(each)))
         if each.failing:
-            yield Equations(
-                tuple(Row(Bracket(Name(f.left), Name(f.right)), f.value) for f in each.failing)
+            yield equations_of(
+                (Bracket(Name(f.left), Name(f.right)), f.value) for f in each.failing
             )
         if each.generator is not None:
             yield from _generator(each.generator, each)
@@ -118,7 +128,7 @@ def _generator(generator: GeneratingFunction, each: ExaminedTransformation) -> I
                 " does not generate it: its derivatives would make equal",
             )
         )
-        yield Equations(tuple(Row(left, right) for left, right in generator.failing))
+        yield equations_of((left, right) for left, right in generator.failing)
 
 
 def json(section: TransformationsSection) -> Object:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row
+from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row, equations_of
 from lagcli.expression import ZERO, Expression
 from lagcli.formatters.json_values import Object, map_of, plain
 from lagcli.reader.dynamics import read_by_coordinate
@@ -98,11 +98,8 @@ def blocks(section: ConstraintForcesSection, _: Answers) -> Iterator[Block]:
         for point, components in section.on_points.get(constraint, {}).items():
             axes = "xyz" if len(components) > 1 else "x"
             rows = zip(axes, components, strict=False)
-            yield Equations(
-                tuple(
-                    Row(Label("F", (point, axis)), part, "force on the point")
-                    for axis, part in rows
-                )
+            yield equations_of(
+                (Label("F", (point, axis)), part, "force on the point") for axis, part in rows
             )
     if section.total is not None and len(section.forces) > 1:
         yield Heading("All constraints together", 2)

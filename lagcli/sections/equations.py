@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block, Equations, Row
+from lagcli.document import Block, equations_of
 from lagcli.expression import ZERO, Equation, Expression, Name, operation_count, walk
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
 from lagcli.formatters.json_values import FORMULA, Object, list_or_null, record_of
@@ -120,7 +120,7 @@ def blocks(section: EquationsSection, _: Answers) -> Iterator[Block]:
     if section.equations is None:
         yield not_found()
         return
-    yield Equations(tuple(Row(each.left, each.right) for each in section.equations))
+    yield equations_of((each.left, each.right) for each in section.equations)
     yield from with_constraints(section.constraints)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
+from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row, equations_of
 from lagcli.expression import Expression, Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, fields_of, list_or_null
@@ -77,13 +77,13 @@ def blocks(section: FindSection, _: Answers) -> Iterator[Block]:
                 yield Paragraph(("Not found.",))
             case Rewritten(values=tuple(values), subject=subject) if values:
                 left = Label(name) if subject is None else subject
-                yield Equations(tuple(Row(left, value) for value in values))
+                yield equations_of((left, value) for value in values)
             case Solutions(solutions=()):
                 yield Paragraph(("There is no solution that the motion can reach.",))
             case Solutions(unknown=unknown, solutions=tuple(solutions)):
                 variable = unknown.rstrip("'")
                 left = Name(variable, len(unknown) - len(variable))
-                yield Equations(tuple(Row(left, root) for root in solutions))
+                yield equations_of((left, root) for root in solutions)
             case Rewritten(value=value, subject=subject) if value is not None:
                 yield Equations((Row(Label(name) if subject is None else subject, value),))
             case Ranges(unknown=unknown, ranges=tuple(ranges)):

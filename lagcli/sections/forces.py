@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row
+from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row, equations_of
 from lagcli.expression import Call, Expression, Product, operation_count, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, fields_of, plain
@@ -60,9 +60,7 @@ def blocks(section: ForcesSection, _: Answers) -> Iterator[Block]:
         torques = section.torques.get(name, {})
         if torques:
             note = "no point depends on it"
-            yield Equations(
-                tuple(Row(Label("Q", (q,)), value, note) for q, value in torques.items())
-            )
+            yield equations_of((Label("Q", (q,)), value, note) for q, value in torques.items())
     for needed in section.friction_needed:
         yield from _friction(needed)
 

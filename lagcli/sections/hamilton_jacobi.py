@@ -6,15 +6,7 @@ import itertools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lagcli.document import (
-    Block,
-    Equations,
-    Formula,
-    Integral,
-    Label,
-    Paragraph,
-    Row,
-)
+from lagcli.document import Block, Equations, Formula, Integral, Label, Paragraph, Row, equations_of
 from lagcli.expression import ZERO, Expression, Name, Negative, Product
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.problem_data import ExpectHamiltonJacobi
@@ -100,7 +92,7 @@ def _solution(section: HamiltonJacobiSection) -> Iterator[Block]:
     assert section.derivatives is not None
     if section.equations:
         yield Paragraph(("The separated equations:",))
-        yield Equations(tuple(Row(ZERO, each) for each in section.equations.values()))
+        yield equations_of((ZERO, each) for each in section.equations.values())
     action: list[str | Formula] = ["S = ", Negative(Product((Name(section.energy), Name("t"))))]
     rows = []
     cases: list[tuple[str, ActionPart]] = []

@@ -6,15 +6,7 @@ import itertools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lagcli.document import (
-    Block,
-    Equations,
-    Heading,
-    Integral,
-    Label,
-    Paragraph,
-    Row,
-)
+from lagcli.document import Block, Equations, Heading, Integral, Label, Paragraph, Row, equations_of
 from lagcli.expression import ZERO, Name
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.notation.letters import own
@@ -57,9 +49,7 @@ def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
         yield Paragraph(tuple(irreducible(name, each, own("L"))))
     if section.momenta:
         yield Paragraph(("Constant, since the coordinates are cyclic:",))
-        yield Equations(
-            tuple(Row(Name(f"p_{name}"), value) for name, value in section.momenta.items())
-        )
+        yield equations_of((Name(f"p_{name}"), value) for name, value in section.momenta.items())
     elif section.irreducible:
         yield Paragraph(("The Routhian is the Lagrangian.",))
     else:
@@ -78,13 +68,11 @@ def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
     yield from _gyroscopic(section)
     if section.equations:
         yield Paragraph(("Its equations of motion:",))
-        yield Equations(tuple(Row(each.left, each.right) for each in section.equations))
+        yield equations_of((each.left, each.right) for each in section.equations)
     yield from with_constraints(section.constraints)
     if section.reconstruction:
         yield Paragraph(("The cyclic coordinates follow from",))
-        yield Equations(
-            tuple(Row(Name(name, 1), value) for name, value in section.reconstruction.items())
-        )
+        yield equations_of((Name(name, 1), value) for name, value in section.reconstruction.items())
     if section.one_freedom is not None:
         yield Heading("One degree of freedom", 2)
         yield from _one_freedom(section.one_freedom)
@@ -99,9 +87,7 @@ def _gyroscopic(section: ReductionSection) -> Iterator[Block]:
         else "no force, since their sum is a total derivative"
     )
     yield Paragraph((f"The terms linear in the velocities give {effect}; their factors are",))
-    yield Equations(
-        tuple(Row(Label("g", (name,)), value) for name, value in section.gyroscopic.items())
-    )
+    yield equations_of((Label("g", (name,)), value) for name, value in section.gyroscopic.items())
 
 
 def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
@@ -112,7 +98,7 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
     elif motion.turning_points:
         real = "real and positive" if motion.positive else "real"
         yield Paragraph((f"Turning points, where these are {real}:",))
-        yield Equations(tuple(Row(q, value) for value in single(motion.turning_points)))
+        yield equations_of((q, value) for value in single(motion.turning_points))
         for lower, upper in motion.turning_energies:
             yield Paragraph(("They are real for ", lower, " ≤ ", constant, " ≤ ", upper, "."))
         yield from turning_contacts(motion)

@@ -7,14 +7,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagcli.document import (
-    Block,
-    Equations,
-    Formula,
-    Heading,
-    Paragraph,
-    Row,
-)
+from lagcli.document import Block, Equations, Formula, Heading, Paragraph, Row, equations_of
 from lagcli.expression import ZERO, Name, Number, Power
 from lagcli.formatters.json_values import Object, fields_of, list_or_null, place
 from lagcli.notation.letters import own
@@ -62,7 +55,7 @@ def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
         yield Paragraph(("A steady motion has",))
         found = dict.fromkeys(section.conditions.values())
         wanted = [value for value in found if value != ZERO] or found
-        yield Equations(tuple(Row(ZERO, value) for value in wanted))
+        yield equations_of((ZERO, value) for value in wanted)
     if section.motions is None:
         yield Paragraph((f"Not found: {section.reason}.",))
         return
@@ -100,7 +93,7 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
     squares = single(dict.fromkeys(motion.frequencies_squared))
     if squares:
         squared = Power(own("omega"), Number(Fraction(2)))
-        yield Equations(tuple(Row(squared, square) for square in squares))
+        yield equations_of((squared, square) for square in squares)
     if len(motion.mass) > 1:
         matrices = (motion.mass, motion.velocity, motion.stiffness)
         yield from linear_equations("To first order, ", *matrices, end=":")

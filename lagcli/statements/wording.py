@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 
-from lagcli.document import Block, Equations, Formula, Label, Matrix, Paragraph, Row
+from lagcli.document import Block, Equations, Formula, Label, Matrix, Paragraph, Row, equations_of
 from lagcli.expression import (
     ZERO,
     Expression,
@@ -59,7 +59,7 @@ def one_row(left: Formula, right: Expression) -> Equations:
 
 def rows_by_name(expressions: Mapping[str, Expression], primes: int = 0) -> Equations:
     """An equation for each name."""
-    return Equations(tuple(Row(Name(name, primes), each) for name, each in expressions.items()))
+    return equations_of((Name(name, primes), each) for name, each in expressions.items())
 
 
 def with_names(text: str) -> list[Part]:
@@ -71,7 +71,7 @@ def with_constraints(sides: Mapping[str, tuple[Expression, Expression]]) -> Iter
     """The constraints that hold besides the equations of motion."""
     if sides:
         yield Paragraph((f"with the constraint{'s' if len(sides) > 1 else ''}",))
-        yield Equations(tuple(Row(left, right, name) for name, (left, right) in sides.items()))
+        yield equations_of((left, right, name) for name, (left, right) in sides.items())
 
 
 def listed(names: Iterable[str], primes: int = 0) -> list[Part]:

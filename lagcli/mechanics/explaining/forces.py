@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import sympy
 
 from lagcli.algebra import is_zero
-from lagcli.document import Block, Equations, Label, Row
+from lagcli.document import Block, Label, equations_of
 from lagcli.expression import Name
 from lagcli.mechanics.constraint_force import fixed_axes, forces_on_points
 from lagcli.mechanics.constraints import ConstraintEquation
@@ -68,19 +68,15 @@ def meaning(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
             ":",
         )
         found = dynamics.constraint_forces[k]
-        yield Equations(
-            tuple(
-                Row(
-                    Label("Q", (name,)),
-                    teller.readable.as_written(equation.multiplier * entry)
-                    if found is None
-                    else teller.readable.on_surface(found[j]),
-                )
-                for j, (name, entry) in enumerate(
-                    zip(teller.system.names, equation.row, strict=True)
-                )
-                if is_zero(entry) is not True
+        yield equations_of(
+            (
+                Label("Q", (name,)),
+                teller.readable.as_written(equation.multiplier * entry)
+                if found is None
+                else teller.readable.on_surface(found[j]),
             )
+            for j, (name, entry) in enumerate(zip(teller.system.names, equation.row, strict=True))
+            if is_zero(entry) is not True
         )
         yield from _direction(teller, equation, multiplier, along)
         yield from _on_points(teller, on_points.get(equation.name, {}))
@@ -89,10 +85,8 @@ def meaning(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
     if dynamics.redundant and dynamics.total_constraint_force is not None:
         yield says("The sum of the constraint forces is")
         total = map(teller.readable.on_surface, dynamics.total_constraint_force)
-        names_of = teller.system.names
-        yield Equations(
-            tuple(Row(Label("Q", (n,)), each) for n, each in zip(names_of, total, strict=True))
-        )
+        labels = [Label("Q", (name,)) for name in teller.system.names]
+        yield equations_of(zip(labels, total, strict=True))
 
 
 def _direction(
@@ -116,13 +110,11 @@ def _on_points(teller: Teller, points: dict[str, tuple[sympy.Expr, ...]]) -> Ite
     fixed = {point: fixed_axes(teller.dynamics, point) for point in points}
     yield says("In Cartesian components its force on the " + ("points is" if len(points) > 1
                else "point is"))  # fmt: skip
-    yield Equations(
-        tuple(
-            Row(Label("F", (point, axis)), teller.readable.on_surface(component))
-            for point, components in points.items()
-            for axis, component in zip("xyz", components, strict=False)
-            if axis not in fixed[point]
-        )
+    yield equations_of(
+        (Label("F", (point, axis)), teller.readable.on_surface(component))
+        for point, components in points.items()
+        for axis, component in zip("xyz", components, strict=False)
+        if axis not in fixed[point]
     )
     for point, axes in fixed.items():
         yield from only_along_its_path(point, axes)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 from sympy import S
 
-from lagcli.document import Block, Equations, Heading, Label, Row
+from lagcli.document import Block, Equations, Heading, Label, equations_of
 from lagcli.expression import ZERO, Expression
 from lagcli.mechanics.explaining.reduction import averaged_potential
 from lagcli.mechanics.explaining.teller import Teller
@@ -79,7 +79,7 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
             "value, in either direction: what it acts on is at rest in a whole range of places."
         )
     elif conditions:
-        yield Equations(tuple(Row(ZERO, condition) for condition in conditions))
+        yield equations_of((ZERO, condition) for condition in conditions)
     if any(each.kinked for each in found or ()):
         yield says("Where a force jumps, it takes every value between those on the two sides.")
     if teller.system.problem.contacts:

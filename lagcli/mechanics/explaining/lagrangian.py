@@ -10,7 +10,7 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
-from lagcli.document import Block, Equations, Label, Row
+from lagcli.document import Block, Equations, Label, Row, equations_of
 from lagcli.expression import Diff, Name, Negative, Number, Power
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import difference, names, says, shows
@@ -30,7 +30,7 @@ def lagrangian(teller: Teller) -> Iterator[Block]:
         )
     if problem.definitions:
         yield says("The definitions of the file are")
-        yield Equations(tuple(Row(Name(n), formula) for n, formula in problem.definitions.items()))
+        yield equations_of((Name(n), formula) for n, formula in problem.definitions.items())
     if system.H is not None:
         yield from _hamiltonian(teller, system.H)
     elif system.T is None or system.V is None:
@@ -58,11 +58,9 @@ def _hamiltonian(teller: Teller, H: Expr) -> Iterator[Block]:
     yield says("The Hamiltonian is given:")
     yield shows(letters.free("H"), readable.as_written(H))
     yield says("Its derivatives with respect to the momenta are the velocities:")
-    yield Equations(
-        tuple(
-            Row(name, readable.as_written(simplify(H.diff(p))))
-            for name, p in zip(teller.velocities, system.momenta, strict=True)
-        )
+    yield equations_of(
+        (name, readable.as_written(simplify(H.diff(p))))
+        for name, p in zip(teller.velocities, system.momenta, strict=True)
     )
     yield says(
         "Solved for the momenta, and substituted into the sum of momentum times velocity over all "
@@ -109,12 +107,10 @@ def _without_potential(teller: Teller) -> Iterator[Block]:
             "The applied generalized forces are",
             " (those on points by their virtual work)" if pushed else "",
         )
-        yield Equations(
-            tuple(
-                Row(Label("Q", (name,)), teller.readable.as_written(force))
-                for name, force in zip(system.names, system.forces, strict=True)
-                if is_zero(force) is not True
-            )
+        yield equations_of(
+            (Label("Q", (name,)), teller.readable.as_written(force))
+            for name, force in zip(system.names, system.forces, strict=True)
+            if is_zero(force) is not True
         )
     if teller.damped:
         yield says("Rayleigh's dissipation function is")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from lagcli.document import Block, Equations, Items, Row
+from lagcli.document import Block, Equations, Items, Row, equations_of
 from lagcli.expression import Diff, Name, Product, Rate
 from lagcli.graph.sharing import operations
 from lagcli.mechanics.closed_form import ClosedForm, ClosedSolution
@@ -83,7 +83,7 @@ def _solved(form: MatrixForm, solution: ClosedSolution) -> Iterator[Block]:
         "Gauss's elimination solves them, row by row and then backwards. Each of its steps is an "
         "abbreviation that uses earlier ones only:"
     )
-    yield Equations(tuple(Row(Name(name), node) for name, node in solution.where.items()))
+    yield equations_of((Name(name), node) for name, node in solution.where.items())
     yield says("With these,")
     accelerations = zip(form.q, solution.accelerations, strict=True)
     multipliers = zip(form.problem.constraints, solution.multipliers, strict=True)

@@ -10,7 +10,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, nullspace, shape, simplify
 from lagcli.algebra.signs import sign
-from lagcli.document import Block, Equations, Label, Row
+from lagcli.document import Block, Equations, Label, Row, equations_of
 from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, operation_count, sum_of
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, says, shows
@@ -140,7 +140,7 @@ def _without_oscillation(mode: ModesOfFrequency, shapes: int, place: Place) -> s
 
 
 def _amplitudes(shape: Mapping[str, Expression]) -> Equations:
-    return Equations(tuple(Row(Label("a", (q,)), part) for q, part in shape.items()))
+    return equations_of((Label("a", (q,)), part) for q, part in shape.items())
 
 
 # -- with damping --------------------------------------------------------------------------------

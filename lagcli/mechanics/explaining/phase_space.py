@@ -5,14 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import cast
 
-from lagcli.document import (
-    Block,
-    Bracket,
-    Equations,
-    Integral,
-    Label,
-    Row,
-)
+from lagcli.document import Block, Bracket, Equations, Integral, Label, Row, equations_of
 from lagcli.expression import ZERO, Diff, Expression, Name, Negative, Product, walk
 from lagcli.mechanics.explaining.reduction import used_to_eliminate
 from lagcli.mechanics.explaining.teller import Teller
@@ -32,11 +25,9 @@ def canonical_equations(teller: Teller, section: Section) -> Iterator[Block]:
         "The momenta are the derivatives of ", teller.letters.L, " with respect to the velocities:"
     )
     momenta = teller.dynamics.lagrange.momenta
-    yield Equations(
-        tuple(
-            Row(Name(f"p_{name}"), teller.readable.as_written(p))
-            for name, p in zip(teller.system.names, momenta, strict=True)
-        )
+    yield equations_of(
+        (Name(f"p_{name}"), teller.readable.as_written(p))
+        for name, p in zip(teller.system.names, momenta, strict=True)
     )
     H = teller.letters.free("H")
     function = derivation.hamiltonian.function
@@ -53,9 +44,9 @@ def canonical_equations(teller: Teller, section: Section) -> Iterator[Block]:
     )
     yield shows(H, teller.readable.as_written(function))
     yield says("The velocities are its derivatives with respect to the momenta,")
-    yield Equations(tuple(Row(Name(q, 1), pair.q) for q, pair in found.equations.items()))
+    yield equations_of((Name(q, 1), pair.q) for q, pair in found.equations.items())
     yield says(*_momentum_rates(teller))
-    yield Equations(tuple(Row(Name(f"p_{q}", 1), pair.p) for q, pair in found.equations.items()))
+    yield equations_of((Name(f"p_{q}", 1), pair.p) for q, pair in found.equations.items())
 
 
 def _momentum_rates(teller: Teller) -> list[Part]:
@@ -79,7 +70,7 @@ def brackets(_: Teller, section: Section) -> Iterator[Block]:
     if not found.brackets and not found.reason:
         yield says("The file names no functions.")
     if found.observables:
-        yield Equations(tuple(Row(Name(name), value) for name, value in found.observables.items()))
+        yield equations_of((Name(name), value) for name, value in found.observables.items())
     if found.reason:
         yield says(f"Not found: {found.reason}.")
     rows = []
@@ -96,7 +87,7 @@ def brackets(_: Teller, section: Section) -> Iterator[Block]:
             "derivatives with "
             "respect to t:"
         )
-        yield Equations(tuple(Row(Name(name, 1), rate) for name, rate in found.rates.items()))
+        yield equations_of((Name(name, 1), rate) for name, rate in found.rates.items())
 
 
 def hamilton_jacobi(teller: Teller, section: Section) -> Iterator[Block]:
@@ -145,7 +136,7 @@ def hamilton_jacobi(teller: Teller, section: Section) -> Iterator[Block]:
             *(names(found.constants), "."),
         )
     if found.equations:
-        yield Equations(tuple(Row(ZERO, each) for each in found.equations.values()))
+        yield equations_of((ZERO, each) for each in found.equations.values())
     cyclic = [name for name in found.derivatives if name not in found.equations]
     if cyclic:
         yield says("A cyclic coordinate contributes its constant momentum times itself to ", W, ".")

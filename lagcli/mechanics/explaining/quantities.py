@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import cast
 
-from lagcli.document import Block, Equations, Items, Label, Row
+from lagcli.document import Block, Equations, Items, Label, equations_of
 from lagcli.expression import Name
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import names, says
@@ -25,7 +25,7 @@ def model(_: Teller, section: Section) -> Iterator[Block]:
     )
     if found.eliminated:
         yield says("Eliminated:")
-        yield Equations(tuple(Row(Name(name), value) for name, value in found.eliminated.items()))
+        yield equations_of((Name(name), value) for name, value in found.eliminated.items())
     yield says("It integrates ", names(found.kept), ".")
     if found.ignorable:
         yield says(

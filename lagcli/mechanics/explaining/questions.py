@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import cast
 
-from lagcli.document import Block, Equations, Heading, Row
+from lagcli.document import Block, Equations, Heading, Row, equations_of
 from lagcli.expression import ZERO, Expression, Name
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, listed, says, shows
@@ -46,7 +46,7 @@ def _known(along: AlongTheMotion) -> Iterator[Block]:
         "every conserved quantity keeps its initial value. So these are 0 on the motion:"
     )
     laws = [along.tree(law) for law in along.level_set.laws]
-    yield Equations(tuple(Row(ZERO, law) for law in laws))
+    yield equations_of((ZERO, law) for law in laws)
 
 
 def _asked(question: Question) -> list[Part]:
@@ -102,7 +102,7 @@ def _answer(answer: Answer, *, is_open: bool) -> Iterator[Block]:
         case Rewritten(values=tuple(values), subject=subject) if values:
             yield says("Its square is determined. It is one of")
             left = Name("value") if subject is None else subject
-            yield Equations(tuple(Row(left, value) for value in values))
+            yield equations_of((left, value) for value in values)
         case Solutions(solutions=None) | Rewritten(value=None) | Ranges(ranges=None):
             yield says(f"This was not found: {answer.note or 'there is no closed form'}.")
             return
@@ -110,7 +110,7 @@ def _answer(answer: Answer, *, is_open: bool) -> Iterator[Block]:
             left = Name(unknown.rstrip("'"), len(unknown) - len(unknown.rstrip("'")))
             if roots:
                 yield says("The solution is" if is_open else "Of its roots the motion reaches")
-                yield Equations(tuple(Row(left, root) for root in roots))
+                yield equations_of((left, root) for root in roots)
             else:
                 yield says("The motion reaches none of its roots.")
         case Rewritten(value=value, subject=subject) if value is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import cast
 
-from lagcli.document import Block, Equations, Heading, Label, Row
+from lagcli.document import Block, Heading, Label, equations_of
 from lagcli.expression import Name, walk
 from lagcli.mechanics.constraint_force import on_points
 from lagcli.mechanics.explaining.teller import Teller
@@ -47,21 +47,19 @@ def real_forces(teller: Teller, section: Section) -> Iterator[Block]:
             rows = zip("xyz", gradient, strict=False)
             multiplier = Name(equation.multiplier.name)
             yield says(f"On {force.point} the force has the components")
-            yield Equations(
-                tuple(
-                    Row(
-                        Label("F", (force.point, axis)),
-                        teller.readable.on_surface(equation.multiplier * slope),
-                    )
-                    for axis, slope in rows
-                    if axis not in force.fixed
+            yield equations_of(
+                (
+                    Label("F", (force.point, axis)),
+                    teller.readable.on_surface(equation.multiplier * slope),
                 )
+                for axis, slope in rows
+                if axis not in force.fixed
             )
             yield from _magnitude(force, multiplier)
             yield from only_along_its_path(force.point, force.fixed)
         if torques:
             yield says("Along an angle on which no point depends it acts as a torque:")
-            yield Equations(tuple(Row(Label("Q", (q,)), value) for q, value in torques.items()))
+            yield equations_of((Label("Q", (q,)), value) for q, value in torques.items())
     for needed in found.friction_needed:
         yield from _friction(teller, needed)
 
@@ -80,11 +78,8 @@ def _magnitude(force: PointForce, multiplier: Name) -> Iterator[Block]:
     elif force.away_from is not None:
         where = f" away from {force.away_from or 'the origin'}"
     yield says("Its unit vector", f"{where.rstrip('.')} is" if where != "." else " is")
-    yield Equations(
-        tuple(
-            Row(Label("e", (axis,)), part)
-            for axis, part in zip("xyz", force.direction, strict=False)
-        )
+    yield equations_of(
+        (Label("e", (axis,)), part) for axis, part in zip("xyz", force.direction, strict=False)
     )
     yield says("With the value of ", multiplier, ", the force along it is")
     yield shows(F, force.force)

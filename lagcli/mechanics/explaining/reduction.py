@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import cast
 
-from lagcli.document import Block, Equations, Label, Row
+from lagcli.document import Block, Equations, Label, equations_of
 from lagcli.expression import ZERO, Expression, Name, Number, Power, Product, walk
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says, shows
@@ -49,7 +49,7 @@ def reduction(teller: Teller, section: Section) -> Iterator[Block]:
         yield shows(POTENTIAL, reduced.effective_potential)
     if reduced.equations and (reduced.momenta or reduced.eliminated):
         yield says("Lagrange's equations are then")
-        yield Equations(tuple(Row(each.left, each.right) for each in reduced.equations))
+        yield equations_of((each.left, each.right) for each in reduced.equations)
     if reduced.one_freedom is not None:
         yield from _one_freedom(reduced.one_freedom)
     yield from averaged_potential(teller)
@@ -77,9 +77,7 @@ def _cyclic(teller: Teller, reduced: ReductionSection) -> Iterator[Block]:
         one = len(cyclic) == 1
         yield says(names(cyclic), " is cyclic, with the constant momentum" if one
                    else " are cyclic, with the constant momenta")  # fmt: skip
-        yield Equations(
-            tuple(Row(Name(f"p_{name}"), value) for name, value in reduced.momenta.items())
-        )
+        yield equations_of((Name(f"p_{name}"), value) for name, value in reduced.momenta.items())
     elif not reduced.irreducible and reduced.reason != NONE_LEFT:
         which = "None of the others" if reduced.eliminated else "No coordinate"
         yield says(f"{which} is cyclic, so the Routhian is ", teller.letters.L, ".")
@@ -90,9 +88,7 @@ def _cyclic(teller: Teller, reduced: ReductionSection) -> Iterator[Block]:
 def _routhian(teller: Teller, reduced: ReductionSection, routhian: Expression) -> Iterator[Block]:
     L, R, cyclic = teller.letters.L, teller.letters.free("R"), list(reduced.momenta)
     yield says("Solved for the velocities of the cyclic coordinates:")
-    yield Equations(
-        tuple(Row(Name(name, 1), value) for name, value in reduced.reconstruction.items())
-    )
+    yield equations_of((Name(name, 1), value) for name, value in reduced.reconstruction.items())
     products = [Product((Name(f"p_{name}"), Name(name, 1))) for name in cyclic]
     terms: list[Part] = [part for each in products for part in (" − ", each)]
     yield says("With these, the Routhian ", R, " = ", L, *terms,
@@ -128,7 +124,7 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
         real = "real and positive" if motion.positive else "real"
         yield says("Its turning points are the roots of ", POTENTIAL, " = ", E,
                    f" that are {real}:")  # fmt: skip
-        yield Equations(tuple(Row(q, root) for root in single(motion.turning_points)))
+        yield equations_of((q, root) for root in single(motion.turning_points))
         for lower, upper in motion.turning_energies:
             yield says("They exist for ", lower, " ≤ ", E, " ≤ ", upper, ".")
             yield says("For larger ", E, ", ", q, " does not turn back.")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from lagcli.algebra import is_zero
-from lagcli.document import Block, Equations, Items, Row
+from lagcli.document import Block, Equations, Items, Row, equations_of
 from lagcli.expression import ZERO, Name, Negative
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.explaining.teller import Teller
@@ -36,8 +36,8 @@ def scene(teller: Teller) -> Iterator[Block]:
     if len(equations) > 1:
         verb = "restrict the motion, with these equal to 0:"
     yield says(f"{what} {verb}")
-    yield Equations(
-        tuple(Row(teller.letters.f(e.name), teller.readable.as_written(e.f)) for e in equations)
+    yield equations_of(
+        (teller.letters.f(e.name), teller.readable.as_written(e.f)) for e in equations
     )
     yield Items(tuple(tuple(_kind(teller, equation)) for equation in equations))
     yield from _contacts(teller)

@@ -6,12 +6,7 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import cast
 
-from lagcli.document import (
-    Block,
-    Equations,
-    Heading,
-    Row,
-)
+from lagcli.document import Block, Equations, Heading, Row, equations_of
 from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.mechanics.explaining.given_momenta import two_rates
 from lagcli.mechanics.explaining.teller import Teller
@@ -97,7 +92,7 @@ def _steady_without_momenta(teller: Teller, found: SteadySection) -> str:
 def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
     wanted = [each for each in dict.fromkeys(found.conditions.values()) if each != ZERO]
     if wanted:
-        yield Equations(tuple(Row(ZERO, each) for each in wanted))
+        yield equations_of((ZERO, each) for each in wanted)
     elif found.conditions and not found.eliminated:
         yield says("These are 0 everywhere.")
     if found.motions is None:
@@ -140,11 +135,11 @@ def _motion(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
     if rates:
         if placed or not motion.free:
             yield says(f"The {velocities} then")
-        yield Equations(tuple(Row(Name(name, 1), rate) for name, rate in rates.items()))
+        yield equations_of((Name(name, 1), rate) for name, rate in rates.items())
     momenta = {n: p for n, p in motion.momenta.items() if p != Name(f"p_{n}")}
     if momenta:
         yield says("and the momenta are" if rates else "The momenta are")
-        yield Equations(tuple(Row(Name(f"p_{name}"), p) for name, p in momenta.items()))
+        yield equations_of((Name(f"p_{name}"), p) for name, p in momenta.items())
         yield from two_rates(teller, motion)
     if motion.mirrored:
         yield says("It exists with the opposite signs of these velocities and momenta too.")
@@ -196,4 +191,4 @@ def _displaced(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
 def _squares(teller: Teller, values: Iterable[Expression]) -> Equations:
     """omega^2 = ..., with a letter that the file does not use."""
     square = Power(teller.letters.free("omega"), Number(Fraction(2)))
-    return Equations(tuple(Row(square, value) for value in values))
+    return equations_of((square, value) for value in values)

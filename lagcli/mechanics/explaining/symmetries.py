@@ -10,7 +10,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, shape, simplify
 from lagcli.algebra.build import free_of
-from lagcli.document import Block, Bracket, Equations, Heading, Label, Row
+from lagcli.document import Block, Bracket, Equations, Heading, Label, Row, equations_of
 from lagcli.expression import ZERO, Expression, Name, walk
 from lagcli.mechanics.canonical.poisson import poisson
 from lagcli.mechanics.discovery.lie_algebra import MODULO_CONSTANTS
@@ -147,7 +147,7 @@ def algebra(teller: Teller, section: Section) -> Iterator[Block]:
         new = len(case.charges)
         yield says(f"The number of symmetries is then {case.number}, with "
                    f"{'this' if new == 1 else 'these'} in addition:")  # fmt: skip
-        yield Equations(tuple(Row(Name(name), value) for name, value in case.charges.items()))
+        yield equations_of((Name(name), value) for name, value in case.charges.items())
 
 
 def _no_brackets(teller: Teller) -> str:

@@ -8,7 +8,7 @@ from typing import cast
 from sympy import Expr, Symbol
 
 from lagcli.algebra import shape
-from lagcli.document import Block, Bracket, Equations, Formula, Heading, Label, Row
+from lagcli.document import Block, Bracket, Equations, Formula, Heading, Label, Row, equations_of
 from lagcli.expression import Diff, Expression, Name, Negative, Number, Product, walk
 from lagcli.mechanics.canonical.transformation import CanonicalTest
 from lagcli.mechanics.explaining.teller import Teller
@@ -65,7 +65,7 @@ def transformations(teller: Teller, section: Section) -> Iterator[Block]:
 
 def _transformation(test: CanonicalTest, each: ExaminedTransformation) -> Iterator[Block]:
     yield says("The new variables are")
-    yield Equations(tuple(Row(Name(name), f) for name, f in each.variables.items()))
+    yield equations_of((Name(name), f) for name, f in each.variables.items())
     yield from _brackets(test, each)
     if each.kind is None:
         yield says("Whether it is canonical was not decided.")
@@ -93,12 +93,10 @@ def _brackets(test: CanonicalTest, each: ExaminedTransformation) -> Iterator[Blo
     n = len(names) // 2
     if n == 1:
         yield says("Their derivatives with respect to the old ones are")
-        yield Equations(
-            tuple(
-                Row(Diff(Name(name), Name(by.name)), _written(test, f.diff(by)))
-                for name, f in zip(names, test.functions, strict=True)
-                for by in old
-            )
+        yield equations_of(
+            (Diff(Name(name), Name(by.name)), _written(test, f.diff(by)))
+            for name, f in zip(names, test.functions, strict=True)
+            for by in old
         )
         yield says("so the first times the last minus the second times the third is")
     else:
@@ -155,7 +153,7 @@ def _given_function(test: CanonicalTest, each: ExaminedTransformation) -> Iterat
         yield says("Whether these hold with the new variables substituted was not decided.")
     else:
         yield says("With the new variables substituted, these should be equal and are not:")
-        yield Equations(tuple(Row(left, right) for left, right in generator.failing))
+        yield equations_of((left, right) for left, right in generator.failing)
         yield says("So ", label, " does not generate the transformation.")
 
 
