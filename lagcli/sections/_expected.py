@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from lagcli.expression import Expression
@@ -12,7 +12,22 @@ from lagcli.statements.declaration import Expected
 if TYPE_CHECKING:
     from lagcli.reader.expectations import ExpectReader
     from lagcli.reader.nodes import DocumentNode
+    from lagcli.reader.shapes import Shape
     from lagcli.studies.check.expectations import Expectations, Found
+
+
+def expected_of(
+    key: str,
+    shape: Shape,
+    compare: Callable[[Any, Any, Any], Found],
+    wanted: Callable[[Any], bool] | None = None,
+) -> Expected:
+    """What has a shape under a key of `expect`; see `Expected`."""
+
+    def read(reader: ExpectReader, node: DocumentNode) -> Any:
+        return shape.read(reader, node, (key,))
+
+    return Expected(key=key, schema=shape.schema, read=read, compare=compare, wanted=wanted)
 
 
 def expected_by_coordinate(key: str, what: str) -> Expected:

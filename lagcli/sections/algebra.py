@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Paragraph
 from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import Object, fields_of
-from lagcli.problem_data import ExpectAlgebra
-from lagcli.reader.expected_algebra import read_algebra
-from lagcli.reader.schema_parts import COUNT, FORMULAS, TEXT, YES_OR_NO, list_of, record_of, ref
+from lagcli.problem_data import ExpectAlgebra, ExpectSpecial
+from lagcli.reader.scope import CONSTANTS
+from lagcli.reader.shapes import CHARGE, COUNT, WORD, YES, by_name, equation, list_of, record_of
 from lagcli.record import replace
+from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import AlgebraSection, Answers, SpecialValue
-from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.declaration import Declaration, Told
 from lagcli.statements.wording import rows_by_name
 
 if TYPE_CHECKING:
@@ -114,6 +115,24 @@ def compare(check: Expectations, section: AlgebraSection, expected: ExpectAlgebr
     yield from itertools.starmap(check.judge, judged)
 
 
+_SPECIAL = record_of(
+    ExpectSpecial,
+    "a special value",
+    {"where": "a special value needs 'where', such as where: n = -1"},
+    where=equation("the special value", CONSTANTS),
+    charges=COUNT,
+    discovered=by_name("the expected charge '{}'", CHARGE),
+)
+_EXPECTED = record_of(
+    ExpectAlgebra,
+    "'algebra'",
+    dimension=COUNT,
+    independent=COUNT,
+    in_involution=COUNT,
+    name=WORD,
+    integrable=YES,
+    special=list_of(_SPECIAL, "write [] where there are none"),
+)
 SECTION = Declaration(
     name="algebra",
     heading="Algebra of symmetries",
@@ -122,21 +141,5 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     told=Told(title="The algebra of the symmetries", blocks=tell, order=110),
-    expected=(
-        Expected(
-            key="algebra",
-            schema=record_of(
-                dimension=COUNT,
-                independent=COUNT,
-                in_involution=COUNT,
-                name=TEXT,
-                integrable=YES_OR_NO,
-                special=list_of(
-                    record_of(("where",), where=ref("equation"), charges=COUNT, discovered=FORMULAS)
-                ),
-            ),
-            read=read_algebra,
-            compare=compare,
-        ),
-    ),
+    expected=(expected_of("algebra", _EXPECTED, compare),),
 )

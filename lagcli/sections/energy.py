@@ -8,17 +8,16 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Label, Paragraph
 from lagcli.expression import Expression
 from lagcli.formatters.json_values import OR_NULL, Object, plain, record_of
-from lagcli.reader.schema_parts import FORMULA
 from lagcli.reader.scope import STATE
+from lagcli.reader.shapes import formula
+from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, EnergySection
-from lagcli.statements.declaration import Declaration, Expected, always
+from lagcli.statements.declaration import Declaration, always
 from lagcli.statements.wording import not_found, one_row
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
-    from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import DocumentNode
     from lagcli.studies.check.expectations import Expectations, Found
 
 _CONSERVED = {True: "Conserved.", False: "Not conserved.", None: "Conservation undecided."}
@@ -64,11 +63,6 @@ def json(section: EnergySection) -> Object:
     return {"energy": plain(section)}
 
 
-def read(reader: ExpectReader, node: DocumentNode) -> Expression:
-    """One formula."""
-    return reader.sections.expression(node, "the expected energy", STATE)
-
-
 def compare(check: Expectations, section: EnergySection, expected: Expression) -> Found:
     """It is the same on the constraints."""
     yield check.compare(["energy"], section.function, expected)
@@ -92,5 +86,5 @@ SECTION = Declaration(
         },
     ),
     unasked=always,
-    expected=(Expected(key="energy", schema=FORMULA, read=read, compare=compare),),
+    expected=(expected_of("energy", formula("the expected energy", STATE), compare),),
 )

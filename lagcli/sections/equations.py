@@ -9,18 +9,17 @@ from lagcli.document import Block, equations_of
 from lagcli.expression import ZERO, Equation, Expression, Name, operation_count, walk
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
 from lagcli.formatters.json_values import FORMULA, Object, list_or_null, record_of
-from lagcli.reader.schema_parts import list_of, ref
 from lagcli.reader.scope import EQUATION
+from lagcli.reader.shapes import equation, list_of
+from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, EquationsSection, LagrangeEquation
-from lagcli.statements.declaration import Declaration, Expected, always
+from lagcli.statements.declaration import Declaration, always
 from lagcli.statements.wording import not_found, with_constraints
 
 if TYPE_CHECKING:
     from lagcli.mechanics.constraints import ConstraintEquation
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
-    from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import DocumentNode
     from lagcli.studies.check.expectations import Expectations, Found
 
 
@@ -135,22 +134,13 @@ def json(section: EquationsSection) -> Object:
     return {"equations": list_or_null(section.equations, equation_json)}
 
 
-def read(reader: ExpectReader, node: DocumentNode) -> tuple[Equation, ...]:
-    """Equations that follow from those of motion."""
-    equations = []
-    for place, item in enumerate(reader.sections.items(node, "'equations'")):
-        reader.spans["equations", str(place)] = item.span
-        equations.append(reader.sections.equation(item, "an expected equation", EQUATION))
-    return tuple(equations)
-
-
 def compare(check: Expectations, _: object, expected: Sequence[Equation]) -> Found:
     """Each follows from the derived equations."""
     from lagcli.studies.check.following import follows
 
-    for place, equation in enumerate(expected):
-        path, text = ["equations", str(place)], equation_to_grammar(equation)
-        verdict = follows(check.derivation, equation, check.comparison)
+    for place, each in enumerate(expected):
+        path, text = ["equations", str(place)], equation_to_grammar(each)
+        verdict = follows(check.derivation, each, check.comparison)
         if verdict is None:
             yield check.undecided(
                 path, f"nobody could decide whether {text} follows from the derived equations"
@@ -161,6 +151,7 @@ def compare(check: Expectations, _: object, expected: Sequence[Equation]) -> Fou
             yield check.wrong(path, f"{text} does not follow from the derived equations")
 
 
+_EXPECTED = list_of(equation("an expected equation", EQUATION))
 SECTION = Declaration(
     name="equations",
     heading="Equations of motion",
@@ -176,7 +167,5 @@ SECTION = Declaration(
         ),
     },
     unasked=always,
-    expected=(
-        Expected(key="equations", schema=list_of(ref("equation")), read=read, compare=compare),
-    ),
+    expected=(expected_of("equations", _EXPECTED, compare),),
 )

@@ -10,10 +10,10 @@ from lagcli.document import Block, Formula, Paragraph, equations_of
 from lagcli.expression import ZERO, Name
 from lagcli.formatters.json_values import Object, list_or_null, place, plain
 from lagcli.problem_data import ExpectEquilibrium
-from lagcli.reader.expected_reduction import read_equilibria
-from lagcli.reader.schema_parts import FORMULAS, STABLE, list_of, record_of, ref
+from lagcli.reader.shapes import PLACE, STABILITY, by_coordinate, equation, list_of, record_of
+from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, EquilibriaSection, Equilibrium
-from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.declaration import Declaration, Told
 from lagcli.statements.plus_minus import once
 from lagcli.statements.stability import at_the_limit, holding, stability
 from lagcli.statements.wording import (
@@ -126,6 +126,15 @@ def compare(
     yield from itertools.starmap(check.judge, equilibria(check, section, expected))
 
 
+_EXPECTED = list_of(
+    record_of(
+        ExpectEquilibrium,
+        "an equilibrium",
+        at=by_coordinate("the expected place of '{}'"),
+        on=equation("the equation of a family of equilibria", PLACE),
+        stable=STABILITY,
+    )
+)
 SECTION = Declaration(
     name="equilibria",
     heading="Equilibria",
@@ -135,12 +144,5 @@ SECTION = Declaration(
     json=json,
     large=large,
     told=Told(title="Equilibria", blocks=tell, order=20),
-    expected=(
-        Expected(
-            key="equilibria",
-            schema=list_of(record_of(at=FORMULAS, on=ref("equation"), stable=STABLE)),
-            read=read_equilibria,
-            compare=compare,
-        ),
-    ),
+    expected=(expected_of("equilibria", _EXPECTED, compare),),
 )

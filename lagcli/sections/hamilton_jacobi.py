@@ -10,10 +10,10 @@ from lagcli.document import Block, Equations, Formula, Integral, Label, Paragrap
 from lagcli.expression import ZERO, Expression, Name, Negative, Product
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.problem_data import ExpectHamiltonJacobi
-from lagcli.reader.expected_reduction import read_hamilton_jacobi
-from lagcli.reader.schema_parts import FORMULAS, YES_OR_NO, record_of
+from lagcli.reader.shapes import YES, by_coordinate, record_of, with_constants
+from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.declaration import Declaration, Told
 from lagcli.statements.motions import ActionPart, HamiltonJacobiSection
 from lagcli.statements.wording import conditions, listed, not_found
 
@@ -142,6 +142,15 @@ def compare(
     yield from itertools.starmap(check.judge, hamilton_jacobi(check, section, expected))
 
 
+_EXPECTED = with_constants(
+    record_of(
+        ExpectHamiltonJacobi,
+        "'hamilton_jacobi'",
+        separable=YES,
+        derivatives=by_coordinate("the expected derivative of W by '{}'"),
+        functions=by_coordinate("the expected part W of the action by '{}'"),
+    )
+)
 SECTION = Declaration(
     name="hamilton_jacobi",
     heading="Hamilton-Jacobi",
@@ -150,12 +159,5 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     told=Told(title="The Hamilton-Jacobi equation", blocks=tell, order=90),
-    expected=(
-        Expected(
-            key="hamilton_jacobi",
-            schema=record_of(separable=YES_OR_NO, derivatives=FORMULAS, functions=FORMULAS),
-            read=read_hamilton_jacobi,
-            compare=compare,
-        ),
-    ),
+    expected=(expected_of("hamilton_jacobi", _EXPECTED, compare),),
 )

@@ -10,10 +10,11 @@ from lagcli.document import Block, Label
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import OR_NULL
-from lagcli.reader.schema_parts import FORMULA
 from lagcli.reader.scope import PHASE_SPACE
+from lagcli.reader.shapes import formula
+from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, HamiltonianSection
-from lagcli.statements.declaration import Declaration, Expected
+from lagcli.statements.declaration import Declaration
 from lagcli.statements.wording import fold, not_found, one_row
 
 if TYPE_CHECKING:
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.mechanics.stating import Stating
-    from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import DocumentNode
     from lagcli.studies.check.expectations import Expectations, Found
 
 
@@ -75,11 +74,6 @@ def blocks(section: HamiltonianSection, _: Answers) -> Iterable[Block]:
     return [one_row(Label("H"), found)]
 
 
-def read(reader: ExpectReader, node: DocumentNode) -> Expression:
-    """One formula of coordinates and momenta."""
-    return reader.sections.expression(node, "the expected Hamiltonian", PHASE_SPACE)
-
-
 def compare(check: Expectations, section: HamiltonianSection, expected: Expression) -> Found:
     """H(q, p) is the same with p = dL/dq' put in; without a Lagrangian, everywhere."""
     path, found = ["hamiltonian"], section.hamiltonian
@@ -107,5 +101,7 @@ SECTION = Declaration(
     schema=OR_NULL,
     unasked=attrgetter("hamiltonian"),
     abbreviated=True,
-    expected=(Expected(key="hamiltonian", schema=FORMULA, read=read, compare=compare),),
+    expected=(
+        expected_of("hamiltonian", formula("the expected Hamiltonian", PHASE_SPACE), compare),
+    ),
 )

@@ -12,11 +12,12 @@ from lagcli.expression import Expression, Number, Power
 from lagcli.formatters.json_values import Object, fields_of, list_or_null, place
 from lagcli.notation.letters import own
 from lagcli.problem_data import Expect
-from lagcli.reader.schema_parts import FORMULA, list_of
 from lagcli.reader.scope import CONSTANTS
+from lagcli.reader.shapes import formulas
 from lagcli.record import replace
+from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, ModesOfFrequency, ModesSection
-from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.declaration import Declaration, Told
 from lagcli.statements.plus_minus import is_pair, pairs
 from lagcli.statements.wording import state_blocks
 
@@ -24,8 +25,6 @@ if TYPE_CHECKING:
     from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
-    from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import DocumentNode
     from lagcli.studies.check.expectations import Expectations, Found
 
 
@@ -124,15 +123,6 @@ def tell(teller: Teller, section: ModesSection) -> Iterator[Block]:
     return oscillations(teller, section)
 
 
-def read(reader: ExpectReader, node: DocumentNode) -> tuple[Expression, ...]:
-    """Angular frequencies."""
-    modes = []
-    for place_, item in enumerate(reader.sections.items(node, "'modes'", "write [sqrt(g/l)]")):
-        reader.spans["modes", str(place_)] = item.span
-        modes.append(reader.sections.expression(item, "an expected frequency", CONSTANTS))
-    return tuple(modes)
-
-
 def compare(check: Expectations, section: ModesSection, expected: Sequence[Expression]) -> Found:
     """They are the angular frequencies about one equilibrium, or those about all of them."""
     if section.modes is None:
@@ -156,6 +146,7 @@ def wanted(expect: Expect) -> bool:
     return expect.modes is not None
 
 
+_EXPECTED = formulas("an expected frequency", CONSTANTS, "write [sqrt(g/l)]")
 SECTION = Declaration(
     name="modes",
     heading="Normal modes",
@@ -166,7 +157,5 @@ SECTION = Declaration(
     large=large,
     told=Told(title="Small oscillations", blocks=tell, order=30),
     abbreviated=True,
-    expected=(
-        Expected(key="modes", schema=list_of(FORMULA), read=read, compare=compare, wanted=wanted),
-    ),
+    expected=(expected_of("modes", _EXPECTED, compare, wanted),),
 )

@@ -11,11 +11,11 @@ from lagcli.expression import ZERO, Name
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.notation.letters import own
 from lagcli.problem_data import ExpectReduction
-from lagcli.reader.expected_reduction import read_reduction
-from lagcli.reader.schema_parts import FORMULA, FORMULAS, list_of, record_of
+from lagcli.reader.shapes import by_coordinate, formula, formulas, record_of, with_constants
+from lagcli.sections._expected import expected_of
 from lagcli.sections.equations import equation_json
 from lagcli.statements.answers import Answers, ReductionSection
-from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.declaration import Declaration, Told
 from lagcli.statements.motions import OneFreedom, PeriodSeries
 from lagcli.statements.plus_minus import once, single
 from lagcli.statements.wording import (
@@ -184,6 +184,17 @@ def compare(check: Expectations, section: ReductionSection, expected: ExpectRedu
     yield from itertools.starmap(check.judge, reduction(check, section, expected))
 
 
+_EXPECTED = with_constants(
+    record_of(
+        ExpectReduction,
+        "'reduction'",
+        routhian=formula("the expected routhian"),
+        effective_potential=formula("the expected effective potential"),
+        reconstruction=by_coordinate("the expected velocity of '{}'"),
+        turning_points=formulas("the expected turning points"),
+        period=formula("the expected period"),
+    )
+)
 SECTION = Declaration(
     name="reduction",
     heading="Reduction",
@@ -193,18 +204,5 @@ SECTION = Declaration(
     json=json,
     told=Told(title="The reduction", blocks=tell, order=40),
     abbreviated=True,
-    expected=(
-        Expected(
-            key="reduction",
-            schema=record_of(
-                routhian=FORMULA,
-                effective_potential=FORMULA,
-                reconstruction=FORMULAS,
-                turning_points=list_of(FORMULA),
-                period=FORMULA,
-            ),
-            read=read_reduction,
-            compare=compare,
-        ),
-    ),
+    expected=(expected_of("reduction", _EXPECTED, compare),),
 )

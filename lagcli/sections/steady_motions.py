@@ -12,10 +12,17 @@ from lagcli.expression import ZERO, Name, Number, Power
 from lagcli.formatters.json_values import Object, fields_of, list_or_null, place
 from lagcli.notation.letters import own
 from lagcli.problem_data import ExpectSteady
-from lagcli.reader.expected_reduction import read_steady_motions
-from lagcli.reader.schema_parts import FORMULA, FORMULAS, STABLE, list_of, record_of
+from lagcli.reader.shapes import (
+    STABILITY,
+    by_coordinate,
+    formulas,
+    list_of,
+    record_of,
+    with_constants,
+)
+from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.declaration import Declaration, Told
 from lagcli.statements.motions import SteadyMotion, SteadySection
 from lagcli.statements.plus_minus import once, single
 from lagcli.statements.stability import steady_stability
@@ -137,6 +144,19 @@ def compare(check: Expectations, section: SteadySection, expected: Sequence[Expe
     yield from itertools.starmap(check.judge, steady_motions(check, section, expected))
 
 
+_EXPECTED = with_constants(
+    list_of(
+        record_of(
+            ExpectSteady,
+            "a steady motion",
+            at=by_coordinate("the expected at of '{}'"),
+            rates=by_coordinate("the expected rates of '{}'"),
+            momenta=by_coordinate("the expected momenta of '{}'"),
+            frequencies_squared=formulas("an expected square of a frequency"),
+            stable=STABILITY,
+        )
+    )
+)
 SECTION = Declaration(
     name="steady_motions",
     heading="Steady motions",
@@ -147,20 +167,5 @@ SECTION = Declaration(
     told=Told(title="Steady motions", blocks=tell, order=50),
     content="motions",
     abbreviated=True,
-    expected=(
-        Expected(
-            key="steady_motions",
-            schema=list_of(
-                record_of(
-                    at=FORMULAS,
-                    rates=FORMULAS,
-                    momenta=FORMULAS,
-                    frequencies_squared=list_of(FORMULA),
-                    stable=STABLE,
-                )
-            ),
-            read=read_steady_motions,
-            compare=compare,
-        ),
-    ),
+    expected=(expected_of("steady_motions", _EXPECTED, compare),),
 )

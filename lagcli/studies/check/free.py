@@ -11,7 +11,7 @@ from fractions import Fraction
 from lagcli.expression import Name, Number, Power, sum_of
 from lagcli.mechanics.derivation import Derivation
 from lagcli.problem_data import Parameter, Problem
-from lagcli.reader.expected_reduction import CONSTANT_NAMES
+from lagcli.reader.shapes import CONSTANT_NAMES
 from lagcli.studies.check.comparison import Comparison
 
 

@@ -1,0 +1,165 @@
+"""What may stand at a place of `expect`: its JSON Schema and how it is read, said once.
+
+A list notes where its items stand, and a record where its keys do: a finding of `lagcli check`
+names the place of what it is about.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from lagcli.reader import schema_parts
+from lagcli.reader.dynamics import read_by_coordinate
+from lagcli.reader.nodes import DocumentNode, Scalar, Sequence
+from lagcli.reader.schema_parts import FORMULA, FORMULAS, STABLE, TEXT, Schema, ref
+from lagcli.reader.scope import Role
+from lagcli.reader.sections import YES_OR_NO
+from lagcli.record import record
+
+if TYPE_CHECKING:
+    from lagcli.problem_data import Inequality
+    from lagcli.reader.expectations import ExpectReader
+
+#: What the answers call the constants of separation: alpha_1, alpha_2, …
+SEPARATION_NAMES = tuple(f"alpha_{number}" for number in range(1, 6))
+#: What the answers call the energy and the amplitude: the first that the file does not use.
+ENERGY_NAMES = ("E", "h", "E_0", "h_0")
+AMPLITUDE_NAMES = ("a", "A", "a_0", "A_0")
+
+CONSTANT_NAMES = (*ENERGY_NAMES, *AMPLITUDE_NAMES, *SEPARATION_NAMES)
+
+REDUCED = Role(order=1, why="an answer is free of accelerations", momenta=True)
+CHARGE = Role(order=1, why="an answer is free of accelerations")
+PLACE = Role(order=0, why="an equilibrium is given by its coordinates")
+
+#: The keys that lead to a place.
+Path = tuple[str, ...]
+
+
+@record
+class Shape:
+    """What may stand at a place.
+
+    Attributes
+    ----------
+    schema : mapping
+        With the definitions of `lagcli.reader.schema`.
+    read : function (reader, node, path) -> value
+    """
+
+    schema: Schema
+    read: Callable[[ExpectReader, DocumentNode, Path], Any]
+
+
+def formula(what: str, role: Role = REDUCED) -> Shape:
+    """One formula, which messages call `what`."""
+    return Shape(FORMULA, lambda reader, node, _: reader.sections.expression(node, what, role))
+
+
+def formulas(what: str, role: Role = REDUCED, hint: str = "write [one, another]") -> Shape:
+    """A list of formulas."""
+    return list_of(formula(what, role), hint)
+
+
+def by_coordinate(what: str, role: Role = REDUCED) -> Shape:
+    """Formulas by coordinate, which stands for the braces in `what`."""
+    return Shape(
+        FORMULAS,
+        lambda reader, node, path: read_by_coordinate(
+            reader.sections, node, f"'{path[-1]}'", what, role
+        ),
+    )
+
+
+def by_name(what: str, role: Role) -> Shape:
+    """Formulas by any name."""
+
+    def read(reader: ExpectReader, node: DocumentNode, path: Path) -> dict[str, Any]:
+        reader.note(node, *path)
+        entries = reader.sections.entries(node, f"'{path[-1]}'")
+        return {
+            key.label: reader.sections.expression(value, what.format(key.label), role)
+            for key, value in entries
+        }
+
+    return Shape(FORMULAS, read)
+
+
+def equation(what: str, role: Role) -> Shape:
+    """`left = right`, or an expression that is 0."""
+    return Shape(
+        ref("equation"), lambda reader, node, _: reader.sections.equation(node, what, role)
+    )
+
+
+def list_of(item: Shape, hint: str = "") -> Shape:
+    """A list."""
+
+    def read(reader: ExpectReader, node: DocumentNode, path: Path) -> tuple[Any, ...]:
+        found = []
+        for place, each in enumerate(reader.sections.items(node, f"'{path[-1]}'", hint)):
+            reader.spans[(*path, str(place))] = each.span
+            found.append(item.read(reader, each, (*path, str(place))))
+        return tuple(found)
+
+    return Shape(schema_parts.list_of(item.schema), read)
+
+
+def record_of(
+    make: Callable[..., Any], what: str, needs: Mapping[str, str] | None = None, /, **parts: Shape
+) -> Shape:
+    """A record with these keys; `needs` has the sentence for each that must be there."""
+    required = needs or {}
+
+    def read(reader: ExpectReader, node: DocumentNode, path: Path) -> Any:
+        entries = reader.sections.attributes(node, what, parts)
+        for name, sentence in required.items():
+            if name not in entries:
+                reader.sections.error(sentence, node.span)
+        found = {}
+        for name, (key, value) in entries.items():
+            reader.spans[(*path, name)] = key.span
+            found[name] = parts[name].read(reader, value, (*path, name))
+        return make(**found)
+
+    schemas = {name: part.schema for name, part in parts.items()}
+    return Shape(schema_parts.record_of(tuple(required), **schemas), read)
+
+
+def with_constants(shape: Shape) -> Shape:
+    """The same, where the constants of the answers may stand, such as E."""
+
+    def read(reader: ExpectReader, node: DocumentNode, path: Path) -> Any:
+        with reader.sections.scope.also(CONSTANT_NAMES, "parameter"):
+            return shape.read(reader, node, path)
+
+    return Shape(shape.schema, read)
+
+
+def _word(reader: ExpectReader, node: DocumentNode, path: Path) -> str | None:
+    text = reader.sections.scalar(node, f"'{path[-1]}'")
+    return None if text is None else text.value.strip()
+
+
+def _stable(
+    reader: ExpectReader, node: DocumentNode, _: Path
+) -> bool | tuple[Inequality, ...] | None:
+    sections = reader.sections
+    if isinstance(node, Scalar) and node.value.strip() in YES_OR_NO:
+        return YES_OR_NO[node.value.strip()]
+    items = node.items if isinstance(node, Sequence) else [node]
+    what = "a condition of stability"
+    read = [sections.comparison(item, what, REDUCED) for item in items]
+    for item, each in zip(items, read, strict=True):
+        if each is not None and each.comparison not in (">", "<"):
+            sections.error(f"{what} has > or <", item.span)
+    return tuple(each for each in read if each is not None)
+
+
+STABILITY = Shape(STABLE, _stable)
+WORD = Shape(TEXT, _word)
+COUNT = Shape(schema_parts.COUNT, lambda reader, node, path: reader.count(node, path[-1]))
+YES = Shape(
+    schema_parts.YES_OR_NO, lambda reader, node, path: reader.sections.yes_or_no(node, path[-1])
+)
