@@ -10,6 +10,7 @@ from operator import add, mul
 from random import Random
 from typing import Any, TypeAlias
 
+from lagcli.expression import FUNCTIONS as GRAMMAR
 from lagcli.expression import (
     Call,
     Expression,
@@ -27,12 +28,7 @@ Constant: TypeAlias = Fraction | float
 
 #: The functions of the grammar, of doubles, with "power" and "pi" (of no arguments).
 FUNCTIONS: dict[str, Callable[..., float]] = {
-    **{
-        name: getattr(math, name)
-        for name in (
-            "sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh"
-        ).split()
-    },
+    **{name: getattr(math, name) for name in GRAMMAR if hasattr(math, name)},
     "abs": abs,
     "sign": lambda x: (x > 0) - (x < 0),
     "cot": lambda x: 1 / math.tan(x),

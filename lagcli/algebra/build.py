@@ -18,6 +18,7 @@ from sympy.core.function import AppliedUndef, ArgumentIndexError, UndefinedFunct
 
 from lagcli.algebra.integral import integral
 from lagcli.expression import (
+    FUNCTIONS,
     Call,
     Diff,
     Expression,
@@ -37,27 +38,7 @@ TIME = Symbol("t", real=True)
 CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 
 _SYMPY_FUNCTIONS: dict[str, Callable[..., Expr]] = {
-    "sqrt": sympy.sqrt,
-    "exp": sympy.exp,
-    "log": sympy.log,
-    "abs": sympy.Abs,
-    "sign": sympy.sign,
-    "sin": sympy.sin,
-    "cos": sympy.cos,
-    "tan": sympy.tan,
-    "cot": sympy.cot,
-    "sec": sympy.sec,
-    "csc": sympy.csc,
-    "asin": sympy.asin,
-    "acos": sympy.acos,
-    "atan": sympy.atan,
-    "atan2": sympy.atan2,
-    "sinh": sympy.sinh,
-    "cosh": sympy.cosh,
-    "tanh": sympy.tanh,
-    "asinh": sympy.asinh,
-    "acosh": sympy.acosh,
-    "atanh": sympy.atanh,
+    **{name: getattr(sympy, {"abs": "Abs"}.get(name, name)) for name in FUNCTIONS},
     "integral": integral,
 }
 

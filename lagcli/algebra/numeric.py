@@ -21,29 +21,12 @@ from sympy import Expr, Symbol
 from sympy.core.function import AppliedUndef
 
 from lagcli.algebra.integral import DefiniteIntegral
+from lagcli.expression import FUNCTIONS
 
 _FUNCTIONS: dict[str, Callable[..., Any]] = {
-    "sin": mpmath.sin,
-    "cos": mpmath.cos,
-    "tan": mpmath.tan,
-    "cot": mpmath.cot,
-    "sec": mpmath.sec,
-    "csc": mpmath.csc,
-    "asin": mpmath.asin,
-    "acos": mpmath.acos,
-    "atan": mpmath.atan,
-    "atan2": mpmath.atan2,
-    "sinh": mpmath.sinh,
-    "cosh": mpmath.cosh,
-    "tanh": mpmath.tanh,
+    **{name: getattr(mpmath, name) for name in FUNCTIONS if hasattr(mpmath, name)},
     "coth": mpmath.coth,
-    "asinh": mpmath.asinh,
-    "acosh": mpmath.acosh,
-    "atanh": mpmath.atanh,
-    "exp": mpmath.exp,
-    "log": mpmath.log,
     "Abs": mpmath.fabs,
-    "sign": mpmath.sign,
     "DiracDelta": lambda *_: mpf(0),  # in the derivative of a sign, which is 0 where it is one
 }
 

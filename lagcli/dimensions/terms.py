@@ -19,6 +19,7 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    folded,
     terms_of,
     walk,
 )
@@ -258,25 +259,21 @@ def _product(forms: Iterable[Form | None]) -> Form | None:
 
 def _constant(node: Expression) -> Fraction | None:
     """A rational number that is written out: `2`, `-1/2`, `(3 - 1)/2`."""
-    found: dict[int, Fraction | None] = {}
-    for part in reversed(list(walk(node))):
-        found[id(part)] = _number(part, found)
-    return found[id(node)]
+    return folded(node, _number)
 
 
-def _number(node: Expression, found: dict[int, Fraction | None]) -> Fraction | None:
+def _number(node: Expression, parts: list[Fraction | None]) -> Fraction | None:
+    known = [part for part in parts if part is not None]
     match node:
         case Number(value=value):
             return value
-        case Negative(operand=operand):
-            inner = found[id(operand)]
-            return None if inner is None else -inner
-        case Quotient(numerator=above, denominator=below):
-            first, second = found[id(above)], found[id(below)]
-            return first / second if first is not None and second else None
-        case Sum(terms=parts):
-            values = [found[id(part)] for part in parts]
-            known = [value for value in values if value is not None]
-            return sum(known, Fraction(0)) if len(known) == len(values) else None
+        case _ if len(known) < len(parts):
+            return None
+        case Negative():
+            return -known[0]
+        case Quotient():
+            return known[0] / known[1] if known[1] else None
+        case Sum():
+            return sum(known, Fraction(0))
         case _:
             return None

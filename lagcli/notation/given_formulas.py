@@ -10,15 +10,14 @@ from itertools import combinations
 from lagcli.expression import (
     Expression,
     Name,
-    Negative,
     Number,
     Power,
     Product,
-    Quotient,
     Sum,
     walk,
 )
 from lagcli.notation.naming import Names
+from lagcli.notation.ordering import bases
 from lagcli.problem_data import Problem
 
 _PARTS = (
@@ -90,14 +89,7 @@ def order_of_parameters(problem: Problem) -> list[str]:
 
 def _letters(node: Expression) -> Iterator[str]:
     """The names among the factors of a product, from left to right."""
-    match node:
-        case Name(name=name):
-            yield name
-        case Negative(operand=inner) | Quotient(numerator=inner) | Power(base=inner):
-            yield from _letters(inner)
-        case Product(factors=factors):
-            for factor in factors:
-                yield from _letters(factor)
+    return (base.name for base in bases(node) if isinstance(base, Name))
 
 
 def _multiplied(node: Product) -> Iterator[list[str]]:
