@@ -120,4 +120,4 @@ def test_a_method(with_module):
     assert found["certificate"]["reached"]
     assert [row[1] for row in found["rows"]] == pytest.approx([*map(math.cos, range(4))], abs=1e-4)
     assert "verlet2" in call("schema").stdout
-    assert "verlet2" in call("simulate", "--help").stdout
+    assert "verlet2" in call("simulate", "p.yaml", "--until", "3", "--method", "none").stderr

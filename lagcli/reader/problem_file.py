@@ -96,7 +96,7 @@ def read_problem(source_name: str, data: bytes) -> ProblemReading:
     sections = Sections(diagnostics=diagnostics)
     problem = _read(sections, source, root)
     if problem is not None and not sections.diagnostics:
-        sections.diagnostics += [*_dimension_mistakes(problem), *slips(problem)]
+        sections.diagnostics += _dimension_mistakes(problem) or slips(problem)
     found = one_for_undeclared(
         sorted(sections.diagnostics, key=lambda each: each.span), together=not _declares(root)
     )

@@ -43,17 +43,17 @@ _SIGNS = {"positive": Fraction(1), "negative": Fraction(-1)}
 def slips(problem: Problem) -> list[Diagnostic]:
     """Warnings of what is legitimate, and mostly a slip: no inertia, energies of the wrong sign."""
     found = []
-    known = _known(problem)
+    values = _known(problem)
     if (kinetic := problem.kinetic) is not None:
         found += _without_inertia(problem, kinetic)
         if _parity(kinetic, problem.definitions) == -1:
             message = "T changes its sign with the velocities"
             hint = "a kinetic energy is of second degree in them, as in m*x'^2/2"
             found.append(Diagnostic(message, kinetic.span, hint, severity="warning"))
-        elif _sign(kinetic, problem, known) == -1:
+        elif _sign(kinetic, problem, values) == -1:
             message, hint = "T is negative", "a kinetic energy is positive, as in m*x'^2/2"
             found.append(Diagnostic(message, kinetic.span, hint, severity="warning"))
-    if (lost := problem.dissipation) is not None and _sign(lost, problem, known) == -1:
+    if (lost := problem.dissipation) is not None and _sign(lost, problem, values) == -1:
         message, hint = "the dissipation is negative", f"it drives the motion; {_FRICTION}"
         found.append(Diagnostic(message, lost.span, hint, severity="warning"))
     return found

@@ -23,6 +23,7 @@ Griewank, Walther, *Evaluating Derivatives*, 2nd ed., section 13.2 and table 13.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 from lagcli.graph.nodes import Node
@@ -56,65 +57,14 @@ def declarations(numbers: Numbers) -> str:
 
 def convolution(numbers: Numbers, how: str) -> str:
     """The function `inner`: a call costs a tenth, a copy a millisecond to make."""
-    if numbers.type == "double":
-        return _VECTOR_INNER.replace("{how}", how)
-    return _inner(numbers.type, how)
+    name = "inner_double.ll" if numbers.type == "double" else "inner.ll"
+    text = Path(__file__).with_name(name).read_text("ascii")
+    return text.replace("$real", numbers.type).replace("$how", how)
 
 
 def convolution_for(numbers: Numbers, ops: int) -> str:
     """The same, for a number of operations of its own module."""
     return convolution(numbers, "alwaysinline" if ops <= _COPIED else "noinline")
-
-
-_VECTOR_INNER = """
-declare <4 x double> @llvm.fmuladd.v4f64(<4 x double>, <4 x double>, <4 x double>)
-declare double @llvm.vector.reduce.fadd.v4f64(double, <4 x double>)
-define double @inner(ptr %a, ptr %b, i64 %n) {how} nounwind {
-entry:
-  %any = icmp sgt i64 %n, 0
-  br i1 %any, label %loop, label %none
-none:
-  ret double 0.0
-loop:
-  %i = phi i64 [ 0, %entry ], [ %next, %loop ]
-  %s = phi <4 x double> [ zeroinitializer, %entry ], [ %sum, %loop ]
-  %pa = getelementptr double, ptr %a, i64 %i
-  %pb = getelementptr double, ptr %b, i64 %i
-  %x = load <4 x double>, ptr %pa, align 8
-  %y = load <4 x double>, ptr %pb, align 8
-  %sum = call <4 x double> @llvm.fmuladd.v4f64(<4 x double> %x, <4 x double> %y, <4 x double> %s)
-  %next = add i64 %i, 4
-  %more = icmp slt i64 %next, %n
-  br i1 %more, label %loop, label %end
-end:
-  %r = call reassoc double @llvm.vector.reduce.fadd.v4f64(double -0.0, <4 x double> %sum)
-  ret double %r
-}"""
-
-
-def _inner(real: str, how: str) -> str:
-    return f"""define {real} @inner(ptr %a, ptr %b, i64 %n) {how} nounwind {{
-entry:
-  %any = icmp sgt i64 %n, 0
-  %zero = sitofp i64 0 to {real}
-  br i1 %any, label %loop, label %none
-none:
-  ret {real} %zero
-loop:
-  %i = phi i64 [ 0, %entry ], [ %next, %loop ]
-  %s = phi {real} [ %zero, %entry ], [ %sum, %loop ]
-  %pa = getelementptr {real}, ptr %a, i64 %i
-  %pb = getelementptr {real}, ptr %b, i64 %i
-  %x = load {real}, ptr %pa
-  %y = load {real}, ptr %pb
-  %xy = fmul {real} %x, %y
-  %sum = fadd {real} %s, %xy
-  %next = add i64 %i, 1
-  %more = icmp slt i64 %next, %n
-  br i1 %more, label %loop, label %end
-end:
-  ret {real} %sum
-}}"""
 
 
 class Series:
