@@ -63,7 +63,7 @@ def made(entry: LibraryEntry, folder: Path) -> Card:
 def shown(name, problem, picture, folder: Path) -> str:
     """The picture of a problem, for a light and for a dark page, or its formula."""
     if picture is None:
-        formula = problem.lagrangian or problem.hamiltonian or problem.kinetic
+        formula = problem.lagrangian or problem.hamiltonian or problem.kinetic or problem.potential
         return f"<span><math>{MathmlPrinter().show(formula)}</math></span>" if formula else ""
     picture.save(folder / f"{name}.svg")
     picture.save(folder / f"{name}-dark.svg", dark=True)

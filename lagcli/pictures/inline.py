@@ -39,8 +39,10 @@ def image(picture: Picture, *, both: bool = False) -> str:
     if not both:
         return f"{shown}\n"
     dark = _address(picture, dark=True)
+    shown = shown.replace("height:", "min-width: 34rem; height:")  # legible on a phone
     return (
-        f'<picture><source media="(prefers-color-scheme: dark)" srcset="{dark}">{shown}</picture>\n'
+        '<div style="overflow-x: auto" tabindex="0"><picture>'
+        f'<source media="(prefers-color-scheme: dark)" srcset="{dark}">{shown}</picture></div>\n'
     )
 
 

@@ -126,11 +126,12 @@ def _entry(shape: str, colour: int, name: str) -> str:
 def _events(scene: Scene) -> str:
     if not scene.happenings:
         return ""
-    shown = scene.happenings[:_EVENTS]
+    first: dict[str, float] = {}  # of the last impacts of a ball, which read alike
+    for each in scene.happenings:
+        first.setdefault(f"{_shown(_time(scene, each.t))}: {_shown(each.text)}", each.t)
+    shown = [*first.items()][:_EVENTS]
     items = "".join(
-        f'<li><button type="button" data-t="{_number(each.t)}">{_shown(_time(scene, each.t))}: '
-        f"{_shown(each.text)}</button></li>"
-        for each in shown
+        f'<li><button type="button" data-t="{_number(t)}">{text}</button></li>' for text, t in shown
     )
     rest = len(scene.happenings) - len(shown)
     more = f"<p>And {rest} more.</p>\n" if rest else ""

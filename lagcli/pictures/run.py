@@ -142,6 +142,8 @@ class PicturedRun:
         """What the picture cannot show: the accuracy, and why it ends."""
         held = self.result.certificate
         bound = max(held.global_error.values(), default=0.0)
+        if held.reached and not bound:
+            return (f"No error found in two runs; requested: {short(held.accuracy)}.",)
         if held.reached:
             return (f"Global error below {_above(bound)}; requested: {short(held.accuracy)}.",)
         until = f"Certified to {short(held.accuracy)} until t = {held.holds_until:.6g}"
@@ -156,7 +158,7 @@ def short(value: float) -> str:
 
 def _above(bound: float) -> str:
     """The next power of ten: more of a bound nobody needs to know."""
-    return f"1e{math.floor(math.log10(max(bound, 1e-300))) + 1}"
+    return f"1e{math.floor(math.log10(bound)) + 1}"
 
 
 def _break(pieces: list[list[Values]], event: Event, names: Sequence[str]) -> None:

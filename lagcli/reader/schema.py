@@ -176,7 +176,9 @@ _PARTS: dict[str, Schema] = {
     "dissipation": FORMULA,
     "constraints": map_of(ref("constraint")),
     "contacts": map_of(ref("contact")),
-    "symmetries": map_of(map_of(FORMULA, 1)),
+    "symmetries": map_of(
+        {**map_of(FORMULA, 1), "not": {"required": ["gauge"], "maxProperties": 1}}
+    ),
     "observables": declarations_of(FORMULA),
     "brackets": map_of({**list_of(FORMULA), "minItems": 2, "maxItems": 2}),
     "canonical_transformations": map_of(map_of(FORMULA, 1)),

@@ -170,6 +170,13 @@ def test_a_title_cannot_leave_its_element():
     assert text.count("</script>") == 2
 
 
+def test_impacts_that_read_alike_are_listed_once():
+    page = to_html(made(load(BALL), until=4.0))
+    listed = re.findall(r'data-t="[^"]+">(.*?)</button>', page)
+    assert len(listed) == len(set(listed)) > 10
+    assert re.search(r"And \d+ more", page)
+
+
 def test_the_end_of_the_certificate_is_stated():
     text = "coordinates: [x]\nT: x'^2/2\nV: x^3\ninitial: {x: -1}\n"
     assert "The certificate ends at t = " in to_html(made(problem_of(text), until=10.0))

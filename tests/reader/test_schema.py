@@ -86,6 +86,7 @@ MALFORMED = [
     GOOD + "observables: {t: x}",
     GOOD + "symmetries: {a: {}}",
     GOOD + "symmetries: {a: }",
+    GOOD + "symmetries: {a: {gauge: x}}",
     GOOD + "canonical_transformations: {a: }",
     GOOD + "L: x'^2",
     GOOD + "H: p_x^2",
