@@ -71,10 +71,10 @@ def read_parameters(
         elif "value" in attributes:
             what = f"the value of '{key.label}'"
             value = sections.expression(attributes["value"], what, VALUES)
-        integer = "integer" in attributes and _truth(sections, attributes["integer"])
+        integer = "integer" in attributes and sections.yes_or_no(attributes["integer"], "integer")
         said = _said(sections, attributes)
         parameters.append(
-            Parameter(name=key.label, span=key.span, value=value, integer=integer, **said)
+            Parameter(name=key.label, span=key.span, value=value, integer=bool(integer), **said)
         )
     _check_cycles(sections, parameters)
     return tuple(parameters)
@@ -233,13 +233,6 @@ def _check_symbol(sections: Sections, text: Scalar) -> None:
     wrong = symbol_mistake(text.value)
     if wrong:
         sections.error(f"a symbol must be simple LaTeX: {wrong}", text.span)
-
-
-def _truth(sections: Sections, node: DocumentNode) -> bool:
-    text = sections.scalar(node, "'integer'")
-    if text is not None and text.value not in {"true", "false"}:
-        sections.error("'integer' is true or false", text.span)
-    return text is not None and text.value == "true"
 
 
 def _check_cycles(sections: Sections, parameters: list[Parameter]) -> None:

@@ -40,7 +40,7 @@ UNREADABLE = ZERO
 #: Places where a number stands, without its unit.
 _NUMERIC = (VALUES, NUMBERS)
 #: The words for it, and what they mean.
-YES_OR_NO = {"yes": True, "no": False}
+YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
 _NAME = re.compile(r"[^\W\d]\w*")
 _NO_EQUATION = Equation(ZERO, ZERO)
 

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from lagcli.reader.sections import Sections
 
 _KEYS = ("until", "tolerance", "rigorous", "at", "events")
-_WORDS = {"yes": True, "no": False, "true": True, "false": False}
 _ENERGY = "energy"
 
 #: What can happen to a contact or constraint, as the answer of a run calls it.
@@ -78,19 +77,14 @@ class TrajectoryReader:
             ),
             until=self._number(parts, "until"),
             tolerance=self._number(parts, "tolerance"),
-            rigorous="rigorous" in parts and self._yes(parts["rigorous"]),
+            rigorous="rigorous" in parts
+            and bool(self.sections.yes_or_no(parts["rigorous"], "rigorous")),
         )
 
     def _number(self, parts: dict[str, DocumentNode], key: str) -> Expression | None:
         if key not in parts:
             return None
         return self.sections.expression(parts[key], f"'{key}'", CONSTANTS)
-
-    def _yes(self, node: DocumentNode) -> bool:
-        text = self.sections.scalar(node, "'rigorous'")
-        if text is not None and text.label not in _WORDS:
-            self.sections.error("'rigorous' is yes or no", text.span)
-        return text is not None and _WORDS.get(text.label, False)
 
     def _known(self, key: Scalar, value: DocumentNode, role: Role) -> Known:
         what = f"the expected '{key.label}'"

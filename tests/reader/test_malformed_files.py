@@ -123,7 +123,7 @@ FILES = [
     ("coordinates: {x: {description: up, down}}\nT: x'^2\n", "1:36", "comma ends the value"),
     ("coordinates: [x]\nparameters: {a: b, b: a}\nT: x'^2\n", "2:17", "needs itself"),
     ("coordinates: [x]\nparameters: {a: x}\nT: x'^2\n", "2:17", "only numbers and parameters"),
-    ("coordinates: [x]\nparameters: {a: {integer: yes}}\nT: x'^2\n", "2:27", "true or false"),
+    ("coordinates: [x]\nparameters: {a: {integer: 1}}\nT: x'^2\n", "2:27", "yes or no"),
     # Expressions.
     (after("V: m*g*tetha\n"), "9:8", "unknown name 'tetha' in V"),
     (after("V: 2 x\n"), "9:4", "did you mean 2*x?"),

@@ -103,6 +103,14 @@ MALFORMED = [
 ]
 
 
+@pytest.mark.parametrize("word", ["yes", "no", "true", "false"])
+def test_the_words_for_yes_and_no_are_the_same_in_the_schema_and_in_the_reader(word):
+    text = GOOD.replace("positive}}", f"positive, integer: {word}}}}}")
+    text += f"expect: {{trajectory: {{rigorous: {word}}}, equilibria: [{{at: {{x: 0}}, stable: {word}}}]}}\n"
+    assert is_valid(text)
+    assert read_problem("p.yaml", text.encode()).diagnostics == ()
+
+
 @pytest.mark.parametrize("text", MALFORMED)
 def test_what_the_schema_refuses_the_reader_refuses(text):
     assert not is_valid(text)
