@@ -108,28 +108,27 @@ class Equations:
 
     def without_implied(self, independent: Sequence[int]) -> Equations:
         """The equations with these rows, which imply all others."""
-        fewer = copy(self)
-        for name in _OF_ROWS:
-            fewer.__dict__.pop(name, None)
+        fewer = self._without_rows()
         fewer.hold({k: self.constraints[k] for k in independent}, self.declared)
         return fewer
+
+    def _without_rows(self) -> Equations:
+        """A copy for which nothing is worked out of the constraints yet."""
+        other = copy(self)
+        for name in _OF_ROWS:
+            other.__dict__.pop(name, None)
+        return other
 
     def sticking(self, k: int) -> Equations:
         """The equations while a switching function s(t, q, q') stays at 0, as a constraint."""
         graph, s = self.graph, self.kinks[k]
-        fewer = copy(self)
-        for name in _OF_ROWS:
-            fewer.__dict__.pop(name, None)
         row = tuple(partial(graph, v)(s) for v in self.qdot)
-        along = [
-            graph.product(partial(graph, x)(s), v) for x, v in zip(self.q, self.qdot, strict=True)
-        ]
         speed = graph.sum([graph.product(a, v) for a, v in zip(row, self.qdot, strict=True)])
-        bias = graph.sum([partial(graph, self.t)(s), *along])
-        held = ConstraintRow(s, False, row, graph.difference(s, speed), bias)
-        fewer.constraints = (*self.constraints, held)
-        fewer.rows, fewer.bias = (*self.rows, row), (*self.bias, bias)
-        return fewer
+        rest, bias = graph.difference(s, speed), self.form.drift_of(s)
+        held = self._without_rows()
+        held.constraints += (ConstraintRow(s, False, row, rest, bias),)
+        held.rows, held.bias = (*self.rows, row), (*self.bias, bias)
+        return held
 
     def friction(self, k: int) -> Node | None:
         """c of a force -c sign(s) ds/dq'; None where what jumps with s is not of this form."""
