@@ -20,7 +20,7 @@ from lagcli.numerics.hybrid.request import Asked, Result
 from lagcli.numerics.rigorous import prove
 from lagcli.reader.columns import usual_columns
 from lagcli.record import record, replace
-from lagcli.studies.extremes.case import Case, CaseFormula, Loss, Trial, Verdict
+from lagcli.studies.extremes.case import Case, CaseFormula, Trial, Verdict
 from lagcli.studies.extremes.condition import mass_condition
 from lagcli.studies.extremes.digits import digits_between, losses
 from lagcli.studies.extremes.roles import angles_of
@@ -78,7 +78,7 @@ def trial(case: Case, formulas: Sequence[CaseFormula], wanted: Wanted) -> Trial:
         return Trial(verdict="refused", reason=str(refusal))
     measured = Trial(
         verdict="undecided",
-        losses=_losses(scene, formulas),
+        losses=losses(formulas, _values(scene)),
         run_loss=_run_loss(scene),
         condition=mass_condition(scene),
         accuracy=wanted.accuracy,
@@ -93,10 +93,6 @@ def _values(scene: ExtremeScene) -> dict[str, float]:
     values = {symbol.name: x for symbol, x in scene.constants.items()}
     values |= dict(zip(names, scene.q, strict=True))
     return values | {f"{n}'": x for n, x in zip(names, scene.v, strict=True)} | {"t": 0.0}
-
-
-def _losses(scene: ExtremeScene, formulas: Sequence[CaseFormula]) -> tuple[Loss, ...]:
-    return losses(formulas, _values(scene))
 
 
 def _run_loss(scene: ExtremeScene) -> float | None:

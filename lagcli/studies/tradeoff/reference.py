@@ -8,7 +8,7 @@ after a look at whether the motion computed follows them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from decimal import Context, Decimal, localcontext
 from time import process_time
 from typing import TYPE_CHECKING, Any
@@ -286,9 +286,7 @@ def _doubles(problem: Problem, asked: Asked, limit: float) -> ReferenceMotion:
     else:
         raise Refusal(f"no reference to measure against: {last}", mistake=False)
     bound = max(result.certificate.global_error.values())
-    rows: Callable[[], Rows] = lambda: tuple(  # noqa: E731
-        tuple(_decimal(x) for x in row) for row in result.rows
-    )
+    rows = tuple(tuple(map(_decimal, row)) for row in result.rows)
     kind = f"{result.method} with its certificate"
     scales = result.certificate.scales
-    return ReferenceMotion(rows=rows(), bound=bound, kind=kind, seconds=0.0, scales=scales)
+    return ReferenceMotion(rows=rows, bound=bound, kind=kind, seconds=0.0, scales=scales)
