@@ -10,6 +10,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from io import BytesIO
+from pathlib import Path
 from typing import Any
 
 from lagcli.pictures.cells import draw_cells
@@ -39,6 +40,9 @@ _METADATA: dict[str, dict[str, Any]] = {
     "pdf": {"CreationDate": None, "ModDate": None, "Creator": "lagcli", "Producer": "lagcli"},
     "png": {"Software": "lagcli"},
 }
+#: What has the colour of the lines, and what that of the page.
+_INK = ("axes.edgecolor", "axes.labelcolor", "text.color", "xtick.color", "ytick.color")
+_PAPER = ("axes.facecolor", "figure.facecolor")
 #: What can be written, by the ending of the file.
 FORMATS = tuple(_METADATA)
 _MARKERS = {
@@ -83,27 +87,8 @@ def settings(style: Style) -> Iterator[None]:
         # a title in a script that no font has is written with what there is
         warnings.filterwarnings("ignore", message="Glyph .* missing from")
         mpl.rcdefaults()
-        mpl.rcParams.update(
-            {
-                "font.family": ["STIXGeneral", "DejaVu Sans"],
-                "mathtext.fontset": "stix",
-                "font.size": 10,
-                "axes.linewidth": 0.7,
-                "axes.edgecolor": style.ink,
-                "axes.labelcolor": style.ink,
-                "axes.facecolor": style.paper,
-                "figure.facecolor": style.paper,
-                "text.color": style.ink,
-                "xtick.color": style.ink,
-                "ytick.color": style.ink,
-                "xtick.direction": "in",
-                "ytick.direction": "in",
-                "svg.hashsalt": "lagcli",
-                "svg.fonttype": "path",
-                "pdf.fonttype": 42,
-                "path.simplify": True,
-            }
-        )
+        mpl.rc_file(Path(__file__).with_name("lagcli.mplstyle"), use_default_template=False)
+        mpl.rcParams.update(dict.fromkeys(_INK, style.ink) | dict.fromkeys(_PAPER, style.paper))
         yield
 
 
