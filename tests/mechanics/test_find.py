@@ -407,3 +407,17 @@ find: {asked: {value: r'^2, in_terms_of: [r]}}
 def test_a_bead_on_a_turning_wire_keeps_the_energy_in_the_turning_frame(turning, wire, known):
     """h - w p_phi (Jacobi): neither h nor p_phi is constant (Goldstein, section 2.7)."""
     assert value(DRIVEN % (turning, wire)) == formula(known)
+
+
+def test_a_root_says_where_it_is_real():
+    """A ball struck at the top of a sphere leaves at once beyond v0^2 = g R."""
+    text = """
+coordinates: {r: {assume: positive}, a: {assume: nonnegative}}
+parameters: {m: {assume: positive}, g: {assume: positive}, R: {assume: positive}, v0: {assume: positive}}
+T: m*(r'^2 + r^2*a'^2)/2
+V: m*g*r*cos(a)
+constraints: {surface: {equation: r = R, multiplier: N, holds_while: N >= 0}}
+initial: {r: R, a: 0, a': v0/R}
+find: {leaves: {where: N = 0, for: a}}
+"""
+    assert "real for v0^2 ≤ " in answers(text)["leaves"].note

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
-from sympy import Expr
+from sympy import Add, Expr, Pow, acos, asin
 
+from lagcli.algebra import simplify
+from lagcli.algebra.signs import sign_beside_zero
 from lagcli.expression import Expression
+from lagcli.mechanics.reduction.readable import deciding
 
 Remark = str | tuple[str | Expr, ...]
 
@@ -25,6 +28,26 @@ def as_parts(
         parts += ["; "] if parts else []
         parts += _trees((remark,) if isinstance(remark, str) else remark, tree)
     return tuple(parts)
+
+
+def real_where(roots: Iterable[Expr]) -> Iterator[Remark]:
+    """What arccosines, arcsines and square roots of parameters ask for to be real."""
+    bounds = (bound for root in roots for bound in _bounds(root))
+    open_ = (deciding(bound) for bound in bounds if sign_beside_zero(bound) is None)
+    for bound in dict.fromkeys(each for each in open_ if each != 1):
+        terms = Add.make_args(bound.expand())
+        negative = [-term for term in terms if term.could_extract_minus_sign()]
+        rest = [term for term in terms if not term.could_extract_minus_sign()]
+        yield ("real for ", Add(*negative), " ≤ ", Add(*rest))
+
+
+def _bounds(root: Expr) -> Iterator[Expr]:
+    """What must not be negative."""
+    for node in root.atoms(acos, asin):
+        yield from (simplify(1 - node.args[0]), simplify(1 + node.args[0]))
+    for power in root.atoms(Pow):
+        if power.exp.is_Rational and power.exp.q % 2 == 0:
+            yield simplify(power.base)
 
 
 def _plain(remark: Remark) -> str:
