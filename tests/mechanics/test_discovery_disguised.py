@@ -12,10 +12,11 @@ from lagcli.formatters.built_in.json import to_object
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.reader import read_problem
 from lagcli.verification.claims.algebra import signature_of
+from tests.oracle.constancy import digits_of
 from tests.solved import solve
 
 from .derived import derive
-from .test_discovery_literature import kept, problem
+from .test_discovery_literature import problem
 
 pytestmark = pytest.mark.long  # of discovery, test_discovery.py is what runs before a commit
 
@@ -24,10 +25,10 @@ LINE = r"Schrödinger sch(1): sl(2,R) with Heisenberg h(1), modulo constants"
 
 def known(L, coordinates="[x]", parameters=""):
     """The discovery, its summary, and the least digits kept along a motion where there is one."""
-    text = problem(L, coordinates, parameters)
-    found = derive(text).discovery
+    derivation = derive(problem(L, coordinates, parameters))
+    found = derivation.discovery
     assert not found.stopped
-    return found, summary(found), min(kept(text, L).values(), default=30)
+    return found, summary(found), min(digits_of(derivation).values(), default=30)
 
 
 def whole(source, least=1, most=5):

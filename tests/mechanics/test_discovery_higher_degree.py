@@ -9,9 +9,10 @@ import pytest
 
 from lagcli.mechanics.discovery.summary import summary
 from tests.marks import mostly_long
+from tests.oracle.constancy import digits_of
 
 from .derived import derive
-from .test_discovery_literature import kept, problem
+from .test_discovery_literature import problem
 
 pytestmark = pytest.mark.long  # of discovery, test_discovery.py is what runs before a commit
 
@@ -36,9 +37,10 @@ PLANE = {
 @pytest.mark.parametrize("name", mostly_long(PLANE, "Holt", "Fokas and Lagerstrom, turned"))
 def test_an_integral_of_third_degree_makes_it_integrable(name):
     text = problem(PLANE[name], parameters="m k a d")
-    found = summary(derive(text).discovery)
+    derivation = derive(text)
+    found = summary(derivation.discovery)
     assert (found.independent, found.in_involution, found.integrable) == (2, 2, True)
-    assert min(kept(text, name).values()) > 20
+    assert min(digits_of(derivation).values()) > 20
 
 
 @pytest.mark.parametrize("chain", [
@@ -94,9 +96,10 @@ FOURTH = {
 @pytest.mark.parametrize("name", mostly_long(FOURTH, "Holt, fourth degree"))
 def test_an_integral_of_fourth_degree_makes_it_integrable(name):
     text = problem(FOURTH[name], parameters="m k b d")
-    found = summary(derive(text).discovery)
+    derivation = derive(text)
+    found = summary(derivation.discovery)
     assert (found.independent, found.in_involution, found.integrable) == (2, 2, True)
-    assert min(kept(text, name).values()) > 20
+    assert min(digits_of(derivation).values()) > 20
 
 
 @pytest.mark.parametrize(
@@ -107,9 +110,10 @@ def test_of_the_tops_that_lean_kovalevskayas_has_an_integral_of_fourth_degree(A,
     """Whittaker, *Analytical Dynamics*, 4th ed., section 74; with 3 in place of 2 there is none."""
     T = f"{A}*(theta'^2 + phi'^2*sin(theta)^2)/2 + C*(psi' + phi'*cos(theta))^2/2"
     text = problem(f"{T} - sin(theta)*({V})", "[theta, phi, psi]", "C a b")
-    found = summary(derive(text).discovery)
+    derivation = derive(text)
+    found = summary(derivation.discovery)
     assert (found.independent, found.in_involution) == (integrals, integrals)
-    assert min(kept(text, V).values()) > 20
+    assert min(digits_of(derivation).values()) > 20
 
 
 @pytest.mark.parametrize("V", [

@@ -10,9 +10,10 @@ import pytest
 
 from lagcli.mechanics.discovery.summary import summary
 from tests.marks import mostly_long
+from tests.oracle.constancy import digits_of
 
 from .derived import derive
-from .test_discovery_literature import POS, kept, problem
+from .test_discovery_literature import POS, problem
 
 RADIAL = f"{{r: {POS}, phi: {{}}}}"
 PLANES = {
@@ -36,17 +37,12 @@ def test_a_flat_plane_has_the_eight_of_a_free_particle(name):
 def test_kepler_keeps_its_runge_lenz_vector(name):
     coordinates, rates, inverse = PLANES[name]
     text = problem(f"m*({rates})/2 + k*{inverse}", coordinates, "m a k")
-    found = summary(derive(text).discovery)
+    derivation = derive(text)
+    found = summary(derivation.discovery)
     assert (found.independent, found.integrable) == (3, True)
     assert found.name == ("the energy and so(3) where the energy is negative, e(2) where it is 0, "
                           "sl(2,R) where it is positive")  # fmt: skip
-
-
-@pytest.mark.parametrize("name", ["parabolic", "logarithmic"])
-@pytest.mark.long
-def test_its_charges_stay_on_an_independent_motion(name):
-    coordinates, rates, inverse = PLANES[name]
-    digits = kept(problem(f"m*({rates})/2 + k*{inverse}", coordinates, "m a k"), name)
+    digits = digits_of(derivation)
     assert len(digits) == 4
     assert min(digits.values()) > 20
 

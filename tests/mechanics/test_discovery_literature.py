@@ -5,13 +5,10 @@ of the plane); Landau and Lifshitz, *Mechanics*, section 15 (b/r^2 beside a cent
 Avron, Herbst, Simon, Ann. Phys. 114 (1978) 431 (the momentum of two charges in a magnetic field).
 """
 
-import random
-
 import pytest
 
 from lagcli.mechanics.discovery.summary import summary
-from lagcli.reader import read_problem
-from tests.oracle.constancy import digits_kept, discovered
+from tests.oracle.constancy import digits_of
 
 from .derived import derive
 
@@ -24,22 +21,6 @@ def problem(L, coordinates="[x, y]", parameters="", more=""):
     given = [f"{p}: {POS}" for p in positive.split()] + [f"{p}: {{}}" for p in others.split()]
     return (f"{{coordinates: {coordinates}, parameters: {{{', '.join(given)}}}, "
             f'L: "{L}"{more}}}')  # fmt: skip
-
-
-def with_numbers(text, seed):
-    """Random rational values for the parameters."""
-    source = random.Random(seed)
-    while POS in text.split("L:")[0].split("parameters")[1]:
-        head, tail = text.split("parameters", 1)
-        value = f"{{value: {source.randint(1, 9)}/{source.randint(2, 5)}}}"
-        text = head + "parameters" + tail.replace(POS, value, 1)
-    return text
-
-
-def kept(text, seed):
-    """Digits to which each discovered charge stays on an independent motion."""
-    given = read_problem("test.yaml", with_numbers(text, seed).encode()).checked()
-    return digits_kept(given, discovered(given)[0])
 
 
 R = "sqrt(x^2 + y^2)"
@@ -55,9 +36,10 @@ PARABOLIC = (
 @pytest.mark.long
 def test_a_root_of_r_and_x_leaves_two_integrals_of_second_degree(L):
     text = problem(L, parameters="m k b c")
-    found = summary(derive(text).discovery)
+    derivation = derive(text)
+    found = summary(derivation.discovery)
     assert (found.independent, found.integrable) == (3, True)
-    assert min(kept(text, L).values()) > 20
+    assert min(digits_of(derivation).values()) > 20
 
 
 @pytest.mark.parametrize(

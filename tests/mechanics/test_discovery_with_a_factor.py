@@ -12,9 +12,10 @@ import random
 import pytest
 
 from lagcli.mechanics.discovery.summary import summary
+from tests.oracle.constancy import digits_of
 
 from .derived import derive
-from .test_discovery_literature import POS, kept, problem
+from .test_discovery_literature import POS, problem
 
 pytestmark = pytest.mark.long  # of discovery, test_discovery.py is what runs before a commit
 
@@ -33,9 +34,10 @@ def _liouville(seed):
 @pytest.mark.parametrize("seed", range(3))
 def test_coordinates_of_liouville_separate(seed):
     text = problem(_liouville(seed), parameters="m")
-    found = summary(derive(text).discovery)
+    derivation = derive(text)
+    found = summary(derivation.discovery)
     assert (found.independent, found.integrable) == (2, True)
-    assert min(kept(text, seed).values()) > 20
+    assert min(digits_of(derivation).values()) > 20
 
 
 @pytest.mark.parametrize(("L", "coordinates", "independent"), [
@@ -48,9 +50,10 @@ def test_coordinates_of_liouville_separate(seed):
 ])  # fmt: skip
 def test_surfaces_of_koenigs_have_two_integrals_beside_a_momentum(L, coordinates, independent):
     text = problem(L, coordinates, "m b k")
-    found = summary(derive(text).discovery)
+    derivation = derive(text)
+    found = summary(derivation.discovery)
     assert (found.independent, found.integrable) == (independent, True)
-    assert min(kept(text, L).values()) > 20
+    assert min(digits_of(derivation).values()) > 20
 
 
 @pytest.mark.parametrize("axes", [(1, 2, 3), (2, 5, 7)])

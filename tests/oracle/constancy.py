@@ -20,6 +20,8 @@ from mpmath import mp, mpf
 
 from lagcli import load
 from lagcli.formatters.built_in.json import to_object
+from lagcli.mechanics.derivation import Derivation
+from lagcli.pipeline import Request, state
 from lagcli.problem_data import Problem
 from lagcli.reader import parse_text
 from lagcli.record import replace
@@ -50,6 +52,13 @@ def digits_kept(problem: Problem, charges: Sequence[Mapping[str, Any]]) -> dict[
             change = max(abs(x - start) for x in rest) / (1 + abs(start))
             kept[name] = float(-mp.log10(change + mpf(10) ** -DIGITS))
         return kept
+
+
+def digits_of(derivation: Derivation) -> dict[str, float]:
+    """The same for the charges that `--show discovered` prints of a derivation."""
+    answers = state(derivation, Request(sections=("discovered",)))
+    found = json.loads(json.dumps(to_object(answers)))
+    return digits_kept(derivation.system.problem, found.get("discovered") or [])
 
 
 def discovered(problem: Problem) -> tuple[list[dict[str, Any]], list[dict[str, Any]], float]:
