@@ -29,8 +29,29 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
         put_in = _with_signed(expression, known, (sympy.Symbol, sympy.Function))
         found = _sign(*put_in) if put_in[0] != expression else None
         roots = {} if found is not None else _positive_roots(expression, positive)
-        return sign(expression.xreplace(roots), positive) if roots else found
+        found = sign(expression.xreplace(roots), positive) if roots else found
+    if found is None:
+        freed = by_angles_between([expression, *positive])
+        return None if freed is None else sign(freed[0], freed[1:])
     return found
+
+
+def by_angles_between(expressions: Sequence[Expr]) -> list[Expr] | None:
+    """The expressions in an angle u for each x - y in sines and cosines; None without any.
+
+    What has one sign for all u has it for all x and y.
+    """
+    circular = {f for e in expressions for f in e.atoms(sympy.sin, sympy.cos)}
+    angles: dict[Expr, Expr] = {}
+    put_in: dict[Expr, Expr] = {}
+    for function in sorted(circular, key=sympy.default_sort_key):
+        content, between = function.args[0].as_content_primitive()
+        if len(between.free_symbols) > 1:
+            falls = between.could_extract_minus_sign()
+            between, content = (-between, -content) if falls else (between, content)
+            u = angles.setdefault(between, sympy.Symbol(f"#angle{len(angles)}", real=True))
+            put_in[function] = function.func(content * u)
+    return [e.xreplace(put_in) for e in expressions] if put_in else None
 
 
 def _positive_roots(expression: Expr, positive: Sequence[Expr]) -> dict[Expr, Expr]:

@@ -34,6 +34,7 @@ from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.family import Family, exists_where, family
 from lagcli.mechanics.oscillations.kinks import at_kinks
+from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.translations import constant_nullspace
 from lagcli.record import record
 from lagcli.statements.wording import FINITE_MASS, INDEPENDENT, NOT_ZERO
@@ -121,6 +122,8 @@ class RestPoints:
         self.complete = solved.complete
         found, lost = [], False
         for each in solved.solutions:
+            if -1 in map(weak_sign, each.positive):
+                continue
             solution = replace(each, values=self._to_the_last_digit(each.values))
             point = self._point(solution)
             if any(not free_of(x, [self.system.t]) for x in solution.values.values()):

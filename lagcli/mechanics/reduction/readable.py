@@ -15,7 +15,7 @@ from lagcli.algebra import is_zero, shape, simplify, terms
 from lagcli.algebra.build import free_of
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.leaves import Translator
-from lagcli.algebra.signs import sign, sign_beside_zero, sign_of_circle
+from lagcli.algebra.signs import by_angles_between, sign, sign_beside_zero, sign_of_circle
 from lagcli.algebra.writing import Writer
 from lagcli.expression import ZERO, Expression, operation_count
 from lagcli.statements.motions import Above
@@ -119,7 +119,8 @@ def is_positive(expression: Expr, positive: Sequence[Expr] = ()) -> bool:
         if known is None and power < 0:
             known = _beside_zero(factor)
         if known is None:
-            return False
+            freed = by_angles_between([expression, *positive])
+            return freed is not None and is_positive(freed[0], freed[1:])
         result *= known
     return result == 1
 
@@ -131,7 +132,8 @@ def weak_sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
         if power % 2:
             known = sign(factor, positive) or _beside_zero(factor)
             if known is None:
-                return None
+                freed = by_angles_between([expression, *positive])
+                return None if freed is None else weak_sign(freed[0], freed[1:])
             result *= known
     return result
 

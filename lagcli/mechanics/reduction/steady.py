@@ -28,7 +28,6 @@ from lagcli.mechanics.oscillations.equilibria import (
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.held import held
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
-from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_contacts import SteadyContacts
 from lagcli.mechanics.reduction.steady_families import SteadyFamilies
@@ -172,7 +171,6 @@ class SteadyMotions:
                 point.values, self.routh.rates_at(point.values), point.positive, family=point.family
             )
             for point in regular
-            if -1 not in map(weak_sign, point.positive)
         ]
 
     def _given(self) -> Steady | None:
