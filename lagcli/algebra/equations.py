@@ -320,21 +320,13 @@ def _with_sine(value: Expr) -> list[Expr]:
         return [sympy.asin(value)]
     if value.is_number and abs(value.evalf()) > 1:
         return []
-    angle = sympy.asin(value)
-    if value.is_positive:
-        return [angle, sympy.pi - angle]
-    if value.is_negative:
-        return [angle, -sympy.pi - angle]
-    return [angle, sympy.atan2(value, -sympy.sqrt(1 - value**2))]
+    angle = sympy.asin(sympy.factor_terms(value))  # asin(-v) is -asin(v)
+    return [angle, -sympy.pi - angle if value.is_negative else sympy.pi - angle]
 
 
 def _with_tangent(value: Expr) -> list[Expr]:
-    angle = sympy.atan(value)
-    if value.is_positive:
-        return [angle, angle - sympy.pi]
-    if value.is_negative:
-        return [angle, angle + sympy.pi]
-    return [angle, sympy.atan2(-value, -1)]
+    angle = sympy.atan(sympy.factor_terms(value))
+    return [angle, angle - sympy.pi if value.is_positive else angle + sympy.pi]
 
 
 def _by_half_angle(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:

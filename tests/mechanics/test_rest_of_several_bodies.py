@@ -101,3 +101,31 @@ V: -{hill}*x^2/2 + g*y^2/2
 """)
     [condition] = found[0]["unstable"]
     assert all(name in condition for name in factors)
+
+
+def test_an_angle_of_rest_is_an_arc_sine_or_its_supplement():
+    """R x (M + m) g sin(alpha) = -m g b sin(phi) of a wheel with a load on an incline."""
+    found = equilibria("""
+coordinates: [x, phi]
+parameters: {M: {assume: positive}, m: {assume: positive}, R: {assume: positive}, b: {assume: positive}, g: {assume: positive}, alpha: }
+points:
+  hub: {position: [x*cos(alpha), -x*sin(alpha)], mass: M}
+  load: {position: [x*cos(alpha) + b*sin(phi), -x*sin(alpha) + b*cos(phi)], mass: m}
+V: -M*g*x*sin(alpha) + m*g*(b*cos(phi) - x*sin(alpha))
+constraints: {rolling: x = R*phi}
+""")
+    angle = "asin((M + m)*R*sin(alpha)/(m*b))"
+    assert {each["at"]["phi"] for each in found} == {f"-{angle}", f"pi + {angle}"}
+
+
+@pytest.mark.parametrize("sign", ["-", "+"])
+def test_a_sum_of_two_angles_is_one_angle(sign):
+    """The mass matrix of two links is definite: m l^2 l'^2 (M + m sin(x - y)^2) > 0."""
+    [found] = equilibria(f"""
+coordinates: [x, y]
+parameters: {{M: {{assume: positive}}, m: {{assume: positive}}, k: {{assume: positive}}}}
+T: (M + m)*x'^2/2 + m*y'^2/2 + m*x'*y'*cos(x {sign} y)
+V: k*(x^2 + y^2)/2
+""")
+    assert found["at"] == {"x": "0", "y": "0"}
+    assert found["stable"] is True
