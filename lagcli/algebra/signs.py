@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import sympy
@@ -214,7 +215,19 @@ def _of_factor(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | No
         return _of_number(expression)
     if expression.is_positive:
         return 1
-    return -1 if expression.is_negative else _between_ends(field, factor, positive)
+    if expression.is_negative:
+        return -1
+    return _between_ends(field, factor, positive) or _of_known_factors(field, factor, positive)
+
+
+def _of_known_factors(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | None:
+    """The sign of a² - b² cos² - … that is (a - b sin)(a + b sin), both of them known."""
+    for equal in _with_squares_swapped(field, factor) if positive else ():
+        content, parts = factorization(field.ring.lift(equal))
+        known = [(part in positive) - (-part in positive) for part, k in parts if k % 2]
+        if len(known) > 1 and all(known):
+            return math.prod(known) if int(content) > 0 else -math.prod(known)
+    return None
 
 
 def _between_ends(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | None:

@@ -115,7 +115,8 @@ V: -M*g*x*sin(alpha) + m*g*(b*cos(phi) - x*sin(alpha))
 constraints: {rolling: x = R*phi}
 """)
     angle = "asin((M + m)*R*sin(alpha)/(m*b))"
-    assert {each["at"]["phi"] for each in found} == {f"-{angle}", f"pi + {angle}"}
+    stable = {each["at"]["phi"]: each["stable"] for each in found}
+    assert stable == {f"-{angle}": False, f"pi + {angle}": True}  # the load above, and below
 
 
 @pytest.mark.parametrize("sign", ["-", "+"])

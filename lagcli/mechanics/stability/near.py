@@ -196,7 +196,7 @@ class Near:
         """The entries of a K that is diagonal, those that vanish last; empty for any other."""
         K = self.restoring.K
         n = len(K)
-        if n == 1 or any(K[i][j] != 0 for i in range(n) for j in range(n) if i != j):
+        if any(K[i][j] != 0 for i in range(n) for j in range(n) if i != j):
             return []
         return sorted((K[i][i] for i in range(n)), key=lambda k: k == 0)
 
