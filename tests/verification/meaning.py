@@ -75,6 +75,7 @@ class Meaning:
 
     def _differ_as_objects(self, path: str, a: Any, b: Any) -> Iterator[Difference]:
         skipped = set(PROSE)
+        a, b = self._settled(a), self._settled(b)
         if path == "hamilton_jacobi":
             b = _renamed(b, b.get("constants") or (), a.get("constants") or ())
             if self._same_action(a, b):
@@ -96,6 +97,16 @@ class Meaning:
                 yield Difference(f"{path}/{key}", "wrong")  # claimed everywhere
             else:
                 yield from self._differ(f"{path}/{key}", key, one, other)
+
+    def _settled(self, place: Any) -> Any:
+        """`stable` where it has a minimum wherever it exists: both conditions are the same."""
+        exists, minimum = (place.get("condition") or "").split(" and "), place.get("minimum")
+        if not minimum or any(
+            not any(self.values.equal(each, one) for one in exists) for each in minimum
+        ):
+            return place
+        left = {k: v for k, v in place.items() if k not in {"minimum", "unstable"}}
+        return {**left, "stable": True}
 
     def _differ_as_lists(
         self, path: str, key: str, a: list[Any], b: list[Any]
@@ -129,6 +140,8 @@ class Meaning:
                 alone.append(number)
         if path in {"discovered", "charges"}:  # another one with its rate is as true
             left = [each for each in left if not self._has_its_rate(each)]
+        if path == "modes":  # of a place that the first sheet calls unstable
+            left = [each for each in left if not self.values.oscillates(each)]
         if alone or left:
             yield Difference(
                 f"{path}: {len(alone)} of {len(a)} missing, {len(left)} others", "wrong"
@@ -283,6 +296,20 @@ class _Values:
             for i in range(len(p))
             for j in range(i)
         )
+
+    def oscillates(self, mode: Any) -> bool:
+        """Whether a printed normal mode solves the equations of motion to first order."""
+        from lagcli.reader import parse_text
+        from tests.oracle.jets import real_part
+        from tests.verification.truth import oscillates
+
+        def of(text: str) -> Any:
+            return real_part(self.reference.of(parse_text(text))(self.moments[0]))
+
+        try:
+            return oscillates(self.reference, self.moments[0], mode, of)
+        except Exception:  # noqa: BLE001 - no value, or no shape
+            return False
 
     def _of(self, text: str, which: int, *, moving: bool = False) -> list[Any]:
         """The value at each state, None where there is none."""

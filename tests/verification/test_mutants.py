@@ -46,6 +46,22 @@ def differences(before: dict[str, object], after: dict[str, object]) -> list[str
 
 
 @pytest.mark.parametrize(
+    ("mode", "true"),
+    [
+        ({"frequency": "sqrt(g/l + 2*k/m)", "shape": {"theta1": "2", "theta2": "-2"}}, True),
+        ({"frequency": "sqrt(g/l + k/m)", "shape": {"theta1": "1", "theta2": "-1"}}, False),
+        ({"frequency": "sqrt(g/l)", "shape": {"theta1": "1", "theta2": "-1"}}, False),
+        ({"frequency_squared": "-g/l", "shape": {"theta1": "1", "theta2": "1"}}, False),
+    ],
+)
+def test_a_normal_mode_that_is_true_is_no_wrong_claim(
+    mode: dict[str, object], *, true: bool
+) -> None:
+    more = {"at": {"theta1": "0", "theta2": "0"}, **mode}
+    assert (differences({"modes": []}, {"modes": [more]}) == []) is true
+
+
+@pytest.mark.parametrize(
     ("before", "after", "found"),
     [
         ({"find": {"a": {"solutions": ["g/l", "0"]}}},
@@ -61,6 +77,13 @@ def differences(before: dict[str, object], after: dict[str, object]) -> list[str
         ({"lagrangian": "theta1'^2"}, {"lagrangian": "theta1'^2 + m"}, ["wrong lagrangian"]),
         ({"lagrangian": "theta1'^2"}, {"lagrangian": None}, ["weaker lagrangian"]),
         ({"equilibria": [{"condition": "g > l"}]}, {"equilibria": [{"condition": "2*g > 2*l"}]}, []),
+        ({"equilibria": [{"stable": True, "condition": "g > l"}]},
+         {"equilibria": [{"stable": None, "condition": "g > l",
+                          "minimum": ["2*g > 2*l"], "unstable": ["l > g"]}]}, []),
+        ({"equilibria": [{"stable": True, "condition": "g > l"}]},
+         {"equilibria": [{"stable": None, "condition": "g > l",
+                          "minimum": ["g > 2*l"], "unstable": ["2*l > g"]}]},
+         ["wrong equilibria: 1 of 1 missing, 1 others"]),
     ],
 )  # fmt: skip
 def test_answers_are_compared_by_meaning(
