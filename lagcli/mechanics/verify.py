@@ -117,8 +117,7 @@ class Verifier:
         try:
             with mpmath.workdps(DIGITS):
                 return bool(constraints.equations) and all(
-                    len(forms) - 1
-                    in independent_rows(rows_of(evaluate(state), width), tolerance).dependent
+                    _last_depends(rows_of(evaluate(state), width), tolerance)
                     for state in self.states.take(_STATES)
                 )
         except (ArithmeticError, ValueError, Contradiction):
@@ -154,6 +153,13 @@ class Verifier:
                 if tested == wanted:
                     break
         return True if tested else None
+
+
+def _last_depends(rows: Sequence[Sequence[mpf]], tolerance: mpf) -> bool:
+    """Whether the last row is a combination of the others, as one of 0 up to rounding is."""
+    if all(abs(x) <= tolerance for x in rows[-1]):
+        return True
+    return len(rows) - 1 in independent_rows(rows, tolerance).dependent
 
 
 def _vanish(groups: Sequence[Sequence[Expr]], values: Sequence[mpf]) -> bool | None:

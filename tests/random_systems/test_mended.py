@@ -22,6 +22,12 @@ MENDED = {
         T="m*(x'^2 + y'^2 + z'^2)/2",
         constraints={"c1": "(1 + y^2)*x' = sin(z)*y'", "c2": "y = b*x"},
     ),
+    "all that has mass is held: the energy is 0 by the constraint, and y has no motion": System(
+        coordinates=dict.fromkeys("xy"),
+        parameters={**M, "l": "positive"},
+        T="m*(x'*cos(x) + y'*cos(y))^2/2",
+        constraints={"c1": "sin(x) + sin(y) = l/9"},
+    ),
     "a parallelogram whose third link has no mass": System(
         coordinates=dict.fromkeys("abc"),
         parameters=dict.fromkeys(("m", "l", "d", "g"), "positive"),

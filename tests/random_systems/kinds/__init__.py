@@ -5,6 +5,7 @@ from . import (
     combined,
     constraints,
     corners,
+    extended,
     forms,
     further,
     known,
@@ -26,6 +27,7 @@ KINDS = {
         known,
         combined,
         chains,
+        extended,
     )
     for name, kind in file.KINDS.items()
 }
