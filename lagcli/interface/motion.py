@@ -83,9 +83,19 @@ class Motion(Columns):
         CannotDraw
             When there is no such picture of this motion.
         """
-        from lagcli.interface.picture import plot
+        from lagcli.interface.picture import Plot
+        from lagcli.pictures.kinds import NAMES, PictureRequest, picture_of
 
-        return plot(self._problem, self._asked, self._result, kind, section, orbits)
+        if kind == "series":
+            from lagcli.pictures.run import PicturedRun
+            from lagcli.pictures.series import series
+
+            run = PicturedRun(self._problem, self._asked, result=self._result)
+            return Plot(series(run), self.refusal)
+        if kind not in NAMES:
+            raise ValueError(f"unknown kind {kind!r}: the kinds are {', '.join(NAMES)}")
+        request = PictureRequest(kind=kind, section=section, orbits=orbits)
+        return Plot(*picture_of(self._problem, self._asked, request))
 
     def animate(self, *, forces: bool = False) -> Animation:
         """Show the motion as it goes on; `forces` adds arrows.
@@ -95,9 +105,10 @@ class Motion(Columns):
         CannotDraw
             When the file does not state where its bodies are.
         """
-        from lagcli.interface.picture import animation
+        from lagcli.interface.picture import Animation
+        from lagcli.pictures.scene import scene
 
-        return animation(self._problem, self._asked, forces=forces)
+        return Animation(*scene(self._problem, self._asked, forces=forces))
 
     def __str__(self) -> str:
         from lagcli.numerics.tables.writing import to_table

@@ -9,9 +9,7 @@ from typing import TYPE_CHECKING
 from lagcli.pictures.drawing import Picture
 
 if TYPE_CHECKING:
-    from lagcli.numerics.hybrid.request import Asked, Result
     from lagcli.pictures.scene import Scene
-    from lagcli.problem_data import Problem
 
 
 class Plot:
@@ -112,30 +110,6 @@ class Animation:
 
     def _repr_html_(self) -> str:
         return self.to_frame()
-
-
-def plot(
-    problem: Problem, asked: Asked, result: Result, kind: str, section: str | None, orbits: int
-) -> Plot:
-    """The picture of a motion; see `Motion.plot`."""
-    from lagcli.pictures.kinds import NAMES, PictureRequest, picture_of
-
-    if kind == "series":
-        from lagcli.pictures.run import PicturedRun
-        from lagcli.pictures.series import series
-
-        return Plot(series(PicturedRun(problem, asked, result=result)), result.refusal)
-    if kind not in NAMES:
-        raise ValueError(f"unknown kind {kind!r}: the kinds are {', '.join(NAMES)}")
-    request = PictureRequest(kind=kind, section=section, orbits=orbits)
-    return Plot(*picture_of(problem, asked, request))
-
-
-def animation(problem: Problem, asked: Asked, *, forces: bool) -> Animation:
-    """The animation of a motion; see `Motion.animate`."""
-    from lagcli.pictures.scene import scene
-
-    return Animation(*scene(problem, asked, forces=forces))
 
 
 def _ending(path: str | PathLike[str], known: tuple[str, ...]) -> str:

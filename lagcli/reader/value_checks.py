@@ -6,6 +6,7 @@ Values are followed exactly where they are rational; others are looked at when t
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import partial
 from math import prod
 from typing import TYPE_CHECKING
 
@@ -37,25 +38,24 @@ if TYPE_CHECKING:
 _ODD = frozenset("sin tan sinh tanh asin atan asinh atanh sign".split())
 _EVEN = frozenset("abs cos cosh sec".split())
 _FRICTION = "a friction force -c*x' is written dissipation: c*x'^2/2"
+_warning = partial(Diagnostic, severity="warning")
 _SIGNS = {"positive": Fraction(1), "negative": Fraction(-1)}
 
 
 def slips(problem: Problem) -> list[Diagnostic]:
     """Warnings of what is legitimate, and mostly a slip: no inertia, energies of the wrong sign."""
-    found = []
-    values = _known(problem)
-    if (kinetic := problem.kinetic) is not None:
-        found += _without_inertia(problem, kinetic)
-        if _parity(kinetic, problem.definitions) == -1:
-            message = "T changes its sign with the velocities"
-            hint = "a kinetic energy is of second degree in them, as in m*x'^2/2"
-            found.append(Diagnostic(message, kinetic.span, hint, severity="warning"))
-        elif _sign(kinetic, problem, values) == -1:
-            message, hint = "T is negative", "a kinetic energy is positive, as in m*x'^2/2"
-            found.append(Diagnostic(message, kinetic.span, hint, severity="warning"))
-    if (lost := problem.dissipation) is not None and _sign(lost, problem, values) == -1:
-        message, hint = "the dissipation is negative", f"it drives the motion; {_FRICTION}"
-        found.append(Diagnostic(message, lost.span, hint, severity="warning"))
+    known = _known(problem)
+    kinetic, lost = problem.kinetic, problem.dissipation
+    found = [] if kinetic is None else _without_inertia(problem, kinetic)
+    if kinetic is not None and _parity(kinetic, problem.definitions) == -1:
+        hint = "a kinetic energy is of second degree in them, as in m*x'^2/2"
+        found.append(_warning("T changes its sign with the velocities", kinetic.span, hint))
+    elif kinetic is not None and _sign(kinetic, problem, known) == -1:
+        hint = "a kinetic energy is positive, as in m*x'^2/2"
+        found.append(_warning("T is negative", kinetic.span, hint))
+    if lost is not None and _sign(lost, problem, known) == -1:
+        hint = f"it drives the motion; {_FRICTION}"
+        found.append(_warning("the dissipation is negative", lost.span, hint))
     return found
 
 
@@ -71,7 +71,7 @@ def _sign(formula: Expression, problem: Problem, known: Mapping[str, Fraction]) 
         match node:
             case Number(value=value):
                 return (value > 0) - (value < 0)
-            case Name(name=name) if name in problem.definitions:
+            case Name(name=name, primes=0) if name in problem.definitions:
                 return folded(problem.definitions[name], sign)
             case Name(name=name, primes=0):
                 return signs.get(name, 0)
@@ -99,13 +99,9 @@ def _without_inertia(problem: Problem, kinetic: Expression) -> list[Diagnostic]:
     elsewhere += problem.definitions.values()
     held = {name.name for formula in elsewhere for name in _names(formula)}
     moving = {name.name for name in _names(kinetic) if name.primes}
+    missing = "the coordinate '{0}' is missing in T: {0}' does not occur there".format
     return [
-        Diagnostic(
-            f"the coordinate '{one.name}' is missing in T: {one.name}' does not occur there",
-            one.span,
-            "it has no inertia",
-            severity="warning",
-        )
+        _warning(missing(one.name), one.span, "it has no inertia")
         for one in problem.coordinates
         if one.name not in moving | held
     ]
