@@ -41,6 +41,14 @@ def test_json_is_the_contract():
 
 
 @pytest.mark.long
+def test_a_comma_in_a_name_parts_no_column_of_a_proof():
+    done = run(PENDULUM, "--until", "0.1", "--samples", "2", "-f", "csv", "--rigorous", "--show",
+               "atan2(y, x)")  # fmt: skip
+    header, *rows = csv.reader(io.StringIO(done.stdout))
+    assert header == ["t", "t (radius)", "atan2(y, x)", "atan2(y, x) (radius)"]
+    assert [len(row) for row in rows] == [4, 4]
+
+
 def test_csv_holds_every_digit():
     done = run(PENDULUM, "--until", "1", "--samples", "3", "-f", "csv", "--show", "x,atan2(y, x)")
     header, *rows = csv.reader(io.StringIO(done.stdout))

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from lagcli.numerics.rigorous.proof import Proof
+from lagcli.numerics.tables.writing import aligned, as_csv
 
 #: Digits of a midpoint and of a radius in JSON and CSV.
 _DIGITS = 30
@@ -82,22 +83,19 @@ def _above(bound: Any) -> str:
 def to_csv(proof: Proof) -> bytes:
     """Midpoints, and a column with the radius behind each."""
     header = [name for column in proof.columns for name in (column, f"{column} (radius)")]
-    lines = [header]
-    for row in proof.rows:
-        balls = [_ball(x) for x in row]
-        lines.append([
-            text for ball in balls
-            for text in (("", "") if ball is None else (ball["midpoint"], ball["radius"]))
-        ])  # fmt: skip
-    return "".join(",".join(line) + "\n" for line in lines).encode()
+    rows = ([text for ball in map(_ball, row) for text in _cells(ball)] for row in proof.rows)
+    return as_csv(header, rows).encode()
+
+
+def _cells(ball: dict[str, str] | None) -> tuple[str, str]:
+    return ("", "") if ball is None else (ball["midpoint"], ball["radius"])
 
 
 def to_table(proof: Proof) -> bytes:
     """Every number with the digits that are proved, and what the proof stands on."""
     cells = [list(proof.columns)]
     cells += [[_written(row[0]), *map(_proved, row[1:])] for row in proof.rows]
-    widths = [max(len(row[j]) for row in cells) for j in range(len(proof.columns))]
-    lines = ["  ".join(f"{x:>{w}}" for x, w in zip(row, widths, strict=True)) for row in cells]
+    lines = aligned(cells)
     lines += [""] if proof.events else []
     lines += [f"{e.what} at t = {_proved(e.t)} ({e.name})" for e in proof.events]
     whole = "proved" if proof.reached else f"proved until t = {proof.holds_until:g}"

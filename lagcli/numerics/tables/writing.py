@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from lagcli.numerics.hybrid.events import Event
@@ -89,7 +89,7 @@ def _event(event: Event) -> dict[str, Any]:
 
 def to_csv(result: Result) -> str:
     """A header and the rows, every digit of a double; what is not defined is empty."""
-    return "".join(csv_lines(*with_column_certified(result)))
+    return as_csv(*with_column_certified(result))
 
 
 def with_column_certified(
@@ -102,27 +102,25 @@ def with_column_certified(
     return (*result.columns, _CERTIFIED), marked
 
 
-def csv_lines(columns: Sequence[str], rows: Sequence[Sequence[float | None]]) -> Iterator[str]:
-    """A header and rows, each with its line break."""
-    yield ",".join(map(_quoted, columns)) + "\n"
-    for row in rows:
-        yield ",".join("" if x is None else repr(x) for x in row) + "\n"
-
-
-def records_as_csv(columns: Sequence[str], records: Iterable[Mapping[str, Any]]) -> str:
-    """A header and records, of which other entries are left out; None is empty."""
+def as_csv(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """A header and rows; None is empty."""
     import csv
     import io
 
     text = io.StringIO()
-    writer = csv.DictWriter(text, columns, lineterminator="\n", extrasaction="ignore")
-    writer.writeheader()
-    writer.writerows(records)
+    csv.writer(text, lineterminator="\n").writerows([columns, *rows])
     return text.getvalue()
 
 
-def _quoted(name: str) -> str:
-    return f'"{name.replace(chr(34), chr(34) * 2)}"' if {",", '"'} & set(name) else name
+def records_as_csv(columns: Sequence[str], records: Iterable[Mapping[str, Any]]) -> str:
+    """A header and records, of which other entries are left out; None is empty."""
+    return as_csv(columns, ([record.get(name) for name in columns] for record in records))
+
+
+def aligned(cells: Sequence[Sequence[str]]) -> list[str]:
+    """Rows as lines, the cells of each column as wide as the widest."""
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    return ["  ".join(f"{x:>{w}}" for x, w in zip(row, widths, strict=True)) for row in cells]
 
 
 def to_table(result: Result) -> str:
@@ -134,12 +132,9 @@ def to_table(result: Result) -> str:
         ["–" if x is None else f"{x + 0.0:.{d}g}" for x, d in zip(row, digits, strict=True)]
         for row in (*result.rows, *(result.beyond or ()))
     ]
-    widths = [max(len(row[j]) for row in cells) for j in range(len(result.columns))]
-    lines = [
-        "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-        + (_BEYOND if place > len(result.rows) else "")
-        for place, row in enumerate(cells)
-    ]
+    certified = len(result.rows) + 1
+    lines = aligned(cells)
+    lines[certified:] = [line + _BEYOND for line in lines[certified:]]
     if result.beyond:
         lines.append(f"{_BEYOND.strip()} after t = {held.holds_until:.6g}: not certified")
     lines.append("")

@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable
 
 from lagcli.numerics.tables.columnar import table_as_npz, table_as_parquet
+from lagcli.numerics.tables.writing import aligned, as_csv
 from lagcli.record import record
 
 #: What stands behind the columns of each row: whether the accuracy holds to the end, until
@@ -37,9 +38,7 @@ class Table:
 
 
 def _csv(table: Table) -> bytes:
-    from lagcli.numerics.tables.writing import csv_lines
-
-    return "".join(csv_lines(table.columns, table.rows)).encode()
+    return as_csv(table.columns, table.rows).encode()
 
 
 def _json(table: Table) -> bytes:
@@ -55,9 +54,7 @@ def _json(table: Table) -> bytes:
 def _text(table: Table) -> bytes:
     cells = [list(table.columns)]
     cells += [["" if x is None else f"{x:.10g}" for x in row] for row in table.rows]
-    widths = [max(len(row[j]) for row in cells) for j in range(len(table.columns))]
-    lines = ["  ".join(f"{x:>{w}}" for x, w in zip(row, widths, strict=True)) for row in cells]
-    return "".join(f"{line}\n" for line in lines).encode()
+    return "".join(f"{line}\n" for line in aligned(cells)).encode()
 
 
 WRITERS: dict[str, Callable[[Table], bytes]] = {
