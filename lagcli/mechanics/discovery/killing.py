@@ -148,4 +148,8 @@ def _common_factors(equations: SlotEquations) -> list[Expr]:
     moving = [f for f in shared if not free_of(f, equations.q)]
     sums = [f for f in moving if f.as_base_exp()[0].is_Add]
     own = [row[k] for k, row in enumerate(equations.mass) if moving]
-    return [w for w in dict.fromkeys((*own, sympy.Mul(*moving), sympy.Mul(*sums))) if w != 1]
+    found: list[Expr] = [sympy.S.One]
+    for w in (*own, sympy.Mul(*moving), sympy.Mul(*sums)):
+        if all(not free_of(simplify(w / other), equations.q) for other in found):
+            found.append(w)
+    return found[1:]
