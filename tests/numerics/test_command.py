@@ -40,7 +40,6 @@ def test_json_is_the_contract():
     assert set(document["method"]) == {"name", "reason", "steps", "evaluations"}
 
 
-@pytest.mark.long
 def test_a_comma_in_a_name_parts_no_column_of_a_proof():
     done = run(PENDULUM, "--until", "0.1", "--samples", "2", "-f", "csv", "--rigorous", "--show",
                "atan2(y, x)")  # fmt: skip
@@ -49,6 +48,7 @@ def test_a_comma_in_a_name_parts_no_column_of_a_proof():
     assert [len(row) for row in rows] == [4, 4]
 
 
+@pytest.mark.long
 def test_csv_holds_every_digit():
     done = run(PENDULUM, "--until", "1", "--samples", "3", "-f", "csv", "--show", "x,atan2(y, x)")
     header, *rows = csv.reader(io.StringIO(done.stdout))
