@@ -6,8 +6,12 @@ import pytest
 
 from lagcli import load
 from lagcli.abbreviations import abbreviated, written_out
+from lagcli.document import Equations
 from lagcli.expression import Name, walk
+from lagcli.formatters.page import to_document
+from lagcli.notation.letters import names_in
 from lagcli.pipeline import Request, derive, state
+from lagcli.reader import read_problem
 
 SECTIONS = ("accelerations", "multipliers", "hamiltonian")
 
@@ -47,3 +51,26 @@ def test_names_of_the_file_are_not_taken():
 
 def test_a_short_answer_has_no_abbreviations():
     assert not answers("problems/pendulums/double-pendulum.yaml", abbreviate=True).where
+
+
+@pytest.mark.long
+def test_a_page_lists_the_abbreviations_that_it_uses():
+    """The matrices of a steady motion are in JSON, and not on the page."""
+    text = b"""
+coordinates: [x, phi]
+parameters: {M: {assume: positive}, m: {assume: positive}, R: {assume: positive}, b: {assume: positive}, g: {assume: positive}, alpha: }
+points:
+  hub: {position: [x*cos(alpha), -x*sin(alpha)], mass: M}
+  load: {position: [x*cos(alpha) + b*sin(phi), -x*sin(alpha) + b*cos(phi)], mass: m}
+V: -M*g*x*sin(alpha) + m*g*(b*cos(phi) - x*sin(alpha))
+constraints: {rolling: x' = R*phi'}
+"""
+    problem = read_problem("wheel.yaml", text).checked()
+    sections = ("accelerations", "modes", "steady_motions")
+    found = state(derive(problem), Request(sections=sections, abbreviate=True))
+    listed = next(b for b in to_document(found).blocks if isinstance(b, Equations))
+    rest = [b for b in to_document(found).blocks if b is not listed]
+    names = [str(row.left.name) for row in listed.rows]
+    assert {*names} < {*found.where}
+    read = names_in(rest) | names_in([row.right for row in listed.rows])
+    assert {*names} <= read

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+
 from lagcli.document import Block, Document, Heading, Paragraph
-from lagcli.expression import Expression, Name, walk
+from lagcli.expression import Expression
 from lagcli.notation.letters import names_in, settled
 from lagcli.notation.naming import Names
-from lagcli.rewriting import rewritten
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration
 from lagcli.statements.registry import in_order
@@ -17,16 +18,13 @@ def to_document(answers: Answers) -> Document:
     """Word the answers to one file, section by section."""
     blocks: list[Block] = [_system(answers)]
     declared = in_order((*answers.sections, *answers.absent))
-    first = _first_abbreviated(answers, declared)
-    for each in declared:
-        if each.name in answers.sections:
-            if each.name == first:
-                blocks.append(Heading("Abbreviations"))
-                blocks.append(rows_by_name(answers.where))
-            blocks.append(Heading(each.heading))
-            blocks.extend(each.blocks(answers.sections[each.name], answers))
-        else:
-            blocks += [Heading(each.heading), Paragraph(("Not found: see the warnings.",))]
+    worded = [(Heading(each.heading), *_worded(each, answers)) for each in declared]
+    where = _used(answers.where, names_in(worded))
+    listed_at = next((section for section in worded if names_in(section) & set(where)), ())
+    for section in worded:
+        if section is listed_at:
+            blocks += [Heading("Abbreviations"), rows_by_name(where)]
+        blocks += section
     if answers.warnings:
         blocks.append(Heading("Warnings"))
         blocks.extend(Paragraph((warning,)) for warning in answers.warnings)
@@ -36,22 +34,18 @@ def to_document(answers: Answers) -> Document:
     return settled(page, Names((*given, *answers.symbols.values(), *used)))
 
 
-def _first_abbreviated(answers: Answers, declared: list[Declaration]) -> str:
-    """The first section whose formulas use an abbreviation: they are listed before it."""
-    if not answers.where:
-        return ""
-    found: list[bool] = []
+def _worded(section: Declaration, answers: Answers) -> Iterable[Block]:
+    if section.name not in answers.sections:
+        return [Paragraph(("Not found: see the warnings.",))]
+    return section.blocks(answers.sections[section.name], answers)
 
-    def look(node: Expression) -> Expression:
-        found.append(any(isinstance(p, Name) and p.name in answers.where for p in walk(node)))
-        return node
 
-    for each in declared:
-        if each.name in answers.sections:
-            rewritten(answers.sections[each.name], look)
-            if any(found):
-                return each.name
-    return ""
+def _used(where: Mapping[str, Expression], names: set[str]) -> dict[str, Expression]:
+    """The abbreviations that are read: some stand for what JSON has and a page leaves out."""
+    for name in reversed(tuple(where)):
+        if name in names:
+            names = names | names_in(where[name])
+    return {name: value for name, value in where.items() if name in names}
 
 
 def _system(answers: Answers) -> Paragraph:
