@@ -84,6 +84,8 @@ class Meaning:
             n in b and self.values.parallel([a[n], "0"], [b[n], "0"]) for n in a
         ):
             return
+        if "amplitude" in a and self._same_to_lower_order(a, b):
+            skipped |= {"order", "period"}
         if "charge" in a and a.get("conserved") and b.get("conserved") and (
             self._same_charge(a, b, scaled=path.startswith("discovered"))
         ):  # fmt: skip
@@ -98,9 +100,20 @@ class Meaning:
             else:
                 yield from self._differ(f"{path}/{key}", key, one, other)
 
+    def _same_to_lower_order(self, a: Any, b: Any) -> bool:
+        """Whether the second series of a period is the beginning of the first one."""
+        if not b.get("amplitude") or b["order"] >= a["order"]:
+            return False
+        near, far = (
+            self.values.gap(*(re.sub(rf"\b{s['amplitude']}\b", step, s["period"]) for s in (a, b)))
+            for step in ("(1/4000)", "(1/1000)")
+        )
+        return near is not None and far is not None and 3 * near * 4 ** b["order"] < far
+
     def _settled(self, place: Any) -> Any:
         """`stable` where it has a minimum wherever it exists: both conditions are the same."""
-        exists, minimum = (place.get("condition") or "").split(" and "), place.get("minimum")
+        minimum, condition = place.get("minimum"), place.get("condition") or ""
+        exists = [*condition.split(" and "), *(place.get("where") or ())]
         if not minimum or any(
             not any(self.values.equal(each, one) for one in exists) for each in minimum
         ):
@@ -264,6 +277,11 @@ class _Values:
         return bool(known) and all(
             x is not None and y is not None and (x > 0) == (y > 0) for x, y in known
         )
+
+    def gap(self, a: str, b: str) -> Any:
+        """How far two formulas are apart at the first state where both have a value."""
+        pairs = zip(self._of(a, 0), self._of(b, 1), strict=True)
+        return next((abs(x - y) for x, y in pairs if x is not None and y is not None), None)
 
     def same_rate(self, a: str, b: str) -> bool:
         """Whether the difference of two formulas depends on parameters alone."""

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from lagcli.expression import Product
+from lagcli.expression import Product, opposite
 from lagcli.formatters.built_in.json import to_object
 from lagcli.formatters.options import Options
 from lagcli.pipeline import Request, derive, render, state
@@ -315,6 +315,20 @@ def test_how_a_force_acts_on_a_point_is_examined(name: str, changed: dict[str, o
     wrong = tuple(replace(each, **changed) for each in section.forces)
     sheet = {"forces": replace(section, forces=wrong)}
     assert not verified(problem, replace(answers, sections=sheet)).complete
+
+
+def test_the_momentum_under_its_name_has_its_sign() -> None:
+    problem, answers = derived("nonholonomic/chaplygin-sleigh", ("charges",))
+    section = answers.sections["charges"]
+    momentum = next(each for each in section.charges if each.source == "cyclic")
+    turned = replace(
+        momentum,
+        transformation={name: opposite(step) for name, step in momentum.transformation.items()},
+        charge=opposite(momentum.charge),
+        rate=opposite(momentum.rate),
+    )
+    sheet = replace(answers, sections={"charges": replace(section, charges=(turned,))})
+    assert verified(problem, sheet).sections["charges"].charges[0].charge is None
 
 
 def test_a_charge_that_moves_is_not_called_constant() -> None:

@@ -92,7 +92,7 @@ def _charge(x: Examination, charge: Charge) -> Charge:
     tried = len(x.unchecked)
     if places is None or not _is_noethers(x, what, charge) or not boundary_term(x, charge):
         return _without(charge)
-    if not _is_real_where(x, charge, places[0]):
+    if not (_is_real_where(x, charge, places[0]) and _is_as_named(x, charge, places[0])):
         return _without(charge)
     rate = _rate(x, charge, places[0])
     if rate is None:
@@ -126,6 +126,14 @@ def _is_real_where(x: Examination, charge: Charge, place: int) -> bool:
         return [arb(int(holds))], [arb(int(holds or s.at(place).is_finite()))]
 
     return not above or x.decide(what, real)
+
+
+def _is_as_named(x: Examination, charge: Charge, place: int) -> bool:
+    """Whether what is called p_q is dL/dq', with this sign."""
+    momenta = dict(zip(x.reference.names, x.reference.momenta, strict=True))
+    p = momenta.get(charge.name.removeprefix("p_")) if charge.source == "cyclic" else None
+    what = f"the momentum '{charge.name}'"
+    return p is None or x.decide(what, lambda s: ([s.at(place)], [s.at(p)]))
 
 
 def _without(charge: Charge) -> Charge:
