@@ -39,7 +39,8 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
     """All roots of expression = 0 that may be real; None where no closed form was found.
 
     The unknown occurs as a polynomial variable, or inside sines and cosines of integer multiples
-    of it, or of one constant multiple of it, or so inside hyperbolic ones or exponentials.
+    of it, or of one constant multiple of it, or inside hyperbolic ones or exponentials of integer
+    multiples of a (unknown - b).
     """
     field = Field([expression])
     try:
@@ -61,13 +62,20 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
     cosine = first.partner if first.kind in ("sin", "sinh") else used[0]
     if not set(used) <= ({cosine} if first.kind == "exp" else {cosine, cosine + 1}):
         return None
-    factor = first.argument / unknown
+    offset = first.argument.subs(unknown, 0)
+    factor = sympy.expand(first.argument - offset) / unknown
     if unknown in factor.free_symbols:
         return None
     if first.kind not in ("cos", "sin"):
         open_roots = _logarithms if first.kind == "exp" else _hyperbolic
         values = open_roots(field, poly, cosine)
-        return None if values is None else Roots(tuple(v / factor for v in values), angle=False)
+        return (
+            None
+            if values is None
+            else Roots(tuple(sympy.expand((v - offset) / factor) for v in values), angle=False)
+        )
+    if offset != 0:
+        return None
     angles = angle_roots(field, poly, cosine)
     if angles is None:
         return None

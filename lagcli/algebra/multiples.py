@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
-from functools import reduce
+from functools import cached_property, reduce
 from math import lcm
 from typing import TYPE_CHECKING
 
@@ -65,16 +65,60 @@ class Multiples:
         self.base = base  # of a power
         self._unit: dict[Expr, int] = {}  # base argument -> N: the generator is of argument/N
         self._generators: dict[tuple[Expr, int], int] = {}
+        self._prepared: list[dict[Expr, Fraction]] = []  # multiples by base argument
 
     def prepare(self, argument: Expr) -> None:
         """Note the fractions of an argument, before generators are made."""
-        for multiple, base in split(self.field, argument):
+        parts = split(self.field, argument)
+        self._prepared.append({base: multiple for multiple, base in parts})
+        for multiple, base in parts:
             unit = self._unit.get(base, 1)
             self._unit[base] = lcm(unit, multiple.denominator)
 
+    @cached_property
+    def _together(self) -> list[tuple[Expr, dict[Expr, Fraction]]]:
+        """Sums of base arguments that stand in one ratio wherever they were prepared: a r - a b.
+
+        Not of angles, whose single ones may be wanted yet.  With -x where exp(-x) was prepared.
+        """
+        groups: dict[tuple[Fraction, ...], dict[Expr, Fraction]] = {}
+        for base in self._unit if self.kind != "circular" else ():
+            column = [each.get(base, Fraction(0)) for each in self._prepared]
+            first = next((value for value in column if value), Fraction(1))
+            groups.setdefault(tuple(value / first for value in column), {})[base] = first
+        found = []
+        for (leader, first), *others in (group.items() for group in groups.values()):
+            ratios = {leader: Fraction(1), **{base: ratio / first for base, ratio in others}}
+            whole = sympy.Add(*(sympy.Rational(ratio) * base for base, ratio in ratios.items()))
+            if self._is_turned(leader, whole):
+                whole, ratios = -whole, {base: -ratio for base, ratio in ratios.items()}
+            if others or whole != leader:
+                self._unit[whole] = self._unit[leader]
+                found.append((whole, ratios))
+        return found
+
+    def _is_turned(self, leader: Expr, whole: Expr) -> bool:
+        """Whether the generator is of -whole: exp(-x) of what decays, cosh as SymPy has it."""
+        if self.kind == "hyperbolic":
+            return bool(whole.could_extract_minus_sign())
+        return sum(each.get(leader, Fraction(0)) for each in self._prepared) < 0
+
+    def _joined(self, parts: Iterable[tuple[Fraction, Expr]]) -> list[tuple[Fraction, Expr]]:
+        """The parts, those of each such sum as a multiple of it."""
+        left = {base: multiple for multiple, base in parts}
+        found = []
+        for whole, ratios in self._together:
+            multiples = {left.get(base, Fraction(0)) / ratio for base, ratio in ratios.items()}
+            if len(multiples) > 1:
+                self.field.doubtful = True
+            elif multiple := multiples.pop():
+                found.append((multiple, whole))
+                left = {base: value for base, value in left.items() if base not in ratios}
+        return [*found, *((multiple, base) for base, multiple in left.items())]
+
     def parts(self, parts: Iterable[tuple[Fraction, Expr]]) -> Iterator[tuple[int, int]]:
         """(k, g) for each part: it is k times the argument of generator g."""
-        for multiple, base in parts:
+        for multiple, base in self._joined(parts):
             unit = self._unit.setdefault(base, multiple.denominator)
             scaled = multiple * unit
             if scaled.denominator != 1:

@@ -90,16 +90,16 @@ class Shaper:
         above = self._factors(element.numerator)
         below = self._factors(element.denominator, below=True)
         best: PlannedProduct | PlannedSum = self._joined(above, below)
-        by_roots = self._by_roots(element) if divide else ()
-        for candidate in (*self._spread(element, below), *by_roots):
+        apart = (*self._by_roots(element), *self._by_powers(element)) if divide else ()
+        for candidate in (*self._spread(element, below), *apart):
             if candidate.score < best.score:
                 best = candidate
         for candidate, shorter in self._divided(element) if divide else ():
             worth = shorter or candidate.cost < best.cost
             if candidate.score < best.score and worth and not self._alike(candidate, best):
                 best = candidate
-        apart = self._by_velocities(element) if divide else ()
-        shortest = min(apart, key=lambda each: each.score, default=best)
+        fast = self._by_velocities(element) if divide else ()
+        shortest = min(fast, key=lambda each: each.score, default=best)
         return shortest if shortest.cost <= _APART * best.cost else best
 
     @staticmethod
@@ -140,6 +140,21 @@ class Shaper:
                     self.field.element(self.field.ring.build(terms), element.denominator)
                     for terms in groups.values()
                 )
+
+    def _by_powers(self, element: Element) -> Iterator[PlannedSum]:
+        """A/f^7 - B/f^13: the numerator in powers of a sum below, where that is shorter."""
+        field, above = self.field, element.numerator
+        for factor, exponent in factorization(element.denominator)[1]:
+            if len(factor) < 2 or exponent < 2 or len(above) < 2:
+                continue
+            digits, rest = [], above
+            while rest != 0 and len(digits) < exponent:
+                rest, digit = divmod(rest, factor)
+                digits.append(digit)
+            if len(rest) + sum(map(len, digits)) < len(above):
+                below = [element.denominator / factor**k for k in range(len(digits) + 1)]
+                pairs = zip([*digits, rest], below, strict=True)
+                yield self.together(field.element(n, d) for n, d in pairs if n != 0)
 
     def _by_velocities(self, element: Element) -> Iterator[PlannedProduct | PlannedSum]:
         """M r'²/(r (r − 2 M)) + (r − 2 M) φ'²: the velocities apart where a sum cancels.
@@ -354,13 +369,13 @@ class Shaper:
         return degree, self.grouper.group(terms)
 
     def _factored(self, poly: Poly) -> tuple[int, list[tuple[Poly, int]]]:
-        """Irreducible factors; (1 - cos)(1 + cos) is joined to sin²."""
+        """Irreducible factors; (1 - cos)(1 + cos) is joined to sin², so is cosh² - 1."""
         content, factors = factorization(poly)
         factors = [(f, int(e)) for f, e in factors]
         ring = self.field.ring
         for index in ring.used(poly):
             generator = self.field.generators[index]
-            if generator.kind != "cos":
+            if generator.kind not in ("cos", "cosh"):
                 continue
             cosine = ring.generator(index)
             exponents = {
@@ -370,7 +385,8 @@ class Shaper:
             if not pairs:
                 continue
             # (cos - 1)(cos + 1) = -sin²
-            content = int(content) * (-1) ** pairs
+            if generator.kind == "cos":
+                content = int(content) * (-1) ** pairs
             kept = []
             for f, e in factors:
                 if f == cosine - 1 or f == cosine + 1:
