@@ -280,7 +280,9 @@ def _without_cosine(field: Field, poly: Poly, cosine: int) -> Poly | None:
 def _logarithms(field: Field, poly: Poly, exponential: int) -> list[Expr] | None:
     """The x at which a polynomial in exp(x) vanishes."""
     values = polynomial_roots(field, poly, exponential)
-    return None if values is None else [sympy.log(v) for v in values if not _below_zero(v)]
+    return (
+        None if values is None else [sympy.log(v) for v in values if v != 0 and not _below_zero(v)]
+    )
 
 
 def _hyperbolic(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
