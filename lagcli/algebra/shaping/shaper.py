@@ -147,7 +147,8 @@ class Shaper:
         for factor, exponent in factorization(element.denominator)[1]:
             if len(factor) < 2 or exponent < 2 or len(above) < 2:
                 continue
-            digits, rest = [], above
+            digits: list[Poly] = []
+            rest = above
             while rest != 0 and len(digits) < exponent:
                 rest, digit = divmod(rest, factor)
                 digits.append(digit)
