@@ -314,7 +314,7 @@ def of_book(problem: Problem) -> dict[str, Expression]:
 
 
 def exchanges(problem: Problem) -> Iterator[dict[str, str]]:
-    """Exchanges of two indices, or of x and y, under which L and the constraints stay."""
+    """Exchanges of two indices, or of x and y, under which L, the constraints and the forces may stay."""
     names = [q.name for q in (*problem.coordinates, *problem.parameters)]
     for a, b in (("1", "2"), ("2", "3"), ("1", "3"), ("x", "y"), ("A", "B"), ("a", "b")):
         pairs = {n: n[:-1] + (b if n.endswith(a) else a) for n in names if n[-1:] in (a, b)}
@@ -336,8 +336,18 @@ def exchanged(node: Expression, pairs: Mapping[str, str]) -> Expression:
 
 def symmetric_under(problem: Problem, lagrangian: Expression, pairs: Mapping[str, str]) -> bool:
     """Whether L, the forces and the constraints are the same after the exchange."""
-    acted_on = any(point.force is not None for point in problem.points)
-    if problem.constraints or problem.forces or problem.dissipation is not None or acted_on:
+    if any(point.force is not None for point in problem.points):
+        return False
+    zeros = [Sum((c.equation.left, Negative(c.equation.right))) for c in problem.constraints]
+    forces = problem.forces.items()
+    before, after = (
+        {canonical(e)[1] for e in zeros},
+        {canonical(exchanged(e, pairs))[1] for e in zeros},
+    )
+    acting = {name: canonical(e) for name, e in forces}
+    acted = {pairs.get(name, name): canonical(exchanged(e, pairs)) for name, e in forces}
+    lost = problem.dissipation or Number(Fraction(0))
+    if before != after or acting != acted or canonical(lost) != canonical(exchanged(lost, pairs)):
         return False
     try:
         return is_zero(_built(Sum((lagrangian, Negative(exchanged(lagrangian, pairs)))))) is True
