@@ -139,13 +139,13 @@ def _whole(equation: Expr, roots: Mapping[Expr, Symbol]) -> Expr:
 def _linear(equations: Sequence[Expr], roots: Sequence[Symbol]) -> tuple[list[Expr], Expr] | None:
     """The roots of equations that are linear in them, and the determinant."""
     matrix = [[simplify(e.diff(r)) for r in roots] for e in equations]
-    if any(not free_of(entry, roots) for row in matrix for entry in row):
+    rests = [
+        simplify(sympy.Add(*(c * r for c, r in zip(row, roots, strict=True))) - e)
+        for row, e in zip(matrix, equations, strict=True)
+    ]
+    if any(not free_of(entry, roots) for row in (*matrix, rests) for entry in row):
         return None
-    none = dict.fromkeys(roots, sympy.S.Zero)
-    rows = [[*row, -e.xreplace(none)] for row, e in zip(matrix, equations, strict=True)]
-    if any(x.has(sympy.zoo, sympy.nan) for row in rows for x in row):
-        return None
-    solution = solve_linear([row[:-1] for row in rows], [row[-1] for row in rows])
+    solution = solve_linear(matrix, rests)
     if solution is None or solution.determinant is None:
         return None
     return [x for x in solution.values if isinstance(x, Expr)], solution.determinant

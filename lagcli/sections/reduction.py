@@ -104,13 +104,11 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
         yield from turning_contacts(motion)
     else:
         yield Paragraph(("There are no turning points.",))
-    yield Paragraph(("Time, and period between two turning points:",))
-    yield Equations(
-        (
-            Row(Name("t"), Integral(motion.rate, motion.coordinate)),
-            Row(Label("T"), Integral(motion.rate, motion.coordinate, times=2)),
-        )
-    )
+    turns_back = motion.turning_points is None or len(motion.turning_points) > 1
+    bound = Row(Label("T"), Integral(motion.rate, motion.coordinate, times=2))
+    yield Paragraph(("Time, and period between two turning points:" if turns_back else "Time:",))
+    time = Row(Name("t"), Integral(motion.rate, motion.coordinate))
+    yield Equations((time, bound) if turns_back else (time,))
     for period in once(motion.periods):
         yield from _period(period, motion.coordinate)
     if motion.reason:

@@ -48,6 +48,10 @@ TIMED = "the equations depend explicitly on the time"
 _AT_A_KINK = "a force jumps where its sign changes, and rest at such a kink is not decided"
 #: Digits to which decimals are worked out.
 _DIGITS = 40
+_AT_AN_EDGE = (
+    "the forces vanish at the edge of the positions that the coordinates describe, and rest there "
+    "is not decided"
+)
 _LONGEST = 60  # operations of conditions that are quoted
 _LAST_DIGITS = sympy.Float("1e-13")
 
@@ -110,9 +114,15 @@ class RestPoints:
                 self.reason = _AT_A_KINK if kinks else _NO_CLOSED_SOLUTION
                 self.reason = TIMED if self.depends_on_time else self.reason
                 return None
-        from lagcli.mechanics.oscillations.singular import survives
+        return self._in_regular_coordinates(found)
+
+    def _in_regular_coordinates(self, found: list[RestPoint]) -> tuple[RestPoint, ...] | None:
+        from lagcli.mechanics.oscillations.singular import is_pressed_to_an_edge, survives
 
         kept = tuple(point for point in found if survives(self, point))
+        if any(point not in kept and is_pressed_to_an_edge(self, point) for point in found):
+            self.reason, self.complete = _AT_AN_EDGE, False
+            return kept or None
         self.at_singular_coordinates = bool(found) and not kept
         return kept
 

@@ -17,10 +17,12 @@ from functools import cached_property
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, S, Symbol
+from sympy import Dummy, Expr, S, Symbol
 
-from lagcli.algebra import is_zero, nullspace
+from lagcli.algebra import dot, is_zero, nullspace, simplify
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.signs import sign
+from lagcli.mechanics.oscillations.characteristic import determinant
 from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.parameter_values import admissible_values
@@ -88,6 +90,28 @@ def survives(rest: RestPoints, point: RestPoint) -> bool:
         if None not in found:
             return all(found)
     return True
+
+
+def is_pressed_to_an_edge(rest: RestPoints, point: RestPoint) -> bool:
+    """Whether the coordinates fold there, as x = u^2 at u = 0, and no force leads away.
+
+    With v the null vector of M, det M grows as s^2 along q0 + s v, where it stays 0 at a pole.
+    The positions end there, and whether the body rests at that edge no equation of motion says.
+    """
+    if rest.dynamics.constraints.equations:
+        return False
+    s, still = Dummy("s"), dict.fromkeys(rest.system.qdot, S.Zero)
+    mass = rest.dynamics.lagrange.mass_matrix
+    for v in nullspace(Linearization(rest, point).M):
+        path = {q: point.values.get(q, q) + s * x for q, x in zip(rest.system.q, v, strict=True)}
+        whole = determinant(
+            [[entry.xreplace(still).xreplace(path) for entry in row] for row in mass]
+        )
+        outward = dot(v, [f.xreplace(path) for f in rest.forces_at_rest]).diff(s).subs(s, 0)
+        grows = whole is not None and is_zero(whole.diff(s, 2).subs(s, 0)) is False
+        if grows and sign(simplify(outward)) != 1:
+            return True
+    return False
 
 
 class _Square:

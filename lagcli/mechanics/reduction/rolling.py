@@ -82,7 +82,7 @@ class RollingMotions:
         free = [derivation.system.q[j] for j in derivation.noether.cyclic]
         forces = derivation.system.applied_forces
         pushed = any(is_zero(forces[derivation.system.q.index(q)]) is not True for q in free)
-        return pushed and not kinds
+        return pushed and not kinds and not RestPoints(derivation.dynamics).has_no_value
 
     @property
     def drives(self) -> bool:
@@ -96,20 +96,17 @@ class RollingMotions:
     def _chart(self) -> tuple[tuple[int, ...], dict[Expr, Expr]] | None:
         """The coordinates with u for velocity, and the other velocities by these.
 
-        Those whose matrix in the constraints is constant are eliminated, if there are such.
+        Those whose matrix in the constraints has a constant determinant are eliminated, so that
+        u is regular everywhere, also where the axes of the constraints turn.
         """
         system, constraints = self.system, self.dynamics.constraints
         rows = [constraints.equations[k] for k in self.dynamics.independent_constraints]
-        n, count = len(system.q), 0
-        for gone in combinations(range(n), len(rows)):
+        n = len(system.q)
+        choices = sorted(combinations(range(n), len(rows)), key=self._turns)
+        for gone in choices[:_MOST_CHOICES]:
             block = [[e.row[j] for j in gone] for e in rows]
-            if not all(free_of(x, (*system.q, system.t)) for row in block for x in row):
-                continue
-            count += 1
             whole = determinant(block)
-            if count > _MOST_CHOICES:
-                return None
-            if whole is None or is_zero(whole) is not False:
+            if whole is None or not self._constant(whole) or is_zero(whole) is not False:
                 continue
             kept = tuple(j for j in range(n) if j not in gone)
             right = [-sympy.Add(e.drift, *(e.row[j] * system.qdot[j] for j in kept)) for e in rows]
@@ -118,6 +115,14 @@ class RollingMotions:
                 found = zip(gone, solution.values, strict=True)
                 return kept, {system.qdot[j]: x for j, x in found if x is not None}
         return None
+
+    def _turns(self, columns: Sequence[int]) -> bool:
+        """Whether the factors of these velocities in the constraints change on the motion."""
+        moving, equations = (*self.system.q, self.system.t), self.dynamics.constraints.equations
+        return not all(free_of(e.row[j], moving) for e in equations for j in columns)
+
+    def _constant(self, expression: Expr) -> bool:
+        return free_of(simplify(expression), (*self.system.q, self.system.t))
 
     @cached_property
     def _equations(self) -> tuple[Expr, ...] | None:
@@ -130,7 +135,7 @@ class RollingMotions:
             self.reason = "a constraint on the positions is not solved"
             return None
         if chart is None:
-            self.reason = "the constraints give no velocities with constant coefficients"
+            self.reason = "the constraints give no velocities that determine the others everywhere"
             return None
         kept, others = chart
         found = tuple(simplify(motion.accelerations[j].xreplace(others)) for j in kept)
@@ -199,6 +204,8 @@ class RollingMotions:
     ) -> Iterator[RollingMotion]:
         """The branches, a velocity that is linear in a condition solved for first."""
         open_ = [c for c in dict.fromkeys(self._put(values, conditions)) if c != 0]
+        if any(c.has(S.NaN, S.ComplexInfinity) for c in open_):  # no value there
+            return
         if not open_:
             there = tuple(self._put(values, positive))
             if not {0, -1} & set(map(sign, there)):
