@@ -19,8 +19,10 @@ def to_document(answers: Answers) -> Document:
     blocks: list[Block] = [_system(answers)]
     declared = in_order((*answers.sections, *answers.absent))
     worded = [(Heading(each.heading), *_worded(each, answers)) for each in declared]
-    where = _used(answers.where, names_in(worded))
-    listed_at = next((section for section in worded if names_in(section) & set(where)), ())
+    where = _used(answers.where, names_in(worded)) if answers.where else {}
+    listed_at = next(
+        (section for section in worded if where and names_in(section) & set(where)), ()
+    )
     for section in worded:
         if section is listed_at:
             blocks += [Heading("Abbreviations"), rows_by_name(where)]

@@ -337,3 +337,16 @@ def test_modes_are_missing_where_no_square_of_a_frequency_is_real(a, b):
     section = modes(derive(text).dynamics)
     assert not section.modes
     assert "is real" in section.reason
+
+
+@pytest.mark.parametrize(
+    ("c", "case"),
+    [("1/2", "weak"), ("3/4", "weak"), ("1", "critical"), ("3/2", "strong"), ("8", "strong")],
+)
+def test_damping_in_numbers_is_one_of_three_cases(c, case):
+    """x'' + 2 c x' + x = 0: c < 1, c = 1, c > 1 (Landau and Lifshitz, 3rd ed., section 25)."""
+    text = f"{{coordinates: [x], T: x'^2/2, V: x^2/2, dissipation: '({c})*x''^2'}}"
+    steps = str(explain(derive(text), ["modes"]).steps[-1])
+    assert [name for name in ("weak", "critical", "strong") if f"({name} damping)" in steps] == [
+        case
+    ]

@@ -181,11 +181,17 @@ def _one(teller: Teller, M: Expr, C: Expr, K: Expr) -> Iterator[Block]:
     )
     if [sign(x) for x in (M, C, K)] != [1, 1, 1]:
         return
-    compared = above(4 * M * K - C**2, teller.system.order)
-    assert compared is not None
-    weak, critical = compared.right, compared.left
-    yield says("For ", weak, " < ", critical, " the displacement oscillates with the frequency ",
-               omega, " and decays as exp(−", delta, " t) (weak damping). For ", weak, " = ",
-               critical, " it is exp(−", delta, " t) times a linear function of t (critical "
-               "damping). For ", weak, " > ", critical, " it is a sum of two decaying exponentials "
-               "(strong damping).")  # fmt: skip
+    decays = " and decays as exp(−"
+    weak: list[Part] = ["the displacement oscillates with the frequency ", omega, decays, delta,
+                        " t) (weak damping). "]  # fmt: skip
+    linear = " t) times a linear function of t (critical damping). "
+    critical: list[Part] = ["it is exp(−", delta, linear]
+    strong: list[Part] = ["it is a sum of two decaying exponentials (strong damping)."]
+    rest = 4 * M * K - C**2
+    known, compared = sign(rest), above(rest, teller.system.order)
+    if known is not None or compared is None:
+        yield says("Here ", *(strong if known == -1 else critical if known == 0 else weak))
+        return
+    more, less = compared.left, compared.right
+    yield says("For ", less, " < ", more, " ", *weak, "For ", less, " = ", more, " ", *critical,
+               "For ", less, " > ", more, " ", *strong)  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
-from sympy import Add, Expr, Pow, acos, asin
+from sympy import Add, Expr, Pow, acos, asin, preorder_traversal
 
 from lagcli.algebra import simplify
 from lagcli.algebra.signs import sign_beside_zero
@@ -43,11 +43,11 @@ def real_where(roots: Iterable[Expr]) -> Iterator[Remark]:
 
 def _bounds(root: Expr) -> Iterator[Expr]:
     """What must not be negative."""
-    for node in root.atoms(acos, asin):
-        yield from (simplify(1 - node.args[0]), simplify(1 + node.args[0]))
-    for power in root.atoms(Pow):
-        if power.exp.is_Rational and power.exp.q % 2 == 0:
-            yield simplify(power.base)
+    for node in preorder_traversal(root):
+        if isinstance(node, (acos, asin)):
+            yield from (simplify(1 - node.args[0]), simplify(1 + node.args[0]))
+        elif isinstance(node, Pow) and node.exp.is_Rational and node.exp.q % 2 == 0:
+            yield simplify(node.base)
 
 
 def _plain(remark: Remark) -> str:

@@ -465,13 +465,15 @@ def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
         roots = filter(_divides_by_root, expression.atoms(sympy.Pow))
         if any(is_zero(p.base.xreplace(present)) is True for p in roots):
             return S.NaN
-    field, below = Field([expression]), S.One
+    field, element = Field([expression]), None
     with suppress(ZeroDivisionError):
         element = field(expression)
-        below = field.to_sympy(field.polynomial(element.denominator))
         expression = field.to_sympy(element)
     value = rounded(simplify(expression.xreplace(present)))
-    return S.NaN if value == 0 and is_zero(below.xreplace(present)) is True else value
+    if value != 0 or element is None:
+        return value
+    below = field.to_sympy(field.polynomial(element.denominator))
+    return S.NaN if is_zero(below.xreplace(present)) is True else value
 
 
 def where_positive(expression: Expr, positive: Sequence[Expr]) -> Expr:
