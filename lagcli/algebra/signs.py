@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import wraps
 
 import sympy
 from sympy import Expr
@@ -14,6 +15,19 @@ from lagcli.algebra.roots import substitute_square
 from lagcli.algebra.squares import sign_by_squares
 
 
+def between_angles(of: Callable[..., int | None]) -> Callable[..., int | None]:
+    """A function for the sign, used again with one angle for each x - y where it finds none."""
+
+    @wraps(of)
+    def both(expression: Expr, positive: Sequence[Expr] = (), **options: bool) -> int | None:
+        found = of(expression, positive, **options)
+        freed = _by_angles_between([expression, *positive]) if found is None else None
+        return found if freed is None else both(freed[0], freed[1:], **options)
+
+    return both
+
+
+@between_angles
 def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
     """1, -1 or 0 where the sign is certain, None where it is not.
 
@@ -31,13 +45,10 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
         found = _sign(*put_in) if put_in[0] != expression else None
         roots = {} if found is not None else _positive_roots(expression, positive)
         found = sign(expression.xreplace(roots), positive) if roots else found
-    if found is None:
-        freed = by_angles_between([expression, *positive])
-        return None if freed is None else sign(freed[0], freed[1:])
     return found
 
 
-def by_angles_between(expressions: Sequence[Expr]) -> list[Expr] | None:
+def _by_angles_between(expressions: Sequence[Expr]) -> list[Expr] | None:
     """The expressions in an angle u for each x - y in sines and cosines; None without any.
 
     What has one sign for all u has it for all x and y.

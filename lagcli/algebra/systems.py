@@ -18,6 +18,7 @@ from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients, solve_for
 from lagcli.algebra.numeric import vanishes_at_random
 from lagcli.algebra.opening import by_distances, opened
+from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.resultants import without
 from lagcli.algebra.ring import factorization
 from lagcli.algebra.signs import sign
@@ -274,17 +275,7 @@ class _Solver:
 
     def _conditions(self, root: Expr, unknown: Symbol) -> list[Expr] | None:
         """What must be positive for the root to be real and admissible; None: it never is."""
-        wanted: list[Expr] = []
-        for node in sympy.preorder_traversal(root):
-            if isinstance(node, (sympy.acos, sympy.asin)):
-                k = node.args[0]
-                wanted += [1 - k, 1 + k]
-            elif node.is_Pow and node.exp.is_Rational and node.exp.q % 2 == 0:
-                wanted.append(node.base)
-            elif isinstance(node, sympy.acosh):
-                wanted.append(node.args[0] - 1)
-            elif isinstance(node, sympy.log):
-                wanted.append(node.args[0])
+        wanted = [*not_negative_where_real(root), *(log.args[0] for log in root.atoms(sympy.log))]
         if unknown.is_positive or (unknown.is_nonnegative and root != 0):
             wanted.append(root)
         elif unknown.is_negative:

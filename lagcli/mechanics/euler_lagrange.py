@@ -54,6 +54,12 @@ class EulerLagrange:
         return tuple(tuple(upper[min(i, j), max(i, j)] for j in range(n)) for i in range(n))
 
     @cached_property
+    def mass_matrix_at_rest(self) -> tuple[tuple[Expr, ...], ...]:
+        """M where q' = 0."""
+        still = dict.fromkeys(self.system.qdot, sympy.S.Zero)
+        return tuple(tuple(entry.xreplace(still) for entry in row) for row in self.mass_matrix)
+
+    @cached_property
     def forcing(self) -> tuple[Expr, ...]:
         """What stands beside M q'': velocity terms, potential and applied forces, shape (n,)."""
         if self._from_points:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
-from sympy import Add, Expr, Pow, acos, asin, preorder_traversal
+from sympy import Add, Expr
 
 from lagcli.algebra import simplify
+from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign_beside_zero
 from lagcli.expression import Expression
 from lagcli.mechanics.reduction.readable import deciding
@@ -32,22 +33,13 @@ def as_parts(
 
 def real_where(roots: Iterable[Expr]) -> Iterator[Remark]:
     """What arccosines, arcsines and square roots of parameters ask for to be real."""
-    bounds = (bound for root in roots for bound in _bounds(root))
+    bounds = (simplify(bound) for root in roots for bound in not_negative_where_real(root))
     open_ = (deciding(bound) for bound in bounds if sign_beside_zero(bound) is None)
     for bound in dict.fromkeys(each for each in open_ if each != 1):
         terms = Add.make_args(bound.expand())
         negative = [-term for term in terms if term.could_extract_minus_sign()]
         rest = [term for term in terms if not term.could_extract_minus_sign()]
         yield ("real for ", Add(*negative), " ≤ ", Add(*rest))
-
-
-def _bounds(root: Expr) -> Iterator[Expr]:
-    """What must not be negative."""
-    for node in preorder_traversal(root):
-        if isinstance(node, (acos, asin)):
-            yield from (simplify(1 - node.args[0]), simplify(1 + node.args[0]))
-        elif isinstance(node, Pow) and node.exp.is_Rational and node.exp.q % 2 == 0:
-            yield simplify(node.base)
 
 
 def _plain(remark: Remark) -> str:

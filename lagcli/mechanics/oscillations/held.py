@@ -26,12 +26,13 @@ from sympy import Expr, S
 
 from lagcli.algebra import is_zero, shape, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.reduction.minimal import with_lagrangian
 from lagcli.mechanics.stability.signs import sign_of, weak_sign

@@ -23,8 +23,9 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import dot, is_zero, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
+from lagcli.algebra.place import at, where_positive
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at, where_positive
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
 from lagcli.mechanics.verify import conjunction
 
 Matrix = list[list[Expr]]

@@ -21,9 +21,10 @@ from sympy import Dummy, Expr, S, Symbol
 
 from lagcli.algebra import dot, is_zero, nullspace, simplify
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.characteristic import determinant
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.parameter_values import admissible_values
 
@@ -45,11 +46,10 @@ class OnMeridians(Linearization):
     @cached_property
     def indeterminate(self) -> tuple[int, ...]:
         """The coordinates that have no value there: displaced alone, nothing moves."""
-        still = dict.fromkeys(self.system.qdot, S.Zero)
         return tuple(
             j
-            for j, row in enumerate(self.dynamics.lagrange.mass_matrix)
-            if all(is_zero(at(entry.xreplace(still), self.point.values)) is True for entry in row)
+            for j, row in enumerate(self.dynamics.lagrange.mass_matrix_at_rest)
+            if all(is_zero(at(entry, self.point.values)) is True for entry in row)
         )
 
     @cached_property
@@ -100,13 +100,10 @@ def is_pressed_to_an_edge(rest: RestPoints, point: RestPoint) -> bool:
     """
     if rest.dynamics.constraints.equations:
         return False
-    s, still = Dummy("s"), dict.fromkeys(rest.system.qdot, S.Zero)
-    mass = rest.dynamics.lagrange.mass_matrix
+    s, mass = Dummy("s"), rest.dynamics.lagrange.mass_matrix_at_rest
     for v in nullspace(Linearization(rest, point).M):
         path = {q: point.values.get(q, q) + s * x for q, x in zip(rest.system.q, v, strict=True)}
-        whole = determinant(
-            [[entry.xreplace(still).xreplace(path) for entry in row] for row in mass]
-        )
+        whole = determinant([[entry.xreplace(path) for entry in row] for row in mass])
         outward = dot(v, [f.xreplace(path) for f in rest.forces_at_rest]).diff(s).subs(s, 0)
         grows = whole is not None and is_zero(whole.diff(s, 2).subs(s, 0)) is False
         if grows and sign(simplify(outward)) != 1:
@@ -120,11 +117,10 @@ class _Square:
     def __init__(self, rest: RestPoints) -> None:
         self.rest, lagrange = rest, rest.dynamics.lagrange
         self.system = rest.system
-        still = dict.fromkeys(self.system.qdot, S.Zero)
         kept = rest.dynamics.independent_constraints
         rows = [rest.dynamics.constraints.equations[k].row for k in kept]
         self.n, self.m = len(self.system.q), len(rows)
-        mass = [x.xreplace(still) for row in lagrange.mass_matrix for x in row]
+        mass = [x for row in lagrange.mass_matrix_at_rest for x in row]
         everything: list[Expr] = [*rest.forces_at_rest, *mass, *(x for row in rows for x in row)]
         self.evaluate = Evaluator(everything, _DIGITS)
 

@@ -19,16 +19,12 @@ from functools import cached_property
 from sympy import Expr, I, S, Symbol
 
 from lagcli.algebra.equations import written
+from lagcli.algebra.place import at
 from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import (
-    TIMED,
-    RestPoint,
-    RestPoints,
-    at,
-)
+from lagcli.mechanics.oscillations.equilibria import TIMED, RestPoint, RestPoints
 from lagcli.mechanics.oscillations.exceptions import unless_written
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.held import HeldCombination, held

@@ -13,10 +13,10 @@ from lagcli.algebra import dot, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.factors import factors_of
+from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.oscillations.characteristic import determinant
-from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_motion import Steady
 
@@ -42,7 +42,7 @@ class CoincidingAxes:
         """Those of a single coordinate, each once."""
         mass, q = self.routh.full.dynamics.lagrange.mass_matrix, self.q[0]
         if len(self.q) != 1:
-            whole = determinant([list(row) for row in mass])
+            whole = determinant(mass)
             self.complete &= whole is not None and not self._vanishes_somewhere(whole)
             return []
         block = [[simplify(mass[i][j]) for j in self.routh.cyclic] for i in self.routh.cyclic]
@@ -92,9 +92,7 @@ class CoincidingAxes:
     @property
     def singular_where(self) -> tuple[Expr, ...]:
         """What vanishes where the coordinates are singular: factors of det M."""
-        still = dict.fromkeys(self.routh.system.qdot, S.Zero)
-        mass = self.routh.full.dynamics.lagrange.mass_matrix
-        whole = determinant([[x.xreplace(still) for x in row] for row in mass])
+        whole = determinant(self.routh.full.dynamics.lagrange.mass_matrix_at_rest)
         factors = sympy.Mul.make_args(S.One if whole is None else whole)
         bases = [f.base if isinstance(f, sympy.Pow) else f for f in factors]
         return tuple(f for f in bases if isinstance(f, (sympy.sin, sympy.cos)))

@@ -23,8 +23,8 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.parameter_values import DIGITS, admissible_values
 from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.routh import Routh

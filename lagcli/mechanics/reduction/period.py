@@ -25,8 +25,9 @@ from sympy import Expr, Rational, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom
 from lagcli.mechanics.reduction.readable import weak_sign

@@ -15,7 +15,7 @@ from lagcli.algebra import is_zero, shape, simplify, terms
 from lagcli.algebra.build import free_of
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.leaves import Translator
-from lagcli.algebra.signs import by_angles_between, sign, sign_beside_zero, sign_of_circle
+from lagcli.algebra.signs import between_angles, sign, sign_beside_zero, sign_of_circle
 from lagcli.algebra.writing import Writer
 from lagcli.expression import ZERO, Expression, operation_count
 from lagcli.statements.motions import Above
@@ -109,32 +109,29 @@ def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
 
 def is_positive(expression: Expr, positive: Sequence[Expr] = ()) -> bool:
     """Whether it is positive wherever it is finite: what it is divided by is not 0."""
-    if sign(expression, positive) == 1:
-        return True
-    result = 1
-    for factor, power in factors_of(expression):
-        if power % 2 == 0 and power < 0:
-            continue
-        known = sign(factor**power, positive)
-        if known is None and power < 0:
-            known = _beside_zero(factor)
-        if known is None:
-            freed = by_angles_between([expression, *positive])
-            return freed is not None and is_positive(freed[0], freed[1:])
-        result *= known
-    return result == 1
+    return sign(expression, positive) == 1 or _by_factors(expression, positive) == 1
 
 
 def weak_sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
     """1 or -1 where the expression has no other sign, though it may be 0; else None."""
+    return _by_factors(expression, positive, zeros=True)
+
+
+@between_angles
+def _by_factors(
+    expression: Expr, positive: Sequence[Expr] = (), *, zeros: bool = False
+) -> int | None:
+    """The sign where no divisor is 0, nor the expression itself, which `zeros` allows."""
     result = 1
     for factor, power in factors_of(expression):
-        if power % 2:
-            known = sign(factor, positive) or _beside_zero(factor)
-            if known is None:
-                freed = by_angles_between([expression, *positive])
-                return None if freed is None else weak_sign(freed[0], freed[1:])
-            result *= known
+        beside_zero = zeros or power < 0
+        if power % 2 == 0 and beside_zero:
+            continue
+        known = sign(factor**power, positive)
+        known = _beside_zero(factor) if beside_zero and not known else known
+        if known is None:
+            return None
+        result *= known
     return result
 
 

@@ -25,11 +25,12 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.linear import rank, solve_linear
+from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.characteristic import determinant, determinant_in
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints, at
+from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.reduction.minimal import integrated, minimal

@@ -24,12 +24,12 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import dot, is_zero, shape, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.place import at
 from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.legendre import Inverse, LegendreTransform
 from lagcli.mechanics.oscillations.characteristic import determinant
-from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.reduction.minimal import minimal, with_lagrangian
 from lagcli.mechanics.system import System
 from lagcli.problem_data import Constraint, Parameter
@@ -230,9 +230,8 @@ class Routh:
 
     def regular_at(self, values: Mapping[Symbol, Expr]) -> bool:
         """Whether the mass matrix of all coordinates can be inverted there, at rest."""
-        still = dict.fromkeys(self.system.qdot, S.Zero)
-        mass = self.full.dynamics.lagrange.mass_matrix
-        whole = determinant([[at(x.xreplace(still), values) for x in row] for row in mass])
+        mass = self.full.dynamics.lagrange.mass_matrix_at_rest
+        whole = determinant([[at(x, values) for x in row] for row in mass])
         return whole is not None and is_zero(whole) is not True
 
     @cached_property

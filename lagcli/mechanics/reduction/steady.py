@@ -18,13 +18,8 @@ import sympy
 from sympy import Expr, S
 
 from lagcli.algebra import is_zero, simplify
-from lagcli.mechanics.oscillations.equilibria import (
-    NO_VALUE_AT_REST,
-    TIMED,
-    RestPoint,
-    RestPoints,
-    at,
-)
+from lagcli.algebra.place import at
+from lagcli.mechanics.oscillations.equilibria import NO_VALUE_AT_REST, TIMED, RestPoint, RestPoints
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.held import held
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes

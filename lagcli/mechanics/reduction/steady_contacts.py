@@ -13,8 +13,8 @@ from functools import cached_property
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero
+from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.oscillations.held import one_sided
 from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.routh import Routh

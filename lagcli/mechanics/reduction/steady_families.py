@@ -21,9 +21,10 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.factors import factors_of
+from lagcli.algebra.place import at
+from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
-from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.reduction.readable import deciding, weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_motion import Steady
@@ -115,7 +116,8 @@ class SteadyFamilies:
                 for each in others:
                     value = at(root, each.values)
                     values = {**each.values, unknown: value}
-                    positive = (*each.positive, *_radicands(value))
+                    open_ = (deciding(x) for x in not_negative_where_real(value) if sign(x) != 1)
+                    positive = (*each.positive, *open_)
                     found += self._checked(values, chart, positive, mirrored=mirrored)
         return found
 
@@ -177,12 +179,3 @@ def _without_mirrors(
         opposite = any(is_zero(root + other) is True for other in roots if other is not root)
         seen.append(root)
         yield root, opposite and free_of(root, momenta)
-
-
-def _radicands(value: Expr) -> list[Expr]:
-    """What stands under square roots and may be negative."""
-    return [
-        deciding(power.base)
-        for power in value.atoms(sympy.Pow)
-        if power.exp.is_Rational and power.exp.q % 2 == 0 and sign(power.base) != 1
-    ]

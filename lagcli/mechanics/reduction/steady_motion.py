@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero
-from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.algebra.place import at
 from lagcli.mechanics.oscillations.family import Family
 from lagcli.record import record
 

@@ -11,10 +11,11 @@ from sympy import Expr
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import rounded, written
+from lagcli.algebra.place import at
 from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import RestPoints, at
+from lagcli.mechanics.oscillations.equilibria import RestPoints
 from lagcli.mechanics.oscillations.exceptions import unless_written
 from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied

@@ -19,7 +19,7 @@ from sympy import Expr
 from lagcli.algebra import simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
-from lagcli.mechanics.oscillations.equilibria import at
+from lagcli.algebra.place import at
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.stability.signs import sign_of
 

@@ -13,8 +13,8 @@ Where signs depend on values, the conditions are given instead.
 
 from __future__ import annotations
 
+from lagcli.algebra.place import at
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import at
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.oscillations.singular import OnMeridians
 from lagcli.mechanics.reduction.averaged import averaged

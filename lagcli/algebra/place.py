@@ -1,0 +1,77 @@
+"""The value of a formula at a place: roots, multiple angles and infinite parts among it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+
+import sympy
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra.build import CIRCULAR
+from lagcli.algebra.entry import Field
+from lagcli.algebra.equations import rounded
+from lagcli.algebra.numeric import vanishes_at_random
+from lagcli.algebra.signs import sign
+from lagcli.algebra.simplification import is_zero, simplify
+
+_LAST_DIGITS = sympy.Float("1e-13")
+
+
+def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
+    """The value at a place; multiple angles are expanded, so that sin(acos(k)) is radical."""
+    present = {s: v for s, v in values.items() if s in expression.free_symbols}
+    if not present:
+        return expression
+    if not expression.has(*CIRCULAR):
+        # one fraction of sums of roots would be long, and is needed where parts are infinite only
+        there = expression.xreplace(present)
+        if not there.has(S.NaN, S.ComplexInfinity, S.Infinity, S.NegativeInfinity):
+            return rounded(simplify(there))
+        roots = (p for p in expression.atoms(sympy.Pow) if _divides_by_root(p))
+        if any(is_zero(p.base.xreplace(present)) is True for p in roots):
+            return S.NaN
+    field, element = Field([expression]), None
+    with suppress(ZeroDivisionError):
+        element = field(expression)
+        expression = field.to_sympy(element)
+    value = rounded(simplify(expression.xreplace(present)))
+    if value != 0 or element is None:
+        return value
+    below = field.to_sympy(field.polynomial(element.denominator))
+    return S.NaN if is_zero(below.xreplace(present)) is True else value
+
+
+def where_positive(expression: Expr, positive: Sequence[Expr]) -> Expr:
+    """The same where these are positive: sign and modulus of what is in proportion to them."""
+    known: dict[Expr, Expr] = {}
+    for node in expression.atoms(sympy.Abs, sympy.sign):
+        for side in (sign(simplify(node.args[0] / u)) for u in positive):
+            if side in (1, -1):
+                known[node] = S(side) if node.func is sympy.sign else side * node.args[0]
+    return expression.xreplace(known)
+
+
+def nearly_vanishes(force: Expr, values: Mapping[Symbol, Expr], rounded: list[Symbol]) -> bool:
+    """Whether the force changes its sign, or vanishes, within the last digits of the values."""
+    put_in = list(values.items())
+    numbers = [
+        x.subs(put_in, simultaneous=True).evalf(40)
+        for x in (force, *(force.diff(q) * values[q] for q in rounded))
+    ]
+    if not all(x.is_Float or x.is_zero for x in numbers):
+        return False
+    residual, *slopes = numbers
+    return bool(abs(residual) <= _LAST_DIGITS * sum(map(abs, slopes), sympy.Float("1e-25")))
+
+
+def vanishes(expression: Expr) -> bool:
+    """Whether it is 0 to many digits, which a singular point of the potential is not."""
+    if not expression.is_number:
+        return vanishes_at_random(expression)
+    value = expression.evalf(50)
+    return value is not sympy.nan and bool(abs(value) < sympy.Float("1e-40"))
+
+
+def _divides_by_root(power: sympy.Pow) -> bool:
+    return bool(power.exp.is_Rational and not power.exp.is_Integer and power.exp < 0)

@@ -1,0 +1,254 @@
+"""What holds at rest: all forces and constraint forces balance.
+
+    forcing_j(q, q' = 0) + sum_k lambda_k a_kj(q) = 0,   f(q) = 0,   b(q) = 0
+
+The multipliers are removed by taking the components along the constraint surface: the
+virtual work of the forces vanishes for every displacement with A dq = 0.
+
+References
+----------
+Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., sections 1.4 and 6.1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from itertools import chain, combinations
+
+import sympy
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import Field, dot, is_zero, nullspace, simplify
+from lagcli.algebra.build import CIRCULAR, free_of
+from lagcli.algebra.equations import is_decimal
+from lagcli.algebra.factors import factors_of
+from lagcli.algebra.field import common_denominator
+from lagcli.algebra.place import at, nearly_vanishes, vanishes, where_positive
+from lagcli.algebra.signs import sign
+from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.oscillations.exceptions import without_unknowns
+from lagcli.mechanics.translations import constant_nullspace
+
+_LONGEST = 60  # operations of conditions that are quoted
+
+
+class RestConditions:
+    """The conditions of equilibrium of a system, and whether values fulfil them."""
+
+    def __init__(self, dynamics: Dynamics) -> None:
+        self.dynamics = dynamics
+        self.system = dynamics.system
+
+    @cached_property
+    def depends_on_time(self) -> bool:
+        """Whether the equations or the constraints have t in them."""
+        system, constraints = self.system, self.dynamics.constraints
+        everything = [
+            *self.forcing,
+            *(entry for e in constraints.equations for entry in (*e.row, e.drift)),
+            *(e.f for e in constraints.equations if e.holonomic),
+        ]
+        return not all(
+            free_of(e, [system.t]) or is_zero(e.diff(system.t)) is True for e in everything
+        )
+
+    @cached_property
+    def growth(self) -> Expr:
+        """f(t) > 0 of equations of motion that are f(t) times others without t, else 1."""
+        t, lagrange = self.system.t, self.dynamics.lagrange
+        entries = [x for x in (*chain(*lagrange.mass_matrix), *lagrange.forcing) if x != 0]
+        if not entries or free_of(entries[0], [t]):
+            return S.One
+        timed = (f**k for f, k in factors_of(simplify(entries[0])) if f.free_symbols & {t})
+        growth = sympy.Mul(*timed)
+        alike = all(free_of(simplify(entry / growth), [t]) for entry in entries)
+        return growth if alike and sign(growth) == 1 else S.One
+
+    @cached_property
+    def forcing(self) -> tuple[Expr, ...]:
+        """Of M q'' = forcing + A^T lambda, without a factor f(t) that all equations have."""
+        forcing = self.dynamics.lagrange.forcing
+        return forcing if self.growth == 1 else tuple(simplify(f / self.growth) for f in forcing)
+
+    @cached_property
+    def mass_matrix(self) -> tuple[tuple[Expr, ...], ...]:
+        """M, without the factor that `forcing` is without."""
+        rows = self.dynamics.lagrange.mass_matrix
+        if self.growth == 1:
+            return rows
+        return tuple(tuple(simplify(x / self.growth) for x in row) for row in rows)
+
+    @cached_property
+    def energy_never_grows(self) -> bool:
+        """Whether no force, dissipation or constraint feeds the energy function."""
+        from lagcli.mechanics.stability.energy import never_grows
+
+        return self.growth == 1 and never_grows(self.dynamics)
+
+    @cached_property
+    def forces_at_rest(self) -> tuple[Expr, ...]:
+        """forcing(q, q' = 0)."""
+        still = dict.fromkeys(self.system.qdot, S.Zero)
+        return tuple(f.xreplace(still) for f in self.forcing)
+
+    @property
+    def has_no_value(self) -> bool:
+        """Whether a force is 0/0 or infinite in every state of rest."""
+        return self.without_value({})
+
+    def without_value(self, values: Mapping[Symbol, Expr]) -> bool:
+        """Whether some force has no value at any member of a family."""
+        forces = (at(f, values) for f in self.forces_at_rest)
+        try:
+            return any(f.has(S.NaN, S.ComplexInfinity) for f in forces)
+        except ZeroDivisionError:
+            return True
+
+    @cached_property
+    def equations(self) -> list[Expr]:
+        """What vanishes at rest: the constraints, and the forces along what they allow."""
+        constraints = self.dynamics.constraints
+        conditions = [e.f for e in constraints.equations if e.holonomic]
+        conditions += [e.drift for e in constraints.equations if not e.holonomic]
+        forces: Sequence[Expr] = self.forces_at_rest
+        if self._one_gradient:
+            forces = self._along_one
+        elif constraints.equations:
+            forces = [dot(v, forces) for v in _polynomial(self._displacements)]
+        return [e for e in (*conditions, *forces) if is_zero(e) is not True]
+
+    @property
+    def _displacements(self) -> list[list[Expr]]:
+        """A basis of the v with A v = 0, solved for coordinates whose factors vanish nowhere."""
+        rows, q = self.dynamics.constraints.jacobian, self.system.q
+
+        def may_vanish(j: int) -> bool:
+            return not any(free_of(row[j], q) and is_zero(row[j]) is False for row in rows)
+
+        order = sorted(range(len(q)), key=may_vanish)
+        back = [order.index(j) for j in range(len(q))]
+        return [[v[k] for k in back] for v in nullspace([[row[j] for j in order] for row in rows])]
+
+    @property
+    def _one_gradient(self) -> bool:
+        """Whether no basis of the displacements is one everywhere, of a single constraint."""
+        constraints = self.dynamics.constraints.equations
+        return len(constraints) == 1 and not any(
+            free_of(a, self.system.q) and is_zero(a) is False for a in constraints[0].row
+        )
+
+    @property
+    def _along_one(self) -> list[Expr]:
+        """a_i F_j = a_j F_i: the force along the gradient of a single constraint."""
+        [constraint] = self.dynamics.constraints.equations
+        a, F = constraint.row, self.forces_at_rest
+        pairs = combinations(range(len(F)), 2)
+        return [simplify(a[i] * F[j] - a[j] * F[i]) for i, j in pairs]
+
+    @cached_property
+    def at_all_times(self) -> list[Expr]:
+        """The same with its first rates of change: a state of rest is one at all times."""
+        if not self.depends_on_time:
+            return self.equations
+        t = self.system.t
+        rates = [e.diff(t, k) for k in (0, 1, 2) for e in self.equations]
+        return [e for e in rates if is_zero(e) is not True]
+
+    @property
+    def conditions(self) -> tuple[Expr, ...]:
+        """What the coordinates of an equilibrium solve; empty where that is long."""
+        short = [simplify(e) for e in self.equations if not free_of(e, self.system.q)]
+        short = [-e if e.could_extract_minus_sign() else e for e in short]
+        return tuple(short) if sum(int(e.count_ops()) for e in short) <= _LONGEST else ()
+
+    @cached_property
+    def sums(self) -> list[Expr]:
+        """Sums of multiples of the equations in which the coordinates cancel, and not all does.
+
+        Newton's third law: of bodies that push each other, the outer forces are left.
+        """
+        equations, q = [e for e in self.equations if not free_of(e, self.system.q)], self.system.q
+        if len(equations) < 2:
+            return []
+        slopes = [[e.diff(x) for e in equations] for x in q]
+        multiples = constant_nullspace(slopes, q)
+        sums = (simplify(dot(c, equations)) for c in multiples)
+        return [x for x in sums if is_zero(x) is not True]
+
+    @cached_property
+    def unless(self) -> tuple[Expr, ...] | None:
+        """What has no coordinate in it and is 0 for some values of the parameters only.
+
+        None where special values were not excluded.
+        """
+        timed = [self.system.t] if self.depends_on_time else []
+        return without_unknowns((*self.at_all_times, *self.sums), (*self.system.q, *timed))
+
+    @property
+    def edge(self) -> tuple[str, ...]:
+        """Coordinates assumed positive at whose value 0 all conditions hold."""
+
+        def holds(q: Symbol) -> bool:
+            there = [e.xreplace({q: S.Zero}) for e in self.equations]
+            return not any(e.has(S.NaN, S.ComplexInfinity) or is_zero(e) is not True for e in there)
+
+        return tuple(q.name for q in self.system.q if q.is_positive and holds(q))
+
+    @cached_property
+    def translations(self) -> dict[Symbol, list[Expr]]:
+        """Constant displacements c under which what vanishes at rest is the same, by the q = c."""
+        q = self.system.q
+        rows = [[e.diff(s) for s in q] for e in self.equations]
+        basis = constant_nullspace(rows, q) if rows else []
+        own = [k for k in range(len(q)) if sum(c[k] != 0 for c in basis) == 1]
+        return {q[max(k for k in own if c[k] == 1)]: c for c in basis}
+
+    def is_angle(self, q: Symbol) -> bool:
+        """Whether the coordinate occurs inside sin and cos only."""
+        there = [e for e in self.equations if not free_of(e, [q])]
+        outside = (e.xreplace(dict.fromkeys(e.atoms(*CIRCULAR), sympy.Dummy())) for e in there)
+        return bool(there) and all(free_of(e, [q]) for e in outside)
+
+    def loses_rank(self, values: Mapping[Symbol, Expr]) -> bool:
+        """Whether the gradients of the constraints are independent, but not there."""
+        rows = self.dynamics.constraints.jacobian
+        there = [[at(a, values) for a in row] for row in rows]
+        return bool(rows) and len(nullspace(there)) > len(nullspace(rows))
+
+    def balanced(self, values: Mapping[Symbol, Expr], positive: Sequence[Expr] = ()) -> bool:
+        """Whether a state of rest is an equilibrium, by substitution where these are positive.
+
+        It is none where the equations have no value.
+        """
+        try:
+            return self._balanced(values, positive)
+        except ZeroDivisionError:
+            return False
+
+    def _balanced(self, values: Mapping[Symbol, Expr], positive: Sequence[Expr]) -> bool:
+        rounded = [q for q, value in values.items() if is_decimal(value)]
+        if rounded and not self.dynamics.constraints.equations:
+            return all(nearly_vanishes(f, values, rounded) for f in self.forces_at_rest)
+        residuals = (where_positive(each, positive) for each in self._residuals(values))
+        return all(is_zero(each) is True or vanishes(each) for each in residuals)
+
+    def _residuals(self, values: Mapping[Symbol, Expr]) -> list[Expr]:
+        constraints = self.dynamics.constraints
+        forces = [at(f, values) for f in self.forces_at_rest]
+        conditions = [at(e.f if e.holonomic else e.drift, values) for e in constraints.equations]
+        if not constraints.equations:
+            return forces
+        rows = [[at(a, values) for a in row] for row in constraints.jacobian]
+        return [*conditions, *(dot(vector, forces) for vector in nullspace(rows))]
+
+
+def _polynomial(vectors: Sequence[Sequence[Expr]]) -> list[list[Expr]]:
+    """The vectors times their denominators: defined everywhere."""
+    whole = []
+    for vector in vectors:
+        field = Field(vector)
+        elements = [field(v) for v in vector]
+        factor = field.polynomial(common_denominator(field, elements))
+        whole.append([field.to_sympy(each * factor) for each in elements])
+    return whole
