@@ -15,6 +15,7 @@ from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.scope import ANSWER
 from lagcli.statements.answers import Answers, ConstraintForcesSection
 from lagcli.statements.declaration import Declaration, Expected
+from lagcli.statements.wording import only_along_its_path
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
 def derive(statements: Statements) -> ConstraintForcesSection:
     """Those of the solved motion, also where redundancy leaves single ones undetermined."""
-    from lagcli.mechanics.constraint_force import forces_on_points
+    from lagcli.mechanics.constraint_force import fixed_axes, forces_on_points
 
     dynamics = statements.dynamics
     equations = dynamics.constraints.equations
@@ -49,7 +50,10 @@ def derive(statements: Statements) -> ConstraintForcesSection:
         total=None if total is None else statements.by_coordinate(total),
         on_points={
             constraint: {
-                point: tuple(map(statements.on_surface, components))
+                point: tuple(
+                    None if axis in fixed_axes(dynamics, point) else statements.on_surface(part)
+                    for axis, part in zip("xyz", components, strict=False)
+                )
                 for point, components in points.items()
             }
             for constraint, points in forces_on_points(dynamics).items()
@@ -96,11 +100,13 @@ def blocks(section: ConstraintForcesSection, _: Answers) -> Iterator[Block]:
         else:
             yield _forces({name: each for name, each in forces.items() if each is not None})
         for point, components in section.on_points.get(constraint, {}).items():
-            axes = "xyz" if len(components) > 1 else "x"
-            rows = zip(axes, components, strict=False)
+            along = dict(zip("xyz", components, strict=False))
             yield equations_of(
-                (Label("F", (point, axis)), part, "force on the point") for axis, part in rows
+                (Label("F", (point, axis)), part, "force on the point")
+                for axis, part in along.items()
+                if part is not None
             )
+            yield from only_along_its_path(point, [axis for axis in along if along[axis] is None])
     if section.total is not None and len(section.forces) > 1:
         yield Heading("All constraints together", 2)
         yield _forces(section.total)

@@ -99,7 +99,9 @@ class ConstraintForcesSection:
 
     forces: Mapping[str, Mapping[str, Expression | None] | None]
     total: Mapping[str, Expression] | None
-    on_points: Mapping[str, Mapping[str, tuple[Expression, ...]]] = field(default_factory=dict)
+    on_points: Mapping[str, Mapping[str, tuple[Expression | None, ...]]] = field(
+        default_factory=dict
+    )
 
 
 @record(kw_only=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
+from random import Random
 
 import pytest
 import sympy
@@ -228,3 +229,25 @@ constraints:
     [needed] = answered(derivation)[0].friction_needed
     assert to_grammar(needed.coefficient) == coefficient
     assert [to_grammar(each) for each in needed.where] == where
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_no_force_is_stated_across_a_line_on_which_a_bead_slides(seed: int):
+    """The rod between beads on two wires pushes across these too, but the wires take it up."""
+    rng = Random(seed)
+    offset, height, slope = rng.sample(range(1, 6), 3)
+    text = f"""
+coordinates: [x, y]
+parameters: [m, M, l, g]
+points:
+  A: {{position: [{slope}*x, {height}], mass: m}}
+  B: {{position: [{offset}, y - x^{rng.choice([0, 2])}], mass: M}}
+V: M*g*y
+constraints: {{rod: "({slope}*x - {offset})^2 + (y - {height})^2 = l^2"}}
+"""
+    section = Statements(derive(text)).answers(["constraint_forces"]).sections["constraint_forces"]
+    on = section.on_points["rod"]
+    assert on["A"][1] is None
+    assert on["B"][0] is None
+    assert on["A"][0] is not None
+    assert on["B"][1] is not None

@@ -21,7 +21,7 @@ from lagcli.verification.sweeps import column
 _UNKNOWN = "its printed form was not confirmed at random states"
 
 #: Point -> the printed components of a vector on it.
-Vectors = Mapping[str, Sequence[Expression]]
+Vectors = Mapping[str, Sequence[Expression | None]]
 
 
 def constraint_forces(x: Examination, section: ConstraintForcesSection) -> ConstraintForcesSection:
@@ -186,7 +186,7 @@ def _arms(x: Examination, s: State) -> dict[str, list[list[arb]]]:
 
 
 def _do_the_work(x: Examination, what: str, name: str, vectors: Vectors) -> bool:
-    flat = [component for vector in vectors.values() for component in vector]
+    flat = [component or ZERO for vector in vectors.values() for component in vector]
     places = x.places(what, flat)
     if places is None:
         return False
