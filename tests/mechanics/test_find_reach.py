@@ -41,6 +41,26 @@ def test_a_root_that_only_some_parameters_reach_is_listed_with_an_example():
     assert {"-pi/2", "theta0"} <= set(formulas_in_it)
 
 
+@pytest.mark.parametrize("power", [1, 2, 4])
+def test_where_the_root_is_real_is_remarked_once(power):
+    """From rest at x0 > 0 along a force that grows with x, x = b is reached wherever b > x0."""
+    text = f"""
+coordinates: {{x: POSITIVE}}
+parameters: {{m: POSITIVE, k: POSITIVE, b: POSITIVE, x0: POSITIVE}}
+T: m*x'^2/2
+V: -k*x^{power}
+initial: {{x: x0}}
+find:
+  asked: {{where: x = b, for: x'}}
+"""
+    speed = f"sqrt(2*k*(b^{power} - x0^{power})/m)"
+    assert roots(text) == formulas(speed)
+    note = answers(text)["asked"].note
+    assert note.startswith("real for x0")
+    assert "for some values" not in note
+    assert "at x = b is not reached for the values tried" in note
+
+
 def test_the_speed_that_a_turning_point_needs_is_a_function_of_the_place():
     """m v^2/2 = G M m (1/R - 1/r), from the energy."""
     text = """

@@ -80,14 +80,15 @@ def _on_the_way(teller: Teller, along: AlongTheMotion, question: Question) -> It
     for u in candidates:
         rate = system.symbol_of(u.name + "'")
         square = along.rewritten(rate**2, [u]) if along.initial is not None else None
-        formula = None
+        formula = given = None
         if sides:
-            formula = along.rewritten(system.build(sides[0]) - system.build(sides[1]), [u])
+            given = system.build(sides[0]) - system.build(sides[1])
+            formula = along.rewritten(given, [u])
         if square is None or square == 0 or (sides and formula is None):
             continue
         yield says("In terms of ", Name(u.name), " alone:")
         rows = [Row(along.tree(rate**2), along.tree(square))]
-        if formula is not None:
+        if formula is not None and formula != given:
             rows.append(Row(_difference(sides), along.tree(formula)))
         yield Equations(tuple(rows))
         return

@@ -30,10 +30,14 @@ _PARTLY = "for some values of the parameters only, such as "
 
 @record
 class Passage:
-    """A place u with the velocity u' there, None where either sign will do."""
+    """A place u with the velocity u' there, None where either sign will do.
+
+    `asked` is the one of the two that the question is for.
+    """
 
     place: Expr
     velocity: Expr | None = None
+    asked: Expr | None = None
 
 
 def passing_of(along: AlongTheMotion, u: Symbol) -> Passing:
@@ -130,14 +134,14 @@ class Passing:
                 kept.append(passage)
             elif times and len(self._draws) > 1:
                 self.notes.append(
-                    ("the root ", *_place(passage), " is not reached for the values tried")
+                    ("the root ", *self._named(passage), " is not reached for the values tried")
                 )
-            if any(times) and not (all(times) and draws == list(range(len(draws)))):
+            if any(times) and not (all(times) and self._possible_if_real(passage, draws)):
                 first = draws[times.index(True)]
                 partly.append((passage, self._example(first, passage, angle=angle)))
         apart = len({example for _, example in partly}) > 1 or len(partly) < len(kept)
         for passage, example in partly:
-            which = (*_place(passage), " ") if apart else ()
+            which = (*self._named(passage), " ") if apart else ()
             self.notes.append((*which, _PARTLY, *example))
         self.notes += self.undecided
         if passages and not kept:
@@ -147,6 +151,19 @@ class Passing:
             tested = "values of the file" if len(self._draws) == 1 else "tested parameters"
             self.notes.append(f"with the {tested} the motion reaches no root of the equation")
         return kept
+
+    def _possible_if_real(self, passage: Passage, draws: Sequence[int]) -> bool:
+        """Whether the draws left out, up to the last, are those with which the answer is not real.
+
+        For which parameters it is real is remarked on the answer itself.
+        """
+        left_out = (self._draws[k] for k in range(draws[-1]) if k not in draws)
+        return not any(
+            (place := real_value(passage.place, values)) is not None
+            and admissible(self.u, place)
+            and (passage.velocity is None or real_value(passage.velocity, values) is not None)
+            for values in left_out
+        )
 
     def _informative(self, passage: Passage) -> list[int]:
         """Draws with which the place is possible: w >= 0 and every contact holds there."""
@@ -195,6 +212,14 @@ class Passing:
         reach = self._reach(index, angle=angle)
         return reach is not None and _passed(reach, passage, self.u)
 
+    def _named(self, passage: Passage) -> tuple[str | Expr, ...]:
+        """The root, and the velocity or the place that belongs to it where that counts."""
+        if passage.velocity is None or passage.velocity == 0:
+            return (passage.place,)
+        if passage.asked is passage.velocity:
+            return (passage.velocity, " at ", self.u, " = ", passage.place)
+        return (passage.place, " with the velocity ", passage.velocity)
+
     def _example(self, index: int, passage: Passage, *, angle: bool) -> tuple[str | Expr, ...]:
         """Values with which the motion comes there: 1 or of two digits where these do."""
         values, line = dict(self._draws[index]), self._line(angle=angle)
@@ -230,13 +255,6 @@ def _passed(reach: Reach, passage: Passage, u: Symbol) -> bool:
     if velocity is None:
         return False
     return abs(velocity) < _SMALL or (1 if velocity > 0 else -1) in signs
-
-
-def _place(passage: Passage) -> tuple[str | Expr, ...]:
-    """The place, and the velocity where it counts."""
-    if passage.velocity is None or passage.velocity == 0:
-        return (passage.place,)
-    return (passage.place, " with the velocity ", passage.velocity)
 
 
 def admissible(symbol: Symbol, value: mpf) -> bool:

@@ -150,11 +150,9 @@ class WhereSearch:
         passages = []
         for place in found.values:
             put = {passing.u: place}
-            if velocity is not None:
-                passages.append(Passage(place, simplify(velocity.xreplace(put))))
-            else:
-                root = sympy.sqrt(simplify(square.xreplace(put)))
-                passages += [Passage(place, simplify(-root)), Passage(place, simplify(root))]
+            root = sympy.sqrt(simplify(square.xreplace(put)))
+            rates = [-root, root] if velocity is None else [velocity.xreplace(put)]
+            passages += [Passage(place, rate, asked=rate) for rate in map(simplify, rates)]
         kept = passing.passed(passages, angle=found.angle)
         if kept is None:
             return None
