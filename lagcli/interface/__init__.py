@@ -6,8 +6,8 @@
     lagcli.solve(pendulum).accelerations["theta"]       # shows as mathematics in a notebook
     lagcli.simulate(pendulum, until=10).to_pandas()
 
-Every function takes what `load`, `loads` or `problem` gives.  What goes wrong in a file is a
-`ProblemError`, whose message shows each mistake at its place.
+Every function takes what `load`, `loads` or `problem` gives, or a path or a name to load.  What
+goes wrong in a file is a `ProblemError`, whose message shows each mistake at its place.
 """
 
 from __future__ import annotations
@@ -32,6 +32,7 @@ __all__ = [
 ]  # fmt: skip
 
 Values = Mapping[str, object]
+Given = Problem | str | PathLike[str]
 
 
 def load(path: str | PathLike[str]) -> Problem:
@@ -87,7 +88,7 @@ def problem(parts: Mapping[str, Any]) -> Problem:
 
 
 def solve(
-    problem: Problem,
+    problem: Given,
     sections: Sequence[str] | None = None,
     *,
     values: Values | None = None,
@@ -97,8 +98,8 @@ def solve(
 
     Parameters
     ----------
-    problem : Problem
-        As `load` gives it.
+    problem : Problem, str or path
+        As `load` gives it, or takes it.
     sections : sequence of str, optional
         Out of those that `lagcli help solve` lists; the usual ones without it.
     values : mapping of str to number or str, optional
@@ -126,7 +127,7 @@ def solve(
 
 
 def simulate(
-    problem: Problem,
+    problem: Given,
     until: float | str | None = None,
     *,
     accuracy: float | None = None,
@@ -194,7 +195,7 @@ def simulate(
 
 
 def sweep(
-    problem: Problem,
+    problem: Given,
     vary: Vary,
     until: float | str | None = None,
     *,
@@ -258,7 +259,7 @@ def sweep(
     )
 
 
-def explain(problem: Problem, also: Sequence[str] = ()) -> Account:
+def explain(problem: Given, also: Sequence[str] = ()) -> Account:
     """Give the derivation step by step, with its reasons; `also` adds sections.
 
     Raises
@@ -269,14 +270,20 @@ def explain(problem: Problem, also: Sequence[str] = ()) -> Account:
     from lagcli.pipeline import derive
     from lagcli.pipeline import explain as account
 
-    return Account(account(derive(problem), tuple(also)))
+    return Account(account(derive(_problem(problem)), tuple(also)))
 
 
-def check(path: str | PathLike[str]) -> Report:
+def check(problem: Given) -> Report:
     """Compare the answers to a file with its `expect` block, and with the mathematics."""
     from lagcli.studies.check.one import check_problem
 
-    return check_problem(fspath(path), _bytes(path))
+    if isinstance(problem, Problem):
+        return check_problem(problem.source.name, problem.source.text.encode())
+    return check_problem(fspath(problem), _bytes(problem))
+
+
+def _problem(given: Given) -> Problem:
+    return given if isinstance(given, Problem) else load(given)
 
 
 def _bytes(path: str | PathLike[str]) -> bytes:
@@ -311,12 +318,12 @@ def _text(value: object) -> str:
     return repr(float(value)) if isinstance(value, float) else str(value)
 
 
-def _with_values(problem: Problem, values: Values | None, *, numeric: bool = False) -> Problem:
+def _with_values(given: Given, values: Values | None, *, numeric: bool = False) -> Problem:
     from lagcli.reader.settings import set_parameters
     from lagcli.values import parameters_with_values, with_values_of
 
     settings = [f"{name}={_text(value)}" for name, value in (values or {}).items()]
-    changed = set_parameters(problem, settings)
+    changed = set_parameters(_problem(given), settings)
     names = dict.fromkeys(values or {})
     if numeric:
         names.update(dict.fromkeys(parameters_with_values(changed)))
@@ -324,7 +331,7 @@ def _with_values(problem: Problem, values: Values | None, *, numeric: bool = Fal
         return changed
     found, wrong = with_values_of(changed, names)
     if wrong:
-        raise ProblemError(problem.source, tuple(wrong))
+        raise ProblemError(changed.source, tuple(wrong))
     return found
 
 

@@ -65,6 +65,8 @@ class Formula:
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.to_latex()}$"
 
+    _repr_markdown_ = _repr_latex_  # what Quarto takes inside a sentence
+
     def to_sympy(self) -> Any:
         """A SymPy expression: coordinates are functions of t, velocities their derivatives.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from lagcli.diagnostics import Diagnostic, ProblemError
@@ -122,20 +123,24 @@ class Motion(Columns):
     def _repr_html_(self) -> str:
         from lagcli.interface.tables import motion_as_html
 
-        return self._plotted() + motion_as_html(self._result, self.title)
+        plot = self._plot_if_any
+        shown = "" if plot is None else plot.to_html()
+        return shown + motion_as_html(self._result, self.title)
 
-    def _plotted(self) -> str:
-        """The columns over time as HTML; nothing where they cannot be drawn."""
+    def _repr_png_(self) -> bytes | None:
+        return None if self._plot_if_any is None else self._plot_if_any._repr_png_()
+
+    @cached_property
+    def _plot_if_any(self) -> Plot | None:
+        """The columns over time; nothing where they cannot be drawn."""
         from importlib.util import find_spec
 
         from lagcli.pictures.drawing import CannotDraw
 
-        if find_spec("matplotlib") is None:
-            return ""
         try:
-            return self.plot().to_html()
+            return self.plot() if find_spec("matplotlib") else None
         except CannotDraw:
-            return ""
+            return None
 
 
 def integrate(problem: Problem, **options: Any) -> Motion:

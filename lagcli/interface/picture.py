@@ -63,6 +63,11 @@ class Plot:
     def _repr_html_(self) -> str:
         return self.to_html()
 
+    def _repr_png_(self) -> bytes:
+        from lagcli.pictures.figure import to_bytes
+
+        return to_bytes(self.picture, "png")
+
 
 class Animation:
     """A motion that plays: in a notebook, or as a page, a GIF or an MP4.

@@ -65,3 +65,6 @@ class Rendered(ABC):
 
     def _repr_html_(self) -> str:
         return self.to_html()
+
+    def _repr_markdown_(self) -> str:
+        return self._rendered("markdown")

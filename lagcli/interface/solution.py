@@ -146,6 +146,9 @@ class SolutionPart:
     def _repr_html_(self) -> str | None:
         return None if self._page is None else _printed(self._page, "html")
 
+    def _repr_markdown_(self) -> str | None:
+        return None if self._page is None else _printed(self._page, "markdown")
+
 
 def wrapped(value: Any, problem: Problem) -> Any:
     """A value of the answers for a user: formulas as `Formula`, records as `SolutionPart`."""

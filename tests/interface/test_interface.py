@@ -211,6 +211,20 @@ def test_a_motion_shows_as_a_plot_above_its_rows(pendulum):
     picture = motion.plot().picture
     curve = picture.panels[0].items[0]
     assert [y for _, y in curve.pieces[0]] == motion["theta"]
+    assert motion._repr_png_() == motion.plot()._repr_png_()  # for paper
+
+
+def test_a_name_or_a_path_does_for_a_problem():
+    kepler = lagcli.load("kepler")
+    assert (
+        lagcli.solve("kepler", ["energy"]).to_text() == lagcli.solve(kepler, ["energy"]).to_text()
+    )
+    assert lagcli.simulate("kepler", 1).rows == lagcli.simulate(kepler, 1).rows
+    assert lagcli.explain("hoop").complete
+    assert lagcli.check("hoop").passed
+    assert lagcli.check(lagcli.load("hoop")).passed
+    with pytest.raises(OSError, match="did you mean 'hoop'"):
+        lagcli.solve("hooop")
 
 
 def test_a_plot_and_an_animation_are_files_by_their_endings(pendulum, tmp_path):
@@ -234,6 +248,7 @@ def test_a_motion_without_matplotlib_shows_its_rows(pendulum, monkeypatch):
     shown = lagcli.simulate(pendulum, samples=3)._repr_html_()
     assert "<img" not in shown
     assert "<table>" in shown
+    assert lagcli.simulate(pendulum, samples=3)._repr_png_() is None
 
 
 def test_a_sweep_is_a_table_of_the_motions_one_by_one(pendulum):
