@@ -144,9 +144,10 @@ def state(derivation: Derivation, request: Request) -> Answers:
 
         answers = written_out(answers)
     manner = Manner(derivation.given)
+    sections = {name: rewritten(each, manner.anew()) for name, each in answers.sections.items()}
     answers = replace(
         answers,
-        sections=_with_words(derivation.given, rewritten(answers.sections, manner)),
+        sections=_with_words(derivation.given, sections),
         where=rewritten(answers.where, manner),
     )
     if request.abbreviate and not request.expand:

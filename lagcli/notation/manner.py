@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from copy import copy
 from fractions import Fraction
 
 from lagcli.evaluation import sign_at_random
@@ -74,6 +75,12 @@ class Manner:
                     self._signs[key] = sign if self._signs.get(key, sign) == sign else 0
         self._ordering = Ordering(order_of_names(problem))
         self._sums = GivenSums(given(problem), _energies(problem), self._ordering)
+
+    def anew(self) -> Manner:
+        """The same for another section, which is written as if it were the only one."""
+        fresh = copy(self)
+        fresh._known, fresh._below, fresh._within = {}, {}, {}
+        return fresh
 
     def __call__(self, node: Expression) -> Expression:
         """The formula as the file would write it; its value stays."""

@@ -85,7 +85,7 @@ class Meaning:
         ):
             return
         if "amplitude" in a and self._same_to_lower_order(a, b):
-            skipped |= {"order", "period"}
+            skipped |= {"amplitude", "order", "period"}
         if "charge" in a and a.get("conserved") and b.get("conserved") and (
             self._same_charge(a, b, scaled=path.startswith("discovered"))
         ):  # fmt: skip
@@ -102,7 +102,7 @@ class Meaning:
 
     def _same_to_lower_order(self, a: Any, b: Any) -> bool:
         """Whether the second series of a period is the beginning of the first one."""
-        if not b.get("amplitude") or b["order"] >= a["order"]:
+        if b.get("order") is None or b["order"] >= a["order"]:
             return False
         near, far = (
             self.values.gap(*(re.sub(rf"\b{s['amplitude']}\b", step, s["period"]) for s in (a, b)))
