@@ -52,8 +52,9 @@ def _used(where: Mapping[str, Expression], names: set[str]) -> dict[str, Express
 
 def _system(answers: Answers) -> Paragraph:
     count = answers.degrees_of_freedom
-    freedom = f"{count} degree{'' if count == 1 else 's'} of freedom."
     parts = ["Coordinates ", *listed(answers.coordinates)]
     if answers.parameters:
         parts += ["; parameters ", *listed(answers.parameters)]
-    return Paragraph((*parts, "; ", freedom))
+    if count is not None:
+        parts += [f"; {count} degree{'' if count == 1 else 's'} of freedom"]
+    return Paragraph((*parts, "."))

@@ -22,7 +22,7 @@ def answers_schema() -> Schema:
             "title": {"type": "string"},
             "coordinates": {"type": "array", "items": {"type": "string"}},
             "parameters": {"type": "array", "items": {"type": "string"}},
-            "degrees_of_freedom": {"type": "integer", "minimum": 0},
+            "degrees_of_freedom": {"type": ["integer", "null"], "minimum": 0},
             **{each.name: _or_null(dict(each.schema or {})) for each in declared},
             "where": map_of(FORMULA, null=False),
             "warnings": {"type": "array", "items": {"type": "string"}},

@@ -26,7 +26,7 @@ class Solution(Rendered):
     Attributes
     ----------
     title : str
-    degrees_of_freedom : int
+    degrees_of_freedom : int or None
     warnings : tuple of str
         Which answers are missing, and why.
     complete : bool

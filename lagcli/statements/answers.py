@@ -379,14 +379,15 @@ class Answers:
     `symbols` gives LaTeX for names whose file sets `symbol`; `multipliers` names those
     names that are multipliers (name -> constraint).  `complete` is False when an answer
     was asked for and not found: exit status 1.  `absent` names sections that were asked for
-    and could not be made at all.  `where` holds the abbreviations that formulas use, in an
+    and could not be made at all; `degrees_of_freedom` is None where the number could not be
+    confirmed.  `where` holds the abbreviations that formulas use, in an
     order in which each uses only earlier ones.
     """
 
     title: str
     coordinates: tuple[str, ...]
     parameters: tuple[str, ...]
-    degrees_of_freedom: int
+    degrees_of_freedom: int | None
     sections: Mapping[str, Section]
     symbols: Mapping[str, str] = field(default_factory=dict)
     multipliers: Mapping[str, str] = field(default_factory=dict)

@@ -117,10 +117,20 @@ class Examination:
         yield from states if others or not filtered else filter(self._has_rank, states)
 
     def _has_rank(self, state: State) -> bool:
+        return self._rank_at(state) == self._rank
+
+    def _rank_at(self, state: State) -> int | None:
         try:
-            return rank(state.laws.jacobian, len(self.reference.names)) == self._rank
+            return rank(state.laws.jacobian, len(self.reference.names))
         except Unclear:
-            return False
+            return None
+
+    def rank_is_possible(self) -> bool:
+        """Whether the constraints have the rank of the answers at a state, as far as it is seen."""
+        if self.reference.of_phase_space or self.reference.large:
+            return True
+        found = {self._rank_at(state) for state in self.states()}
+        return not found or not found.isdisjoint({self._rank, None})
 
     @property
     def regular(self) -> bool:
@@ -225,7 +235,7 @@ class Examination:
             try:
                 verdict = self._at_state(sides, looked_at)
             except Unknown as error:
-                self.refute(what, f"its printed form uses {error}, which is not declared")
+                self.refute_name(what, error)
                 return False
             if verdict is ComparisonVerdict.DIFFERENT:
                 self.refute(what, f"as derived it is {self._why}")
@@ -282,6 +292,10 @@ class Examination:
         sentence = f"{what} could not be confirmed and is not given: {why}"
         if sentence not in self.retracted:
             self.retracted.append(sentence)
+
+    def refute_name(self, what: str, error: Unknown) -> None:
+        """Note that a claim uses a name that means nothing."""
+        self.refute(what, f"its printed form uses {error}, which is not declared")
 
     def warnings(self) -> tuple[str, ...]:
         """A sentence for each claim that is not printed, and one for all that were not tried."""

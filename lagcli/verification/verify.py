@@ -39,7 +39,7 @@ from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear
 from lagcli.verification.sweeps import Unknown
 
-Examine = Callable[[Examination, Any], Section]
+Examine = Callable[[Examination, Any], Section | None]
 
 #: The module of `claims` and its function that examine each kind of section; a kind that is
 #: not here is not verified in numbers.
@@ -78,9 +78,13 @@ def verified(problem: Problem, answers: Answers) -> Answers:
     answers
         What was derived from it.
     """
-    rank = len(problem.coordinates) - answers.degrees_of_freedom
+    freedom = answers.degrees_of_freedom
+    rank = None if freedom is None else len(problem.coordinates) - freedom
     examination = Examination(problem, rank=rank)
     with ctx.workprec(PRECISIONS[0]):
+        if not examination.rank_is_possible():
+            examination.refute("the number of degrees of freedom", f"{freedom} as derived")
+            freedom = None
         examination.define("the abbreviations", answers.where)
         given = answers.sections
         if problem.lagrangian is not None and problem.hamiltonian is not None:
@@ -111,6 +115,7 @@ def verified(problem: Problem, answers: Answers) -> Answers:
         return answers
     return replace(
         answers,
+        degrees_of_freedom=freedom,
         sections={name: each for name, each in sections.items() if each},
         absent=(*answers.absent, *(name for name, each in sections.items() if not each)),
         warnings=(*answers.warnings, *warnings),
@@ -118,7 +123,7 @@ def verified(problem: Problem, answers: Answers) -> Answers:
     )
 
 
-def _examined(examination: Examination, name: str, section: Section) -> Section:
+def _examined(examination: Examination, name: str, section: Section) -> Section | None:
     claim = _CLAIMS.get(type(section))
     if claim is None:
         return section
@@ -127,9 +132,14 @@ def _examined(examination: Examination, name: str, section: Section) -> Section:
     return _tried(examination, name, section, examine)
 
 
-def _tried(examination: Examination, name: str, section: Section, examine: Examine) -> Section:
+def _tried(
+    examination: Examination, name: str, section: Section, examine: Examine
+) -> Section | None:
     try:
         return examine(examination, section)
-    except (ArithmeticError, ValueError, Unclear, Unknown):  # or a name of another kind
+    except Unknown as error:
+        examination.refute_name(f"the section '{name}'", error)
+        return None
+    except (ArithmeticError, ValueError, Unclear):
         examination.unchecked.append(f"the section '{name}'")
         return section

@@ -17,6 +17,7 @@ from lagcli.graph.values import Floats, Program
 from lagcli.notation.manner import Manner
 from lagcli.pipeline import Request, derive, read, state
 from lagcli.reader.expressions import parse_text
+from tests.read import LIBRARY, library
 
 FILE = """
 coordinates: {r: {assume: positive}, theta: , phi: }
@@ -148,3 +149,21 @@ def test_a_potential_keeps_the_terms_of_the_file(section):
     )
     found = state(derive(read("t.yaml", text.encode()).problem), Request(sections=(section,)))
     assert to_grammar(found.sections[section].hamiltonian).endswith("/(2*m) - k/r + beta/r^2")
+
+
+@pytest.mark.parametrize(
+    ("name", "section", "other"),
+    [
+        ("pulleys/atwood-with-heavy-pulley", "hamilton_jacobi", "reduction"),
+        ("pendulums/pendulum-on-sliding-support-multiplier", "multipliers", "accelerations"),
+        ("pendulums/pendulum-on-sliding-support-multiplier", "forces", "accelerations"),
+    ],
+)
+def test_a_section_alone_is_that_in_company(name: str, section: str, other: str) -> None:
+    """The sign of a denominator is that of the section, whatever was written before."""
+    problem = library()[LIBRARY / f"{name}.yaml"]
+    alone, company = (
+        state(derive(problem), Request(sections=names)).sections[section]
+        for names in ((section,), (section, other))
+    )
+    assert alone == company

@@ -12,6 +12,7 @@ import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from random import Random
 from typing import Any, Literal
 
@@ -77,7 +78,8 @@ class Meaning:
         skipped = set(PROSE)
         a, b = self._settled(a), self._settled(b)
         if path == "hamilton_jacobi":
-            b = _renamed(b, b.get("constants") or (), a.get("constants") or ())
+            ways = list(_renamed(b, b.get("constants") or (), a.get("constants") or ()))
+            b = next((each for each in ways if self._same_slopes(a, each)), ways[0])
             if self._same_action(a, b):
                 skipped |= {"functions", "cases"}
         if path == "hamilton_jacobi/equations" and all(
@@ -180,6 +182,13 @@ class Meaning:
         )
         return self.values.equal(charge["rate"] or "0", rate)
 
+    def _same_slopes(self, a: Any, b: Any) -> bool:
+        """Whether both have the same W', each with either sign."""
+        one, other = (each.get("derivatives") or {} for each in (a, b))
+        return one.keys() == other.keys() and all(
+            self.values.equal(f"({one[name]})^2", f"({other[name]})^2") for name in one
+        )
+
     def _same_action(self, a: Any, b: Any) -> bool:
         """Whether each W that the second gives has the derivative W' of the first."""
         slopes = a.get("derivatives") or {}
@@ -202,12 +211,16 @@ class Meaning:
         return self.values.parallel([a[n] for n in a], [b.get(n, "0") for n in a])
 
 
-def _renamed(sheet: Any, old: Sequence[str], new: Sequence[str]) -> Any:
-    """The sheet with other names for the constants of integration."""
+def _renamed(sheet: Any, old: Sequence[str], new: Sequence[str]) -> Iterator[Any]:
+    """The sheet with other names for the constants of integration, each with either sign."""
     names = dict(zip(old, new, strict=False))
-    pattern = re.compile(r"\b(" + "|".join(map(re.escape, names)) + r")\b") if names else None
-    text = json.dumps(sheet)
-    return json.loads(pattern.sub(lambda m: names[m[0]], text)) if pattern else sheet
+    pattern = re.compile(r"\b(" + "|".join(map(re.escape, names)) + r")\b")
+    if not names:
+        yield sheet
+    for signs in product(("{}", "(-{})"), repeat=len(names)) if names else ():
+        turned = {n: sign.format(names[n]) for n, sign in zip(names, signs, strict=True)}
+        text = pattern.sub(lambda m, turned=turned: turned[m[0]], json.dumps(sheet))  # type: ignore[misc]
+        yield {**json.loads(text), "constants": [names.get(n, n) for n in old]}
 
 
 class _Values:

@@ -6,12 +6,13 @@ import json
 
 import pytest
 
-from lagcli.expression import Product, opposite
+from lagcli.expression import Expression, Name, Product, opposite
 from lagcli.formatters.built_in.json import to_object
 from lagcli.formatters.options import Options
 from lagcli.pipeline import Request, derive, render, state
 from lagcli.reader import parse_text, read_problem
 from lagcli.record import replace
+from lagcli.rewriting import rebuilt, rewritten
 from lagcli.statements.answers import Answers, Charge, ChargesSection
 from lagcli.statements.motions import HamiltonJacobiSection, Verdict
 from lagcli.verification import verified
@@ -315,6 +316,43 @@ def test_how_a_force_acts_on_a_point_is_examined(name: str, changed: dict[str, o
     wrong = tuple(replace(each, **changed) for each in section.forces)
     sheet = {"forces": replace(section, forces=wrong)}
     assert not verified(problem, replace(answers, sections=sheet)).complete
+
+
+def test_a_force_that_is_not_confirmed_is_not_called_redundant() -> None:
+    problem, answers = derived("pulleys/atwood-tension", ("forces",))
+    section = answers.sections["forces"]
+    turned = tuple(replace(each, force=opposite(each.force)) for each in section.forces)
+    sheet = {"forces": replace(section, forces=turned)}
+    found = verified(problem, replace(answers, sections=sheet))
+    assert found.sections["forces"].forces is None
+    assert "redundant" not in render([found], "text", Options())
+
+
+@pytest.mark.parametrize("name", ["modes", "equilibria", "hamiltonian"])
+def test_a_section_with_a_name_that_means_nothing_is_withheld(name: str) -> None:
+    problem, answers = derived("oscillations/coupled-oscillators", (name,))
+
+    def renamed(node: Expression) -> Expression:
+        return Name("kk") if node == Name("k") else rebuilt(node, renamed)
+
+    wrong = replace(answers, sections=rewritten(answers.sections, renamed))
+    if wrong.sections == answers.sections:  # rest is at 0
+        section = answers.sections[name]
+        moved = replace(section.equilibria[0], at={"x1": Name("kk"), "x2": Name("kk")})
+        wrong = replace(answers, sections={name: replace(section, equilibria=(moved,))})
+    found = verified(problem, wrong)
+    assert not found.complete
+    assert "kk" not in json.dumps({k: v for k, v in to_object(found).items() if k != "warnings"})
+
+
+@pytest.mark.parametrize("name", ["hoop", "pendulums/pendulum-cartesian", "central/two-bodies"])
+def test_the_number_of_degrees_of_freedom_is_examined(name: str) -> None:
+    problem, answers = derived(name, ("equations",))
+    assert verified(problem, answers) is answers
+    found = verified(problem, replace(answers, degrees_of_freedom=answers.degrees_of_freedom + 1))
+    assert found.degrees_of_freedom is None
+    assert not found.complete
+    assert "of freedom." not in render([found], "text", Options())
 
 
 def test_the_momentum_under_its_name_has_its_sign() -> None:

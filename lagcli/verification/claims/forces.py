@@ -13,6 +13,7 @@ from lagcli.expression import ZERO, Expression, Product
 from lagcli.record import replace
 from lagcli.statements.answers import ConstraintForcesSection
 from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
+from lagcli.verification.claims.rest import not_confirmed
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot
 from lagcli.verification.states import State
@@ -63,12 +64,11 @@ def forces(x: Examination, section: ForcesSection) -> ForcesSection:
     """Signed magnitudes and directions, torques, and the friction that is needed."""
     if section.forces is None:
         return section
-    wrong = {name for name in {f.constraint for f in section.forces} if not _hold(x, name, section)}
-    found = tuple(
-        replace(each, force=None) if each.constraint in wrong else _as_it_acts(x, each)
-        for each in section.forces
-    )
-    friction = tuple(_needed(x, each, section, wrong) for each in section.friction_needed)
+    names = dict.fromkeys(each.constraint for each in section.forces)
+    if not all([_hold(x, name, section) for name in names]):
+        return ForcesSection(forces=None, reason=not_confirmed("a force"))
+    found = tuple(_as_it_acts(x, each) for each in section.forces)
+    friction = tuple(_needed(x, each, section) for each in section.friction_needed)
     torques = {n: by for n, by in section.torques.items() if _turn(x, n, by)}
     return replace(section, forces=found, friction_needed=friction, torques=torques)
 
@@ -141,9 +141,7 @@ def _turn(x: Examination, name: str, torques: Mapping[str, Expression]) -> bool:
     )
 
 
-def _needed(
-    x: Examination, each: FrictionNeeded, section: ForcesSection, wrong: set[str]
-) -> FrictionNeeded:
+def _needed(x: Examination, each: FrictionNeeded, section: ForcesSection) -> FrictionNeeded:
     """|friction|/|normal force| on the first point, where the conditions hold."""
     if each.coefficient is None or each.normal is None:
         return each
@@ -151,7 +149,7 @@ def _needed(
     what = f"the coefficient of friction for {' and '.join(each.frictions)}"
     first = {f.constraint: f for f in reversed(section.forces or ())}
     vectors = [first[name] for name in names if name in first]
-    known = all(f.force is not None for f in vectors) and not wrong & set(names)
+    known = all(f.force is not None for f in vectors)
     parts = [Product((f.force or ZERO, axis)) for f in vectors for axis in f.direction]
     places = x.places(what, [each.coefficient, *each.where, *parts])
     if not known or places is None or len(vectors) < len(names):
