@@ -65,7 +65,7 @@ def forces(x: Examination, section: ForcesSection) -> ForcesSection:
     if section.forces is None:
         return section
     names = dict.fromkeys(each.constraint for each in section.forces)
-    if not all([_hold(x, name, section) for name in names]):
+    if not all(_hold(x, name, section) for name in names):
         return ForcesSection(forces=None, reason=not_confirmed("a force"))
     found = tuple(_as_it_acts(x, each) for each in section.forces)
     friction = tuple(_needed(x, each, section) for each in section.friction_needed)
