@@ -144,7 +144,10 @@ def state(derivation: Derivation, request: Request) -> Answers:
 
         answers = written_out(answers)
     manner = Manner(derivation.given)
-    sections = {name: rewritten(each, manner.anew()) for name, each in answers.sections.items()}
+    sections: dict[str, Section] = {}
+    for name, section in answers.sections.items():
+        manner.anew()
+        sections[name] = rewritten(section, manner)
     answers = replace(
         answers,
         sections=_with_words(derivation.given, sections),

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from copy import copy
 from fractions import Fraction
 
 from lagcli.evaluation import sign_at_random
@@ -76,11 +75,10 @@ class Manner:
         self._ordering = Ordering(order_of_names(problem))
         self._sums = GivenSums(given(problem), _energies(problem), self._ordering)
 
-    def anew(self) -> Manner:
-        """The same for another section, which is written as if it were the only one."""
-        fresh = copy(self)
-        fresh._known, fresh._below, fresh._within = {}, {}, {}
-        return fresh
+    def anew(self) -> None:
+        """Begin another section, which is written as if it were the only one."""
+        for memory in (self._known, self._below, self._within):
+            memory.clear()
 
     def __call__(self, node: Expression) -> Expression:
         """The formula as the file would write it; its value stays."""
