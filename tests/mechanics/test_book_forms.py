@@ -100,3 +100,43 @@ def test_abbreviations_reach_an_explanation_and_the_reduction():
     assert answers.where
     told = repr(explain(derivation, ("reduction",)).steps)
     assert told.count("With the abbreviations") == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "section", "bounds"),
+    [
+        # Goldstein 3.19 (b): circular orbits in a Yukawa potential are stable for r < 1.618 a
+        (
+            """
+coordinates: {r: POSITIVE, phi: }
+parameters: {m: POSITIVE, k: POSITIVE, a: POSITIVE}
+T: m*(r'^2 + r^2*phi'^2)/2
+V: -k*exp(-r/a)/r
+""",
+            "steady_motions",
+            ["a*(1 + sqrt(5)) > 2*r"],
+        ),
+        # Bolotin, Nonconservative Problems of the Theory of Elastic Stability: 2.086 c/l
+        (
+            """
+coordinates: [u, v]
+parameters: {m: POSITIVE, l: POSITIVE, c: POSITIVE, P: POSITIVE}
+T: m*l^2*(3*u'^2 + v'^2 + 2*u'*v'*cos(u - v))/2
+V: c*u^2/2 + c*(v - u)^2/2
+forces: {u: P*l*sin(u - v)}
+""",
+            "equilibria",
+            ["c*(7 - 2*sqrt(2)) > 2*l*P"],
+        ),
+    ],
+)
+def test_conditions_in_one_ratio_are_bounds_on_it(text, section, bounds):
+    text = text.replace("POSITIVE", "{assume: positive}")
+    problem = read("t.yaml", text.encode()).problem
+    answer = state(derive(problem), Request(sections=(section,))).sections[section]
+    [verdict] = [each.verdict for each in getattr(answer, section.removeprefix("steady_"))]
+    found = verdict.spectrum or verdict.minimum
+    assert [f"{to_grammar(each.left)} > {to_grammar(each.right)}" for each in found] == bounds
+    assert [(each.right, each.left) for each in found] == [
+        (each.left, each.right) for each in verdict.unstable
+    ]

@@ -15,6 +15,7 @@ from lagcli.algebra import is_zero, shape, simplify, terms
 from lagcli.algebra.build import free_of
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.leaves import Translator
+from lagcli.algebra.one_ratio import in_one_ratio
 from lagcli.algebra.signs import between_angles, sign, sign_beside_zero, sign_of_circle
 from lagcli.algebra.writing import Writer
 from lagcli.expression import ZERO, Expression, operation_count
@@ -156,7 +157,8 @@ def conditions(
     expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
 ) -> tuple[Above, ...]:
     """What must be positive, without what the others imply."""
-    split = [part for expression in expressions for part in _without_squares(expression)]
+    solved = _in_ratios(expressions, positive)
+    split = [part for expression in solved for part in _without_squares(expression)]
     kept = _without_implied(sorted(split, key=_is_square), order, positive)
     return tuple(dict.fromkeys(each for each, _ in kept))
 
@@ -165,10 +167,21 @@ def opposites(
     expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
 ) -> tuple[Above, ...]:
     """The opposite inequalities of `conditions`, those that can hold."""
-    plain = [_without_zeros(each, expressions) for each in expressions]
+    solved = _in_ratios(expressions, positive)
+    plain = [_without_zeros(each, solved) for each in solved]
     kept = _without_implied(plain, order, positive)
     possible = [each for each, rest in kept if weak_sign(rest, positive) != 1]
     return tuple(dict.fromkeys(Above(each.right, each.left) for each in possible))
+
+
+def _in_ratios(expressions: Sequence[Expr], positive: Sequence[Expr]) -> list[Expr]:
+    """What must be positive, solved for a ratio of parameters: all for one, else each for its."""
+    plain = [deciding(e, positive) for e in expressions]
+    together = in_one_ratio(plain, positive)
+    if together is not None:
+        return together
+    each = ((e, in_one_ratio([p], positive)) for e, p in zip(expressions, plain, strict=True))
+    return [part for e, parts in each for part in ([e] if parts is None else parts)]
 
 
 def _without_zeros(expression: Expr, all_: Sequence[Expr]) -> Expr:
@@ -235,9 +248,12 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
     differences = [factor for factor, _ in factors_of(rest) if factor.is_Add]
     if len(differences) == 2 and all(map(_is_difference, differences)):  # (A - B) (A - C) > 0
         return Above(shape(rest, order), ZERO)
-    all_terms = rest.expand().as_ordered_terms()
-    right = -sympy.Add(*(term for term in all_terms if term.could_extract_minus_sign()))
-    left = sympy.Add(*(term for term in all_terms if not term.could_extract_minus_sign()))
+    by_monomial: dict[Expr, Expr] = {}
+    for term in rest.expand().as_ordered_terms():
+        number, monomial = term.as_independent(*term.free_symbols, as_Add=False)
+        by_monomial[monomial] = by_monomial.get(monomial, S.Zero) + number
+    right = -sympy.Add(*(n * m for m, n in by_monomial.items() if n < 0))
+    left = sympy.Add(*(n * m for m, n in by_monomial.items() if n > 0))
     found = Above(shape(left, order), shape(right, order))
     constant, others = left.as_coeff_Add()
     if constant > 0 and others != 0:  # 1 > 27 mu (1 - mu)

@@ -8,9 +8,10 @@ from sympy import Expr
 
 from lagcli.algebra import Field
 from lagcli.algebra.equations import coefficients
+from lagcli.algebra.one_ratio import in_one_ratio
 from lagcli.algebra.ring import factorization
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.reduction.readable import is_positive, weak_sign
+from lagcli.mechanics.reduction.readable import deciding, is_positive, weak_sign
 
 __all__ = ["is_positive", "sign_of", "weak_sign"]
 
@@ -18,7 +19,17 @@ __all__ = ["is_positive", "sign_of", "weak_sign"]
 def sign_of(expression: Expr, positive: Sequence[Expr]) -> int | None:
     """1, -1 or 0 where it has one sign for all values; else None."""
     known = sign(expression, positive)
-    return _on_the_circle(expression, positive) if known is None else known
+    for other in (_on_the_circle, _in_one_ratio):
+        known = other(expression, positive) if known is None else known
+    return known
+
+
+def _in_one_ratio(expression: Expr, positive: Sequence[Expr]) -> int | None:
+    """1 or -1 for what has one sign at all ratios that `positive` leaves."""
+    if not all(s.is_positive for s in expression.free_symbols):
+        return None
+    rest = deciding(expression, positive)
+    return next((side for side in (1, -1) if in_one_ratio([side * rest], positive) == []), None)
 
 
 def _on_the_circle(expression: Expr, positive: Sequence[Expr]) -> int | None:
