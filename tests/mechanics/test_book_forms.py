@@ -120,13 +120,13 @@ V: -k*exp(-r/a)/r
         (
             """
 coordinates: [u, v]
-parameters: {m: POSITIVE, l: POSITIVE, c: POSITIVE, P: POSITIVE}
+parameters: {m: POSITIVE, P: POSITIVE, l: POSITIVE, c: POSITIVE}
 T: m*l^2*(3*u'^2 + v'^2 + 2*u'*v'*cos(u - v))/2
 V: c*u^2/2 + c*(v - u)^2/2
 forces: {u: P*l*sin(u - v)}
 """,
             "equilibria",
-            ["c*(7 - 2*sqrt(2)) > 2*l*P"],
+            ["c*(7 - 2*sqrt(2)) > 2*P*l"],
         ),
     ],
 )
