@@ -26,6 +26,7 @@ from lagcli.algebra.simplification import is_zero, simplify
 from lagcli.platform.effort import Work
 
 _MAX_BRANCHES = 256
+_HIGHEST_POWER = 4  # k of f^(k + 1/2): forces of two centres have 3/2
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,9 +177,9 @@ class _Solver:
     def _by_resultant(
         self, equations: list[Expr], values: dict[Symbol, Expr], positive: tuple[Expr, ...]
     ) -> bool:
-        """Two equations in two unknowns: the roots of their resultant, each put into both."""
+        """In two unknowns: the roots of the resultant of two equations, each put into all."""
         present = [u for u in self.unknowns if any(u in e.free_symbols for e in equations)]
-        if len(equations) != 2 or len(present) != 2:
+        if len(equations) < 2 or len(present) != 2:
             return False
         for kept, gone in (present, present[::-1]):
             pairs = _pairs(equations, kept, gone)
@@ -214,7 +215,7 @@ class _Solver:
         if not self._in(equation) and vanishes_at_random(equation):
             return None
         factors = [
-            field.polynomial_to_sympy(factor)
+            _with_equal_bases(field.polynomial_to_sympy(factor))
             for factor, _ in factorization(field.ring.lift(element.numerator))[1]
         ]
         if field.doubtful and any(is_zero(f) is None and abs(_value(f)) < 1e-25 for f in factors
@@ -309,7 +310,7 @@ class _Solver:
         conditions: list[Expr] = []
         for each in positive:
             there = simplify(each.subs(list(plain.items()), simultaneous=True))
-            known = sign(there) if self._in(each) else None
+            known = sign(there) if self._in(each) or there.is_number else None
             if known in (0, -1):
                 return
             if known is None:
@@ -335,11 +336,29 @@ def _without_signs(equation: Expr) -> Expr:
     return equation.xreplace(dict.fromkeys(void, sympy.S.One)) if void else equation
 
 
+def _with_equal_bases(factor: Expr) -> Expr:
+    """f - g of f^p - g^p, p = ±(k + 1/2), which vanishes where f = g alone: both are positive."""
+    roots = [p for p in factor.atoms(sympy.Pow) if p.exp == sympy.S.Half]
+    if len(roots) != 2 or not factor.is_Add:
+        return factor
+    first, second = (sympy.collect(factor, roots, evaluate=False).get(p, 0) for p in roots)
+    if sympy.expand(factor - first * roots[0] - second * roots[1]) != 0:
+        return factor
+    bases = [p.base for p in roots]
+    equal = any(
+        sympy.expand(first * g**k + second * f**k) == 0
+        for k in range(_HIGHEST_POWER)
+        for f, g in (bases, bases[::-1])
+    )
+    return sympy.expand(bases[0] - bases[1]) if equal else factor
+
+
 def _pairs(
     equations: Sequence[Expr], kept: Symbol, gone: Symbol
 ) -> list[dict[Symbol, Expr]] | None:
-    """The pairs of values that fulfil both equations; None where not all are found."""
-    conditions = without(equations, kept, gone)
+    """The pairs of values that fulfil all equations; None where not all are found."""
+    resultants = (without(two, kept, gone) for two in combinations(equations, 2))
+    conditions = next((found for found in resultants if found is not None), None)
     if conditions is None:
         return None
     pairs = []

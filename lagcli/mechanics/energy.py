@@ -60,7 +60,7 @@ class EnergyFunction:
         """The terms of dh/dt that do not vanish identically."""
         system = self.dynamics.system
         forces = dot(system.forces, system.qdot)
-        drag = sympy.Add(*(v * system.D.diff(v) for v in system.qdot))
+        drag = sympy.Add(*map(self._along_velocities, sympy.Add.make_args(system.D)))
         moving = [
             e
             for e in self.dynamics.constraints.equations
@@ -135,11 +135,15 @@ class EnergyFunction:
 
     def _from_term(self, term: Expr) -> Expr:
         """sum v dA/dv - A of a term A of L."""
+        return self._along_velocities(term) - term
+
+    def _along_velocities(self, term: Expr) -> Expr:
+        """sum v dA/dv, written n A of a term A of degree n (Euler)."""
         if free_of(term, self.dynamics.system.qdot):
-            return -term
+            return sympy.S.Zero
         rate = sympy.Add(*(v * term.diff(v) for v in self.dynamics.system.qdot))
         degree = next((n for n in (1, 2) if is_zero(rate - n * term) is True), None)
-        return rate - term if degree is None else (degree - 1) * term
+        return rate if degree is None else degree * term
 
     @cached_property
     def quadratic(self) -> bool:

@@ -289,7 +289,7 @@ class Examination:
 
     def refute(self, what: str, why: str) -> None:
         """Note that a claim is not printed."""
-        sentence = f"{what} could not be confirmed and is not given: {why}"
+        sentence = f"{what} could not be confirmed; this is left out: {why}"
         if sentence not in self.retracted:
             self.retracted.append(sentence)
 

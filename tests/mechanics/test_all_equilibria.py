@@ -9,7 +9,9 @@ import math
 import random
 
 import pytest
+from sympy import Rational, pi, symbols
 
+from lagcli.algebra.systems import solve_system
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.equilibria import RestPoints
 from lagcli.statements.answers import EquilibriaSection
@@ -130,3 +132,51 @@ def test_what_the_others_solve_is_quoted():
     section = Statements(d).answers(["equilibria"]).sections["equilibria"]
     assert isinstance(section, EquilibriaSection)
     assert [to_grammar(each) for each in section.open] == ["x*cos(x) + sin(x)"]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_translation_of_all_coordinates_takes_no_equilibrium_away(seed):
+    """V(x, y) with x = a - r c and y = b - s c has the equilibria of V(x, y), with c free."""
+    source = random.Random(seed)
+    waves = source.sample(WAVES[:4], 2) + [source.choice(("cos(x + y)", "cos(x - y)"))]
+    V = " + ".join(waves)
+    r, s = source.choice((1, -1, 2)), source.choice((1, -1, 2))
+    points, complete = _found(V)
+    moved = V.replace("x", "(a - R*c)").replace("y", "(b - S*c)")
+    moved = moved.replace("R", str(r)).replace("S", str(s))
+    d = derive(f"coordinates: [a, b, c]\nT: (a'^2 + b'^2 + c'^2)/2\nV: \"{moved}\"")
+    rest = RestPoints(d.dynamics)
+    a, b, c = d.system.q
+    found = []
+    for place in rest.points or ():
+        values = {x: place.values.get(x, x) for x in d.system.q}
+        differences = values[a] - r * values[c], values[b] - s * values[c]
+        found.append(tuple(float(each.subs(c, 0)) for each in differences))
+    assert rest.complete or not complete
+    if complete:
+        turned = [(_turned(x), _turned(y)) for x, y in found]
+        for x, y in points:
+            point = _turned(x), _turned(y)
+            assert any(math.dist(point, other) < 1e-9 for other in turned), (V, point)
+
+
+def test_three_like_rotors_have_two_states_in_which_all_angles_differ():
+    d = derive("coordinates: [a, b, c]\nT: (a'^2 + b'^2 + c'^2)/2\n"
+               "V: -(cos(a - b) + cos(b - c) + cos(c - a))")  # fmt: skip
+    rest = RestPoints(d.dynamics)
+    assert rest.complete
+    a, b, c = d.system.q
+    places = {tuple(p.values[x] - c for x in (a, b)) for p in rest.points or ()}
+    third = 2 * pi / 3
+    assert places == {(0, 0), (0, pi), (pi, 0), (pi, pi), (third, -third), (-third, third)}
+
+
+@pytest.mark.parametrize("power", ["1/2", "-1/2", "3/2", "-3/2", "-5/2"])
+def test_two_like_centres_balance_half_way_alone(power):
+    """f^p = g^p only where f = g, both being positive."""
+    k = Rational(power)
+    x, y = symbols("x y", real=True)
+    f, g = ((x + s) ** 2 + y**2 + 1 for s in (1, -1))
+    found = solve_system([f**k - g**k, y**2 - 4], (x, y))
+    assert found.complete
+    assert {(each.values[x], each.values[y]) for each in found.solutions} == {(0, 2), (0, -2)}

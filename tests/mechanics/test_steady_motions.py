@@ -314,3 +314,19 @@ forces: {{phi: -c*{factor}*(phi' - w)}}
     assert to_grammar(motion.rates["phi"]) == "w"
     assert to_grammar(motion.at["r"]) == "k*a/(k - m*w^2)"
     assert conditions(motion.verdict.hurwitz)[0] == "k > m*w^2"
+
+
+def test_a_mass_that_circles_on_a_table_and_one_that_hangs_and_may_swing():
+    """m φ'² r = M g; the string holds M, which swings with ω² = g/(l - r) (Goldstein, 1.8)."""
+    text = """
+coordinates: [r, phi, theta]
+parameters: {m: POSITIVE, M: POSITIVE, g: POSITIVE, l: POSITIVE}
+T: m*(r'^2 + r^2*phi'^2)/2 + M*(r'^2 + (l - r)^2*theta'^2)/2
+V: -M*g*(l - r)*cos(theta)
+"""
+    below = next(m for m in motions(text) if to_grammar(m.at["theta"]) == "0")
+    assert "r" not in below.at
+    [rate] = (below.rates or {}).values()
+    assert normal(rate) ** 2 == formula("M*g/(m*r)")
+    squares = {normal(each) for each in below.frequencies_squared}
+    assert squares == {formula("g/(l - r)"), formula("3*M*g/((m + M)*r)")}

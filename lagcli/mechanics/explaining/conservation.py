@@ -94,7 +94,7 @@ def _rate(teller: Teller) -> Iterator[Block]:
     )
     total = sympy.Add(*(power.value for power in function.powers))
     yield says("It can change because ", changes, ". Its rate is")
-    yield shows(Name(h.name, 1), teller.readable.by_terms(total))
+    yield shows(Name(h.name, 1), teller.readable.by_terms(total, as_given=True))
     if function.conserved is None:
         yield says("Whether this vanishes on the motion was not decided.")
     elif function.conserved:

@@ -16,7 +16,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.signs import sign
-from lagcli.algebra.systems import SystemSolution, solve_system
+from lagcli.algebra.systems import SolvedSystem, SystemSolution, solve_system
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.family import Family, exists_where, family
 from lagcli.mechanics.oscillations.kinks import at_kinks
@@ -112,6 +112,8 @@ class RestPoints(RestConditions):
     def _found(self, equations: list[Expr]) -> tuple[list[RestPoint], bool]:
         """The solutions that balance; whether a family was lost of which some members may."""
         solved = solve_system(equations, self.system.q, families=True)
+        if not solved.complete:
+            solved = self._up_to_translations(equations) or solved
         self.complete = solved.complete
         found, lost = [], False
         for each in solved.solutions:
@@ -130,6 +132,32 @@ class RestPoints(RestConditions):
             else:
                 self.at_singular_constraints |= self.loses_rank(solution.values)
         return found, lost or not (found or solved.complete)
+
+    def _up_to_translations(self, equations: list[Expr]) -> SolvedSystem | None:
+        """All solutions at which the q are 0 along which nothing changes, then moved along them."""
+        q, moved = self.system.q, self._translations
+        if not moved or any(s.is_nonnegative or s.is_nonzero for s in q):
+            return None
+        still = [e.xreplace(dict.fromkeys(moved, S.Zero)) for e in equations]
+        others = [s for s in q if s not in moved]
+        solved = solve_system(still, others, families=True)
+        if not solved.complete:
+            return None
+        shift = {
+            s: sympy.Add(*(c[i] * free for free, c in moved.items()))
+            for i, s in enumerate(q)
+            if s not in moved
+        }
+        back = {s: s - by for s, by in shift.items()}
+        moved_along = [
+            SystemSolution(
+                {s: simplify(v.xreplace(back) + shift[s]) for s, v in each.values.items()},
+                tuple(p.xreplace(back) for p in each.positive),
+                None if each.relation is None else simplify(each.relation.xreplace(back)),
+            )
+            for each in solved.solutions
+        ]
+        return SolvedSystem(moved_along)
 
     def _to_the_last_digit(self, values: Mapping[Symbol, Expr]) -> Mapping[Symbol, Expr]:
         """The same, the decimals among them by Newton's method: some come from rounded ones."""

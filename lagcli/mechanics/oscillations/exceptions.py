@@ -54,6 +54,7 @@ def unless_written(
 
 def _factors_without(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[Expr, ...]:
     open_ = [simplify(e) for e in conditions if free_of(e, unknowns)]
+    open_ = [e for e in open_ if e != 0]
     if open_:
         deciding = [_perhaps_zero(e, unknowns) for e in open_]
         return tuple({sympy.Mul(*each): None for each in deciding}) if all(deciding) else ()

@@ -122,8 +122,8 @@ class SteadyFamilies:
         return found
 
     def _others(self, conditions: list[Expr]) -> Sequence[SystemSolution] | None:
-        """The other conditions solved for as many coordinates, the rest of them given."""
-        for chosen in combinations(self.system.q, len(conditions)):
+        """The other conditions solved for the coordinates, or for as many, the rest of them given."""
+        for chosen in (self.system.q, *combinations(self.system.q, len(conditions))):
             solved = solve_system(conditions, chosen)
             if solved.complete and solved.solutions:
                 return solved.solutions
