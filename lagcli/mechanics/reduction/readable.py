@@ -88,7 +88,7 @@ def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
     """
     kept, direction = S.One, 1
     nonzero: dict[Expr, None] = {}
-    for factor, power in factors_of(expression):
+    for factor, power in _with_sines(expression):
         even = power % 2 == 0
         known = 1 if even and factor**2 in positive else None
         known = sign(factor**2 if even else factor, positive) if known is None else known
@@ -106,6 +106,19 @@ def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
         else:
             kept *= factor
     return direction * sympy.Mul(kept, *(x**2 for x in nonzero))
+
+
+def _with_sines(expression: Expr) -> list[tuple[Expr, int]]:
+    """The factors, cos² - 1 among them as -sin², which has one sign."""
+    powers = dict(factors_of(expression))
+    for factor in list(powers):
+        less = factor - 2
+        if isinstance(factor - 1, sympy.cos) and powers.get(less) == powers[factor]:
+            power = powers.pop(less)
+            del powers[factor]
+            powers[sympy.sin((factor - 1).args[0])] = 2 * power
+            powers[S.NegativeOne] = powers.get(S.NegativeOne, 0) + power
+    return list(powers.items())
 
 
 def is_positive(expression: Expr, positive: Sequence[Expr] = ()) -> bool:
@@ -218,7 +231,7 @@ def _without_implied(
 def _without_squares(expression: Expr) -> list[Expr]:
     """k p² > 0 is k > 0 and p² > 0, which is p ≠ 0."""
     rest = deciding(expression)
-    squares = [f**p for f, p in factors_of(rest) if p % 2 == 0 and p > 0]
+    squares = [f**p for f, p in _with_sines(rest) if p % 2 == 0 and p > 0]
     other = simplify(rest / sympy.Mul(*squares))
     return [*([] if other == 1 else [other]), *squares] if squares else [expression]
 
@@ -243,7 +256,7 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
     rest = deciding(expression, positive)
     if rest == 1:
         return None
-    if any(power % 2 == 0 for _, power in factors_of(rest)):
+    if any(power % 2 == 0 for _, power in _with_sines(rest)):
         return Above(shape(rest, order), ZERO)
     differences = [factor for factor, _ in factors_of(rest) if factor.is_Add]
     if len(differences) == 2 and all(map(_is_difference, differences)):  # (A - B) (A - C) > 0
