@@ -218,3 +218,10 @@ def test_a_radicand_has_one_shape_within_a_function_and_beside_it(function, squa
 def test_like_terms_of_exponents_are_added(factors: tuple[str, ...], written: str) -> None:
     pairs = [(parse_text(each), Fraction(1)) for each in factors]
     assert to_grammar(Writer(ORDER).product(Fraction(1), pairs)) == written
+
+
+@pytest.mark.parametrize("a, b", [(1, 1), (2, 1), (3, -1), (4, -3)])
+def test_a_denominator_is_written_alike_with_and_without_other_factors(a, b):
+    below = a + b * cos(theta) ** 2
+    alone, beside = (to_grammar(shape(sin(theta) / d)) for d in (below, m * below))
+    assert alone.split("/", 1)[1].strip("()") in beside

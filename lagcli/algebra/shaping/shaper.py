@@ -325,7 +325,7 @@ class Shaper:
                 parts[part] = parts.get(part, 0) + each * int(exponent)
         factored = product(self.atoms, number, [(p, e) for p, e in parts.items() if e])
         alone = abs(number) == 1 and not any(isinstance(p, int) for p in parts)
-        if 1 < len(poly) <= _FEW and alone:
+        if 1 < len(poly) <= _FEW and alone and sum(e for _, e in factors) > 1:
             whole = _as_product(self.atoms, _expanded(self.atoms, self.atoms.terms(poly)))
             if whole.cost <= factored.cost:
                 return whole
