@@ -220,7 +220,7 @@ def test_like_terms_of_exponents_are_added(factors: tuple[str, ...], written: st
     assert to_grammar(Writer(ORDER).product(Fraction(1), pairs)) == written
 
 
-@pytest.mark.parametrize("a, b", [(1, 1), (2, 1), (3, -1), (4, -3)])
+@pytest.mark.parametrize(("a", "b"), [(1, 1), (2, 1), (3, -1), (4, -3)])
 def test_a_denominator_is_written_alike_with_and_without_other_factors(a, b):
     below = a + b * cos(theta) ** 2
     alone, beside = (to_grammar(shape(sin(theta) / d)) for d in (below, m * below))

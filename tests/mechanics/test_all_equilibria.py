@@ -138,7 +138,7 @@ def test_what_the_others_solve_is_quoted():
 def test_a_translation_of_all_coordinates_takes_no_equilibrium_away(seed):
     """V(x, y) with x = a - r c and y = b - s c has the equilibria of V(x, y), with c free."""
     source = random.Random(seed)
-    waves = source.sample(WAVES[:4], 2) + [source.choice(("cos(x + y)", "cos(x - y)"))]
+    waves = [*source.sample(WAVES[:4], 2), source.choice(("cos(x + y)", "cos(x - y)"))]
     V = " + ".join(waves)
     r, s = source.choice((1, -1, 2)), source.choice((1, -1, 2))
     points, complete = _found(V)

@@ -135,29 +135,34 @@ class RestPoints(RestConditions):
 
     def _up_to_translations(self, equations: list[Expr]) -> SolvedSystem | None:
         """All solutions at which the q are 0 along which nothing changes, then moved along them."""
-        q, moved = self.system.q, self._translations
+        q, moved, shift = self.system.q, self.translations, self._shift
         if not moved or any(s.is_nonnegative or s.is_nonzero for s in q):
             return None
         still = [e.xreplace(dict.fromkeys(moved, S.Zero)) for e in equations]
-        others = [s for s in q if s not in moved]
-        solved = solve_system(still, others, families=True)
+        solved = solve_system(still, list(shift), families=True)
         if not solved.complete:
             return None
-        shift = {
+        back = {s: s - by for s, by in shift.items()}
+        return SolvedSystem(
+            [
+                SystemSolution(
+                    {s: simplify(v.xreplace(back) + shift[s]) for s, v in each.values.items()},
+                    tuple(p.xreplace(back) for p in each.positive),
+                    None if each.relation is None else simplify(each.relation.xreplace(back)),
+                )
+                for each in solved.solutions
+            ]
+        )
+
+    @property
+    def _shift(self) -> dict[Symbol, Expr]:
+        """What the other q are moved by along with those that may be moved freely."""
+        moved = self.translations
+        return {
             s: sympy.Add(*(c[i] * free for free, c in moved.items()))
-            for i, s in enumerate(q)
+            for i, s in enumerate(self.system.q)
             if s not in moved
         }
-        back = {s: s - by for s, by in shift.items()}
-        moved_along = [
-            SystemSolution(
-                {s: simplify(v.xreplace(back) + shift[s]) for s, v in each.values.items()},
-                tuple(p.xreplace(back) for p in each.positive),
-                None if each.relation is None else simplify(each.relation.xreplace(back)),
-            )
-            for each in solved.solutions
-        ]
-        return SolvedSystem(moved_along)
 
     def _to_the_last_digit(self, values: Mapping[Symbol, Expr]) -> Mapping[Symbol, Expr]:
         """The same, the decimals among them by Newton's method: some come from rounded ones."""
@@ -235,19 +240,14 @@ class RestPoints(RestConditions):
 
     def _evident(self) -> list[RestPoint]:
         """Of the states q = 0, with angles at 0 or pi, the equilibria, moved where all can be."""
-        q, moved = self.system.q, self.translations
-        if any(s.is_nonzero for s in q):
+        if any(s.is_nonzero for s in self.system.q):
             return []
-        choices = [
-            (S.Zero, sympy.pi) if s not in moved and self.is_angle(s) else (S.Zero,) for s in q
-        ]
+        shift = self._shift
+        choices = [(S.Zero, sympy.pi) if self.is_angle(s) else (S.Zero,) for s in shift]
         found = []
         for place in islice(product(*choices), _MAX_EVIDENT):
-            values = {
-                s: simplify(x + sympy.Add(*(c[i] * free for free, c in moved.items())))
-                for i, (s, x) in enumerate(zip(q, place, strict=True))
-                if s not in moved
-            }
+            pairs = zip(shift.items(), place, strict=True)
+            values = {s: simplify(x + by) for (s, by), x in pairs}
             if self.balanced(values):
-                found.append(RestPoint(values, tuple(moved)))
+                found.append(RestPoint(values, tuple(self.translations)))
         return found

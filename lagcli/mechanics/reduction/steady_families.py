@@ -122,7 +122,7 @@ class SteadyFamilies:
         return found
 
     def _others(self, conditions: list[Expr]) -> Sequence[SystemSolution] | None:
-        """The other conditions solved for the coordinates, or for as many, the rest of them given."""
+        """The other conditions solved for all coordinates, or for as many, the rest given."""
         for chosen in (self.system.q, *combinations(self.system.q, len(conditions))):
             solved = solve_system(conditions, chosen)
             if solved.complete and solved.solutions:
