@@ -17,8 +17,11 @@ PROGRAM = next(
 _OPTIONS = ("--headless", "--no-sandbox", "--disable-gpu", "--remote-debugging-pipe", "about:blank")
 
 
+_PHONE = {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}
+
+
 class Browser:
-    """One page, which goes from address to address."""
+    """One page, as wide as a phone, which goes from address to address."""
 
     def __enter__(self):
         command_read, self._commands = os.pipe()
@@ -39,6 +42,7 @@ class Browser:
         self._session = found["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
+        self.call("Emulation.setDeviceMetricsOverride", **_PHONE)
         return self
 
     def __exit__(self, *_):
@@ -72,6 +76,11 @@ class Browser:
             "Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True
         )
         return found["result"].get("value")
+
+    def pixels_too_wide(self):
+        """How far the page can be pushed to the left."""
+        page = "document.documentElement"
+        return self.run(f"{page}.scrollWidth - {page}.clientWidth")
 
     def complaints(self, page: Path):
         """Errors, warnings, and requests that lead out of a page, once it is shown."""

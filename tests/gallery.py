@@ -21,10 +21,12 @@ from lagcli.formatters import Options
 from lagcli.formatters.explaining import render
 from lagcli.formatters.mathml import MathmlPrinter
 from lagcli.library import LibraryEntry, entries
+from lagcli.mechanics.derivation import Derivation
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.pipeline import Request, derive, explain, state
 from lagcli.pipeline import render as render_answers
+from lagcli.statements.explanation import Explanation
 
 _KINDS = ("path", "series")
 _STYLE = """
@@ -49,15 +51,16 @@ class Card(NamedTuple):
     shown: str
 
 
-def made(entry: LibraryEntry, folder: Path) -> Card:
-    """Write the page and the picture of a problem."""
-    problem = lagcli.load(entry.path)
-    page = folder / f"{entry.name}.html"
+def made(name: str, derivation: Derivation, told: Explanation | None, folder: Path) -> Card:
+    """Write the page and the picture of a problem; of an H alone its equations are the page."""
+    problem = derivation.problem
+    page = folder / f"{name}.html"
     page.parent.mkdir(parents=True, exist_ok=True)
     below, picture = moved(problem)
     options = Options(standalone=True, below=(below,))
-    page.write_text(told(problem, options), "utf-8")
-    return Card(entry.name, problem.title, shown(entry.name, problem, picture, folder))
+    text = render([told], "html", options) if told else equations(derivation, options)
+    page.write_text(text, "utf-8")
+    return Card(name, problem.title, shown(name, problem, picture, folder))
 
 
 def shown(name, problem, picture, folder: Path) -> str:
@@ -73,14 +76,14 @@ def shown(name, problem, picture, folder: Path) -> str:
     )
 
 
-def told(problem, options: Options) -> str:
-    """The explanation; of a Hamiltonian without a Lagrangian its equations."""
-    derivation = derive(problem)
-    try:
-        return render([explain(derivation)], "html", options)
-    except ProblemError:
-        request = Request(sections=("hamiltonian", "canonical_equations"))
-        return render_answers([state(derivation, request)], "html", options)
+def explained(derivation: Derivation) -> Explanation | None:
+    """There is nothing to tell from an H whose velocities do not determine the momenta."""
+    return None if derivation.no_lagrangian else explain(derivation)
+
+
+def equations(derivation: Derivation, options: Options) -> str:
+    request = Request(sections=("hamiltonian", "canonical_equations"))
+    return render_answers([state(derivation, request)], "html", options)
 
 
 def moved(problem):
@@ -113,12 +116,20 @@ def listed(cards: list[Card]) -> Iterator[str]:
     yield "</body>\n</html>"
 
 
+def write_list(cards: list[Card], folder: Path) -> None:
+    """Write the page that shows them all."""
+    folder.mkdir(exist_ok=True)
+    (folder / "index.html").write_text("\n".join(listed(cards)) + "\n", "utf-8")
+
+
 def _one(work: tuple[LibraryEntry, Path]) -> Card | str:
     """The card, or what went wrong: not every exception finds its way out of a process."""
+    entry, folder = work
     try:
-        return made(*work)
+        derivation = derive(lagcli.load(entry.path))
+        return made(entry.name, derivation, explained(derivation), folder)
     except Exception as error:  # noqa: BLE001 - one page less, and its reason
-        return f"{work[0].name}: {type(error).__name__}: {error}"
+        return f"{entry.name}: {type(error).__name__}: {error}"
 
 
 def main(folder: Path, words: list[str]) -> int:
@@ -130,8 +141,7 @@ def main(folder: Path, words: list[str]) -> int:
             if isinstance(card, Card):
                 cards.append(card)
             print(card.name if isinstance(card, Card) else card, flush=True)
-    folder.mkdir(exist_ok=True)
-    (folder / "index.html").write_text("\n".join(listed(cards)) + "\n", "utf-8")
+    write_list(cards, folder)
     return len(chosen) - len(cards)
 
 

@@ -4,14 +4,16 @@ A sample of it is examined before every commit, all of it in `make check-all`:
 - the answers are those that the files expect, and keep the laws of mechanics;
 - every printed claim holds by a reference (jets, virtual work, a numeric KKT system, Noether's
   formula in numbers) that shares no code with lagcli's algebra or mechanics, only the reader;
-- answers and explanation compile as LaTeX, none too wide.
+- answers and explanation compile as LaTeX, none too wide;
+- the page of each logs nothing in a browser, asks for nothing and is no wider than a phone.
 """
 
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
 
@@ -27,12 +29,15 @@ from lagcli.pipeline import Request, derive, explain, state
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.statements.answers import Answers
+from lagcli.statements.explanation import Explanation
 from lagcli.statements.registry import built_in
 from lagcli.studies.check.expectations import sections_expected
 from lagcli.studies.check.initial import initial_mistakes
 from lagcli.studies.check.laws import SECTIONS as LAWS
 from lagcli.studies.check.one import compared
+from tests.browser import PROGRAM, Browser
 from tests.formatters.test_latex import compiled, needs_latex
+from tests.gallery import explained, made, write_list
 from tests.oracle.examine import examine
 
 LIBRARY = Path(__file__).parents[2] / "problems"
@@ -50,13 +55,18 @@ EXAMINED = (
 )  # fmt: skip
 
 
-class Solved(NamedTuple):
+@dataclass(frozen=True)
+class Solved:
     """One problem with its derivation and all sections that a test below reads."""
 
     name: str
     problem: Problem
     derivation: Derivation
     answers: Answers
+
+    @cached_property
+    def explanation(self) -> Explanation | None:
+        return explained(self.derivation)
 
     def with_sections(self, names: list[str]) -> Answers:
         kept = {n: s for n, s in self.answers.sections.items() if n in names}
@@ -67,9 +77,9 @@ def usual(problem: Problem) -> list[str]:
     return [each.name for each in built_in() if each.unasked(problem)]
 
 
-def checked(solved: Solved) -> list[str]:
-    expected = [each.name for each in sections_expected(solved.problem.expect)]
-    return expected if solved.derivation.no_lagrangian else [*LAWS, *expected]
+def checked(derivation: Derivation) -> list[str]:
+    expected = [each.name for each in sections_expected(derivation.problem.expect)]
+    return expected if derivation.no_lagrangian else [*LAWS, *expected]
 
 
 def examined(problem: Problem) -> list[str]:
@@ -79,9 +89,9 @@ def examined(problem: Problem) -> list[str]:
 def solve(path: Path) -> Solved:
     problem = load(path)
     derivation = derive(problem)
-    solved = Solved(str(path.relative_to(LIBRARY)), problem, derivation, None)
-    names = (*usual(problem), *checked(solved), *examined(problem))
-    return solved._replace(answers=state(derivation, Request(sections=tuple(dict.fromkeys(names)))))
+    names = (*usual(problem), *checked(derivation), *examined(problem))
+    answers = state(derivation, Request(sections=tuple(dict.fromkeys(names))))
+    return Solved(str(path.relative_to(LIBRARY)), problem, derivation, answers)
 
 
 @pytest.fixture(
@@ -95,10 +105,8 @@ def library(request) -> list[Solved]:
 
 def test_the_answers_are_those_that_are_expected(library):
     for each in library:
-        assert (each.name, [n for n in checked(each) if n in each.answers.absent]) == (
-            each.name,
-            [],
-        )
+        absent = [n for n in checked(each.derivation) if n in each.answers.absent]
+        assert (each.name, absent) == (each.name, [])
         if not each.derivation.no_lagrangian:
             assert (each.name, initial_mistakes(each.derivation.problem)) == (each.name, ())
         findings = [found for found in compared(each.derivation, each.answers) if found is not None]
@@ -120,8 +128,7 @@ class TestSet:
         compiled(render(answers, Options(standalone=True)), tmp_path)
 
     def test_the_explanations_compile(self, library, tmp_path):
-        # there is nothing to tell from an H whose velocities do not determine the momenta
-        told = [explain(each.derivation) for each in library if not each.derivation.no_lagrangian]
+        told = [each.explanation for each in library if each.explanation]
         compiled(explaining.render(told, "latex", Options(standalone=True)), tmp_path)
         for line in explaining.render(told, "text", Options(width=80)).splitlines():
             assert display_width(line) <= 80, line
@@ -133,6 +140,25 @@ class TestSet:
             explain(derive(load(LIBRARY / f"{name}.yaml")), also) for name, also in FURTHER.items()
         ]
         compiled(explaining.render(told, "latex", Options(standalone=True)), tmp_path)
+
+
+@pytest.mark.long
+@pytest.mark.skipif(PROGRAM is None, reason="chromium is missing")
+def test_the_pages_are_quiet_and_fit_on_a_phone(library, tmp_path):
+    cards = [
+        made(each.name.removesuffix(".yaml"), each.derivation, each.explanation, tmp_path)
+        for each in library
+    ]
+    write_list(cards, tmp_path)
+    wrong = {}
+    with Browser() as browser:
+        for name in ("index", *(card.name for card in cards)):
+            said = browser.complaints(tmp_path / f"{name}.html")
+            # the list of the gallery shows the pictures that lie beside it
+            out = [each for each in said if not each.startswith(tmp_path.as_uri())]
+            if out or browser.pixels_too_wide() > 0:
+                wrong[name] = out
+    assert wrong == {}
 
 
 FURTHER = {
