@@ -53,7 +53,7 @@ class Card(NamedTuple):
 
 def made(name: str, derivation: Derivation, told: Explanation | None, folder: Path) -> Card:
     """Write the page and the picture of a problem; of an H alone its equations are the page."""
-    problem = derivation.problem
+    problem = derivation.given
     page = folder / f"{name}.html"
     page.parent.mkdir(parents=True, exist_ok=True)
     below, picture = moved(problem)
