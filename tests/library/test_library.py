@@ -78,7 +78,7 @@ def usual(problem: Problem) -> list[str]:
 
 
 def checked(derivation: Derivation) -> list[str]:
-    expected = [each.name for each in sections_expected(derivation.problem.expect)]
+    expected = [each.name for each in sections_expected(derivation.given.expect)]
     return expected if derivation.no_lagrangian else [*LAWS, *expected]
 
 
