@@ -17,11 +17,6 @@ def map_of(values: Schema, least: int = 0) -> Schema:
     return {"type": "object", "additionalProperties": values, "minProperties": least}
 
 
-def declarations_of(values: Schema, least: int = 0) -> Schema:
-    """Names that are declared to values."""
-    return {**map_of(values, least), "propertyNames": ref("declared")}
-
-
 def record_of(required: tuple[str, ...] = (), /, **properties: Schema) -> Schema:
     """A map with these keys and no other."""
     return {
