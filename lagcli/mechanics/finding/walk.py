@@ -14,7 +14,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 import mpmath
+from flint import arb, ctx, fmpq, fmpq_poly
 from mpmath import mpf
+from mpmath.libmp import to_rational
 from sympy import Expr, Symbol
 
 from lagcli.algebra.numeric import Evaluator
@@ -246,22 +248,11 @@ def _sign(value: mpf) -> int:
 
 def _real_roots(coefficients: Sequence[mpf]) -> list[mpf]:
     """The real roots of a polynomial by its coefficients, constant term first."""
-    if len(coefficients) < 2:
-        return []
-    if len(coefficients) == 2:
-        return [-coefficients[0] / coefficients[1]]
-    if len(coefficients) == 3:
-        c, b, a = coefficients
-        discriminant = b**2 - 4 * a * c
-        if abs(discriminant) < _SMALL * (b**2 + abs(4 * a * c)):
-            return [-b / (2 * a)] * 2
-        if discriminant < 0:
-            return []
-        root = mpmath.sqrt(discriminant)
-        return [(-b - root) / (2 * a), (-b + root) / (2 * a)]
-    if not any(coefficients[1::2]):  # of z^2
-        squares = _real_roots(coefficients[::2])
-        roots = [mpmath.sqrt(abs(square)) for square in squares if square > -_SMALL]
-        return [*roots, *(-root for root in roots)]
-    roots = mpmath.polyroots(coefficients[::-1], maxsteps=1000, extraprec=4 * DIGITS)
-    return [mpmath.re(root) for root in roots if abs(mpmath.im(root)) < _SAME * (1 + abs(root))]
+    exact = fmpq_poly([fmpq(*map(int, to_rational(c._mpf_))) for c in coefficients])  # noqa: SLF001
+    with ctx.workdps(2 * DIGITS):
+        return [
+            mpf(tuple(map(int, root.real.mid().man_exp())))
+            for root, multiplicity in exact.complex_roots()
+            for _ in range(multiplicity)
+            if abs(root.imag) < arb(str(_SAME)) * (1 + abs(root))
+        ]
