@@ -248,7 +248,7 @@ def _sign(value: mpf) -> int:
 
 def _real_roots(coefficients: Sequence[mpf]) -> list[mpf]:
     """The real roots of a polynomial by its coefficients, constant term first."""
-    exact = fmpq_poly([fmpq(*map(int, to_rational(c._mpf_))) for c in coefficients])  # noqa: SLF001
+    exact = fmpq_poly([fmpq(*map(int, to_rational(c._mpf_))) for c in coefficients])
     with ctx.workdps(2 * DIGITS):
         return [
             mpf(tuple(map(int, root.real.mid().man_exp())))
