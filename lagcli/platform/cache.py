@@ -250,7 +250,6 @@ def _versions() -> Iterator[list[str]]:
         ("sympy", "release.py"),
         ("mpmath", "__init__.py"),
         ("flint", "__init__.py"),
-        ("lark", "__init__.py"),
         ("yaml", "__init__.py"),
         ("symengine", "__init__.py"),
         ("gmpy2", "__init__.py"),

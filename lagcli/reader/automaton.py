@@ -1,7 +1,6 @@
 """The parser's tables at work, without lark: importing lark takes longer than any parse.
 
-An LALR(1) automaton under a lexer that is one regular expression.  It knows right texts
-only; at the first thing that it cannot take it gives up, and lark is asked what is wrong.
+An LALR(1) automaton under a lexer that is one regular expression.
 
 References
 ----------
@@ -25,8 +24,21 @@ class Token(str):  # noqa: SLOT000 - a text has no room for slots
     end_pos: int
 
 
-class GaveUp(Exception):
-    """The text is not of the language."""
+class Unexpected(Exception):
+    """The text is not of the language.
+
+    Attributes
+    ----------
+    place : int
+        Where: that of a character that begins no token, or of a token; the length of the text
+        where it ends too early.
+    token : Token or None
+        The token that cannot stand there.
+    """
+
+    def __init__(self, place: int, token: Token | None = None) -> None:
+        super().__init__(place)
+        self.place, self.token = place, token
 
 
 class Automaton:
@@ -67,28 +79,30 @@ class Automaton:
 
         Raises
         ------
-        GaveUp
+        Unexpected
             Where the text is not of the language.
         """
         states: list[int] = [self._starts[start]]
         values: list[Any] = []
-        for token in self._look(self._tokens(text)):
-            self._reduced(states, values, token.type)
+        for token in self._look(self.tokens(text)):
+            if not self._reduced(states, values, token.type):
+                raise Unexpected(token.start_pos, token)
             states.append(self._states[states[-1]][token.type])
             values.append(token)
-        self._reduced(states, values, END, self._ends[start])
+        if not self._reduced(states, values, END, self._ends[start]):
+            raise Unexpected(len(text))
         return values[-1]
 
     def _reduced(
         self, states: list[int], values: list[Any], symbol: str, end: int | None = None
-    ) -> None:
-        """Apply rules until the symbol is to be taken, or the end has come."""
+    ) -> bool:
+        """Apply rules until the symbol is to be taken, or the end has come; False: neither can."""
         while True:
             action = self._states[states[-1]].get(symbol)
             if action is None:
-                raise GaveUp
+                return False
             if action >= 0:
-                return
+                return True
             origin, callback, length, kept, spliced, single = self._rules[-1 - action]
             parts = values[len(values) - length :]
             del values[len(values) - length :], states[len(states) - length :]
@@ -99,14 +113,15 @@ class Automaton:
             values.append(whole)
             states.append(self._states[states[-1]][origin])
             if states[-1] == end:
-                return
+                return True
 
-    def _tokens(self, text: str) -> Iterator[Token]:
+    def tokens(self, text: str) -> Iterator[Token]:
+        """The tokens; `Unexpected` at a character that begins none."""
         place, match = 0, self._match
         while place < len(text):
             found = match(text, place)
             if found is None or found.end() == place:
-                raise GaveUp
+                raise Unexpected(place)
             kind = str(found.lastgroup)
             if kind not in self._ignored:
                 token = Token(found.group())

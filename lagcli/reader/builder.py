@@ -37,8 +37,7 @@ from lagcli.reader.text import Mistake
 from lagcli.record import replace
 
 if TYPE_CHECKING:
-    from lark.lexer import Token
-
+    from lagcli.reader.automaton import Token
     from lagcli.reader.positions import Excerpt
 
 #: The text that is being read: where the spans of its nodes are looked up.
@@ -50,7 +49,7 @@ _PRIME_COUNT = {"'": 1, "’": 1, "′": 1, "″": 2, "‴": 3}
 
 def span_of(token: Token) -> Span:
     """The place of a token in the file."""
-    return excerpt_being_read.get().span(cast("int", token.start_pos), cast("int", token.end_pos))
+    return excerpt_being_read.get().span(token.start_pos, token.end_pos)
 
 
 def mistake(message: str, span: Span, hint: str = "") -> Mistake:

@@ -9,18 +9,16 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, TypeVar, cast
 
 from lagcli.diagnostics import ProblemError, Source
-from lagcli.reader.automaton import GaveUp
+from lagcli.reader.automaton import Token, Unexpected
 from lagcli.reader.builder import excerpt_being_read, mistake
 from lagcli.reader.constants import check_constants
 from lagcli.reader.limits import EXPRESSION_CHARACTERS, thousands
-from lagcli.reader.parser import automaton, parser
+from lagcli.reader.parser import automaton
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.text import Mistake
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-    from lark.lexer import Token
 
     from lagcli.expression import Equation, Expression
     from lagcli.problem_data import Inequality
@@ -87,33 +85,19 @@ def _parse(excerpt: Excerpt, start: str) -> Expression | Equation | Inequality:
         message = f"an expression of {thousands(length)} characters, the limit is {bound}"
         raise mistake(message, excerpt.span(0, 1))
     reset = excerpt_being_read.set(excerpt)
-    quick = automaton()
     try:
-        found = quick.parse(excerpt.value, start) if quick else _parse_by_lark(excerpt, start)
-    except GaveUp:
-        found = _parse_by_lark(excerpt, start)
-    finally:
-        excerpt_being_read.reset(reset)
-    return cast("Expression | Equation | Inequality", found)
-
-
-def _parse_by_lark(excerpt: Excerpt, start: str) -> object:
-    """The same by lark, which knows what is wrong with a text."""
-    from lark.exceptions import UnexpectedInput
-
-    try:
-        return parser().parse(excerpt.value, start)
-    except UnexpectedInput as error:
+        return cast("Expression | Equation | Inequality", automaton().parse(excerpt.value, start))
+    except Unexpected as error:
         from lagcli.reader.syntax_errors import explain
 
         raise Mistake(explain(error, _tokens(excerpt.value), excerpt, start)) from None
+    finally:
+        excerpt_being_read.reset(reset)
 
 
 def _tokens(value: str) -> list[Token]:
     """The tokens up to the first character that begins none."""
-    from lark.exceptions import UnexpectedInput
-
     tokens: list[Token] = []
-    with suppress(UnexpectedInput, Mistake):
-        tokens.extend(parser().lex(value))
+    with suppress(Unexpected):
+        tokens.extend(automaton().tokens(value))
     return tokens

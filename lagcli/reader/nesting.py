@@ -11,7 +11,7 @@ from lagcli.reader.limits import CALL_LEVELS, NESTING_LEVELS
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from lark.lexer import Token
+    from lagcli.reader.automaton import Token
 
 _OPERATORS = frozenset(
     {"_PLUS", "MINUS", "STAR", "SLASH", "_POWER", "EQUAL", "COMPARISON", "COMMA"}

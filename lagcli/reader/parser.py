@@ -1,8 +1,7 @@
-"""The parser of the grammar beside this file, from tables that are made in advance.
+"""The parser of the grammar beside this file, and how its tables are made.
 
 Making the tables takes most of the time of reading a small problem, so they are kept in
-`grammar.json`.  They belong to one version of lark and to one text of the grammar; for
-any other they are made anew.  After a change of the grammar:
+`grammar.json`.  After a change of the grammar lark, which only this needs, makes them anew:
 
     python -m lagcli.reader.parser
 """
@@ -19,82 +18,37 @@ from lagcli.reader.builder import FormulaBuilder
 from lagcli.reader.nesting import check_nesting
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from lark import Lark
-    from lark.lexer import Token
 
 GRAMMAR = Path(__file__).with_name("grammar.lark")
 TABLES = Path(__file__).with_name("grammar.json")
 
 
-class Nesting:
-    """Looks at the tokens before the parser does."""
-
-    always_accept = ()
-
-    def process(self, stream: Iterator[Token]) -> Iterator[Token]:
-        """Pass the tokens on, until they nest too deep."""
-        return check_nesting(stream)
-
-
 @cache
-def automaton() -> Automaton | None:
-    """The parser for right texts; None where its tables are of another grammar."""
-    tables = _tables()
-    if tables.get("grammar") != _grammar() or "automaton" not in tables:
-        return None
-    return Automaton(tables["automaton"], FormulaBuilder(), check_nesting)
-
-
-@cache
-def parser() -> Lark:
-    """The parser that knows what is wrong, ready to build nodes."""
-    import lark
-
-    tables = _tables()
-    if tables.get("lark") != lark.__version__ or tables.get("grammar") != _grammar():
-        return make_parser()
-    data, memo = _with_whole_keys(tables["data"]), _with_whole_keys(tables["memo"])
-    # The public `Lark.load` reads a pickle, which could run code; this is its other half.
-    load: Callable[..., Lark] = lark.Lark._load_from_dict  # noqa: SLF001
-    return load(data, memo, transformer=FormulaBuilder(), postlex=Nesting())
+def automaton() -> Automaton:
+    """The parser, ready to build nodes."""
+    return Automaton(json.loads(TABLES.read_bytes())["automaton"], FormulaBuilder(), check_nesting)
 
 
 def make_parser() -> Lark:
-    """The parser, with tables made from the grammar."""
+    """Lark's parser, with tables made from the grammar."""
     from lark import Lark
 
     return Lark(
-        _grammar(),
+        GRAMMAR.read_text("utf-8"),
         parser="lalr",
         lexer="basic",
         start=["expression", "equation", "comparison"],
         maybe_placeholders=False,
         transformer=FormulaBuilder(),
-        postlex=Nesting(),
     )
 
 
 def make_tables() -> str:
-    """The text of `grammar.json`."""
-    import lark
-    from lark.grammar import Rule
-    from lark.lexer import TerminalDef
-
-    made = make_parser()
-    data, memo = made.memo_serialize([TerminalDef, Rule])
-    for key in ("transformer", "postlex"):
-        data["options"][key] = None
-    tables = {"lark": lark.__version__, "grammar": _grammar(), "data": data, "memo": memo}
-    tables["automaton"] = _automaton_tables(made)
-    return json.dumps(tables, separators=(",", ":"), sort_keys=True) + "\n"
-
-
-def _automaton_tables(made: Lark) -> dict[str, Any]:
-    """What `Automaton` needs, out of lark's parser."""
+    """The text of `grammar.json`: the grammar, and what `Automaton` needs of lark's parser."""
     from lark.parsers.lalr_analysis import Shift
 
+    made = make_parser()
     table: Any = made.parser.parser._parse_table  # noqa: SLF001
     lexer: Any = made._build_lexer()  # noqa: SLF001
     rules = list(dict.fromkeys(made.rules))
@@ -108,7 +62,7 @@ def _automaton_tables(made: Lark) -> dict[str, Any]:
         }
         for actions in table.states.values()
     ]
-    return {
+    tables = {
         "pattern": "|".join(f"(?P<{t.name}>{t.pattern.to_regexp()})" for t in lexer.terminals),
         "ignored": sorted(lexer.ignore_types),
         "rules": [_rule(rule) for rule in rules],
@@ -116,6 +70,8 @@ def _automaton_tables(made: Lark) -> dict[str, Any]:
         "starts": {name: place_of[state] for name, state in table.start_states.items()},
         "ends": {name: place_of[state] for name, state in table.end_states.items()},
     }
+    whole = {"grammar": GRAMMAR.read_text("utf-8"), "automaton": tables}
+    return json.dumps(whole, separators=(",", ":"), sort_keys=True) + "\n"
 
 
 def _rule(rule: Any) -> list[Any]:
@@ -133,29 +89,6 @@ def _rule(rule: Any) -> list[Any]:
         [k for k, part in parts if not part.is_term and part.name.startswith("_")],
         single,
     ]
-
-
-@cache
-def _tables() -> dict[str, Any]:
-    try:
-        found: dict[str, Any] = json.loads(TABLES.read_bytes())
-    except (OSError, ValueError):
-        return {}
-    return found
-
-
-def _grammar() -> str:
-    return GRAMMAR.read_text("utf-8")
-
-
-def _with_whole_keys(table: Any) -> Any:
-    """Undo what JSON does to a map of numbers: its keys come back as texts."""
-    if isinstance(table, dict):
-        return {int(key) if key.isdigit() else key: _with_whole_keys(value)
-                for key, value in table.items()}  # fmt: skip
-    if isinstance(table, list):
-        return [_with_whole_keys(value) for value in table]
-    return table
 
 
 if __name__ == "__main__":

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, cast
-
-from lark.exceptions import UnexpectedCharacters
+from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import FUNCTIONS
@@ -20,8 +18,7 @@ from lagcli.reader.habits import (
 )
 
 if TYPE_CHECKING:
-    from lark.lexer import Token
-
+    from lagcli.reader.automaton import Token, Unexpected
     from lagcli.reader.positions import Excerpt
 
 _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
@@ -57,12 +54,12 @@ _INSTEAD = {
 }
 
 
-def explain(error: Exception, tokens: list[Token], excerpt: Excerpt, start: str) -> Diagnostic:
+def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str) -> Diagnostic:
     """The sentence for a syntax error.
 
     Parameters
     ----------
-    error : lark.exceptions.UnexpectedInput
+    error : Unexpected
         What the parser says.
     tokens : list of Token
         The tokens up to the first character that begins none.
@@ -73,12 +70,11 @@ def explain(error: Exception, tokens: list[Token], excerpt: Excerpt, start: str)
     """
     if not excerpt.value.strip():
         return Diagnostic(f"an empty {start}", excerpt.everything)
-    if isinstance(error, UnexpectedCharacters):
-        at = cast("int", error.pos_in_stream)
-        return _unexpected_character(at, tokens, excerpt)
-    token: Token = error.token  # type: ignore[attr-defined]
-    if token.type == "$END":
-        return _unexpected_end(tokens, excerpt)
+    token = error.token
+    if token is None:
+        if error.place == len(excerpt.value):
+            return _unexpected_end(tokens, excerpt)
+        return _unexpected_character(error.place, tokens, excerpt)
     place = next(i for i, other in enumerate(tokens) if other.start_pos == token.start_pos)
     previous = tokens[place - 1] if place else None
     if previous is not None and previous.type in _END_VALUE and token.type in _BEGIN_VALUE:
@@ -169,8 +165,8 @@ def _unexpected_end(tokens: list[Token], excerpt: Excerpt) -> Diagnostic:
 def _missing_product(
     left: Token, right: Token, following: Token | None, excerpt: Excerpt
 ) -> Diagnostic:
-    span = excerpt.span(cast("int", left.start_pos), cast("int", right.end_pos))
-    apart = cast("int", left.end_pos) < cast("int", right.start_pos)
+    span = excerpt.span(left.start_pos, right.end_pos)
+    apart = left.end_pos < right.start_pos
     if left.type == "NAME" and str(left) in FUNCTIONS:
         message = f"the argument of {left} stands in parentheses"
         return Diagnostic(message, span, f"did you mean {left}({right})?")
@@ -253,4 +249,4 @@ def _open_parenthesis(tokens: list[Token]) -> Token | None:
 
 
 def _span(token: Token, excerpt: Excerpt) -> Span:
-    return excerpt.span(cast("int", token.start_pos), cast("int", token.end_pos))
+    return excerpt.span(token.start_pos, token.end_pos)

@@ -22,7 +22,7 @@ from lagcli.expression import (
 )
 from lagcli.reader import parse_equation_text, parse_text
 from lagcli.reader.builder import excerpt_being_read
-from lagcli.reader.parser import GRAMMAR, TABLES, make_parser, parser
+from lagcli.reader.parser import GRAMMAR, TABLES, automaton, make_parser
 from lagcli.reader.positions import Excerpt
 
 
@@ -161,5 +161,5 @@ def test_the_tables_belong_to_the_grammar():
 def test_the_tables_parse_as_the_grammar_does():
     text = "-a*b/c^-d + sin(x')*diff(Phi, 1)(y, 2) - U'(z)"
     reset = excerpt_being_read.set(Excerpt.whole(Source("-", text)))
-    assert make_parser().parse(text, "equation") == parser().parse(text, "equation")
+    assert make_parser().parse(text, "equation") == automaton().parse(text, "equation")
     excerpt_being_read.reset(reset)
