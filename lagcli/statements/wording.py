@@ -244,7 +244,7 @@ def unless(
 
     Nor where the coordinates at the `edge` of their range are positive.
     """
-    general = "for general values of the parameters " if vanishing is None else ""
+    general = "in general " if vanishing is None else ""
     parts: list[Part] = [f"{general}there is no {what}"]
     for position, name in enumerate(edge):
         parts += [" and " if position else " with ", Name(name), " > 0"]

@@ -162,6 +162,7 @@ KEPT = (
     ("forces: {y: k*x}", True, "a force that is not in L depends on it"),
     ("constraints: {c: x' = y'*z}", False, "the constraint 'c' acts along it"),
     ("constraints: {c: z' = y'*x}", True, "the constraint 'c' contains it"),
+    ("constraints: {c: x' = 0}", True, "the constraint 'c' contains its velocity"),
 )
 
 

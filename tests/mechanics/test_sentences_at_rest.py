@@ -11,7 +11,7 @@ import sympy
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.mechanics.reduction.statement import reduction
-from lagcli.pipeline import explain
+from lagcli.pipeline import Request, explain, state
 
 from .derived import derive
 from .test_explanation import words
@@ -130,7 +130,7 @@ def test_equal_weights_balance(seed):
     section = equilibria(derive(text).dynamics)
     assert section.equilibria == ()
     assert section.unless is None
-    assert "general values" in said(text, "Equilibria", "equilibria")
+    assert "in general there is no" in said(text, "Equilibria", "equilibria")
 
 
 # -- forces on points that are guided -------------------------------------------------------------
@@ -350,3 +350,43 @@ def test_damping_in_numbers_is_one_of_three_cases(c, case):
     assert [name for name in ("weak", "critical", "strong") if f"({name} damping)" in steps] == [
         case
     ]
+
+
+# -- what is denied, and what is not ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_rest_on_the_axis_of_polar_coordinates_is_not_denied(seed):
+    """V has its minimum at R = z = 0, where R and phi are no coordinates (R > 0 is assumed)."""
+    a, b = random.Random(seed).choices(range(1, 9), k=2)
+    text = (
+        "{coordinates: {R: {assume: positive}, phi: {}, z: {}}, "
+        f"T: (R'^2 + R^2*phi'^2 + z'^2)/2, V: log({a} + R^2 + {b}*z^2)}}"
+    )
+    assert "no equilibrium with R > 0" in said(text, "Equilibria", "equilibria")
+
+
+@pytest.mark.parametrize("force", ["F(t)", "m*X''(t)"])
+def test_rest_is_not_denied_for_each_function_of_time(force):
+    """A support with a constant acceleration has its plumb line: only in general there is none."""
+    name = force.strip("m*(t)'")
+    text = (
+        "{coordinates: [th], parameters: {m: {assume: positive}, g: {assume: positive}}, "
+        f"functions: {{{name}: [t]}}, T: m*th'^2/2, "
+        f'V: "-m*g*cos(th) - ({force})*sin(th)"}}'
+    )
+    assert "in general there is no equilibrium" in said(text, "Equilibria", "equilibria")
+
+
+@pytest.mark.parametrize(("g", "verdict"), [("{}", None), ("{assume: positive}", True)])
+def test_rest_of_a_mass_that_grows_with_time(g, verdict):
+    """m e^(g t) (x'' + g x' + w^2 x) = 0: damped for g > 0, growing for g < 0 (Caldirola, Kanai)."""
+    text = (
+        f"{{coordinates: [x], parameters: {{w: {{assume: positive}}, g: {g}}}, "
+        "L: exp(g*t)*(x'^2 - w^2*x^2)/2}"
+    )
+    asked = Request(sections=("equilibria",))
+    [rest] = state(derive(text), asked).sections["equilibria"].equilibria
+    assert rest.verdict is not None
+    assert rest.verdict.stable is verdict
+    assert bool(rest.verdict.unstable) is (verdict is None)

@@ -146,9 +146,9 @@ class Discovery(Setting):
             charge = point.charge_of(self.noether, transformation, allowed, lengths)
             if charge is None or is_zero(charge.charge) is True:
                 self.unproved = "a symmetry whose charge was not proved is left out"
-                self.stopped.append(self.unproved)
                 continue
             self.listing.add([charge])
+        self.stopped += [self.unproved] if self.unproved else []
         if not constraints:
             self.listing.rebase(lambda charges: without_time(charges, self.system, allowed))
 

@@ -116,6 +116,5 @@ def _without_potential(teller: Teller) -> Iterator[Block]:
         yield says("Rayleigh's dissipation function is")
         yield shows(letters.D, teller.readable.by_terms(system.D, as_given=True))
         drag = Negative(Diff(letters.D, letters.velocity))
-        yield says(
-            "It adds the generalized force ", drag, " along each coordinate ", letters.q, "."
-        )
+        along = " along " if len(system.q) == 1 else " along each coordinate "
+        yield says("It adds the generalized force ", drag, along, letters.q, ".")

@@ -45,7 +45,7 @@ def _known(along: AlongTheMotion) -> Iterator[Block]:
         "The solved accelerations and multipliers are substituted, the constraints are used, and "
         "every conserved quantity keeps its initial value. So these are 0 on the motion:"
     )
-    laws = [along.tree(law) for law in along.level_set.laws]
+    laws = dict.fromkeys(along.tree(law) for law in along.level_set.laws)
     yield equations_of((ZERO, law) for law in laws)
 
 

@@ -41,11 +41,12 @@ def discovered(teller: Teller, section: Section) -> Iterator[Block]:
         f"{discovery.ansatz}."
     )
     if discovery.cartesian:
-        which = "Cartesian coordinates are" if len(discovery.cartesian) > 1 else "arc length is"
+        one = "In proportion to the arc length is "
+        lead = "The Cartesian coordinates are " if len(discovery.cartesian) > 1 else one
         named = [
             part for X in discovery.cartesian for part in (", ", teller.readable.as_written(X))
         ]
-        yield says(f"The {which} ", *named[1:], ".")
+        yield says(lead, *named[1:], ".")
     yield says(
         "For a point transformation the Euler-Lagrange expression of the change of ",
         letters.L,
@@ -144,9 +145,10 @@ def algebra(teller: Teller, section: Section) -> Iterator[Block]:
         yield Heading("More symmetries for one value of", 2, Name(case.parameter))
         yield says("The linear equations have a smaller rank, and more solutions, for")
         yield shows(Name(case.parameter), case.value)
-        new = len(case.charges)
-        yield says(f"The number of symmetries is then {case.number}, with "
-                   f"{'this' if new == 1 else 'these'} in addition:")  # fmt: skip
+        one = len(case.charges) == 1
+        new = "this is no linear combination" if one else "these are no linear combinations"
+        yield says(f"The number of symmetries is then {case.number}, and {new} "
+                   "of those above:")  # fmt: skip
         yield equations_of((Name(name), value) for name, value in case.charges.items())
 
 

@@ -28,7 +28,7 @@ from lagcli.statements.wording import FINITE_MASS, INDEPENDENT, NOT_ZERO
 _MAX_EVIDENT = 64
 #: Why nothing is solved for where the forces at rest are 0/0.
 NO_VALUE_AT_REST = "a force has no value at rest, as v/|v| has none"
-_NO_CLOSED_SOLUTION = "the conditions of equilibrium have no closed solution"
+_NO_CLOSED_SOLUTION = "no closed solution of the conditions of equilibrium was found"
 #: Why nothing is solved for that is constant.
 TIMED = "the equations depend explicitly on the time"
 _AT_A_KINK = "a force jumps where its sign changes, and rest at such a kink is not decided"
@@ -234,7 +234,7 @@ class RestPoints(RestConditions):
     @property
     def _mass_may_be_infinite(self) -> bool:
         """Whether coordinates fail where a denominator of T vanishes, as on an ellipse's axis."""
-        entries = (entry for row in self.dynamics.lagrange.mass_matrix for entry in row)
+        entries = (entry for row in self.dynamics.lagrange.mass_matrix_at_rest for entry in row)
         below = (sympy.denom(sympy.together(entry)) for entry in entries)
         return any(not free_of(d, self.system.q) and sign(d) not in (1, -1) for d in below)
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import sympy
 from sympy import Expr, Symbol
+from sympy.core.function import AppliedUndef
 
 from lagcli.algebra import simplify
 from lagcli.algebra.build import free_of
@@ -23,8 +24,11 @@ def without_unknowns(
 ) -> tuple[Expr, ...] | None:
     """What no choice of the unknowns makes 0, but perhaps one of parameters.
 
-    None where all conditions may hold for special values of parameters that are not known.
+    None where all conditions may hold for special values of parameters that are not known, or for
+    special functions.
     """
+    if any(e.atoms(AppliedUndef) for e in conditions):
+        return None
     found = _factors_without(conditions, unknowns)
     if found or any(sign(e) in (1, -1) for e in conditions):
         return found

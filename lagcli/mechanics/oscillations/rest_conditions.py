@@ -26,6 +26,7 @@ from lagcli.algebra.factors import factors_of
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.place import at, nearly_vanishes, vanishes, where_positive
 from lagcli.algebra.signs import sign
+from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.translations import constant_nullspace
@@ -187,11 +188,14 @@ class RestConditions:
 
     @property
     def edge(self) -> tuple[str, ...]:
-        """Coordinates assumed positive at whose value 0 all conditions hold."""
+        """Coordinates assumed positive at whose value 0 all conditions may hold."""
 
         def holds(q: Symbol) -> bool:
             there = [e.xreplace({q: S.Zero}) for e in self.equations]
-            return not any(e.has(S.NaN, S.ComplexInfinity) or is_zero(e) is not True for e in there)
+            if any(e.has(S.NaN, S.ComplexInfinity) for e in there):
+                return False
+            solved = solve_system(there, [x for x in self.system.q if x != q])
+            return bool(solved.solutions) or not solved.complete
 
         return tuple(q.name for q in self.system.q if q.is_positive and holds(q))
 

@@ -40,7 +40,7 @@ from lagcli.mechanics.stability.uniform import displaced_it_accelerates
 from lagcli.mechanics.stability.verdict import Stability, undecided, unstable
 from lagcli.record import record
 
-_UNIFORM = "all velocities are constant in every motion"
+_UNIFORM = "these velocities are constant in every motion"
 _MOST_CHOICES = 40
 _MOST_DEPTH = 6
 

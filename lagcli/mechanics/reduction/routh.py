@@ -82,14 +82,17 @@ class Routh:
         """What `cyclic` demands and coordinate j does not meet."""
         q, forces = self.system.q[j], self.system.applied_forces
         equations = self.full.dynamics.constraints.equations
-        for equation in equations:
-            if is_zero(equation.row[j]) is not True:
+        holding = [e for e in equations if is_zero(e.row[j]) is not True]
+        for equation in holding:
+            force = equation.multiplier * equation.row[j]
+            if self.full.dynamics.vanishes_on_motion(force).holds is not True:
                 return f"the constraint '{equation.name}' acts along it"
         if is_zero(forces[j]) is not True:
             return "a force that is not in L acts along it"
         for equation in equations:
             if not self._untouched(equation, j):
-                return f"the constraint '{equation.name}' contains it"
+                what = "its velocity" if equation in holding else "it"
+                return f"the constraint '{equation.name}' contains {what}"
         assert not all(_independent(f, q) for f in forces)
         return "a force that is not in L depends on it"
 

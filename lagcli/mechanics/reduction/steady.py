@@ -29,7 +29,7 @@ from lagcli.mechanics.reduction.steady_families import SteadyFamilies
 from lagcli.mechanics.reduction.steady_motion import Steady
 
 _AT_SINGULAR = "the conditions hold only where the coordinates are singular"
-_UNSOLVED = "the conditions of a steady motion have no closed solution"
+_UNSOLVED = "no closed solution of the conditions of a steady motion was found"
 _ONLY_AT_REST = "under velocity constraints only states of rest were sought, and there is none"
 
 

@@ -144,7 +144,7 @@ class _Model:
             elif k in possible:
                 why = "eliminating a coordinate with it would save no work"
             else:
-                why = "it is not linear with a constant coefficient in any coordinate"
+                why = "it is not linear with a constant coefficient in a coordinate that is left"
             yield declared.name, f"kept with its multiplier: {why}"
 
     def _subsystems(self) -> Iterator[tuple[str, str]]:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from flint import arb
+
 from lagcli.statements.motions import Above, Verdict
-from lagcli.verification.claims.near import LinearMotion, eigenvalues
+from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues
 from lagcli.verification.claims.rest import conditions
 from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.examination import Examination
+from lagcli.verification.linear import size
 from lagcli.verification.states import State
 
 
@@ -57,7 +60,8 @@ def refutes(x: Examination, what: str, near: LinearMotion, verdict: Verdict, zer
         return "a disturbance grows"
     given = x.problem
     pushed = given.forces or given.dissipation or any(p.force for p in given.points)
-    conservative = not (pushed or zeros)
+    damping = sum((row[i] for i, row in enumerate(near.slopes[1])), arb(0))
+    conservative = not (pushed or zeros) and size(damping) < NOTHING  # masses may grow with t
     definite = all(_positive(value) for value in eigenvalues(near.laws.mass_matrix))
     free = not any(not row.holonomic for row in x.reference.rows)
     bowl = conservative and definite and free and all(k > 1e-8 for k in near.stiffness)
