@@ -211,6 +211,40 @@ def test_what_a_constraint_determines_is_no_double(constraint, given, exact):
         assert float(row[1].rad()) < 1e-20
 
 
+@pytest.mark.parametrize(
+    ("force", "integral"),
+    [
+        ("exp(-((t - 3)/1e-3)^2)", lambda: mpmath.sqrt(mpmath.pi) / 1000),
+        ("1/cosh((t - 3)/1e-4)^2", lambda: mpmath.mpf(2) / 10000),
+        ("exp(-(sin(t)/1e-2)^2)", lambda: mpmath.exp(-5000) * mpmath.besseli(0, 5000) * mpmath.pi),
+        ("(t/4)^300", lambda: mpmath.mpf(4) / 301),
+        ("1e-6/(1e-12 + (t - 3)^2)", lambda: mpmath.atan(3e6) + mpmath.atan(1e6)),
+    ],
+)
+def test_a_narrow_pulse_is_proved_though_no_coefficient_shows_it(force, integral):
+    """x' at the end is the integral of the force; of that of a sine there is half a period more."""
+    until = 5.0 if "sin" in force else 4.0
+    text = f"{{coordinates: [x], T: x'^2/2, forces: {{x: '{force}'}}, initial: {{x: 0}}}}"
+    found = proof(lagcli.loads(text), until, samples=2)
+    assert found.reached, found.refusal
+    with mpmath.workdps(40):
+        turns = mpmath.mpf(3) / 2 if "sin" in force else 1
+        assert contains(found.rows[-1][2], integral() * turns)
+
+
+@pytest.mark.parametrize("w", ["1e-3", "1e-5"])
+def test_a_low_wall_is_passed_and_a_high_one_turns_back(w):
+    """The speed is that of the beginning; behind x = 5 only where the wall is below 1/2."""
+    for height, speed in (("0.3", 1), ("0.7", -1)):
+        text = (
+            f"{{coordinates: [x], T: x'^2/2, V: '{height}*exp(-((x - 5)/{w})^2)', "
+            "initial: {x: 0, x': 1}}"
+        )
+        found = proof(lagcli.loads(text), 10.0, samples=2)
+        assert found.reached, found.refusal
+        assert contains(found.rows[-1][2], speed)
+
+
 def test_the_cut_of_an_angle_is_passed():
     """atan2(sin t, cos t) is t up to pi, and t - 2 pi from there on."""
     problem = lagcli.loads(

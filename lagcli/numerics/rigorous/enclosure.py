@@ -38,6 +38,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any
 
 from lagcli.numerics.integrators.taylor import log2_size
@@ -53,16 +54,20 @@ _WIDE_BITS = 64
 #: Q beside K.  The flow multiplies radii only: at the usual lengths its remainder is 1e-6 of it.
 _FLOW_ORDER = 0.4
 #: E beside the error at the beginning, at first, and then beside the growth in the last step.
-_ROOM, _GROWN = 1e3, 2.0
+_ROOM, _GROWN, _WIDEST = 1e3, 2.0, 1e9
 _TUBES = 4
 #: L - K beside K: what F_L overestimates weighs little then, and steps are nearly twice as long.
 _AHEAD = 0.6
 #: What D may be of P, on the errors at hand: 1000 steps widen them by a percent.
 _LOST = 1e-5
-_LEAST_SCALE = 1e-6
-_SHORTER, _LONGER, _LEAST_PART, _HALVINGS = 0.85, 1.02, 0.01, 80
-#: A step that is a smaller part of the span comes to a singularity, or to a set grown too wide.
-_SHORTEST = 1e-7
+#: Before a pulse a body at rest has moved by 1e-400: that is no scale.
+_LEAST_SCALE, _AT_REST = 1e-6, 1e-24
+_SHORTER, _LONGER, _LEAST_PART, _ATTEMPTS = 0.85, 1.02, 0.01, 120
+#: Far from a narrow feature the last coefficients are 0 and say nothing of the length: a defect
+#: that stays too large after _FEW attempts halves the step; the next begins at _FARTHER times it.
+_FEW, _FARTHER = 4, 4.0
+#: A step that is a smaller part of the span comes to a set grown too wide, or to a singularity.
+_SHORTEST, _SINGULAR = 1e-10, 1e-13
 _LARGEST = 1e15
 #: As an exponent of 2.
 _LONGEST = 50.0
@@ -142,6 +147,27 @@ class Piece:
         return self.start.moved(self.middle(self.end), self.derivative(self.end))
 
 
+class Trial:
+    """A step that is tried.
+
+    Attributes
+    ----------
+    begin, h : arb
+    polynomials, along : sequences of sequences of arb
+        Of q, v and the multipliers, about the beginning and about every time of the step.
+    times : arb
+        All those of the step.
+    defect : sequence of arb
+        F; empty until it is small enough.
+    """
+
+    def __init__(self, begin: Any, h: Any, polynomials: Sequence[Sequence[Any]]) -> None:
+        self.begin, self.h, self.polynomials = begin, h, polynomials
+        self.times: Any = None
+        self.along: Sequence[Sequence[Any]] = ()
+        self.defect: Sequence[Any] = ()
+
+
 class Enclosures:
     """The steps of one proof.
 
@@ -174,8 +200,8 @@ class Enclosures:
         self._peaks = peaks
         #: Q
         self.flow_order = round(_FLOW_ORDER * order)
-        #: what the last steps were of the estimated length
-        self._part = _FIRST_TRY
+        #: what the last steps were of the estimated length, and how long the last one was
+        self._part, self._last = _FIRST_TRY, math.inf
         #: E of the next step beside the error at its beginning
         self._room: list[float] = []
 
@@ -203,18 +229,28 @@ class Enclosures:
         """The end of a step for which bounds are found, and these."""
         polynomials = [*centre, *self.field.forces(t, centre)]
         ahead = self.field.left([t, 1], polynomials, self.order, round((1 + _AHEAD) * self.order))
-        h = self._part * self._length(centre)
-        for attempt in range(_HALVINGS):
-            if h < _SHORTEST * float(until):
+        h = min(self._part * self._length(centre), _FARTHER * self._last, float(until - t))
+        wide = False
+        for attempt in range(_ATTEMPTS):
+            if h < (_SHORTEST if wide else _SINGULAR) * float(until):
                 break
             end = until if t + 1.05 * h >= until else self._ball(float(t + h))
-            flow = self._wide(t, end, polynomials, ahead, start)
+            trial, flow = Trial(t, (end - t).abs_upper() * _BEYOND, polynomials), None
+            with suppress(ZeroDivisionError, ValueError):
+                if self._leaves_little(trial, ahead):
+                    flow = self._flow(trial, start)
             if flow is not None:
                 self._part = min(1.0, self._part * (_LONGER if attempt == 0 else 1.0))
-                if self._part < self._least:
+                self._last = h
+                if wide and self._part < self._least:
                     raise ShortSteps("the steps become too short")
                 return end, flow
-            h, self._part = _SHORTER * h, max(_LEAST_PART, _SHORTER * self._part)
+            if trial.defect:
+                wide, self._room = True, []
+            if wide or attempt < _FEW:
+                h, self._part = _SHORTER * h, max(_LEAST_PART, _SHORTER * self._part)
+            else:
+                h /= 2
         raise NotEnclosed(
             "no enclosure was found over any step: the set has grown too wide, or the motion "
             "comes to a singularity"
@@ -223,7 +259,8 @@ class Enclosures:
     @property
     def scales(self) -> list[float]:
         """The largest value of each component so far, or a small part of the largest of all."""
-        least = _LEAST_SCALE * (max(self._peaks) or 1.0)
+        largest = max(self._peaks)
+        least = _LEAST_SCALE * (largest if largest > _AT_REST else 1.0)
         return [max(peak, least) for peak in self._peaks]
 
     def _length(self, centre: Sequence[Sequence[Any]]) -> float:
@@ -235,40 +272,17 @@ class Enclosures:
                 exponent = min(exponent, (allowed - log2_size(each[k])) / k)
         return math.exp2(min(exponent, _LONGEST))
 
-    def _wide(
-        self,
-        t: Any,
-        end: Any,
-        polynomials: Sequence[Sequence[Any]],
-        ahead: Sequence[Any],
-        start: LohnerSet,
-    ) -> StepFlow | None:
-        """What bounds the errors over a step; None where it is too long."""
-        try:
-            h = (end - t).abs_upper() * _BEYOND
-            times, along = self.field.shifted(t, h, polynomials)
-            defect = self.field.defect(times, along, ahead, h)
-            small = all(
-                d < 8 * self.target * scale for d, scale in zip(defect, self.scales, strict=True)
-            )
-            return (
-                self._flow(t, h, polynomials[: len(defect)], (times, along), start, defect)
-                if small
-                else None
-            )
-        except (ZeroDivisionError, ValueError):
-            return None
+    def _leaves_little(self, trial: Trial, ahead: Sequence[Any]) -> bool:
+        """Find its defect; whether that is about the target."""
+        trial.times, trial.along = self.field.shifted(trial.begin, trial.h, trial.polynomials)
+        defect = self.field.defect(trial.times, trial.along, ahead, trial.h)
+        if all(d < 8 * self.target * x for d, x in zip(defect, self.scales, strict=True)):
+            trial.defect = defect
+        return bool(trial.defect)
 
-    def _flow(
-        self,
-        t: Any,
-        h: Any,
-        centre: Sequence[Sequence[Any]],
-        over: tuple[Any, Sequence[Any]],
-        start: LohnerSet,
-        defect: Sequence[Any],
-    ) -> StepFlow | None:
+    def _flow(self, trial: Trial, start: LohnerSet) -> StepFlow | None:
         """The flow, where a tube E is found in which the errors stay."""
+        h, defect = trial.h, trial.defect
         whole = [x + d for x, d in zip(start.spread, defect, strict=True)]
         column = self._matrix(len(whole), 1, whole)
         room = self._room or [_ROOM] * len(whole)
@@ -277,14 +291,14 @@ class Enclosures:
             for a, x, scale in zip(room, whole, self.scales, strict=True)
         ]
         for _ in range(_TUBES):
-            slopes, bound = self._slopes(t, centre, over, tube)
+            slopes, bound = self._slopes(trial, tube)
             if not all(x < _LARGEST for x in (bound * h).entries()):
                 return None
             grown = (bound * h).exp()
             errors = (grown * column).entries()
             if all(x < e for x, e in zip(errors, tube, strict=True)):
                 self._room = [
-                    _GROWN * float(e / x) if x > 0 else _ROOM
+                    min(_GROWN * float(e / x), _WIDEST) if x > 0 else _ROOM
                     for e, x in zip(errors, whole, strict=True)
                 ]
                 return self._bounded(slopes, grown, h, defect, column)
@@ -293,20 +307,17 @@ class Enclosures:
                 return None
         return None
 
-    def _slopes(
-        self, t: Any, centre: Sequence[Sequence[Any]], over: tuple[Any, Any], tube: Sequence[Any]
-    ) -> tuple[list[Any], Any]:
+    def _slopes(self, trial: Trial, tube: Sequence[Any]) -> tuple[list[Any], Any]:
         """da/dx as J_0 .. J_Q, and N."""
         room = [self._ball(0, e) for e in tube]
         order = self.flow_order
-        at_start = [[c[0] + e, *c[1:order]] for c, e in zip(centre, room, strict=True)]
-        times, along = over
-        anywhere = [
-            [c[0] + e, *c[1 : order + 1]] for c, e in zip(along[: len(room)], room, strict=True)
-        ]
+        at_start, anywhere = (
+            [[c[0] + e, *c[1:length]] for c, e in zip(polynomials, room, strict=False)]
+            for polynomials, length in ((trial.polynomials, order), (trial.along, order + 1))
+        )
         slopes = self.field.system.slopes
-        found = slopes([t, 1], at_start, order)
-        first, *_, last = slopes([times, 1], anywhere, order + 1)
+        found = slopes([trial.begin, 1], at_start, order)
+        first, *_, last = slopes([trial.times, 1], anywhere, order + 1)
         return [*found, last], sizes(self.field.jacobian(first))
 
     def _bounded(
