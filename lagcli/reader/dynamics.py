@@ -177,8 +177,10 @@ def read_by_coordinate(
             along = re.sub(r"^[FQf]_?", "", key.label)
             hint = f"write {along}" if along in coordinates else ""
             hint = hint or did_you_mean(key.label, coordinates)
-            hint = hint or f"it is given along a coordinate: {', '.join(coordinates)}"
+            pointed = ", or as 'force' of a point" if section == "forces" else ""
+            hint = hint or f"it is given along a coordinate: {', '.join(coordinates)}{pointed}"
             if not sections.scope.refused:
                 sections.error(f"'{key.label}' in {section} is not a coordinate", key.span, hint)
+                continue
         found[key.label] = sections.expression(value, what.format(key.label), role)
     return found

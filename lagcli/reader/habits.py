@@ -19,8 +19,12 @@ KEYS = {
     "lagrangian": "L", "Lagrangian": "L", "hamiltonian": "H", "Hamiltonian": "H",
     "damping": "dissipation", "rayleigh": "dissipation",
     "name": "title", "reference": "source", "variables": "coordinates", "coords": "coordinates",
-    "generalized_coordinates": "coordinates", "q": "coordinates", "dofs": "coordinates",
-    "K": "T", "KE": "T", "PE": "V", "ics": "initial", "to": "until", "weight": "mass",
+    **dict.fromkeys(
+        ("generalized_coordinates", "generalised_coordinates", "q", "dofs"), "coordinates"),
+    "K": "T", "KE": "T", "PE": "V", "bodies": "points",
+    **dict.fromkeys(("ics", "ic", "y0", "state", "start", "init"), "initial"),
+    **dict.fromkeys(("holonomic", "nonholonomic", "conditions"), "constraints"),
+    "drag": "dissipation", "to": "until", "weight": "mass",
     **dict.fromkeys(("val", "default"), "value"),
     **dict.fromkeys(("pos", "r", "at", "location", "coords"), "position"),
     "constants": "parameters", "params": "parameters", "values": "parameters",
@@ -30,8 +34,8 @@ KEYS = {
     "force": "forces", "external_forces": "forces", "particles": "points", "masses": "points",
     "constraint": "constraints", "symmetry": "symmetries", "simulate": "simulation",
     **dict.fromkeys(
-        ("time", "t_end", "tend", "t_max", "tmax", "end", "duration", "tspan", "t_span", "stop",
-         "t1", "tf", "t_final"), "until"),
+        ("time", "T", "t_end", "tend", "t_max", "tmax", "end", "duration", "tspan", "t_span",
+         "stop", "t1", "tf", "t_final"), "until"),
     **dict.fromkeys(("tol", "tolerance", "rtol", "precision"), "accuracy"),
     **dict.fromkeys(("solver", "integrator"), "method"),
     **dict.fromkeys(("author", "book"), "source"),
@@ -39,6 +43,11 @@ KEYS = {
     "run": "simulation", "questions": "find", "expected": "expect", "answers": "expect",
 }  # fmt: skip
 
+#: Keys whose value is a map or a list.
+MAPS = frozenset(
+    "coordinates parameters functions definitions points forces constraints contacts symmetries "
+    "initial find simulation expect".split()
+)
 #: Words for the equations of motion, which no key takes.
 _EQUATIONS = frozenset("equations equations_of_motion equation ode odes eom eoms newton".split())
 DERIVED = "the equations of motion are derived: give T and V, or L"
@@ -104,6 +113,12 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
         return "a friction force -c*x' is written dissipation: c*x'^2/2"
     if word in {"dt", "h", "step", "steps", "timestep"} and "accuracy" in known:
         return "the steps follow from the accuracy: write accuracy: 1e-9"
+    if word in {"samples", "rows", "frames", "fps"} and "accuracy" in known:
+        return "an option, not a key: lagcli simulate FILE --samples 100"
+    if word in {"plot", "animate", "export", "sweep", "explain", "check"} and "T" in known:
+        return f"a command, not a key: lagcli {word} FILE"
+    if word in {"momenta", "momentum"} and "T" in known:
+        return "leave out the key: momenta are named p_x"
     if word in {"unit", "units"} and "parameters" in known:
         return "each name has its own: write parameters: {m: {unit: kg}}"
     if word in _EQUATIONS and "T" in known:
@@ -153,7 +168,7 @@ def name_meant(name: str) -> str:
     related = re.fullmatch(r"\s*(\w+)\s*(\W+?)\s*0\s*", name)
     if related and related[2] in SIGNS:
         return f"{related[1]}: {{assume: {SIGNS[related[2]]}}}"
-    if re.fullmatch(r"[^\W\d]\w*(\s+(-\s*)?[^\W\d]\w*)+", name):
+    if re.fullmatch(r"[^\W\d]\w*(\s*(\s-|\s|;)\s*[^\W\d]\w*)+", name):
         return ", ".join(re.findall(r"\w+", name))
     called = re.sub(r"\([^\W\d].*\)$", "", name)
     plain = "".join(map(_on_the_line, called)).lstrip("\\$").rstrip("$")

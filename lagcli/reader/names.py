@@ -217,6 +217,9 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return "there is no infinity"
     if not role.parameters and not role.definitions and role.order < 0:
         return role.why
+    for function in FUNCTIONS:
+        if (inner := name.removeprefix(function)) != name and inner in scope.usable(role):
+            return f"write {function}({inner})"
     if product := len(name) < 9 and product_meant(name, scope.usable(role)):
         return "did you mean " + product + "'" * primes + "?"
     if what.startswith("the symmetry") and name in {"eps", "epsilon", "ε", "s", "a", "delta"}:
@@ -224,9 +227,11 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     if what.startswith("the constraint") and name in {"lambda", "λ", "lam"}:
         return "a constraint is written without its multiplier"
     hint = did_you_mean(name, scope.usable(role))
+    if closest(name, scope.usable(role)) == "t" and name.endswith("t"):
+        hint = f"did you mean {name[:-1]}*t?"
     if re.fullmatch(r"_?\d+", name.removeprefix(closest(name, scope.usable(role)))):
         return UNDECLARED  # x0 beside x is another quantity
-    if not hint and name in {"T", "V", "L", "H"}:
+    if (not hint or name == "T") and name in {"T", "V", "L", "H"}:  # t is near to T
         return f"{name} is a key and not a name: write its formula"
     if not hint and name in {"v", "velocity", "speed", "d"} and role.order > 0 and coordinates:
         velocities = " and ".join(f"{each}'" for each in coordinates)
@@ -238,11 +243,15 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return "the exponential function is exp(…)"
     if not hint and what.startswith("the value of") and name in _NO_VALUE:
         return "a parameter without a value is written without ':', or as [m, k]"
+    if not hint and name in {"int", "integer"}:
+        return "write {integer: yes}"
     if not hint and name in get_args(Assumption):
         return f"an assumption is written {{assume: {name}}}"
     if not hint and name in {"I", "i", "j"}:
         return f"every quantity is real; {UNDECLARED}"
-    return hint or UNDECLARED
+    if not hint and name.casefold() in {"none", "null", "no", "nothing", "nil", "zero"}:
+        return "write 0"
+    return hint or UNDECLARED + (", or its formula under 'definitions'" if role.definitions else "")
 
 
 def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnostic]:
@@ -274,7 +283,9 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
     elif not scope.refused or function_meant(name, ["x"]):
         functions = [*FUNCTIONS, "diff", *scope.of_kind("function")]
         best = closest(name, functions)
-        hint = f"did you mean {best}(…)?" if best else "declare it under 'functions'"
+        product = product_meant(name, scope.usable(role)) if len(name) < 9 else ""
+        meant = best or (f"{product}*" if product else "")
+        hint = f"did you mean {meant}(…)?" if meant else "declare it under 'functions'"
         arguments = [_shown(each) for each in node.arguments]
         hint = function_meant(name, arguments) or hint
         yield Diagnostic(f"unknown function '{name}' in {what}", node.span, hint)

@@ -57,11 +57,9 @@ def read_initial(sections: Sections, node: DocumentNode) -> dict[Name, Expressio
             sections.error(message, key.span, "a decimal point is written '.'")
             continue
         name = _state_name(sections, key, coordinates)
-        if name is None and isinstance(value, Scalar) and value.is_empty:
-            continue
-        expression = sections.expression(value, what, VALUES)
         if name is None:
             continue
+        expression = sections.expression(value, what, VALUES)
         if name in initial:
             sections.error(f"the initial '{name}' is given twice", key.span)
         initial[name] = expression

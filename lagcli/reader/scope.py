@@ -48,7 +48,10 @@ POSITION = Role(order=0, why="a position depends on coordinates and t only")
 MASS = Role(order=0, why="a mass does not depend on velocities")
 CONSTANTS = Role(order=CONSTANT, time=False, why="it is made of numbers and parameters")
 VALUES = Role(
-    order=CONSTANT, time=False, definitions=False, why="only numbers and parameters can stand here"
+    order=CONSTANT,
+    time=False,
+    definitions=False,
+    why="only numbers and parameters can stand here; formulas stand under 'definitions'",
 )
 NUMBERS = Role(
     order=CONSTANT,
@@ -141,7 +144,7 @@ def name_mistake(name: str) -> tuple[str, str] | None:
         hint = "a name does not begin with a digit"
         return f"'{name}' is not a name", f"{hint}: write {better}" if better else hint
     if not all(_is_name_character(character) for character in name):
-        better = name_meant(name)
+        better = name_meant(name) or ("every name in full" if set(name) <= {".", "…"} else "")
         message = f"'{name}' is not a name: a name has letters, digits and underscores"
         return message, f"write {better}" if better else ""
     return None

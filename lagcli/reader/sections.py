@@ -13,9 +13,11 @@ from lagcli.problem_data import Assumption
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import (
+    MAPS,
     is_constant,
     key_advice,
     key_meant,
+    name_meant,
     same_key,
     unit_at_end,
     unit_behind,
@@ -42,6 +44,10 @@ _NUMERIC = (VALUES, NUMBERS)
 #: The words for it, and what they mean.
 YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
 _NAME = re.compile(r"[^\W\d]\w*")
+#: `x' = 0` and `x(0): 1`, several of them.
+_GIVEN = re.compile(
+    r"([^\W\d]\w*'*)(?:\(0\))?\s*[=:]\s*([^,;=:]+?)(?=\s*(?:$|[,;]|[^\W\d]\w*'*(?:\(0\))?\s*[=:]))"
+)
 _NO_EQUATION = Equation(ZERO, ZERO)
 
 
@@ -92,11 +98,17 @@ class Sections:
         if isinstance(node, Mapping):
             yield from node.entries
         else:
+            if isinstance(node, Scalar) and node.value.casefold() in {"none", "null", "no"}:
+                hint = "leave out the key"
             self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
 
     def by_name(self, node: DocumentNode) -> str:
         """How a list or a text of values is written as a map by coordinate."""
         names = list(self.scope.of_kind("coordinate")) or ["x"]
+        written = node.text.source.text[node.start : node.end].strip("[] \n")
+        pairs = _GIVEN.findall(written)
+        if len(pairs) > 1 or (pairs and isinstance(node, Sequence)):
+            return "write {" + ", ".join(f"{name}: {value}" for name, value in pairs) + "}"
         given = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
         if len(given) == 2 * len(names):
             names += [f"{name}'" for name in names]
@@ -153,9 +165,16 @@ class Sections:
             if required.key not in given | near:
                 self.error(f"{what} has no {required.key}", required.span, required.hint)
                 return {}
+        above = ""
         for key, value in entries:
             if key.label in names:
                 found[key.label] = (key, value)
+                above = key.label if key.label in MAPS and value.is_empty else ""
+            elif above:
+                if found.pop(above, None):
+                    message = f"'{key.label}' stands below '{above}', but not in it"
+                    self.error(message, key.span, "begin the line with blanks")
+                self.scope.refused.append(key.label)
             else:
                 self._unknown_key(key, value, what, names)
                 meant = key_meant(key.label, names) or same_key(key.label, names)
@@ -170,7 +189,9 @@ class Sections:
         meant = key_meant(key.label, names)
         advice = f"the key is {meant}" if meant else key_advice(key.label, written, names)
         hint = advice or did_you_mean(key.label, names) or f"known are {', '.join(names)}"
-        if key.in_flow and value.is_empty:
+        if "=" in key.label:
+            hint = f"write {name_meant(key.label)}"
+        elif key.in_flow and value.is_empty:
             hint = "inside { } a comma ends the value: put a text with commas in quotes"
         if "parameters" in names and is_constant(key.label, written):
             self.scope.refused.append(key.label)
@@ -211,10 +232,10 @@ class Sections:
         hint = f"write {number}: numbers are in the units of the file"
         if unit in {"min", "h"}:
             hint = f"write {number}*{60 if unit == 'min' else 3600} for seconds"
+        if what.startswith("the value of"):
+            hint = f"write {{value: {number}, unit: {unit}}}"
         if unit in {"deg", "°"}:
             hint = f"angles are in radians: write {number}*pi/180"
-        if what.startswith("the value of") and unit != "°":
-            hint = f"write {{value: {number}, unit: {unit}}}"
         self.error(f"the unit '{unit}' cannot stand behind a number", node.span, hint)
 
     def equation(self, node: DocumentNode, what: str, role: Role) -> Equation:
@@ -307,6 +328,10 @@ def _as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
         return f"write {{assume: {written}}}"
     if isinstance(node, Scalar) and unit_behind(f"1 {written}") == written and "unit" in names:
         return f"write {{unit: {written}}}"
+    if isinstance(node, Sequence) and names[0] == "unit" and unit_behind(f"1 {written[1:-1]}"):
+        return f"write {{unit: {written[1:-1]}}}"
+    if isinstance(node, Sequence) and names[0] == "unit" and "value" not in names:
+        return "a coordinate has no range: leave it out"
     if isinstance(node, Sequence) and "value" in names:
         return "one value each; several are run by lagcli sweep --vary"
     if isinstance(node, Scalar) and names[0] == "unit" and is_constant("x", written):
@@ -316,11 +341,13 @@ def _as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
     if isinstance(node, Scalar) and names[0] == "unit" and "value" not in names:
         return f"write {{description: {written}}}"
     if isinstance(node, Scalar) and names[0] == "where":
-        return f"write {{value: {written}, in_terms_of: [x]}}"
+        return f"write {{value: {written or '…'}, in_terms_of: [x]}}"
     if isinstance(node, Sequence) and names[0] == "until" and node.items:
         return f"write {{until: {written.strip('[]').split(',')[-1].strip()}}}"
     if isinstance(node, Scalar) and names[0] == "position" and re.fullmatch(r"\(.*\)", written):
         return f"write {{position: [{written[1:-1]}]}}"
+    if (words := written.split(None, 1)) and words[0] in names and words[1:]:
+        return f"write {{{words[0]}: {words[1]}}}"
     fits = {"until": Scalar, "position": Sequence}.get(names[0])
     if fits and isinstance(node, fits) and written:
         return f"write {{{names[0]}: {written}}}"

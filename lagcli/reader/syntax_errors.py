@@ -36,7 +36,8 @@ _INSTEAD = {
     "∂": "write diff(expression, name)",
     "∫": "write the antiderivative",
     "∑": "write each term",
-    **dict.fromkeys("$~", "leave it out"),
+    **dict.fromkeys("$~?@", "leave it out"),
+    "#": "a blank stands before the '#' of a comment",
     "|": "write abs(x)",
     ";": "leave out ';'",
     "!": "there is no factorial",
@@ -83,6 +84,10 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
             function = tokens[place - 3]
             hint = f"did you mean {function}(…)^{previous}?"
             return Diagnostic(f"'{function}' needs arguments", _span(function, excerpt), hint)
+        if [str(other) for other in tokens[place - 3 : place]] == ["^", "-", "1"]:
+            function = tokens[place - 4]
+            hint = f"the inverse function is a{function}(…)"
+            return Diagnostic(f"'{function}' needs arguments", _span(function, excerpt), hint)
         return _missing_product(previous, token, following, excerpt)
     if token.type == "COMPARISON" and CASES & {str(other) for other in tokens}:
         return Diagnostic("a formula has no cases", _span(token, excerpt), CASE)
@@ -123,6 +128,11 @@ def _meant(rest: str, tokens: list[Token]) -> str:
         return "write an equation with '='"
     if rest[0] == "[" and before == "LPAR":
         return "a vector is written by its components"
+    index = re.match(r"\[(\d+)\]|\{(\w+)\}", rest)
+    if index and before == "NAME" and (index[1] or tokens[-1].endswith("_")):
+        return f"write {tokens[-1].rstrip('_')}_{index[1] or index[2]}"
+    if re.match(r"\\\s*\d", rest):
+        return "division is written with '/'"
     if by_element := re.match(r"\.([*/^'])", rest):
         return f"write {by_element[1]}"
     if rest[0] == "%" and before == "NUMBER":
@@ -170,6 +180,10 @@ def _missing_product(
     if left.type == "NAME" and str(left) in FUNCTIONS:
         message = f"the argument of {left} stands in parentheses"
         return Diagnostic(message, span, f"did you mean {left}({right})?")
+    if str(right) == "and":
+        return Diagnostic("two statements in one", span, "write each by itself, under its own name")
+    if "where" in {left, right} and "=" in excerpt.value:
+        return Diagnostic("a formula has no conditions", span, "values stand under 'parameters'")
     if {str(left), str(right)} & CASES:
         return Diagnostic("a formula has no cases", span, CASE)
     before = _written(left) if left.type != "RPAR" else "(…)"

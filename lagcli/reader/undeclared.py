@@ -50,4 +50,4 @@ def one_for_undeclared(
 def _undeclared(diagnostic: Diagnostic) -> str:
     """The name, where it is one of those."""
     found = _NAME.fullmatch(diagnostic.message)
-    return found[1] if found and diagnostic.hint.endswith(UNDECLARED) else ""
+    return found[1] if found and UNDECLARED in diagnostic.hint else ""

@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.reader.habits import colon_advice
+from lagcli.reader.habits import KEYS, MAPS, SIGNS, colon_advice
 
 if TYPE_CHECKING:
     from lagcli.reader.text import SourceText
@@ -94,8 +94,18 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         return Diagnostic("this quote ends before the text does", span, hint)
     if "mapping values are not allowed" in said:
         return _second_colon(offset, text)
+    if line.startswith("```"):
+        return Diagnostic("this line is none of the file", span, f"leave out '{line}'")
     if text.source.text.startswith("?", offset):
         return Diagnostic("'?' is not a value", span, "leave out what is not known")
+    after = text.source.text[offset:]
+    if sign := re.match(r"([<>]=?)\s*0", after):
+        return Diagnostic("this is no value", span, f"write {{assume: {SIGNS[sign[1]]}}}")
+    if after.startswith("|"):
+        return Diagnostic("'|' has no meaning in an expression", span, "write abs(x)")
+    if valued := re.search(r":\s*([-\d.]+)\s*\[([^\W\d][^\]]*)\]", line):
+        hint = f"write {{value: {valued[1]}, unit: {valued[2]}}}"
+        return Diagnostic("a unit does not stand behind a number", span, hint)
     if index := re.search(r"(\w+?)_\{(\w+)\}", line):
         return Diagnostic("a name has no braces", span, f"write {index[1]}_{index[2]}")
     first = next((each for each in lines if each.strip()), "")
@@ -142,6 +152,13 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
             message = f"a {missing} is missing behind '{above['key'].split()[0]}'"
             return Diagnostic(message, text.span(start, end), colon_advice(lines[place]))
     span = text.span(offset, offset + 1)
+    word = re.search(r":\s.*\S\s+(\w+)\s*$", lines[line - 1][: column - 1])
+    inner = re.match(r"\s*(\w+):\s+([^\W\d]\w*'*:.*\S)", lines[line - 1])
+    if inner and inner[1] in MAPS:
+        hint = f"write {inner[1]}: {{{inner[2]}}}"
+        return Diagnostic("a map on the line of its key stands in braces", span, hint)
+    if word and word[1] in KEYS.values():
+        return Diagnostic("two keys on one line", span, f"begin a new line with '{word[1]}:'")
     return Diagnostic("a second ':' in one value", span, "put the whole value in quotes")
 
 
