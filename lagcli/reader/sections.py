@@ -106,9 +106,9 @@ class Sections:
         """How a list or a text of values is written as a map by coordinate."""
         names = list(self.scope.of_kind("coordinate")) or ["x"]
         written = node.text.source.text[node.start : node.end].strip("[] \n")
-        pairs = _GIVEN.findall(written)
-        if len(pairs) > 1 or (pairs and isinstance(node, Sequence)):
-            return "write {" + ", ".join(f"{name}: {value}" for name, value in pairs) + "}"
+        stated = _GIVEN.findall(written)
+        if len(stated) > 1 or (stated and isinstance(node, Sequence)):
+            return "write {" + ", ".join(f"{name}: {value}" for name, value in stated) + "}"
         given = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
         if len(given) == 2 * len(names):
             names += [f"{name}'" for name in names]
