@@ -18,8 +18,8 @@ from lagcli.formatters.grammar import to_grammar
 from lagcli.reader import parse_text
 
 ORDER = "M m m1 m2 I1 I3 l l1 l2 R g k c alpha t x y r theta phi psi theta1 theta2".split()
-M, m, m1, m2, l1, l2, R, g, k, c, r, x0 = (
-    Symbol(n, positive=True) for n in "M m m1 m2 l1 l2 R g k c r x0".split()
+I1, I3, M, m, m1, m2, l1, l2, R, g, k, c, r, x0 = (
+    Symbol(n, positive=True) for n in "I1 I3 M m m1 m2 l1 l2 R g k c r x0".split()
 )
 alpha, t, x, y, theta, phi, u, v = (
     Symbol(n, real=True) for n in "alpha t x y theta phi theta1 theta2".split()
@@ -225,3 +225,10 @@ def test_a_denominator_is_written_alike_with_and_without_other_factors(a, b):
     below = a + b * cos(theta) ** 2
     alone, beside = (to_grammar(shape(sin(theta) / d)) for d in (below, m * below))
     assert alone.split("/", 1)[1].strip("()") in beside
+
+
+def test_the_moments_of_a_top_stand_by_the_squares_of_sine_and_cosine():
+    """I1 sin² + I3 cos² (Goldstein, 3rd ed., equation 5.53), also where it is divided by."""
+    p = (I1 * sin(theta) ** 2 + I3 * cos(theta) ** 2) * dphi + I3 * x * cos(theta)
+    assert to_grammar(shape(sp.diff(p, dphi))) == "I1*sin(theta)^2 + I3*cos(theta)^2"
+    assert to_grammar(shape(1 / sp.diff(p, dphi))) == "1/(I1*sin(theta)^2 + I3*cos(theta)^2)"

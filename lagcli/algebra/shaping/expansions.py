@@ -39,16 +39,17 @@ class Expansions:
         by_rest = self._by_rest(poly)
         choices: list[list[Terms]] = []
         for rest, inner in by_rest:
-            forms = [self.atoms.terms(self.field.ring.build(inner))]
             swapped = self._swapped(self.field.ring.build(inner))
-            forms.append(self.atoms.terms(swapped))
+            forms = [self.atoms.terms(swapped)] * 2
+            if len(swapped) == len(inner):  # else 1 - cos² is sin²: I1 sin² + I3 cos²
+                forms[0] = self.atoms.terms(self.field.ring.build(inner))
             rewritten = self.trigonometry.rewritten(inner, squared=below)
             forms.extend(rewritten or [forms[0], forms[0]])
             forms.append(min(forms, key=self._weight))
             outer = self.atoms.term(rest)
             choices.append([{multiply(outer, t): v for t, v in f.items()} for f in forms])
         width = max(len(c) for c in choices)
-        for position in range(1, width):
+        for position in range(width):
             merged: Terms = {}
             for forms in choices:
                 for term, value in forms[min(position, len(forms) - 1)].items():

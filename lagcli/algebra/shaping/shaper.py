@@ -34,6 +34,8 @@ _TOGETHER = 1.35
 _TOGETHER_TERMS = 8
 #: Operations that a form of a denominator without cos 2x may have more.
 _DOUBLE = 4
+#: Operations that a sum of sin² and cos² may have more than one of 1 and cos².
+_UNEVEN = 4
 #: How many times as long the velocities may be apart where a sum below cancels.
 _APART = 1.1
 _FEW = 3  # terms that are also shown without factoring: c² - v²
@@ -420,9 +422,18 @@ class Shaper:
 
         Below a fraction 7 + 9 sin² x comes before 23 - 9 cos 2x.
         """
+        best, doubled = self._bracketed(poly)
+        return self._bracketed(poly, below=True)[0] if below and doubled else best
+
+    def _bracketed(
+        self, poly: Poly, *, below: bool = False
+    ) -> tuple[PlannedProduct | PlannedSum, bool]:
+        """The shortest plan, and whether there are cosines of multiples in it."""
         best: PlannedProduct | PlannedSum | None = None
-        lowest = 0
-        for terms in self.expansions.of(poly, below=below):
+        lowest, doubled = 0, False
+        forms = self.expansions.of(poly, below=below)
+        plain, fewest = self.atoms.terms(poly), min(map(len, forms))
+        for terms in forms:
             plan = self.grouper.group(terms)
             if isinstance(plan, PlannedSum):
                 turned = plan.negated()
@@ -433,12 +444,15 @@ class Shaper:
                     )
             else:  # its sign goes to the whole product, as that of a sum does
                 score = plan.score - OPERATION * (plan.coefficient < 0)
-            if below and self.atoms.has_double_angle(terms):
+            if terms == plain and len(terms) > fewest:  # I1 + (I3 - I1) cos²: I1 sin² + I3 cos²
+                score += _UNEVEN * OPERATION
+            multiple = self.atoms.has_double_angle(terms)
+            if below and multiple:
                 score += _DOUBLE * OPERATION
             if best is None or score < lowest:
-                best, lowest = plan, score
+                best, lowest, doubled = plan, score, multiple
         assert best is not None
-        return best
+        return best, doubled
 
 
 def _sums_of(poly: Poly) -> frozenset[tuple[str, int]]:
