@@ -221,9 +221,7 @@ class Linearization:
 
 def _steps(force: Expr, node: Expr, state: Sequence[Symbol]) -> list[Expr]:
     """The jump of the force and of its derivatives where the argument changes its sign."""
-    argument = node.args[0]
-    left, right = (
-        force.xreplace({sympy.Abs(argument): s * argument, sympy.sign(argument): S(s)})
-        for s in (-1, 1)
-    )
+    u = node.args[0]
+    sides = ({sympy.Abs(u): s * u, sympy.sign(u): S(s)} for s in (-1, 1))
+    left, right = (force.xreplace(each).xreplace(each) for each in sides)  # sign(|u|) is sign(s u)
     return [left - right, *((left - right).diff(x) for x in state)]

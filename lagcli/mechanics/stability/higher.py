@@ -14,9 +14,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import sympy
 from sympy import Expr
 
-from lagcli.algebra import simplify
+from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.place import at
@@ -28,10 +29,16 @@ _HIGHEST = 6
 
 
 def potential_derivatives(linear: Linearization) -> list[Expr]:
-    """V'', V''', … there, of a system with one coordinate and no constraints; empty of others."""
+    """V'', V''', … there, of a system with one coordinate and no constraints; empty of others.
+
+    Empty at a corner of V as well, and at one of its derivatives: |x|³ has one at 0.
+    """
     if len(linear.system.q) != 1 or linear.dynamics.constraints.equations or linear.point.free:
         return []
     [q], [force] = linear.system.q, linear.forces_at_rest
+    bent = force.atoms(sympy.Abs, sympy.sign)
+    if any(is_zero(at(node.args[0], linear.point.values)) is not False for node in bent):
+        return []
     found = []
     for _ in range(2, _HIGHEST + 1):
         force = force.diff(q)

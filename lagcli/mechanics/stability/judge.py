@@ -18,6 +18,7 @@ from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.oscillations.singular import OnMeridians
 from lagcli.mechanics.reduction.averaged import averaged
+from lagcli.mechanics.stability.corners import by_both_sides
 from lagcli.mechanics.stability.lagrange_dirichlet import (
     NO_FORCE,
     by_higher_order,
@@ -43,6 +44,7 @@ ACCELERATES = "near it there are motions with a constant acceleration"
 _EVERYWHERE = "every position is an equilibrium, and the kinetic energy does not grow"
 _POWERS = "all roots are 0, and to first order displacements grow in proportion to a power of t"
 _NO_MOTION = "the equations of motion are singular there"
+_JUMPS = "a force jumps there, or its derivative does"
 _NO_COORDINATES = "the coordinates are singular there"
 
 
@@ -53,7 +55,7 @@ def judge(linear: Linearization, characteristic: Characteristic | None = None) -
         return Stability(stable=True, reason=EXCLUDED)
     try:
         if reason := _not_smooth(near):
-            return undecided(reason)
+            return (reason == _JUMPS and by_both_sides(near)) or undecided(reason)
         apart = by_separate_curvatures(near)
         if apart is not None:
             return apart
@@ -102,7 +104,7 @@ def _not_smooth(near: Near) -> str:
     if not near.linear.regular:
         return "the mass matrix is singular there"
     if not near.linear.smooth:
-        return "a force jumps there, or its derivative does"
+        return _JUMPS
     return ""
 
 
@@ -142,4 +144,5 @@ def _without_roots(near: Near) -> Stability:
     forced = any(x != 0 for row in near.linear.K for x in row)
     if forced and displaced_it_accelerates(near.linear.dynamics):
         return unstable(ACCELERATES)
-    return by_higher_order(near) or undecided(_POWERS if forced else NO_FORCE)
+    found = by_higher_order(near) or by_both_sides(near)
+    return found or undecided(_POWERS if forced else NO_FORCE)

@@ -41,7 +41,7 @@ from lagcli.record import replace
 
 NO_FORCE = "there is no force to first order"
 _STRICT = "{V} has a strict minimum"
-_DECREASES = "{V} decreases to one side, where a motion from rest leaves"
+DECREASES = "{V} decreases to one side, where a motion from rest leaves"
 _FLAT = "{V} has no second derivative there"
 
 
@@ -82,7 +82,7 @@ def by_separate_curvatures(near: Near) -> Stability | None:
     signs = near.signs(near.diagonal)
     if None in signs or 0 in signs or near.hypotheses.lacking:
         return None
-    return unstable(FALLING) if -1 in signs else _strict_minimum(near) if signs else None
+    return unstable(FALLING) if -1 in signs else strict(near) if signs else None
 
 
 def by_higher_order(near: Near) -> Stability | None:
@@ -100,7 +100,7 @@ def by_derivatives(
         return undecided(hypotheses.lacking)
     order, curvature = order_of_minimum(derivatives, positive), derivatives[0]
     if order == 0:
-        return unstable(FALLING if sign_of(curvature, positive) == -1 else _DECREASES)
+        return unstable(FALLING if sign_of(curvature, positive) == -1 else DECREASES)
     if order is not None:
         return _stable(_STRICT + f" of order {order}" * (order > 2) + " there")
     if sign_of(curvature, positive) == 0 or weak_sign(curvature, positive) == -1:
@@ -111,7 +111,7 @@ def by_derivatives(
 
 def _minimum(near: Near, neutral: int) -> Stability:
     if neutral == 0:
-        return _strict_minimum(near)
+        return strict(near)
     if neutral == len(near.restoring.M):
         return undecided(_FLAT if near.linear.gyroscopic else NO_FORCE)
     if neutral > near.dimension_released:
@@ -121,7 +121,7 @@ def _minimum(near: Near, neutral: int) -> Stability:
     return replace(_stable(f"{_STRICT} across the family"), across=True)
 
 
-def _strict_minimum(near: Near) -> Stability:
+def strict(near: Near) -> Stability:
     if near.complete and not near.linear.nonholonomic:
         damped = f"{_STRICT} there, and all motions are damped"
         return replace(_stable(damped, KELVIN_TAIT_CHETAEV), asymptotic=True)

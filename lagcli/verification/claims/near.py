@@ -18,6 +18,7 @@ from lagcli.verification.reference import DynamicsAtState
 from lagcli.verification.states import Environment
 
 _STEP = arb(2) ** -100
+_BESIDE = arb(2) ** -30
 #: Real parts and differences below this are 0: an eigenvalue of multiplicity 4 is right to 1e-20.
 NOTHING = 1e-12
 #: Relative differences of eigenvalues: those of multiplicity 2 are right to 1e-19.
@@ -93,6 +94,20 @@ class LinearMotion:
                 columns[primes].append(gaps)
         by_q, by_v = ([list(r) for r in zip(*c, strict=True)] for c in columns)
         return by_q, by_v
+
+    @cached_property
+    def sides(self) -> tuple[int, ...]:
+        """Of one coordinate: 1 where it is pushed away on a side, -1 where it is pushed back.
+
+        So near that the first term that is not 0 of its acceleration outweighs all others.
+        """
+        if self.size > 1:
+            return ()
+        [name] = self.x.reference.names
+        place = self.environment[name, 0]
+        moved = ({**self.environment, (name, 0): place + side * _BESIDE} for side in (1, -1))
+        above, below = (self.laws_at(each).accelerations[0] for each in moved)
+        return tuple(int(a > 0) - int(a < 0) for a in (above, -below))
 
     @property
     def still(self) -> bool:

@@ -56,7 +56,8 @@ def refutes(x: Examination, what: str, near: LinearMotion, verdict: Verdict, zer
     if not near.regular:
         return _at_a_pole(near, verdict)
     judged = Judged(near, zeros)
-    if verdict.stable and judged.growing:
+    leaves, returns = 1 in near.sides, near.sides == (-1, -1)
+    if verdict.stable and (judged.growing or leaves):
         return "a disturbance grows"
     given = x.problem
     pushed = given.forces or given.dissipation or any(p.force for p in given.points)
@@ -65,7 +66,8 @@ def refutes(x: Examination, what: str, near: LinearMotion, verdict: Verdict, zer
     definite = all(_positive(value) for value in eigenvalues(near.laws.mass_matrix))
     free = not any(not row.holonomic for row in x.reference.rows)
     bowl = conservative and definite and free and all(k > 1e-8 for k in near.stiffness)
-    if verdict.stable is False and (bowl or judged.oscillating):
+    restored = bowl or judged.oscillating or (conservative and definite and returns)
+    if verdict.stable is False and restored and not leaves:
         return "no disturbance grows"
     minimum = _all_hold(x, what, near, verdict.minimum)
     saddle = conservative and definite and free and any(k < -1e-8 for k in near.stiffness)
