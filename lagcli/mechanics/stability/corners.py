@@ -11,7 +11,7 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import simplify
 from lagcli.algebra.place import at
-from lagcli.mechanics.stability.lagrange_dirichlet import DECREASES, strict
+from lagcli.mechanics.stability.lagrange_dirichlet import DECREASES, at_strict_minimum
 from lagcli.mechanics.stability.near import Near
 from lagcli.mechanics.stability.signs import sign_of
 from lagcli.mechanics.stability.verdict import Stability, unstable
@@ -30,7 +30,7 @@ def by_both_sides(near: Near) -> Stability | None:
     signs = [side.sign(V - at(V, near.linear.point.values), direction) for direction in (1, -1)]
     if -1 in signs:
         return unstable(DECREASES)
-    return strict(near) if signs == [1, 1] else None
+    return at_strict_minimum(near) if signs == [1, 1] else None
 
 
 class BesidePlace:

@@ -82,7 +82,7 @@ def by_separate_curvatures(near: Near) -> Stability | None:
     signs = near.signs(near.diagonal)
     if None in signs or 0 in signs or near.hypotheses.lacking:
         return None
-    return unstable(FALLING) if -1 in signs else strict(near) if signs else None
+    return unstable(FALLING) if -1 in signs else at_strict_minimum(near) if signs else None
 
 
 def by_higher_order(near: Near) -> Stability | None:
@@ -111,7 +111,7 @@ def by_derivatives(
 
 def _minimum(near: Near, neutral: int) -> Stability:
     if neutral == 0:
-        return strict(near)
+        return at_strict_minimum(near)
     if neutral == len(near.restoring.M):
         return undecided(_FLAT if near.linear.gyroscopic else NO_FORCE)
     if neutral > near.dimension_released:
@@ -121,7 +121,8 @@ def _minimum(near: Near, neutral: int) -> Stability:
     return replace(_stable(f"{_STRICT} across the family"), across=True)
 
 
-def strict(near: Near) -> Stability:
+def at_strict_minimum(near: Near) -> Stability:
+    """Stable at a strict minimum of V, asymptotically where all motions are damped."""
     if near.complete and not near.linear.nonholonomic:
         damped = f"{_STRICT} there, and all motions are damped"
         return replace(_stable(damped, KELVIN_TAIT_CHETAEV), asymptotic=True)
