@@ -43,11 +43,12 @@ class BesidePlace:
     def sign(self, f: Expr, direction: int) -> int | None:
         """The sign of f there: that of its first derivative that is not 0; None: not known."""
         smooth = self._smooth(f, direction)
-        for order in range(_MOST if smooth is not None else 0):
-            known = sign_of(simplify(at(smooth, self.place)), self.positive)
+        if smooth is None:
+            return None
+        for order in range(_MOST):
+            known = sign_of(simplify(at(smooth.diff(self.q, order), self.place)), self.positive)
             if known != 0:
                 return None if known is None else known * direction**order
-            smooth = smooth.diff(self.q)
         return None
 
     def _smooth(self, f: Expr, direction: int) -> Expr | None:
