@@ -24,10 +24,10 @@ from lagcli.record import record, replace
 
 #: Bits of the first attempt and of the last; the order in proportion, from a scan of costs.
 _BITS, _MOST_BITS, _ORDER = 80, 640, 0.45
-#: All is worked out in these more than a step keeps: the pendulum's radius at t = 20 is 22 units of
-#: the last bit kept, without them 4200 (1300 of it by the 135 roundings alone); 80 and 96 bits are
-#: two words alike.
-_GUARD = 16
+#: All is worked out in these more than a step keeps: the pendulum's radius at t = 20 is 23 units of
+#: the last bit kept, without them 4200 (1300 of it by the 135 roundings alone).  That is 5 times
+#: the radius of a plain interval method in as many bits: `tests/oracle/interval_taylor.py`.
+_GUARD = 12
 #: Nodes of f and J that are evaluated to order 28, all attempts together: some 10 minutes.
 _WORK = 2e6
 #: With fewer bits than _PATIENT an attempt ends where the width of the set makes steps shorter
