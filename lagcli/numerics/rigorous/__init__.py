@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from lagcli.numerics.rigorous.proof import Proof, prove
+from lagcli.numerics.rigorous.proof import prove
+from lagcli.numerics.rigorous.result import Proof
 from lagcli.numerics.rigorous.shadowing import Shadowing
 
 __all__ = ["Proof", "Shadowing", "prove"]

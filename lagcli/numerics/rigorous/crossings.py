@@ -26,8 +26,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from lagcli.numerics.rigorous.enclosure import NotEnclosed, Piece
+from lagcli.numerics.rigorous.enclosure import NotEnclosed
 from lagcli.numerics.rigorous.field import VectorField
+from lagcli.numerics.rigorous.piece import Piece
 from lagcli.numerics.rigorous.sets import LohnerSet
 from lagcli.record import record
 

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from itertools import pairwise
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.arithmetic import Balls
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.equations.straight_line import straight_line
-from lagcli.numerics.hybrid.events import Event
-from lagcli.numerics.hybrid.request import Asked, Certificate, Result
+from lagcli.numerics.hybrid.request import Asked
 from lagcli.numerics.rigorous.crossings import UndecidedCrossing, Watched, behind, when
-from lagcli.numerics.rigorous.enclosure import NotEnclosed, Piece, ShortSteps
+from lagcli.numerics.rigorous.enclosure import NotEnclosed, ShortSteps
 from lagcli.numerics.rigorous.initial import initial_state
 from lagcli.numerics.rigorous.modes import ProofMode, ProofModes
+from lagcli.numerics.rigorous.piece import Piece
+from lagcli.numerics.rigorous.result import Proof
+from lagcli.numerics.rigorous.rows import Rows
 from lagcli.numerics.rigorous.sets import LohnerSet, around
 from lagcli.problem_data import Problem
-from lagcli.record import record, replace
+from lagcli.record import replace
 
 #: Bits of the first attempt and of the last; the order in proportion, from a scan of costs.
 _BITS, _MOST_BITS, _ORDER = 80, 640, 0.45
@@ -48,96 +48,11 @@ _BEYOND = 1.0625
 #: Bits beyond those that are lost and those that are wanted.
 _SPARE = 8
 
-#: Impacts that come sooner and sooner are taken to accumulate.
-_SOONER = 8
-
 _WIDE = "the enclosures are wider than the accuracy {:g}"
 
 Progress = Callable[[float], None]
-Enclosure = tuple[Any, ...]
-
-
 #: Time, set, mode, and the orders of what is 0 there.
 Following = tuple[Any, LohnerSet, ProofMode, Mapping[Watched, int]]
-
-
-@record
-class ProvedEvent:
-    """An event that happens once within a ball of times."""
-
-    t: Any
-    name: str
-    what: str
-    before: Mapping[str, Any]
-
-
-@record(kw_only=True)
-class Proof:
-    """What was proved.
-
-    Attributes
-    ----------
-    columns : tuple of str
-    rows : tuple of tuples of arb
-        Each ball contains the exact value at that time; None where it jumps just then.
-    accuracy, reached, holds_until
-        As of a certificate; here they are proved.
-    bits, kept, order, steps : int
-        Of the successful attempt: bits of the arithmetic, and those of them that a step keeps; what
-        it leaves out is below 2^-kept of the state.
-    assumed : tuple of str
-        What the proof stands on.
-    events : tuple of ProvedEvent
-        All that happened, in order.
-    refusal : str
-        Why the rows end early; empty where they do not.
-    within : float, optional
-        The rows are those of a motion whose initial values are as near to the file's; without it,
-        of the file's own motion.
-    """
-
-    columns: tuple[str, ...]
-    rows: tuple[Enclosure, ...]
-    accuracy: float
-    reached: bool
-    holds_until: float
-    bits: int
-    kept: int
-    order: int
-    steps: int
-    assumed: tuple[str, ...]
-    events: tuple[ProvedEvent, ...] = ()
-    refusal: str = ""
-    within: float | None = None
-
-    def as_result(self) -> Result:
-        """The middles of all enclosures, as of a run."""
-        certificate = Certificate(
-            accuracy=self.accuracy,
-            reached=self.reached,
-            holds_until=self.holds_until,
-            global_error={},
-            scales=(),
-            estimated_by="proof",
-            charges={},
-            constraints={},
-        )
-        events = [
-            Event(float(e.t), e.name, e.what, float(e.t.rad()),
-                  before={name: _middle(x) for name, x in e.before.items()})
-            for e in self.events
-        ]  # fmt: skip
-        return Result(
-            columns=self.columns,
-            rows=tuple(tuple(map(_middle, row)) for row in self.rows),
-            certificate=certificate,
-            method="proof",
-            reason="",
-            steps=self.steps,
-            evaluations=0,
-            events=tuple(events),
-            refusal=self.refusal,
-        )
 
 
 def prove(
@@ -228,8 +143,6 @@ class Attempt:
         self.order = int(_ORDER * bits)
         self.arithmetic = Balls()
         self.steps, self.work = 0, 0.0
-        self.rows: list[Enclosure] = []
-        self.events: list[ProvedEvent] = []
         self.refusal = ""
         self.within: float | None = None
         self.assumed = ["the file as it is written", "the interval arithmetic of python-flint"]
@@ -237,7 +150,7 @@ class Attempt:
         self.width = 0.0
         self.last = 0.0
         self.short, self.excess = False, 0.0
-        self.times = self._times()
+        self.rows = Rows(setup, self.arithmetic)
 
     def proof(self) -> Proof:
         """The rows up to where they are proved."""
@@ -245,19 +158,21 @@ class Attempt:
             self._go()
         except NotEnclosed as reason:
             self.refusal, self.short = str(reason), isinstance(reason, ShortSteps)
-            if isinstance(reason, UndecidedCrossing) and self._impacts_accumulate():
+            if isinstance(reason, UndecidedCrossing) and self.rows.impacts_accumulate():
                 self.refusal += ", where impacts accumulate: what follows them is not enclosed"
         except (ArithmeticError, ValueError, OverflowError) as reason:
             self.refusal = f"the equations are not defined on the enclosure: {reason}"
         asked = self.setup.asked
-        good, self.excess = _good(self.rows, asked.accuracy)
-        reached = good == len(self.times)
-        if good < len(self.rows):
+        rows = self.rows
+        good, self.excess = rows.good()
+        reached = good == len(rows.times)
+        if good < len(rows.found):
             self.refusal = _WIDE.format(asked.accuracy)
-        holds = float(self.times[good - 1]) if good else 0.0
+        last = rows.times[good - 1] if good else 0.0
+        holds = float(last)
         return Proof(
             columns=tuple(column.name for column in asked.columns),
-            rows=tuple(self.rows[:good]),
+            rows=tuple(rows.found[:good]),
             accuracy=asked.accuracy,
             reached=reached,
             holds_until=holds,
@@ -266,23 +181,17 @@ class Attempt:
             order=self.order,
             steps=self.steps,
             assumed=tuple(self.assumed),
-            events=tuple(e for e in self.events if not e.t > (self.times[good - 1] if good else 0)),
+            events=tuple(e for e in rows.events if not e.t > last),
             refusal="" if reached else f"proved until t = {holds:g}: {self.refusal}",
             within=self.within,
         )
-
-    def _impacts_accumulate(self) -> bool:
-        """Whether the last ones come sooner and sooner."""
-        times = [float(event.t) for event in self.events if event.what == "impact"][-_SOONER:]
-        between = [b - a for a, b in pairwise(times)]
-        return len(times) == _SOONER and all(b < a for a, b in pairwise(between))
 
     def bits_needed(self) -> int:
         """For the whole span, by what was lost so far; 0 where more do not help."""
         accuracy, until = self.setup.asked.accuracy, self.setup.asked.until
         if self.short:
             return self.bits + _MORE_BITS
-        if len(self.rows) == len(self.times) and 1 < self.excess < math.inf:
+        if self.rows.complete and 1 < self.excess < math.inf:
             return self.bits + math.ceil(math.log2(self.excess)) + 2 * _SPARE
         if not (self.excess > 1 or self.width > _NARROW * accuracy):
             return 0
@@ -293,11 +202,11 @@ class Attempt:
 
     def _go(self) -> None:
         t, start, mode, leaving = self._begin()
-        self._take(mode, t, start.box)
+        self.rows.take(mode, t, start.box)
         for k in mode.stuck:
-            self._happened(t, mode.equations.kink_name(k), "sticks", mode, start.box)
+            self.rows.happened(t, mode.equations.kink_name(k), "sticks", mode, start.box)
         following: Following | None = (t, start, mode, leaving)
-        while following is not None and len(self.rows) < len(self.times):
+        while following is not None and not self.rows.complete:
             following = self._through_mode(*following)
 
     def _begin(self) -> Following:
@@ -344,9 +253,9 @@ class Attempt:
         self, t: Any, start: LohnerSet, mode: ProofMode, leaving: Mapping[Watched, int]
     ) -> Following | None:
         """Rows until the mode ends or the span does; what follows."""
-        while len(self.rows) < len(self.times):
+        while not self.rows.complete:
             piece, crossed = self._step(mode, t, start, leaving)
-            self._rows_of(piece, mode, None if crossed is None else crossed[1])
+            self.rows.over(piece, mode, None if crossed is None else crossed[1])
             self._count(piece, mode)
             if crossed is not None:
                 return self._cross(piece, mode, *crossed)
@@ -357,7 +266,7 @@ class Attempt:
         self, mode: ProofMode, t: Any, start: LohnerSet, leaving: Mapping[Watched, int]
     ) -> tuple[Piece, tuple[Watched, Any] | None]:
         """A step and what ends it; a shorter one where its end is at an event."""
-        last = self.times[-1].upper()
+        last = self.rows.times[-1].upper()
         piece = mode.enclosures.step(t, start, last * _BEYOND if mode.watched else last)
         try:
             return piece, self._crossing(piece, mode, leaving)
@@ -386,63 +295,22 @@ class Attempt:
         """What follows an event; None where the motion stops there."""
         state, ends = piece.at(tau), mode.ends(watched)
         if ends:
-            self._happened(tau, watched.name, ends, mode, state)
-            self.times[len(self.rows) :] = [tau]
-            self._take(mode, tau, state)
+            self.rows.happened(tau, watched.name, ends, mode, state)
+            self.rows.end_at(tau)
+            self.rows.take(mode, tau, state)
             return None
         after, restart, what = mode.through(watched, tau, state)
         if what != "switch":
-            self._happened(tau, watched.name, what, mode, state)
-        for t in self.times[len(self.rows) :]:
+            self.rows.happened(tau, watched.name, what, mode, state)
+        for t in self.rows.times[len(self.rows.found) :]:
             tau = tau.union(t) if t.overlaps(tau) else tau
         start, times, box = behind(piece, tau, watched, (mode.field, after.field), restart)
-        self._rows_within(times, (mode, piece.at(times)), (after, box))
+        self.rows.within(times, (mode, piece.at(times)), (after, box))
         leaves = {each: order for each in after.watched if (order := _order(each, watched))}
         for each in after.watched:
             if not each.term(after.field, times, box, leaves.get(each, 0)) > 0:
                 raise NotEnclosed(f"what {each.name} does at t = {float(tau):.6g} is not decided")
         return tau.mid(), start, after, leaves
-
-    def _happened(self, t: Any, name: str, what: str, mode: ProofMode, x: Sequence[Any]) -> None:
-        columns = [column.name for column in self.setup.asked.columns]
-        before = dict(zip(columns, self._values(mode, t, x), strict=True))
-        self.events.append(ProvedEvent(t, name, what, before))
-
-    def _rows_within(self, tau: Any, *sides: tuple[ProofMode, Sequence[Any]]) -> None:
-        """Rows within the enclosure of the time of an event: None in columns that jump."""
-        while len(self.rows) < len(self.times) and not self.times[len(self.rows)] > tau:
-            t = self.times[len(self.rows)]
-            if not tau.contains(t):
-                raise NotEnclosed(f"whether t = {float(t):.6g} is before an event is not decided")
-            before, after = (self._values(mode, t, x) for mode, x in sides)
-            self.rows.append(tuple(map(_joined, before, after)))
-
-    def _rows_of(self, piece: Piece, mode: ProofMode, event: Any) -> None:
-        until = piece.end if event is None else event.lower()
-        while len(self.rows) < len(self.times):
-            t = self.times[len(self.rows)]
-            if t > until or (event is not None and not t < until):
-                return
-            self._take(mode, t, piece.at(t))
-
-    def _times(self) -> list[Any]:
-        """The rows, both ends included, as exactly as they are written."""
-        asked, equations = self.setup.asked, self.setup.equations
-        if asked.times:
-            return [self.arithmetic.ball(t) for t in asked.times]
-        count = asked.samples - 1
-        end = self.arithmetic.ball(asked.until)
-        if asked.end is not None:
-            [end] = straight_line((), [equations.form.read(asked.end)], {}, self.arithmetic)()
-        return [end * k / count for k in range(count + 1)]
-
-    def _take(self, mode: ProofMode, t: Any, x: Sequence[Any]) -> None:
-        self.rows.append(tuple(self._values(mode, t, x)))
-
-    def _values(self, mode: ProofMode, t: Any, x: Sequence[Any]) -> list[Any]:
-        n, ball = mode.motion.n, self.arithmetic.ball
-        found = mode.values(t, list(x[:n]), list(x[n:]))
-        return [None if value is None else ball(value) for value in found]
 
     def _count(self, piece: Piece, mode: ProofMode) -> None:
         self.steps += 1
@@ -462,17 +330,6 @@ class Attempt:
             raise NotEnclosed(f"the limit of work is reached, after {self.steps} steps")
 
 
-def _joined(before: Any, after: Any) -> Any:
-    """What contains both sides of an event; None where they are apart."""
-    if before is None or after is None or not before.overlaps(after):
-        return None
-    return before.union(after)
-
-
-def _middle(x: Any) -> float | None:
-    return None if x is None else float(x.mid())
-
-
 def _order(each: Watched, crossed: Watched) -> int:
     """The order of its zero at an event.
 
@@ -482,26 +339,3 @@ def _order(each: Watched, crossed: Watched) -> int:
         return 0
     lost = {("force", "gap"): 3, ("slip", "kink"): 2}
     return lost.get((crossed.kind, each.kind), int(each.kind == crossed.kind))
-
-
-def _good(rows: Sequence[Enclosure], accuracy: float) -> tuple[int, float]:
-    """How many rows are as thin as asked for, beside the largest magnitude of their column.
-
-    A column whose enclosures all contain 0 is compared with the largest of the others.  The second
-    number is by how much the first row that is wider exceeds that; 0 where there is none.
-    """
-    scales: list[float] = []
-    for good, row in enumerate(rows):
-        sizes = [0.0 if x is None else float(x.abs_lower()) for x in row]
-        scales = [max(pair) for pair in zip(sizes, scales or sizes, strict=True)]
-        largest = max(scales[1:], default=0.0) or 1.0
-        for x, scale in zip(row[1:], scales[1:], strict=True):
-            allowed = accuracy * (scale or largest)
-            if x is not None and not (x.is_finite() and _radius(x) <= allowed):
-                return good, _radius(x) / allowed
-    return len(rows), 0.0
-
-
-def _radius(x: Any) -> float:
-    found = float(x.rad())
-    return found if math.isfinite(found) else math.inf

@@ -32,8 +32,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.rigorous.enclosure import NotEnclosed, Piece, ShortSteps
+from lagcli.numerics.rigorous.enclosure import NotEnclosed, ShortSteps
 from lagcli.numerics.rigorous.modes import ProofMode
+from lagcli.numerics.rigorous.piece import Piece
 from lagcli.numerics.rigorous.proof import Attempt
 from lagcli.numerics.rigorous.sets import LohnerSet, orthonormal
 from lagcli.record import record
@@ -90,7 +91,7 @@ class Shadowing(Attempt):
         offsets = [float(x.rad()) + y for x, y in zip(start.box, radii[0], strict=True)]
         self.within = _WIDER * max(offsets)  # Q_0 = 1
         for k, piece in pieces.items():
-            self._rows_of(_near(piece, radii[k]), mode, None)
+            self.rows.over(_near(piece, radii[k]), mode, None)
         if ended is not None:
             raise ended
 
@@ -103,12 +104,13 @@ class Shadowing(Attempt):
         pieces: dict[int, Piece],
     ) -> None:
         """All steps, and those in which rows are."""
-        last, row = self.times[-1].upper(), 0
+        times, row = self.rows.times, 0
+        last = times[-1].upper()
         mode.enclosures.flow_order = round(_FLOW_ORDER * self.order)
         mode.enclosures.target *= _FINER
-        while row < len(self.times):
+        while row < len(times):
             piece = mode.enclosures.step(t, here, last)
-            while row < len(self.times) and not self.times[row] > piece.end:
+            while row < len(times) and not times[row] > piece.end:
                 pieces[len(links)] = piece
                 row += 1
             link, here = _linked(piece)

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from lagcli.numerics.rigorous.proof import Proof
+from lagcli.numerics.rigorous.result import Proof
 from lagcli.numerics.tables.writing import aligned, as_csv
 
 #: Digits of a midpoint and of a radius in JSON and CSV.
