@@ -41,7 +41,7 @@ from lagcli.formatters.layout import (
     width_of,
 )
 from lagcli.formatters.numbers import DecimalParts, decimal_parts, digit_groups
-from lagcli.formatters.precedence import Level, Printer, begins_with_number
+from lagcli.formatters.precedence import FractionPrinter, Level, begins_with_number
 from lagcli.record import record
 
 #: Nothing that cannot be broken is wider, in points.
@@ -98,7 +98,7 @@ class Box:
         return width_of(self.pieces)
 
 
-class LatexPrinter(Printer[Box]):
+class LatexPrinter(FractionPrinter[Box]):
     """The notation of printed books: fractions, roots, dots, Greek letters."""
 
     leading_factor = Level.POWER
@@ -108,7 +108,7 @@ class LatexPrinter(Printer[Box]):
         self.names = names or LatexNames()
 
     def at(self, node: Expression, lowest: Level) -> Box:
-        box = self.show(node)
+        box = self.placed(node, lowest)
         return box if box.level >= lowest else self.bracketed(box)
 
     def bracketed(self, shown: Box, before: str = "", after: str = "") -> Box:
@@ -161,14 +161,18 @@ class LatexPrinter(Printer[Box]):
             closed = (*pieces[: -len(last.pieces)], *last.closed)
         return Box(tuple(pieces), Level.PRODUCT, max(box.height for box in boxes), closed)
 
-    def quotient(self, node: Quotient) -> Box:
+    def sloped(self, above: Box, below: Box) -> Box:
+        pieces = (*(above.closed or above.pieces), _SLASH, *below.pieces)
+        return Box(pieces, Level.QUOTIENT, max(above.height, below.height))
+
+    def upright(self, node: Quotient) -> Box:
         below = node.denominator
         if isinstance(below, Call) and below.function == "sqrt":
-            content = self.show(below.arguments[0])
+            content = self.within.show(below.arguments[0])
             if content.width > WIDEST:
                 inverse = self.bracketed(content, after="^{-1/2}")
                 return self._over(self.show(node.numerator), inverse)
-        above, under = self.show(node.numerator), self.show(below)
+        above, under = self.within.show(node.numerator), self.within.show(below)
         if above.width > WIDEST >= under.width and isinstance(node.numerator, Product):
             parted = self._parted(node.numerator.factors, below)
             if parted is not None:
@@ -177,9 +181,9 @@ class LatexPrinter(Printer[Box]):
 
     def _parted(self, above: tuple[Expression, ...], below: Expression) -> Product | None:
         """The product with those factors over `below` that fit into a fraction: 3 r / D ( ... )."""
-        widths = accumulate(self.show(factor).width + THIN_SPACE for factor in above)
+        widths = accumulate(self.show(factor).width + THIN_SPACE for factor in above[:-1])
         count = sum(width <= WIDEST for width in widths)
-        if not 0 < count < len(above):
+        if not count:
             return None
         front = Product(above[:count]) if count > 1 else above[0]
         return Product((Quotient(front, below), *above[count:]))
@@ -210,7 +214,7 @@ class LatexPrinter(Printer[Box]):
     def power(self, node: Power) -> Box:
         exponent = self._raised(node.exponent)
         if SCRIPT * exponent.width > WIDEST / 2:
-            arguments = self._arguments((node.base, node.exponent))
+            arguments = self.arguments((node.base, node.exponent))
             return Box((TextPiece(r"\operatorname{pow}", 18), *arguments.pieces), height=_BIG)
         raised = TextPiece(f"^{{{exponent.text}}}", SCRIPT * exponent.width + 1)
         base = node.base
@@ -244,11 +248,14 @@ class LatexPrinter(Printer[Box]):
             return Box(_enclosed(content, r"\lvert ", r" \rvert "), height=content.height)
         if node.function == "integral":
             return self._integral(node)
+        if (exponent := self.exponential(node)) is not None:
+            raised = TextPiece(rf"\mathrm{{e}}^{{{exponent.text}}}", 6 + SCRIPT * exponent.width)
+            return Box((raised,), Level.POWER)
         if node.function in _FUNCTIONS:
             return self._function(node)
         head = self.names.name(node.function) + "'" * node.primes
         width = self.names.width(node.function) + 3 * node.primes
-        arguments = self._arguments(node.arguments)
+        arguments = self.arguments(node.arguments)
         return Box((TextPiece(head, width), *arguments.pieces), height=arguments.height)
 
     def _integral(self, node: Call) -> Box:
@@ -271,7 +278,7 @@ class LatexPrinter(Printer[Box]):
         macro = _FUNCTIONS[node.function]
         name = TextPiece(macro, text_width(macro.rpartition("{")[2].strip("\\}")) + 2 * THIN_SPACE)
         head = (name, raised) if raised else (name,)
-        arguments = self._arguments(node.arguments)
+        arguments = self.within.arguments(node.arguments)
         closed = (*head, *arguments.pieces)
         inner = node.arguments[0]
         bare = isinstance(inner, Name) and inner.primes <= 2 and self.names.bare(inner.name)
@@ -287,7 +294,7 @@ class LatexPrinter(Printer[Box]):
             f"{slots} {self.names.name(node.function)}",
             11 * len(node.indices) + self.names.width(node.function),
         )
-        arguments = self._arguments(node.arguments)
+        arguments = self.arguments(node.arguments)
         return Box((head, *arguments.pieces), height=arguments.height)
 
     def diff(self, node: Diff) -> Box:
@@ -307,7 +314,7 @@ class LatexPrinter(Printer[Box]):
         gap = TextPiece(r" \, ", THIN_SPACE)
         return Box((_frac("d", "dt", 9), gap, *operand.pieces), Level.PRODUCT, _TALL)
 
-    def _arguments(self, nodes: tuple[Expression, ...]) -> Box:
+    def arguments(self, nodes: tuple[Expression, ...]) -> Box:
         pieces: list[TextPiece] = []
         height = _FLAT
         for node in nodes:

@@ -23,7 +23,7 @@ from lagcli.expression import (
 )
 from lagcli.formatters.functions import FIXED, ON_PAPER, TRIGONOMETRIC
 from lagcli.formatters.numbers import decimal_parts, digit_groups
-from lagcli.formatters.precedence import Level, Printer, begins_with_number
+from lagcli.formatters.precedence import FractionPrinter, Level, begins_with_number
 from lagcli.notation.greek import BY_NAME
 from lagcli.notation.letters import bold
 from lagcli.notation.naming import name_parts
@@ -34,12 +34,13 @@ _DOTS = {1: "˙", 2: "¨"}
 _APPLIED, _TIMES = "<mo>&#x2061;</mo>", "<mo>&#x2062;</mo>"
 _SUB, _END_SUB = "<msub>", "</msub>"
 _DOTTED, _END_DOTTED = "<mover accent='true'>", "</mover>"
+_SLASH = "<mo lspace='0' rspace='0'>/</mo>"
 _THIN = "<mspace width='0.17em'/>"
 #: What makes a formula higher than a line.
 _HIGH = ("<mfrac", "<mtable", "<msqrt", "<mo>∫")
 
 
-class MathmlPrinter(Printer[str]):
+class MathmlPrinter(FractionPrinter[str]):
     """The notation of printed books, as elements."""
 
     leading_factor = Level.POWER
@@ -56,6 +57,10 @@ class MathmlPrinter(Printer[str]):
                 return Level.PRODUCT
             case _:
                 return super().level(node)
+
+    def at(self, node: Expression, lowest: Level) -> str:
+        shown = self.placed(node, lowest)
+        return shown if self.level(node) >= lowest else self.bracketed(shown)
 
     def bracketed(self, shown: str) -> str:
         return enclosed("(", shown, ")")
@@ -95,8 +100,12 @@ class MathmlPrinter(Printer[str]):
             shown.append(("<mo>⋅</mo>" if begins_with_number(after) else _TIMES) + space + factor)
         return f"<mrow>{''.join(shown)}</mrow>"
 
-    def quotient(self, node: Quotient) -> str:
-        return f"<mfrac>{self.show(node.numerator)}{self.show(node.denominator)}</mfrac>"
+    def upright(self, node: Quotient) -> str:
+        above, below = self.within.show(node.numerator), self.within.show(node.denominator)
+        return f"<mfrac>{above}{below}</mfrac>"
+
+    def sloped(self, above: str, below: str) -> str:
+        return f"<mrow>{above}{_SLASH}{below}</mrow>"
 
     def power(self, node: Power) -> str:
         exponent = _on_one_line(node.exponent) or self.show(node.exponent)
@@ -104,7 +113,7 @@ class MathmlPrinter(Printer[str]):
         natural = isinstance(node.exponent, Number) and node.exponent.value.denominator == 1
         if isinstance(base, Call) and base.function in TRIGONOMETRIC and natural:
             head = f"<msup><mi>{base.function}</mi>{exponent}</msup>"
-            return f"<mrow>{head}{_APPLIED}{self.arguments(base.arguments)}</mrow>"
+            return f"<mrow>{head}{_APPLIED}{self.within.arguments(base.arguments)}</mrow>"
         shown = self.at(base, Level.ATOM)
         if isinstance(base, Name) and shown.startswith(_SUB):  # one above the other
             return f"<msubsup>{_low(shown[len(_SUB) : -len(_END_SUB)])}{exponent}</msubsup>"
@@ -117,10 +126,12 @@ class MathmlPrinter(Printer[str]):
             return enclosed("|", self.show(node.arguments[0]), "|")
         if node.function == "integral":
             return self._integral(node)
+        if (exponent := self.exponential(node)) is not None:
+            return f"<msup><mi mathvariant='normal'>e</mi>{exponent}</msup>"
         if node.function in FIXED:
             head = f"<mi>{ON_PAPER.get(node.function, node.function)}</mi>"
-        else:
-            head = _primed(mathml_name(node.function), node.primes)
+            return f"<mrow>{head}{_APPLIED}{self.within.arguments(node.arguments)}</mrow>"
+        head = _primed(mathml_name(node.function), node.primes)
         return f"<mrow>{head}{_APPLIED}{self.arguments(node.arguments)}</mrow>"
 
     def _integral(self, node: Call) -> str:
@@ -238,5 +249,4 @@ def _on_one_line(exponent: Expression) -> str:
             above, below = over.numerator, under.numerator
         case _:
             return ""
-    slash = "<mo lspace='0' rspace='0'>/</mo>"
-    return f"<mrow>{minus}<mn>{above}</mn>{slash}<mn>{below}</mn></mrow>"
+    return f"<mrow>{minus}<mn>{above}</mn>{_SLASH}<mn>{below}</mn></mrow>"

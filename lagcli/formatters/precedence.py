@@ -9,8 +9,10 @@ around a part that binds less tightly than its place demands.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from copy import copy
 from enum import IntEnum
-from typing import Generic, TypeVar
+from functools import cached_property
+from typing import Generic, Self, TypeVar
 
 from lagcli.expression import (
     Call,
@@ -30,6 +32,10 @@ from lagcli.expression import (
 )
 
 Shown = TypeVar("Shown")
+
+#: Letters and numbers, at most, that are set with a slash, or as an exponent:
+#: (x'^2 + y'^2 + z'^2)/c^2 has eight.
+_SLOPED = 9
 
 
 class Level(IntEnum):
@@ -55,21 +61,21 @@ class Printer(ABC, Generic[Shown]):
     either = ("±", "∓")
 
     def __init__(self) -> None:
-        self._ready: dict[int, Shown] = {}
+        self.ready: dict[int, tuple[Expression, Shown]] = {}  # the node is kept: so is its id
 
     def show(self, node: Expression) -> Shown:
         """Set the formula in this notation."""
-        if id(node) in self._ready:
-            return self._ready[id(node)]
-        outermost = not self._ready
+        if id(node) in self.ready:
+            return self.ready[id(node)][1]
+        outermost = not self.ready
         try:
             for part in reversed(list(walk(node))):  # parts come before what holds them
-                if id(part) not in self._ready:
-                    self._ready[id(part)] = self._show(part)
-            return self._ready[id(node)]
+                if id(part) not in self.ready:
+                    self.ready[id(part)] = part, self._show(part)
+            return self.ready[id(node)][1]
         finally:
             if outermost:
-                self._ready.clear()
+                self.ready.clear()
 
     def at(self, node: Expression, lowest: Level) -> Shown:
         """Set the formula for a place where anything looser than `lowest` needs brackets."""
@@ -164,6 +170,56 @@ class Printer(ABC, Generic[Shown]):
     def diff(self, node: Diff) -> Shown: ...
     @abstractmethod
     def rate(self, node: Rate) -> Shown: ...
+
+
+class FractionPrinter(Printer[Shown]):
+    """A notation with upright fractions, and a slash where one of them would be too small.
+
+    In a fraction and behind ln or cos a short quotient is set with a slash: 1 - v^2/c^2.
+    """
+
+    #: Whether this one sets what stands in a fraction or behind ln.
+    small = False
+
+    @cached_property
+    def within(self) -> Self:
+        """The same notation in a fraction, or behind ln."""
+        inner = copy(self)
+        inner.small, inner.ready, inner.__dict__["within"] = True, {}, inner
+        return inner
+
+    @abstractmethod
+    def upright(self, node: Quotient) -> Shown: ...
+    @abstractmethod
+    def sloped(self, above: Shown, below: Shown) -> Shown: ...
+
+    def quotient(self, node: Quotient) -> Shown:
+        if not self.is_sloped(node):
+            return self.upright(node)
+        return self.sloped(
+            self.at(node.numerator, Level.PRODUCT), self.at(node.denominator, Level.POWER)
+        )
+
+    def is_sloped(self, node: Expression) -> bool:
+        """Whether the node has a slash where no bracket would be needed around it."""
+        return self.small and isinstance(node, Quotient) and _is_short(node)
+
+    def exponential(self, node: Call) -> Shown | None:
+        """Set the exponent of exp(a t), which is written as e^(a t); None where it is long."""
+        if node.function != "exp" or not _is_short(node):
+            return None
+        return self.within.show(node.arguments[0])
+
+    def placed(self, node: Expression, lowest: Level) -> Shown:
+        """Set the node for a place that binds so tightly, still without a bracket around it."""
+        factor = Level.QUOTIENT < lowest < Level.ATOM
+        if factor and isinstance(node, Quotient) and self.is_sloped(node):
+            return self.upright(node)
+        return self.show(node)
+
+
+def _is_short(node: Expression) -> bool:
+    return sum(isinstance(part, (Name, Number)) for part in walk(node)) <= _SLOPED
 
 
 def begins_with_number(node: Expression) -> bool:

@@ -12,6 +12,8 @@ from lagcli.record import record
 INDEX = "sys"
 _LETTERS_AND_DIGITS = re.compile(r"(?P<letters>.*[^0-9])(?P<digits>[0-9]*)", re.DOTALL)
 _BEFORE_DIGITS = re.compile(r"(?<=[^\d_])(?=\d)")
+#: A letter and its index written together, `Rc`; but `th` is how theta is shortened.
+_LETTER_AND_INDEX = re.compile(r"^([^\W\d_])([bcdfgjknqrvwxyz])(?=_|$)")
 _SETTING = re.compile(r"\\(?:math[a-z]+|text|textrm|operatorname|[,;: ])|[\\{}\s]")
 
 
@@ -24,7 +26,7 @@ class NameParts:
 
 
 def name_parts(name: str) -> NameParts:
-    """Split a name at its underscores and before the digits at the end of its first part.
+    """Split a name at its underscores and before the digits or the index of its first part.
 
     A name whose underscores separate nothing (`_x`, `x__y`) is left whole.
 
@@ -32,8 +34,10 @@ def name_parts(name: str) -> NameParts:
     --------
     >>> name_parts("theta_1"), name_parts("m12")
     (NameParts(base='theta', subscripts=('1',)), NameParts(base='m', subscripts=('12',)))
+    >>> name_parts("Rc")
+    NameParts(base='R', subscripts=('c',))
     """
-    first, *others = name.split("_")
+    first, *others = _LETTER_AND_INDEX.sub(r"\1_\2", name).split("_")
     match = _LETTERS_AND_DIGITS.fullmatch(first)
     if match is None or not all(others):
         return NameParts(name)
@@ -67,7 +71,7 @@ class Names(Collection[str]):
 
 def _typeset_as(name: str) -> str:
     spelled = "".join(BY_LETTER.get(c, c) for c in _SETTING.sub("", name).replace(",", "_"))
-    return _BEFORE_DIGITS.sub("_", spelled)
+    return _LETTER_AND_INDEX.sub(r"\1_\2", _BEFORE_DIGITS.sub("_", spelled))
 
 
 def free(taken: Collection[str], *choices: str) -> str:

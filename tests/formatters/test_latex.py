@@ -22,6 +22,7 @@ from lagcli.formatters.latex_math import WIDEST, LatexPrinter
 from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.options import LatexOptions, Options
+from lagcli.reader.expressions import parse_text
 from lagcli.statements.answers import Answers, LagrangianSection
 
 from .examples import (
@@ -92,6 +93,26 @@ def test_formulas_look_as_in_a_book(node, text):
     assert latex(node).replace(r"\bigl", "").replace(r"\bigr", "") == text.replace(
         r"\bigl", ""
     ).replace(r"\bigr", "")
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("m*(1 - x'^2/c^2)/2", r"\frac{m \, (1 - \dot{x}^{2}/c^{2})}{2}"),
+        ("M/(1 + x/2)", r"\frac{M}{1 + x/2}"),
+        ("M/(1 + (x/2)*sin(y))", r"\frac{M}{1 + \frac{x}{2} \sin y}"),
+        ("M/(1 + (x/g)^2)", r"\frac{M}{1 + (x/g)^{2}}"),
+        ("log(x/(M*g))", r"\ln\bigl(x/(M g)\bigr)"),
+        ("sin(x)/2 + 1", r"\frac{\sin x}{2} + 1"),
+        ("cos(sin(x)/2)", r"\cos(\sin(x)/2)"),
+        ("M*exp(-x/2)", r"M \mathrm{e}^{-x/2}"),
+        ("exp(x)^2", r"(\mathrm{e}^{x})^{2}"),
+        ("Rc*xc'", r"R_{c} \dot{x}_{c}"),
+        ("th + L_xy", r"\mathit{th} + L_{\mathrm{xy}}"),
+    ],
+)
+def test_small_fractions_powers_of_e_and_letters_with_an_index(text, shown):
+    assert latex(parse_text(text)) == shown
 
 
 def test_a_momentum_carries_its_coordinate():
