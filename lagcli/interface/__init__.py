@@ -113,14 +113,16 @@ def solve(
         When a value does not fit, or the constraints contradict each other.
     """
     from lagcli.pipeline import Request, derive, state
+    from lagcli.reader.suggest import did_you_mean
     from lagcli.statements.registry import every_section, in_order
 
     names = None if sections is None else tuple(sections)
     known = {each.name for each in in_order(names or ())}
-    unknown = [name for name in names or () if name not in known]
-    if unknown:
-        every = ", ".join(each.name for each in every_section())
-        raise ValueError(f"unknown sections {unknown}: the sections are {every}")
+    for name in names or ():
+        if name not in known:
+            every = [each.name for each in every_section()]
+            hint = did_you_mean(name, every) or f"there are {', '.join(every)}"
+            raise ValueError(f"unknown section {name!r}: {hint}")
     changed = _with_values(problem, values, numeric=numeric)
     request = Request(sections=names, numeric=numeric)
     return Solution(state(derive(changed), request), changed)

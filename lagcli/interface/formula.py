@@ -65,6 +65,11 @@ class Formula:
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.to_latex()}$"
 
+    def _repr_html_(self) -> str:
+        from lagcli.formatters.mathml import MathmlPrinter
+
+        return f"<math displaystyle='true'>{MathmlPrinter().show(self.expression)}</math>"
+
     _repr_markdown_ = _repr_latex_  # what Quarto takes inside a sentence
 
     def to_sympy(self) -> Any:

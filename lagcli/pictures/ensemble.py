@@ -73,11 +73,14 @@ class Motions:
                 found.append((row, value))
         return found
 
-    @property
-    def left_out(self) -> str:
-        """A note on the rows that do not count."""
-        count = len(self.are_right) - sum(self.are_right)
-        return f"{count} of {len(self.rows)} rows do not reach the accuracy" if count else ""
+    def notes(self, labels: Labels) -> Iterator[str]:
+        """When the motions end, if all do at once, and how many rows do not count."""
+        clock = [k for k, each in enumerate(self.columns) if each.expression is None]
+        ends = {row[len(self.varied) + k] for row in self.rows for k in clock}
+        if not self.along and len(ends) == 1:
+            yield f"At t = {ends.pop():.6g} {labels.unit(None) or ''}".rstrip() + "."
+        if count := len(self.are_right) - sum(self.are_right):
+            yield f"{count} of {len(self.rows)} rows do not reach the accuracy"
 
 
 def ensemble(problem: Problem, motions: Motions) -> Picture:
@@ -94,8 +97,7 @@ def ensemble(problem: Problem, motions: Motions) -> Picture:
     with_map = len(motions.varied) == 2 and motions.is_grid and not motions.along
     make = _map if with_map else _over_the_first
     panels = tuple(make(labels, motions, place) for place in shown)
-    notes = (motions.left_out,) if motions.left_out else ()
-    return Picture(title=problem.title, panels=panels, notes=notes)
+    return Picture(title=problem.title, panels=panels, notes=tuple(motions.notes(labels)))
 
 
 def _check(motions: Motions, shown: Sequence[int]) -> None:

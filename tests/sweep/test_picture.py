@@ -39,7 +39,7 @@ def test_one_quantity_is_a_curve_that_breaks_where_the_accuracy_is_not_reached(p
     [curve] = panel.items
     assert isinstance(curve, Curve)
     assert curve.pieces == (((1.0, 1.0), (2.0, 4.0)), ((4.0, 16.0),))
-    assert picture.notes == ("1 of 4 rows do not reach the accuracy",)
+    assert picture.notes == ("At t = 1 s.", "1 of 4 rows do not reach the accuracy")
     assert panel.x.label.plain == "l (m)"
 
 
@@ -62,6 +62,7 @@ def test_random_draws_and_whole_motions_are_dots(pendulum, along):
     [marks] = found.panels[0].items
     assert isinstance(marks, Marks)
     assert marks.points == ((0.5, 1.0), (0.5, 2.0))
+    assert found.notes == ()  # each at its own time
 
 
 def test_equal_ratios_have_a_logarithmic_axis(pendulum):
