@@ -15,11 +15,10 @@ from lagcli.reader.shapes import CHARGE, COUNT, WORD, YES, by_name, equation, li
 from lagcli.record import replace
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import AlgebraSection, Answers, SpecialValue
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.wording import rows_by_name
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
     from lagcli.studies.check.expectations import Expectations, Found
 
@@ -100,13 +99,6 @@ def json(section: AlgebraSection) -> Object:
     return {"algebra": fields_of(section, names)}
 
 
-def tell(teller: Teller, section: AlgebraSection) -> Iterator[Block]:
-    """The brackets, and what they say of the motion."""
-    from lagcli.mechanics.explaining.symmetries import algebra
-
-    return algebra(teller, section)
-
-
 def compare(check: Expectations, section: AlgebraSection, expected: ExpectAlgebra) -> Found:
     """The counts, the name, the verdict, and the special values."""
     from lagcli.studies.check.algebra import expected_algebra
@@ -140,6 +132,6 @@ SECTION = Declaration(
     derive=derive,
     blocks=blocks,
     json=json,
-    told=Told(title="The algebra of the symmetries", blocks=tell, order=110),
+    told=Told(title="The algebra of the symmetries", blocks=step("symmetries:algebra"), order=110),
     expected=(expected_of("algebra", _EXPECTED, compare),),
 )

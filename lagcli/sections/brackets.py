@@ -12,12 +12,11 @@ from lagcli.formatters.json_values import Object, fields_of
 from lagcli.reader.phase_space import read_expected_brackets
 from lagcli.reader.schema_parts import FORMULAS
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.declaration import Declaration, Expected, Told, step
 from lagcli.statements.phase_space import BracketsSection
 from lagcli.values import substituted
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
@@ -63,13 +62,6 @@ def json(section: BracketsSection) -> Object:
     return {"brackets": fields_of(section, "observables brackets rates")}
 
 
-def tell(teller: Teller, section: BracketsSection) -> Iterator[Block]:
-    """The brackets one by one."""
-    from lagcli.mechanics.explaining.phase_space import brackets
-
-    return brackets(teller, section)
-
-
 def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression]:
     """Formulas by bracket; observables may stand in them."""
     known = reader.known(node, "brackets", reader.brackets, "bracket")
@@ -98,6 +90,6 @@ SECTION = Declaration(
     json=json,
     phase_space=derive,
     unasked=attrgetter("brackets"),
-    told=Told(title="Poisson brackets", blocks=tell, order=70),
+    told=Told(title="Poisson brackets", blocks=step("phase_space:brackets"), order=70),
     expected=(Expected(key="brackets", schema=FORMULAS, read=read, compare=compare),),
 )

@@ -28,7 +28,7 @@ from lagcli.reader.schema_parts import YES_OR_NO
 from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.schema_parts import record_of as record
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.declaration import Declaration, Expected, Told, step
 from lagcli.statements.phase_space import (
     ExaminedTransformation,
     GeneratingFunction,
@@ -36,7 +36,6 @@ from lagcli.statements.phase_space import (
 )
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
@@ -144,13 +143,6 @@ def _transformation(each: ExaminedTransformation) -> Object:
     return shown
 
 
-def tell(teller: Teller, section: TransformationsSection) -> Iterator[Block]:
-    """The brackets one by one."""
-    from lagcli.mechanics.explaining.transformations import transformations
-
-    return transformations(teller, section)
-
-
 def read(reader: ExpectReader, node: DocumentNode) -> dict[str, ExpectCanonical]:
     """What is known of each transformation."""
     given = {each.name: each for each in reader.problem.canonical_transformations}
@@ -186,7 +178,9 @@ SECTION = Declaration(
     json=json,
     phase_space=derive,
     unasked=attrgetter("canonical_transformations"),
-    told=Told(title="Canonical transformations", blocks=tell, order=80),
+    told=Told(
+        title="Canonical transformations", blocks=step("transformations:transformations"), order=80
+    ),
     expected=(
         Expected(
             key="canonical",

@@ -11,13 +11,12 @@ from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import FORMULA, map_of, record_of
 from lagcli.sections.hamiltonian import fold_of
 from lagcli.statements.answers import Answers, CanonicalPair, CanonicalSection
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.wording import fold, not_found
 
 if TYPE_CHECKING:
     from sympy import Expr
 
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
     from lagcli.mechanics.statements import Statements
@@ -76,13 +75,6 @@ def blocks(section: CanonicalSection, _: Answers) -> Iterator[Block]:
     yield Equations(tuple(rows))
 
 
-def tell(teller: Teller, section: CanonicalSection) -> Iterator[Block]:
-    """From H to the equations."""
-    from lagcli.mechanics.explaining.phase_space import canonical_equations
-
-    return canonical_equations(teller, section)
-
-
 SECTION = Declaration(
     name="canonical_equations",
     abbreviated=True,
@@ -94,6 +86,8 @@ SECTION = Declaration(
     blocks=blocks,
     schema=map_of(record_of(("q", "p"), {"q": FORMULA, "p": FORMULA})),
     unasked=attrgetter("hamiltonian"),
-    told=Told(title="Canonical equations", blocks=tell, order=60),
+    told=Told(
+        title="Canonical equations", blocks=step("phase_space:canonical_equations"), order=60
+    ),
     content="equations",
 )

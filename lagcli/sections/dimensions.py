@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.statements.answers import Answers, DimensionsSection, QuantityUnit
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.wording import unit_rows
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.stating import Stating
 
 
@@ -77,13 +76,6 @@ def json(section: DimensionsSection) -> Object:
     return {"dimensions": fields_of(section, names)}
 
 
-def tell(teller: Teller, section: DimensionsSection) -> Iterator[Block]:
-    """How the units follow."""
-    from lagcli.mechanics.explaining.quantities import dimensions
-
-    return dimensions(teller, section)
-
-
 SECTION = Declaration(
     name="dimensions",
     heading="Dimensions",
@@ -93,5 +85,5 @@ SECTION = Declaration(
     json=json,
     large=derive,
     phase_space=derive,
-    told=Told(title="Units", blocks=tell, order=140),
+    told=Told(title="Units", blocks=step("quantities:dimensions"), order=140),
 )

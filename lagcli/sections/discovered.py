@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block
 from lagcli.expression import Expression
 from lagcli.formatters.json_values import Object
 from lagcli.reader.schema_parts import FORMULAS
@@ -13,10 +12,9 @@ from lagcli.record import replace
 from lagcli.sections.charges import CHARGES, blocks, charges_json, read_charge, stated_charge
 from lagcli.sections.charges import compare as compare_charges
 from lagcli.statements.answers import ChargesSection
-from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.declaration import Declaration, Expected, Told, step
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
     from lagcli.reader.nodes import DocumentNode
@@ -46,13 +44,6 @@ def json(section: ChargesSection) -> Object:
     return {"discovered": charges_json(section)}
 
 
-def tell(teller: Teller, section: ChargesSection) -> Iterator[Block]:
-    """The ansatz, the condition, and each conserved quantity."""
-    from lagcli.mechanics.explaining.symmetries import discovered
-
-    return discovered(teller, section)
-
-
 def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression | str]:
     """Charges under any names: nobody listed their symmetries."""
     reader.note(node, "discovered")
@@ -76,7 +67,7 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     schema=CHARGES,
-    told=Told(title="Discovered symmetries", blocks=tell, order=100),
+    told=Told(title="Discovered symmetries", blocks=step("symmetries:discovered"), order=100),
     content="charges",
     expected=(Expected(key="discovered", schema=FORMULAS, read=read, compare=compare),),
 )

@@ -13,7 +13,7 @@ from lagcli.problem_data import ExpectEquilibrium
 from lagcli.reader.shapes import PLACE, STABILITY, by_coordinate, equation, list_of, record_of
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, EquilibriaSection, Equilibrium
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.plus_minus import once
 from lagcli.statements.stability import at_the_limit, holding, stability
 from lagcli.statements.wording import (
@@ -23,7 +23,6 @@ from lagcli.statements.wording import (
 )
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.studies.check.expectations import Expectations, Found
@@ -110,13 +109,6 @@ def _equilibrium(equilibrium: Equilibrium) -> Object:
     return result
 
 
-def tell(teller: Teller, section: EquilibriaSection) -> Iterator[Block]:
-    """The conditions, then each equilibrium."""
-    from lagcli.mechanics.explaining.further import equilibria
-
-    return equilibria(teller, section)
-
-
 def compare(
     check: Expectations, section: EquilibriaSection, expected: Sequence[ExpectEquilibrium]
 ) -> Found:
@@ -143,6 +135,6 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     large=large,
-    told=Told(title="Equilibria", blocks=tell, order=20),
+    told=Told(title="Equilibria", blocks=step("further:equilibria"), order=20),
     expected=(expected_of("equilibria", _EXPECTED, compare),),
 )

@@ -26,12 +26,11 @@ from lagcli.reader.schema_parts import ONE_OR_MORE
 from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.scope import ANSWER
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.declaration import Declaration, Expected, Told, step
 from lagcli.statements.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
 from lagcli.statements.wording import remark
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
@@ -129,13 +128,6 @@ def _range(unknown: str, range_: Range) -> list[str]:
     return [f"{unknown} {how} {to_grammar(bound)}" for how, bound in range_.bounds]
 
 
-def tell(teller: Teller, section: FindSection) -> Iterator[Block]:
-    """What is used, and the way to each answer."""
-    from lagcli.mechanics.explaining.questions import questions
-
-    return questions(teller, section)
-
-
 def read(reader: ExpectReader, node: DocumentNode) -> dict[str, tuple[Expression, ...]]:
     """The answers by question; ranges are kept beside them."""
     found = {}
@@ -209,7 +201,7 @@ SECTION = Declaration(
     json=json,
     large=large,
     unasked=attrgetter("find"),
-    told=Told(title="Questions", blocks=tell, order=10),
+    told=Told(title="Questions", blocks=step("questions:questions"), order=10),
     content="answers",
     abbreviated=True,
     expected=(

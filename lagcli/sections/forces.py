@@ -14,12 +14,11 @@ from lagcli.reader.schema_parts import FORMULA, FORMULAS, list_of
 from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.scope import ANSWER
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Expected, Told
+from lagcli.statements.declaration import Declaration, Expected, Told, step
 from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.statements.wording import only_along_its_path
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
     from lagcli.studies.check.expectations import Expectations, Found
@@ -152,13 +151,6 @@ def _friction_json(needed: FrictionNeeded) -> Object:
     return fields_of(needed, "frictions normal coefficient") | {"where": where}
 
 
-def tell(teller: Teller, section: ForcesSection) -> Iterator[Block]:
-    """From the multipliers to the forces."""
-    from lagcli.mechanics.explaining.real_forces import real_forces
-
-    return real_forces(teller, section)
-
-
 def read(
     reader: ExpectReader, node: DocumentNode
 ) -> dict[str, dict[str, Expression | tuple[Expression, ...]]]:
@@ -234,7 +226,7 @@ SECTION = Declaration(
     derive=derive,
     blocks=blocks,
     json=json,
-    told=Told(title="Forces", blocks=tell, order=120),
+    told=Told(title="Forces", blocks=step("real_forces:real_forces"), order=120),
     expected=(
         Expected(
             key="forces",

@@ -13,12 +13,11 @@ from lagcli.problem_data import ExpectHamiltonJacobi
 from lagcli.reader.shapes import YES, by_coordinate, record_of, with_constants
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.motions import ActionPart, HamiltonJacobiSection
 from lagcli.statements.wording import conditions, listed, not_found
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
     from lagcli.studies.check.expectations import Expectations, Found
 
@@ -126,13 +125,6 @@ def json(section: HamiltonJacobiSection) -> Object:
     return {"hamilton_jacobi": {**before, "obstacle": section.obstacle or None, **after}}
 
 
-def tell(teller: Teller, section: HamiltonJacobiSection) -> Iterator[Block]:
-    """From H to the parts of S."""
-    from lagcli.mechanics.explaining.phase_space import hamilton_jacobi
-
-    return hamilton_jacobi(teller, section)
-
-
 def compare(
     check: Expectations, section: HamiltonJacobiSection, expected: ExpectHamiltonJacobi
 ) -> Found:
@@ -158,6 +150,8 @@ SECTION = Declaration(
     derive=derive,
     blocks=blocks,
     json=json,
-    told=Told(title="The Hamilton-Jacobi equation", blocks=tell, order=90),
+    told=Told(
+        title="The Hamilton-Jacobi equation", blocks=step("phase_space:hamilton_jacobi"), order=90
+    ),
     expected=(expected_of("hamilton_jacobi", _EXPECTED, compare),),
 )

@@ -9,11 +9,10 @@ from lagcli.document import Block, Paragraph
 from lagcli.expression import Name
 from lagcli.formatters.json_values import Object, plain
 from lagcli.statements.answers import Answers, ModelSection
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.wording import listed, not_found, rows_by_name, with_names
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.stating import Stating
 
 
@@ -54,13 +53,6 @@ def json(section: ModelSection) -> Object:
     return {"model": {**plain(section), "reason": reason}}
 
 
-def tell(teller: Teller, section: ModelSection) -> Iterator[Block]:
-    """The same in sentences."""
-    from lagcli.mechanics.explaining.quantities import model
-
-    return model(teller, section)
-
-
 SECTION = Declaration(
     name="model",
     heading="Model",
@@ -69,5 +61,5 @@ SECTION = Declaration(
     large=derive,
     blocks=blocks,
     json=json,
-    told=Told(title="The model of a numerical run", blocks=tell, order=130),
+    told=Told(title="The model of a numerical run", blocks=step("quantities:model"), order=130),
 )

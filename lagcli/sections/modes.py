@@ -17,12 +17,11 @@ from lagcli.reader.shapes import formulas
 from lagcli.record import replace
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, ModesOfFrequency, ModesSection
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.plus_minus import is_pair, pairs
 from lagcli.statements.wording import state_blocks
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.studies.check.expectations import Expectations, Found
@@ -116,13 +115,6 @@ def _mode_json(mode: ModesOfFrequency) -> Object:
     return result | fields_of(mode, names)
 
 
-def tell(teller: Teller, section: ModesSection) -> Iterator[Block]:
-    """The linear equations and their solution."""
-    from lagcli.mechanics.explaining.oscillations import oscillations
-
-    return oscillations(teller, section)
-
-
 def compare(check: Expectations, section: ModesSection, expected: Sequence[Expression]) -> Found:
     """They are the angular frequencies about one equilibrium, or those about all of them."""
     if section.modes is None:
@@ -155,7 +147,7 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     large=large,
-    told=Told(title="Small oscillations", blocks=tell, order=30),
+    told=Told(title="Small oscillations", blocks=step("oscillations:oscillations"), order=30),
     abbreviated=True,
     expected=(expected_of("modes", _EXPECTED, compare, wanted),),
 )

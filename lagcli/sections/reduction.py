@@ -15,7 +15,7 @@ from lagcli.reader.shapes import by_coordinate, formula, formulas, record_of, wi
 from lagcli.sections._expected import expected_of
 from lagcli.sections.equations import equation_json
 from lagcli.statements.answers import Answers, ReductionSection
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.motions import OneFreedom, PeriodSeries
 from lagcli.statements.plus_minus import once, single
 from lagcli.statements.wording import (
@@ -28,7 +28,6 @@ from lagcli.statements.wording import (
 )
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
     from lagcli.studies.check.expectations import Expectations, Found
 
@@ -168,13 +167,6 @@ def _period_json(period: PeriodSeries) -> Object:
     return place | amplitude | fields_of(period, "order period where")
 
 
-def tell(teller: Teller, section: ReductionSection) -> Iterator[Block]:
-    """From the cyclic coordinates to the reduced equations."""
-    from lagcli.mechanics.explaining.reduction import reduction
-
-    return reduction(teller, section)
-
-
 def compare(check: Expectations, section: ReductionSection, expected: ExpectReduction) -> Found:
     """The Routhian, the effective potential and the quadrature."""
     from lagcli.studies.check.reductions import reduction
@@ -200,7 +192,7 @@ SECTION = Declaration(
     derive=derive,
     blocks=blocks,
     json=json,
-    told=Told(title="The reduction", blocks=tell, order=40),
+    told=Told(title="The reduction", blocks=step("reduction:reduction"), order=40),
     abbreviated=True,
     expected=(expected_of("reduction", _EXPECTED, compare),),
 )

@@ -22,7 +22,7 @@ from lagcli.reader.shapes import (
 )
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Told
+from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.motions import SteadyMotion, SteadySection
 from lagcli.statements.plus_minus import once, single
 from lagcli.statements.stability import steady_stability
@@ -36,7 +36,6 @@ from lagcli.statements.wording import (
 )
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.explaining.teller import Teller
     from lagcli.mechanics.statements import Statements
     from lagcli.studies.check.expectations import Expectations, Found
 
@@ -130,13 +129,6 @@ def _motion_json(motion: SteadyMotion) -> Object:
     )
 
 
-def tell(teller: Teller, section: SteadySection) -> Iterator[Block]:
-    """From the effective potential to the stability."""
-    from lagcli.mechanics.explaining.steady import steady
-
-    return steady(teller, section)
-
-
 def compare(check: Expectations, section: SteadySection, expected: Sequence[ExpectSteady]) -> Found:
     """Each is one of those found."""
     from lagcli.studies.check.reductions import steady_motions
@@ -164,7 +156,7 @@ SECTION = Declaration(
     derive=derive,
     blocks=blocks,
     json=json,
-    told=Told(title="Steady motions", blocks=tell, order=50),
+    told=Told(title="Steady motions", blocks=step("steady:steady"), order=50),
     content="motions",
     abbreviated=True,
     expected=(expected_of("steady_motions", _EXPECTED, compare),),

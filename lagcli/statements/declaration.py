@@ -7,7 +7,8 @@ schema, the key of `expect` with its comparison: all of them read the declaratio
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, cast
 
 from lagcli.record import record
 
@@ -25,6 +26,17 @@ def never(_: Any) -> bool:
 def always(_: Any) -> bool:
     """Shown without a request."""
     return True
+
+
+def step(place: str) -> Callable[[Any, Any], Iterable[Block]]:
+    """The function `module:name` of `lagcli.mechanics.explaining`, imported when it is called."""
+    module, _, name = place.partition(":")
+
+    def blocks(teller: Any, statement: Any) -> Iterable[Block]:
+        found = import_module(f"lagcli.mechanics.explaining.{module}")
+        return cast("Iterable[Block]", getattr(found, name)(teller, statement))
+
+    return blocks
 
 
 @record(kw_only=True)
