@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import random
 from collections.abc import Sequence
-from typing import Any
 
 import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.row_rank import independent_rows, rows_of
 
 _DIGITS = 50
-_NONZERO = mpf(10) ** -25  # of the largest entry; rounding is some 1e-48 of it
+_NONZERO = mpf(10) ** -25  # of a row; rounding is some 1e-48 of it
 
 
 def has_full_rank(A: Sequence[Sequence[Expr]]) -> bool:
@@ -38,9 +38,8 @@ def has_full_rank(A: Sequence[Sequence[Expr]]) -> bool:
         flat = Evaluator(entries, _DIGITS)(values)
     except (ArithmeticError, ValueError, TypeError):
         return False
-    rows = [flat[i * width : (i + 1) * width] for i in range(len(A))]
     with mpmath.workdps(_DIGITS):
-        return _rank(rows, width) == width
+        return len(independent_rows(rows_of(flat, width), _NONZERO).independent) == width
 
 
 def _symbols(entries: Sequence[Expr]) -> set[Symbol]:
@@ -53,22 +52,3 @@ def _drawn(symbol: Symbol, source: random.Random) -> mpf:
     else:
         size = mpf(source.randint(3000, 17000)) / 10007
     return -size if symbol.is_negative else size
-
-
-def _rank(rows: list[list[Any]], width: int) -> int:
-    """By elimination with the largest pivot of all."""
-    largest = max((abs(x) for row in rows for x in row), default=mpf(0))
-    for done in range(width):
-        pivot, i, j = max(
-            (abs(rows[i][j]), i, j) for i in range(done, len(rows)) for j in range(done, width)
-        )
-        if not pivot > _NONZERO * largest:
-            return done
-        rows[done], rows[i] = rows[i], rows[done]
-        for row in rows:
-            row[done], row[j] = row[j], row[done]
-        for row in rows[done + 1 :]:
-            factor = row[done] / rows[done][done]
-            for k in range(done, width):
-                row[k] -= factor * rows[done][k]
-    return width
