@@ -45,7 +45,8 @@ def acting(monkeypatch):
         return Report(Source(name, ""), checks=1)
 
     monkeypatch.setattr(workers, "check_problem", check_problem)
-    monkeypatch.setattr(workers, "_import_what_workers_need", lambda: None)
+    monkeypatch.setattr(workers, "spare_sympy", lambda: None)
+    monkeypatch.setattr(workers, "keep_what_is_there", lambda: None)
 
 
 def depth(levels):

@@ -7,11 +7,13 @@ from fnmatch import fnmatchcase
 
 from lagcli.problem_data import Problem
 from lagcli.record import record
+from lagcli.sparing import spare_sympy
 from lagcli.studies.extremes.case import BAD, KINDS, Case, CaseFormula, Trial
 from lagcli.studies.extremes.cases import cases_of
 from lagcli.studies.extremes.scene import ExtremeScene, with_all_values
 from lagcli.studies.extremes.trial import Wanted
-from lagcli.studies.extremes.workers import Bench
+from lagcli.studies.extremes.workers import answer, formulas_in, trials_in
+from lagcli.studies.worker import Pool
 
 #: Seconds for the formulas that `solve` prints.
 _SOLVING = 60.0
@@ -91,19 +93,20 @@ def study(
     if not problem.initial:
         notes.append("without an initial state: one in which nothing is special is taken")
     cases = chosen(cases_of(scene), words)
-    bench = Bench()
+    spare_sympy()
+    pool = Pool(answer, 1)
     trials: list[tuple[Case, Trial]] = []
     try:
-        formulas, why = bench.formulas(problem, _SOLVING)
+        formulas, why = formulas_in(pool, problem, _SOLVING)
         if why:
             notes.append(f"no printed formulas: {why}")
-        found = bench.trials(cases, formulas, wanted)
+        found = trials_in(pool, cases, formulas, wanted)
         for done, case in enumerate(cases):
             if progress is not None:
                 progress(done, len(cases))
             trials.append((case, next(found)))
     finally:
-        bench.stop()
+        pool.stop()
     return ExtremesStudy(
         name=problem.source.name,
         formulas=formulas,
