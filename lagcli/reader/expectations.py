@@ -37,6 +37,7 @@ class ExpectReader:
         self.columns = named_columns(sections.scope, holding, problem.symmetries)
         self.symmetries = [symmetry.name for symmetry in problem.symmetries]
         self.brackets = [bracket.name for bracket in problem.brackets]
+        self.transformations = {each.name: each for each in problem.canonical_transformations}
         self.points = [point.name for point in problem.points]
         self.questions = {question.name: question for question in problem.find}
         self.ranges: dict[str, tuple[tuple[Inequality, ...], ...]] = {}
@@ -90,25 +91,18 @@ class ExpectReader:
         self.note(node, section)
         return read_by_coordinate(self.sections, node, section, what, role)
 
-    def by_constraint(self, node: DocumentNode, section: str, what: str) -> dict[str, Expression]:
-        """A map from constraints to formulas."""
-        return {
-            key.label: self.sections.expression(value, what.format(key.label), ANSWER)
-            for key, value in self.known(node, section, self.constraints, "constraint")
-        }
-
     def note(self, node: DocumentNode, *path: str) -> None:
         """Remember where the entries of a map stand."""
         for key, _ in getattr(node, "entries", ()):
             self.spans[(*path, key.label)] = key.span
 
     def known(
-        self, node: DocumentNode, section: str, known: list[str], what: str
+        self, node: DocumentNode, path: tuple[str, ...], known: list[str], what: str
     ) -> list[tuple[Scalar, DocumentNode]]:
         """The entries whose keys exist in the problem; a mistake at each other one."""
         good = []
-        for key, value in self.sections.entries(node, f"'{section}'"):
-            self.spans[section, key.label] = key.span
+        for key, value in self.sections.entries(node, f"'{' of '.join(path)}'"):
+            self.spans[(*path, key.label)] = key.span
             if key.label in known:
                 good.append((key, value))
                 continue

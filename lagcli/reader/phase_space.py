@@ -2,31 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from lagcli.expression import Name, walk
-from lagcli.problem_data import BracketQuestion, CanonicalTransformation, ExpectCanonical
+from lagcli.problem_data import BracketQuestion, CanonicalTransformation
 from lagcli.reader.nodes import DocumentNode, Scalar, Sequence
 from lagcli.reader.scope import PHASE_SPACE, name_mistake
-from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
-    from lagcli.diagnostics import Span
     from lagcli.expression import Expression
     from lagcli.problem_data import Symmetry
     from lagcli.reader.sections import Sections
 
-_FUNCTION = PHASE_SPACE._replace(why="a function on phase space has momenta p_x, no velocities")
-_BRACKETED = _FUNCTION._replace(observables=True)
+FUNCTION = PHASE_SPACE._replace(why="a function on phase space has momenta p_x, no velocities")
+BRACKETED = FUNCTION._replace(observables=True)
 _KINDS = {
     "F1": "coordinates and new coordinates",
     "F2": "coordinates and new momenta",
     "F3": "momenta and new coordinates",
     "F4": "momenta and new momenta",
 }
-_EXPECTED = ("kind", "valence", "generates", "hamiltonian")
-VERDICTS = ("canonical", "extended canonical", "not canonical")
 _WRITE = "write name: {Q: p_x, p_Q: -x}"
 
 #: What a bracket calls the Hamiltonian, where the file has no such name.
@@ -38,7 +34,7 @@ def read_observables(sections: Sections, node: DocumentNode) -> dict[str, Expres
     found = {}
     for key, value in sections.entries(node, "observables", "write A: x*p_y - y*p_x"):
         what = f"the observable '{key.label}'"
-        expression = sections.expression(value, what, _BRACKETED)
+        expression = sections.expression(value, what, BRACKETED)
         if not _is_momentum(sections, key) and sections.declare(key.label, "observable", key.span):
             found[key.label] = expression
     return found
@@ -65,7 +61,7 @@ def read_brackets(
             items = sections.items(value, what, hint)
             if isinstance(value, Sequence) and len(items) != 2:
                 sections.error(f"{what} has {len(items)} functions, not 2", value.span, hint)
-            read = [sections.expression(item, what, _BRACKETED) for item in items]
+            read = [sections.expression(item, what, BRACKETED) for item in items]
             if len(read) == 2:
                 left, right = read
                 found.append(BracketQuestion(name=key.label, left=left, right=right, span=key.span))
@@ -92,7 +88,7 @@ def _transformation(sections: Sections, key: Scalar, node: DocumentNode) -> Cano
         if label in _KINDS:
             generating.append((name, value))
             continue
-        expression = sections.expression(value, f"the new variable '{label}'", _FUNCTION)
+        expression = sections.expression(value, f"the new variable '{label}'", FUNCTION)
         rest = label.removeprefix("p_")
         if rest != label and rest in labels:
             momenta[rest] = expression
@@ -157,7 +153,7 @@ def _generating(
     sections: Sections, kind: str, node: DocumentNode, new: Iterable[str]
 ) -> Expression:
     """F, in the variables of its kind."""
-    expression = sections.expression(node, kind, _FUNCTION)
+    expression = sections.expression(node, kind, FUNCTION)
     new = set(new)
     old = set(sections.scope.of_kind("coordinate")) - new
     forbidden = {f"p_{n}" for n in old} if kind in ("F1", "F2") else set(old)
@@ -167,57 +163,3 @@ def _generating(
             hint = f"{kind} is a function of {_KINDS[kind]}"
             sections.error(f"'{part.name}' cannot stand in {kind}", part.span, hint)
     return expression
-
-
-# -- expectations --------------------------------------------------------------------------
-
-
-def read_expected_brackets(
-    sections: Sections, entries: Iterable[tuple[Scalar, DocumentNode]]
-) -> dict[str, Expression]:
-    """`expect: {brackets: {name: value}}`; observables may stand in the values."""
-    return {
-        key.label: sections.expression(value, f"the expected bracket '{key.label}'", _BRACKETED)
-        for key, value in entries
-    }
-
-
-def read_expected_canonical(
-    sections: Sections,
-    entries: Iterable[tuple[Scalar, DocumentNode]],
-    given: Mapping[str, CanonicalTransformation],
-    spans: dict[tuple[str, ...], Span],
-) -> dict[str, ExpectCanonical]:
-    """`expect: {canonical: {name: {kind, valence, generates, hamiltonian}}}`."""
-    found = {}
-    for key, node in entries:
-        values: dict[str, Any] = {}
-        what = f"the expected '{key.label}'"
-        for name, (_, value) in sections.attributes(node, what, _EXPECTED).items():
-            spans["canonical", key.label, name] = value.span
-            match name:
-                case "kind":
-                    values[name] = _word(sections, value, VERDICTS)
-                case "generates":
-                    word = _word(sections, value, ("yes", "no"))
-                    values[name] = None if word is None else word == "yes"
-                case "valence":
-                    values[name] = sections.expression(value, "the expected valence", _FUNCTION)
-                case _:
-                    with sections.scope.also(given[key.label].coordinates, "coordinate"):
-                        what = "the expected new Hamiltonian"
-                        values[name] = sections.expression(value, what, _FUNCTION)
-        found[key.label] = ExpectCanonical(**values)
-    return found
-
-
-def _word(sections: Sections, node: DocumentNode, words: tuple[str, ...]) -> str | None:
-    text = sections.scalar(node, "this")
-    if text is None:
-        return None
-    found = " ".join(text.value.split())
-    if found in words:
-        return found
-    hint = did_you_mean(found, words) or f"write {' or '.join(words)}"
-    sections.error(f"'{found}' is not one of {', '.join(words)}", text.span, hint)
-    return None

@@ -6,7 +6,7 @@ names the place of what it is about.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from lagcli.reader import schema_parts
@@ -15,6 +15,7 @@ from lagcli.reader.nodes import DocumentNode, Scalar, Sequence
 from lagcli.reader.schema_parts import FORMULA, FORMULAS, STABLE, TEXT, Schema, ref
 from lagcli.reader.scope import Role
 from lagcli.reader.sections import YES_OR_NO
+from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
 
 if TYPE_CHECKING:
@@ -53,8 +54,12 @@ class Shape:
 
 
 def formula(what: str, role: Role = REDUCED) -> Shape:
-    """One formula, which messages call `what`."""
-    return Shape(FORMULA, lambda reader, node, _: reader.sections.expression(node, what, role))
+    """One formula, which messages call `what`, with its key in the place of braces."""
+
+    def read(reader: ExpectReader, node: DocumentNode, path: Path) -> Any:
+        return reader.sections.expression(node, what.format(path[-1]), role)
+
+    return Shape(FORMULA, read)
 
 
 def formulas(what: str, role: Role = REDUCED, hint: str = "write [one, another]") -> Shape:
@@ -72,18 +77,27 @@ def by_coordinate(what: str, role: Role = REDUCED) -> Shape:
     )
 
 
-def by_name(what: str, role: Role) -> Shape:
-    """Formulas by any name."""
+def by_name(item: Shape) -> Shape:
+    """By any name."""
 
     def read(reader: ExpectReader, node: DocumentNode, path: Path) -> dict[str, Any]:
         reader.note(node, *path)
         entries = reader.sections.entries(node, f"'{path[-1]}'")
+        return {key.label: item.read(reader, value, (*path, key.label)) for key, value in entries}
+
+    return Shape(schema_parts.map_of(item.schema), read)
+
+
+def of_known(kind: str, known: Callable[[ExpectReader], Iterable[str]], item: Shape) -> Shape:
+    """By the names of a kind in the problem; another name is a mistake."""
+
+    def read(reader: ExpectReader, node: DocumentNode, path: Path) -> dict[str, Any]:
         return {
-            key.label: reader.sections.expression(value, what.format(key.label), role)
-            for key, value in entries
+            key.label: item.read(reader, value, (*path, key.label))
+            for key, value in reader.known(node, path, [*known(reader)], kind)
         }
 
-    return Shape(FORMULAS, read)
+    return Shape(schema_parts.map_of(item.schema), read)
 
 
 def equation(what: str, role: Role) -> Shape:
@@ -113,7 +127,7 @@ def record_of(
     required = needs or {}
 
     def read(reader: ExpectReader, node: DocumentNode, path: Path) -> Any:
-        entries = reader.sections.attributes(node, what, parts)
+        entries = reader.sections.attributes(node, what.format(*path[-1:]), parts)
         for name, sentence in required.items():
             if name not in entries:
                 reader.sections.error(sentence, node.span)
@@ -125,6 +139,21 @@ def record_of(
 
     schemas = {name: part.schema for name, part in parts.items()}
     return Shape(schema_parts.record_of(tuple(required), **schemas), read)
+
+
+def one_of(words: tuple[str, ...]) -> Shape:
+    """One of some words."""
+
+    def read(reader: ExpectReader, node: DocumentNode, _: Path) -> str | None:
+        text = reader.sections.scalar(node, "this")
+        found = "" if text is None else " ".join(text.value.split())
+        if text is None or found in words:
+            return found or None
+        hint = did_you_mean(found, words) or f"write {' or '.join(words)}"
+        reader.sections.error(f"'{found}' is not one of {', '.join(words)}", text.span, hint)
+        return None
+
+    return Shape({"enum": list(words)}, read)
 
 
 def with_constants(shape: Shape) -> Shape:

@@ -11,7 +11,17 @@ from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.problem_data import ExpectAlgebra, ExpectSpecial
 from lagcli.reader.scope import CONSTANTS
-from lagcli.reader.shapes import CHARGE, COUNT, WORD, YES, by_name, equation, list_of, record_of
+from lagcli.reader.shapes import (
+    CHARGE,
+    COUNT,
+    WORD,
+    YES,
+    by_name,
+    equation,
+    formula,
+    list_of,
+    record_of,
+)
 from lagcli.record import replace
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import AlgebraSection, Answers, SpecialValue
@@ -113,7 +123,7 @@ _SPECIAL = record_of(
     {"where": "a special value needs 'where', such as where: n = -1"},
     where=equation("the special value", CONSTANTS),
     charges=COUNT,
-    discovered=by_name("the expected charge '{}'", CHARGE),
+    discovered=by_name(formula("the expected charge '{}'", CHARGE)),
 )
 _EXPECTED = record_of(
     ExpectAlgebra,

@@ -9,18 +9,17 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Bracket, Equations, Paragraph, Row, equations_of
 from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import Object, fields_of
-from lagcli.reader.phase_space import read_expected_brackets
-from lagcli.reader.schema_parts import FORMULAS
+from lagcli.reader.phase_space import BRACKETED
+from lagcli.reader.shapes import formula, of_known
+from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Expected, Told, step
+from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.phase_space import BracketsSection
 from lagcli.values import substituted
 
 if TYPE_CHECKING:
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements
     from lagcli.mechanics.statements import Statements
-    from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import DocumentNode
     from lagcli.studies.check.expectations import Expectations, Found
 
 
@@ -62,25 +61,22 @@ def json(section: BracketsSection) -> Object:
     return {"brackets": fields_of(section, "observables brackets rates")}
 
 
-def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression]:
-    """Formulas by bracket; observables may stand in them."""
-    known = reader.known(node, "brackets", reader.brackets, "bracket")
-    return read_expected_brackets(reader.sections, known)
-
-
 def compare(
     check: Expectations, section: BracketsSection, expected: Mapping[str, Expression]
 ) -> Found:
     """Each is the same on the whole of phase space."""
     found = {each.name: each.value for each in section.brackets}
     known: dict[str, Expression] = {}
-    for name, formula in check.derivation.given.observables.items():
-        known[name] = substituted(formula, known)
-    for name, formula in expected.items():
-        wanted = substituted(formula, known)
+    for name, observable in check.derivation.given.observables.items():
+        known[name] = substituted(observable, known)
+    for name, value in expected.items():
+        wanted = substituted(value, known)
         yield check.compare(["brackets", name], found[name], wanted, check.free)
 
 
+_EXPECTED = of_known(
+    "bracket", attrgetter("brackets"), formula("the expected bracket '{}'", BRACKETED)
+)
 SECTION = Declaration(
     name="brackets",
     heading="Poisson brackets",
@@ -91,5 +87,5 @@ SECTION = Declaration(
     phase_space=derive,
     unasked=attrgetter("brackets"),
     told=Told(title="Poisson brackets", blocks=step("phase_space:brackets"), order=70),
-    expected=(Expected(key="brackets", schema=FORMULAS, read=read, compare=compare),),
+    expected=(expected_of("brackets", _EXPECTED, compare),),
 )

@@ -18,17 +18,16 @@ from lagcli.document import (
     Row,
     equations_of,
 )
-from lagcli.expression import Name, Number
+from lagcli.expression import Expression, Name, Number
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.problem_data import ExpectCanonical
-from lagcli.reader.phase_space import VERDICTS, read_expected_canonical
+from lagcli.reader.phase_space import FUNCTION
 from lagcli.reader.schema_parts import FORMULA as EXPRESSION
-from lagcli.reader.schema_parts import YES_OR_NO
-from lagcli.reader.schema_parts import map_of as names_to
-from lagcli.reader.schema_parts import record_of as record
+from lagcli.reader.shapes import YES, Shape, formula, of_known, one_of, record_of
+from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Expected, Told, step
+from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.phase_space import (
     ExaminedTransformation,
     GeneratingFunction,
@@ -143,13 +142,6 @@ def _transformation(each: ExaminedTransformation) -> Object:
     return shown
 
 
-def read(reader: ExpectReader, node: DocumentNode) -> dict[str, ExpectCanonical]:
-    """What is known of each transformation."""
-    given = {each.name: each for each in reader.problem.canonical_transformations}
-    known = reader.known(node, "canonical", list(given), "transformation")
-    return read_expected_canonical(reader.sections, known, given, reader.spans)
-
-
 def compare(
     check: Expectations, section: TransformationsSection, expected: Mapping[str, ExpectCanonical]
 ) -> Found:
@@ -169,6 +161,27 @@ def compare(
             yield check.compare(path, each.hamiltonian, wanted.hamiltonian, check.free)
 
 
+def _read_hamiltonian(
+    reader: ExpectReader, node: DocumentNode, path: tuple[str, ...]
+) -> Expression:
+    """A function of the new variables."""
+    new = reader.transformations[path[1]].coordinates
+    with reader.sections.scope.also(new, "coordinate"):
+        return reader.sections.expression(node, "the expected new Hamiltonian", FUNCTION)
+
+
+_EXPECTED = of_known(
+    "transformation",
+    attrgetter("transformations"),
+    record_of(
+        ExpectCanonical,
+        "the expected '{}'",
+        kind=one_of(("canonical", "extended canonical", "not canonical")),
+        valence=formula("the expected valence", FUNCTION),
+        generates=YES,
+        hamiltonian=Shape(EXPRESSION, _read_hamiltonian),
+    ),
+)
 SECTION = Declaration(
     name="canonical",
     heading="Canonical transformations",
@@ -181,19 +194,5 @@ SECTION = Declaration(
     told=Told(
         title="Canonical transformations", blocks=step("transformations:transformations"), order=80
     ),
-    expected=(
-        Expected(
-            key="canonical",
-            schema=names_to(
-                record(
-                    kind={"enum": list(VERDICTS)},
-                    valence=EXPRESSION,
-                    generates=YES_OR_NO,
-                    hamiltonian=EXPRESSION,
-                )
-            ),
-            read=read,
-            compare=compare,
-        ),
-    ),
+    expected=(expected_of("canonical", _EXPECTED, compare),),
 )

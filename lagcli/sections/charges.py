@@ -11,10 +11,12 @@ from lagcli.formatters.json_values import FORMULA, OR_NULL, Object, fields_of, m
 from lagcli.notation.letters import own
 from lagcli.problem_data import NOT_CONSERVED
 from lagcli.reader.nodes import DocumentNode, Scalar
-from lagcli.reader.schema_parts import FORMULAS
+from lagcli.reader.schema_parts import FORMULA as EXPRESSION
 from lagcli.reader.scope import ANSWER
+from lagcli.reader.shapes import Shape, of_known
+from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, Charge, ChargesSection, EnergySection
-from lagcli.statements.declaration import Declaration, Expected, always
+from lagcli.statements.declaration import Declaration, always
 from lagcli.statements.wording import TRIVIAL, conditions, listed
 
 if TYPE_CHECKING:
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.noether import NoetherCharge
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.shapes import Path
     from lagcli.studies.check.expectations import Expectations, Found
 
 _SOURCES = {
@@ -210,19 +213,16 @@ CHARGES = {
 }
 
 
-def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression | str]:
-    """Formulas by symmetry, or `not conserved`."""
-    momenta = [f"p_{name}" for name in reader.sections.scope.of_kind("coordinate")]
-    known = [*reader.symmetries, "energy", *momenta]
-    entries = reader.known(node, "charges", known, "charge")
-    return {key.label: read_charge(reader, key, value) for key, value in entries}
-
-
-def read_charge(reader: ExpectReader, key: Scalar, value: DocumentNode) -> Expression | str:
+def _read_charge(reader: ExpectReader, node: DocumentNode, path: Path) -> Expression | str:
     """One formula, or `not conserved`."""
-    if isinstance(value, Scalar) and " ".join(value.value.split()) == NOT_CONSERVED:
+    if isinstance(node, Scalar) and " ".join(node.value.split()) == NOT_CONSERVED:
         return NOT_CONSERVED
-    return reader.sections.expression(value, f"the expected charge '{key.label}'", ANSWER)
+    return reader.sections.expression(node, f"the expected charge '{path[-1]}'", ANSWER)
+
+
+def _symmetries(reader: ExpectReader) -> list[str]:
+    momenta = [f"p_{name}" for name in reader.sections.scope.of_kind("coordinate")]
+    return [*reader.symmetries, "energy", *momenta]
 
 
 def compare(
@@ -243,6 +243,7 @@ def compare(
             yield conserved(check, path, charges, formula)
 
 
+EXPECTED_CHARGE = Shape(EXPRESSION, _read_charge)
 SECTION = Declaration(
     name="charges",
     heading="Symmetries and conserved quantities",
@@ -253,5 +254,5 @@ SECTION = Declaration(
     large=large,
     schema=CHARGES,
     unasked=always,
-    expected=(Expected(key="charges", schema=FORMULAS, read=read, compare=compare),),
+    expected=(expected_of("charges", of_known("charge", _symmetries, EXPECTED_CHARGE), compare),),
 )

@@ -131,7 +131,7 @@ def json(section: ConstraintForcesSection) -> Object:
 def read(reader: ExpectReader, node: DocumentNode) -> dict[str, dict[str, Expression]]:
     """Formulas by constraint and coordinate."""
     found = {}
-    for key, value in reader.known(node, "constraint_forces", reader.constraints, "constraint"):
+    for key, value in reader.known(node, ("constraint_forces",), reader.constraints, "constraint"):
         what = f"the expected force of '{key.label}' along '{{}}'"  # no braces in a name
         forces = read_by_coordinate(reader.sections, value, f"'{key.label}'", what, ANSWER)
         found[key.label] = forces

@@ -7,17 +7,16 @@ from typing import TYPE_CHECKING
 
 from lagcli.expression import Expression
 from lagcli.formatters.json_values import Object
-from lagcli.reader.schema_parts import FORMULAS
+from lagcli.reader.shapes import by_name
 from lagcli.record import replace
-from lagcli.sections.charges import CHARGES, blocks, charges_json, read_charge, stated_charge
+from lagcli.sections._expected import expected_of
+from lagcli.sections.charges import CHARGES, EXPECTED_CHARGE, blocks, charges_json, stated_charge
 from lagcli.sections.charges import compare as compare_charges
 from lagcli.statements.answers import ChargesSection
-from lagcli.statements.declaration import Declaration, Expected, Told, step
+from lagcli.statements.declaration import Declaration, Told, step
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
-    from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import DocumentNode
     from lagcli.studies.check.expectations import Expectations, Found
 
 
@@ -44,13 +43,6 @@ def json(section: ChargesSection) -> Object:
     return {"discovered": charges_json(section)}
 
 
-def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression | str]:
-    """Charges under any names: nobody listed their symmetries."""
-    reader.note(node, "discovered")
-    entries = reader.sections.entries(node, "'discovered'")
-    return {key.label: read_charge(reader, key, value) for key, value in entries}
-
-
 def compare(
     check: Expectations, section: ChargesSection, expected: Mapping[str, Expression | str]
 ) -> Found:
@@ -69,5 +61,5 @@ SECTION = Declaration(
     schema=CHARGES,
     told=Told(title="Discovered symmetries", blocks=step("symmetries:discovered"), order=100),
     content="charges",
-    expected=(Expected(key="discovered", schema=FORMULAS, read=read, compare=compare),),
+    expected=(expected_of("discovered", by_name(EXPECTED_CHARGE), compare),),
 )

@@ -131,7 +131,7 @@ def _range(unknown: str, range_: Range) -> list[str]:
 def read(reader: ExpectReader, node: DocumentNode) -> dict[str, tuple[Expression, ...]]:
     """The answers by question; ranges are kept beside them."""
     found = {}
-    for key, value in reader.known(node, "find", list(reader.questions), "question"):
+    for key, value in reader.known(node, ("find",), list(reader.questions), "question"):
         items = value.items if isinstance(value, ListNode) else [value]
         what = f"the expected answer to '{key.label}'"
         question = reader.questions[key.label]

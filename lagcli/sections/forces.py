@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph, Row, equations_of
@@ -10,17 +11,19 @@ from lagcli.expression import Call, Expression, Product, operation_count, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import Object, fields_of, plain
 from lagcli.reader.nodes import DocumentNode, Sequence
-from lagcli.reader.schema_parts import FORMULA, FORMULAS, list_of
-from lagcli.reader.schema_parts import map_of as names_to
+from lagcli.reader.schema_parts import FORMULA, list_of
 from lagcli.reader.scope import ANSWER
+from lagcli.reader.shapes import Shape, formula, of_known
+from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Expected, Told, step
+from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.statements.wording import only_along_its_path
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.shapes import Path
     from lagcli.studies.check.expectations import Expectations, Found
 
 #: The most operations that the components of a vector within a sentence have in all.
@@ -151,28 +154,14 @@ def _friction_json(needed: FrictionNeeded) -> Object:
     return fields_of(needed, "frictions normal coefficient") | {"where": where}
 
 
-def read(
-    reader: ExpectReader, node: DocumentNode
-) -> dict[str, dict[str, Expression | tuple[Expression, ...]]]:
-    """By constraint and point: the signed force, or a list of components."""
-    found: dict[str, dict[str, Expression | tuple[Expression, ...]]] = {}
-    for key, value in reader.known(node, "forces", reader.constraints, "constraint"):
-        by_point = found[key.label] = {}
-        for point, force in reader.known(value, f"forces of {key.label}", reader.points, "point"):
-            reader.spans["forces", key.label, point.label] = point.span
-            what = f"the expected force of '{key.label}' on '{point.label}'"
-            by_point[point.label] = (
-                tuple(reader.sections.expression(item, what, ANSWER) for item in force.items)
-                if isinstance(force, Sequence)
-                else reader.sections.expression(force, what, ANSWER)
-            )
-    return found
-
-
-def read_friction(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression]:
-    """The least coefficients by normal force."""
-    what = "the expected coefficient of friction at '{}'"
-    return reader.by_constraint(node, "friction_needed", what)
+def _read_force(
+    reader: ExpectReader, node: DocumentNode, path: Path
+) -> Expression | tuple[Expression, ...]:
+    """The signed force, or a list of components."""
+    what = f"the expected force of '{path[-2]}' on '{path[-1]}'"
+    if not isinstance(node, Sequence):
+        return reader.sections.expression(node, what, ANSWER)
+    return tuple(reader.sections.expression(item, what, ANSWER) for item in node.items)
 
 
 def compare(
@@ -219,6 +208,10 @@ def compare_friction(
         yield check.compare(["friction_needed", normal], size, wanted)
 
 
+_CONSTRAINTS = attrgetter("constraints")
+_FORCE = Shape({"anyOf": [FORMULA, list_of(FORMULA)]}, _read_force)
+_EXPECTED = of_known("constraint", _CONSTRAINTS, of_known("point", attrgetter("points"), _FORCE))
+_FRICTION = formula("the expected coefficient of friction at '{}'", ANSWER)
 SECTION = Declaration(
     name="forces",
     heading="Forces",
@@ -228,14 +221,9 @@ SECTION = Declaration(
     json=json,
     told=Told(title="Forces", blocks=step("real_forces:real_forces"), order=120),
     expected=(
-        Expected(
-            key="forces",
-            schema=names_to(names_to({"anyOf": [FORMULA, list_of(FORMULA)]})),
-            read=read,
-            compare=compare,
-        ),
-        Expected(
-            key="friction_needed", schema=FORMULAS, read=read_friction, compare=compare_friction
+        expected_of("forces", _EXPECTED, compare),
+        expected_of(
+            "friction_needed", of_known("constraint", _CONSTRAINTS, _FRICTION), compare_friction
         ),
     ),
 )

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, get_args
 from lagcli.document import Block, Equations, Paragraph, Row
 from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import OR_NULL, Object, fields_of, map_of, record_of
-from lagcli.reader.schema_parts import FORMULAS
+from lagcli.reader.scope import ANSWER
+from lagcli.reader.shapes import formula, of_known
+from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, ConstraintKind, Multiplier, MultipliersSection
-from lagcli.statements.declaration import Declaration, Expected
+from lagcli.statements.declaration import Declaration
 from lagcli.statements.wording import substituted
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.mechanics.stating import Stating
-    from lagcli.reader.expectations import ExpectReader
-    from lagcli.reader.nodes import DocumentNode
     from lagcli.studies.check.expectations import Expectations, Found
 
 
@@ -122,11 +122,6 @@ def json(section: MultipliersSection) -> Object:
     return {"multipliers": multipliers, **redundant}
 
 
-def read(reader: ExpectReader, node: DocumentNode) -> dict[str, Expression]:
-    """Formulas by constraint."""
-    return reader.by_constraint(node, "multipliers", "the expected multiplier of '{}'")
-
-
 def compare(
     check: Expectations, section: MultipliersSection, expected: Mapping[str, Expression]
 ) -> Found:
@@ -135,6 +130,9 @@ def compare(
     return check.compare_each(["multipliers"], found, expected)
 
 
+_EXPECTED = of_known(
+    "constraint", attrgetter("constraints"), formula("the expected multiplier of '{}'", ANSWER)
+)
 SECTION = Declaration(
     name="multipliers",
     heading="Multipliers",
@@ -155,5 +153,5 @@ SECTION = Declaration(
     ),
     unasked=attrgetter("constraints"),
     abbreviated=True,
-    expected=(Expected(key="multipliers", schema=FORMULAS, read=read, compare=compare),),
+    expected=(expected_of("multipliers", _EXPECTED, compare),),
 )
