@@ -257,3 +257,17 @@ def test_a_gap_that_nearly_closes_again_and_again():
     assert not simulated(free + comb.format(h=1.0001), UNTIL, 1e-9).events
     [event] = simulated(free + comb.format(h=0.9999), UNTIL, 1e-9).events
     assert event.t == pytest.approx((mpmath.pi + mpmath.asin(0.9999)) / 300, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("width", "whole"), [("1e-2", False), ("1e-3", False), ("1e-5", False), ("1e-2", True)]
+)
+def test_a_bead_climbs_a_steep_step_of_its_wire(width, whole):
+    """v^2/2 + g y: behind the step of 0.02 the speed is sqrt(1 - 0.04 g), reduced model or not."""
+    text = (
+        "{coordinates: [x, y], T: (x'^2 + y'^2)/2, V: 9.81*y, initial: {x: 0, x': 1}, "
+        f"constraints: {{wire: 'y = 0.01*tanh((x - 2)/{width})'}}}}"
+    )
+    result = simulated(text, 4, 1e-9, whole=whole)
+    assert result.certificate.reached, result.refusal
+    assert held(result, "x'", mpmath.sqrt(1 - mpmath.mpf("0.04") * mpmath.mpf("9.81")))

@@ -25,6 +25,7 @@ from functools import cached_property
 from itertools import compress
 from typing import Any
 
+from lagcli.graph.bounded import bounded
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node, Symbol, ancestry, mask_of
 from lagcli.graph.substitution import Substitution
@@ -129,7 +130,7 @@ class Reduction:
         e = self.equations
         formulas = self._positions
         for each in self.solved:
-            velocity = self._velocity(each)
+            [velocity] = bounded(self.graph, [self._velocity(each)])
             formulas[e.qdot[each.coordinate]] = velocity
             second = self.graph.symbol(e.q[each.coordinate].name, 2)
             formulas[second] = self.graph.sum(
@@ -145,7 +146,8 @@ class Reduction:
 
     def _slopes(self, each: Solved) -> list[Node]:
         """J: dc/du."""
-        return [partial(self.graph, self.equations.q[i])(each.formula) for i in self.kept]
+        slopes = [partial(self.graph, self.equations.q[i]) for i in self.kept]
+        return bounded(self.graph, [slope(each.formula) for slope in slopes])
 
     def _velocity(self, each: Solved) -> Node:
         """c' = J u' + dc/dt."""
@@ -153,7 +155,8 @@ class Reduction:
 
     def _bias(self, each: Solved) -> Node:
         """c'' at u'' = 0."""
-        return self.equations.form.drift_of(self._velocity(each))
+        [bias] = bounded(self.graph, [self.equations.form.drift_of(self._velocity(each))])
+        return bias
 
     # -- the equations of motion -------------------------------------------------------------
 
