@@ -188,6 +188,7 @@ class _RunMaker:
         self.total = len(methods) * len(_TOLERANCES) + len(ACCURACIES) * (1 + len(methods)) + 1
         self.unsuited = False
         self._spent = 0.0  # seconds of processor time
+        self._ended = ""  # why no more runs are made
         self._too_long: dict[str, float] = {}  # the accuracy that took too long
 
     def sweep(self, entry: MethodEntry, *, whole: bool = False) -> Iterator[RunPoint]:
@@ -226,13 +227,19 @@ class _RunMaker:
         self.made += 1
         asked = RunPoint(method=given.method, tolerance=given.tolerance, accuracy=given.accuracy)
         self.unsuited, most = False, _RUNS * given.limit
-        if self._spent > most:
-            return replace(asked, why=f"not made: the runs before took {most:g} s")
-        found = [answer(given)]
-        while len(found) < self.repeat and "why" not in found[0]:
-            found.append(answer(given))
+        if self._ended:
+            return replace(asked, why=f"not made: {self._ended}")
+        try:
+            found = [answer(given)]
+            while len(found) < self.repeat and "why" not in found[0]:
+                found.append(answer(given))
+        except KeyboardInterrupt:  # the table shows what there is
+            self._ended = "interrupted"
+            return replace(asked, why=self._ended)
         first = found[0]
         self._spent += sum(given.limit if x.get("long") else x.get("total", 0.0) for x in found)
+        if self._spent > most:
+            self._ended = f"the runs before took {most:g} s"
         self.unsuited = bool(first.get("unsuited"))
         good = [each for each in found if "why" not in each]
         if not good:
