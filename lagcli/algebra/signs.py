@@ -231,21 +231,22 @@ def _of_factor(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | No
     return (
         _between_ends(field, factor, positive)
         or _of_known_factors(field, factor, positive)
-        or _beside_root(field, factor)
+        or _beside_root(field, factor, positive)
     )
 
 
-def _beside_root(field: Field, factor: Poly) -> int | None:
+def _beside_root(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | None:
     """The sign of a + b sqrt(c), a and b of opposite signs: that of a where a² > b² c."""
+    given = [field.polynomial_to_sympy(each) for each in positive]
     for g in field.ring.used(factor):
         parts = field.ring.coefficients(factor, g)
         if field.generators[g].kind != "root" or set(parts) != {0, 1}:
             continue
         a, b = (field.polynomial_to_sympy(parts[k]) for k in (0, 1))
         root = field.generators[g].expression
-        first, second = sign(a), sign(b)
-        if first and second and root.is_real:
-            larger = 1 if first == second else sign(a**2 - b**2 * root**2)
+        first, second = sign(a, given), sign(b, given)
+        if first and second and (root.is_real or sign(root**2, given) == 1):
+            larger = 1 if first == second else sign(a**2 - b**2 * root**2, given)
             return None if larger is None else first * larger
     return None
 

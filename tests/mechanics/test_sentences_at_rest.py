@@ -8,8 +8,10 @@ import random
 import pytest
 import sympy
 
+from lagcli.algebra.signs import sign
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
+from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.statement import reduction
 from lagcli.pipeline import Request, explain, state
 
@@ -390,3 +392,42 @@ def test_rest_of_a_mass_that_grows_with_time(g, verdict):
     assert rest.verdict is not None
     assert rest.verdict.stable is verdict
     assert bool(rest.verdict.unstable) is (verdict is None)
+
+
+# -- conditions -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_condition_that_another_implies_is_left_out(seed):
+    """b + a cos(th) > 0 where cos(th) > 0, a > 0 and b > 0: one of the two is enough."""
+    a, b = sympy.symbols("a b", positive=True)
+    c = sympy.cos(sympy.Symbol("th", real=True))
+    both = [c * (a * c + b), a * c + b]
+    random.Random(seed).shuffle(both)
+    [bound] = conditions(both, ["a", "b", "th"])
+    assert (to_grammar(bound.left), to_grammar(bound.right)) == ("cos(th)", "0")
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_sign_of_a_number_less_a_root(seed):
+    """k a - sqrt(k^2 a^2 - b^2) > 0, and k a - sqrt(k^2 a^2 + b^2) < 0."""
+    a, b = sympy.symbols("a b", positive=True)
+    k = random.Random(seed).randint(1, 9)
+    real = k**2 * a**2 - b**2
+    assert sign(k * a - sympy.sqrt(real), [real]) == 1
+    assert sign(k * a - sympy.sqrt(k**2 * a**2 + b**2)) == -1
+    assert sign(k * a - sympy.sqrt(a**2 + b**2)) == (-1 if k == 1 else None)
+
+
+def test_a_top_on_a_floor_does_not_spin_below_it():
+    """z = l cos(th) >= 0: with its axis downwards, th = pi, the centre would be below the floor."""
+    text = (
+        "{coordinates: {z: {assume: nonnegative}, phi: {}, th: {}, psi: {}}, parameters: {m: {assume: "
+        "positive}, g: {assume: positive}, l: {assume: positive}, A: {assume: positive}, "
+        "C: {assume: positive}}, T: m*z'^2/2 + A*(th'^2 + phi'^2*sin(th)^2)/2 + C*(psi' + "
+        "phi'*cos(th))^2/2, V: m*g*z, constraints: {floor: z = l*cos(th)}}"
+    )
+    asked = Request(sections=("steady_motions",))
+    motions = state(derive(text), asked).sections["steady_motions"].motions
+    assert len(motions) == 2
+    assert "pi" not in {to_grammar(x) for each in motions for x in each.at.values()}

@@ -57,7 +57,7 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
     timed = rest.growth != 1
     sticking = any(each.sticking for each in found or ())
     solved = () if rest.has_no_value else rest.equations
-    conditions = [teller.readable.as_written(e) for e in solved]
+    conditions = dict.fromkeys(teller.readable.as_written(e) for e in solved)
     end = (
         "."
         if sticking or rest.has_no_value

@@ -222,9 +222,12 @@ def _without_implied(
             found = [(a, e) for a, e in found if not _implies(rest, e)]
             found.append((each, rest))
             known.append(rest)
-    for k, (each, rest) in enumerate(found):
-        others = [*positive, *(e for _, e in found[:k] + found[k + 1 :])]
-        found[k] = above(rest, order, others) or each, deciding(rest, others)
+    for _ in range(2):  # what is shorter the first time may imply others
+        for inequality, rest in tuple(found):
+            k = found.index((inequality, rest))
+            others = [*positive, *(e for _, e in found[:k] + found[k + 1 :])]
+            shorter = above(rest, order, others)
+            found[k : k + 1] = [] if shorter is None else [(shorter, deciding(rest, others))]
     return found
 
 

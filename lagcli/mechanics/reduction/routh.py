@@ -123,7 +123,7 @@ class Routh:
         if not self.cyclic:
             return ()
         if self._inverse is None:
-            self.reason = "the momenta of the cyclic coordinates do not give their velocities"
+            self.reason = "the momenta of cyclic coordinates were not solved for their velocities"
             return None
         return tuple(simplify(v) for v in self._inverse.explicit)
 

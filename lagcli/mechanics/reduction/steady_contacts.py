@@ -13,6 +13,7 @@ from functools import cached_property
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero
+from lagcli.algebra.build import free_of
 from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.held import one_sided
@@ -58,19 +59,20 @@ class SteadyContacts:
         return replace(motion, positive=tuple(dict.fromkeys(positive)))
 
     def _pressing(self, motion: Steady) -> list[tuple[Expr, bool]]:
-        """What is not negative on it, and whether it is not 0; none where that is not known."""
+        """What is not negative on it, and whether it is not 0; only what is known."""
         rates = motion.rates
         if rates is None:
-            if any(is_zero(motion.values.get(p, p)) is not True for p in self.routh.momenta):
-                return []
-            rates = dict.fromkeys(self.routh.cyclic, S.Zero)
+            moving = any(is_zero(motion.values.get(p, p)) is not True for p in self.routh.momenta)
+            rates = {} if moving else dict.fromkeys(self.routh.cyclic, S.Zero)
         still: dict[Expr, Expr] = dict.fromkeys(self.system.qdot, S.Zero)
         still |= {self.routh.system.qdot[j]: rate for j, rate in rates.items()}
         try:
             found = [(at(x.xreplace(still), motion.values), strict) for x, strict in self._demands]
         except ZeroDivisionError:
             return []
-        return [] if any(x.has(S.NaN, S.ComplexInfinity) for x, _ in found) else found
+        if any(x.has(S.NaN, S.ComplexInfinity) for x, _ in found):
+            return []
+        return [(x, strict) for x, strict in found if free_of(x, self.routh.system.qdot)]
 
     def where_pressed(self, values: Mapping[Symbol, Expr]) -> tuple[Expr, ...] | None:
         """What must be positive for all one-sided contacts to press; None where one does not.
