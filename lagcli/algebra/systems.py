@@ -16,6 +16,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients, solve_for
+from lagcli.algebra.factors import factors_of
 from lagcli.algebra.numeric import vanishes_at_random
 from lagcli.algebra.opening import by_distances, opened
 from lagcli.algebra.real_roots import not_negative_where_real
@@ -214,9 +215,13 @@ class _Solver:
             return None
         if not self._in(equation) and vanishes_at_random(equation):
             return None
+        factors, below = (
+            [field.polynomial_to_sympy(f) for f, _ in factorization(field.ring.lift(part))[1]]
+            for part in (element.numerator, element.denominator)
+        )
+        # sqrt(k)/k is nowhere 0
         factors = [
-            _with_equal_bases(field.polynomial_to_sympy(factor))
-            for factor, _ in factorization(field.ring.lift(element.numerator))[1]
+            _with_equal_bases(f) for f in factors if not (f.is_Pow and _divides(f.base, below))
         ]
         if field.doubtful and any(is_zero(f) is None and abs(_value(f)) < 1e-25 for f in factors
                                   if not f.free_symbols):  # fmt: skip
@@ -326,6 +331,12 @@ def divisors(product: Expr) -> set[Expr]:
     """What a product is divided by, in powers."""
     powers = (factor.as_base_exp() for factor in sympy.Mul.make_args(product))
     return {base for base, exponent in powers if exponent.is_negative}
+
+
+def _divides(product: Expr, factors: Sequence[Expr]) -> bool:
+    """Whether all its factors are among these, up to their signs."""
+    own = (factor for factor, _ in factors_of(product) if not factor.is_number)
+    return all(factor in factors or -factor in factors for factor in own)
 
 
 def _without_signs(equation: Expr) -> Expr:

@@ -180,3 +180,22 @@ def test_two_like_centres_balance_half_way_alone(power):
     found = solve_system([f**k - g**k, y**2 - 4], (x, y))
     assert found.complete
     assert {(each.values[x], each.values[y]) for each in found.solutions} == {(0, 2), (0, -2)}
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_where_a_slope_is_infinite_there_is_no_equilibrium(seed):
+    """In a bowl z = -sqrt(c - k x² - n y²) the lowest point is the only one, the rim is none."""
+    source = random.Random(seed)
+    c = source.choice(["l^2", "4*l^2", "(l + a)^2"])
+    k, n = source.choice(["1", "a^2/l^2"]), source.choice(["1", "2", "b^2/l^2"])
+    across = f" - {n}*y^2" if source.random() < 0.5 else ""
+    text = f"""
+coordinates: {"[x, y]" if across else "[x]"}
+parameters: {{m: POSITIVE, g: POSITIVE, l: POSITIVE, a: POSITIVE, b: POSITIVE}}
+T: m*(x'^2{" + y'^2" if across else ""})/2
+V: -m*g*sqrt({c} - {k}*x^2{across})
+"""
+    rest = RestPoints(derive(text.replace("POSITIVE", "{assume: positive}")).dynamics)
+    assert rest.points is not None
+    assert [set(point.values.values()) for point in rest.points] == [{0}]
+    assert rest.complete
