@@ -14,6 +14,8 @@ from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.roots import substitute_square
 from lagcli.algebra.squares import sign_by_squares
 
+_PRODUCTS = 16  # of given ones, with which one more is multiplied
+
 
 def between_angles(of: Callable[..., int | None]) -> Callable[..., int | None]:
     """A function for the sign, used again with one angle for each x - y where it finds none."""
@@ -99,7 +101,9 @@ def _sign(expression: Expr, positive: Sequence[Expr]) -> int | None:
     if element.is_zero():
         return 0
     known = _known_factors(field, given)
-    result, open_ = 1, field.ring.one
+    # no factor of what is positive is 0
+    nonzero = [f for poly in given for f, _ in factorization(field.ring.lift(poly))[1]]
+    result, open_ = 1, list[Poly]()
     for poly in (element.numerator, element.denominator):
         content, factors = factorization(field.ring.lift(poly))
         result *= 1 if int(content) > 0 else -1
@@ -109,28 +113,33 @@ def _sign(expression: Expr, positive: Sequence[Expr]) -> int | None:
                 result *= found if exponent % 2 else 1
                 continue
             # a square is positive where it is not 0, as what is divided by is not
-            never_zero = poly is element.denominator or _is_nonzero(field, factor)
+            never_zero = poly is element.denominator or _is_nonzero(field, factor, nonzero)
             if exponent % 2:
-                open_ *= factor
+                open_.append(factor)
             elif not never_zero:
                 return None
     return _of_product(field, open_, given, result)
 
 
-def _of_product(field: Field, open_: Poly, given: Sequence[Poly], others: int) -> int | None:
-    """The sign of `others` times a product: one of the given ones may have just its factors."""
-    if open_ == field.ring.one:
-        return others
+def _of_product(
+    field: Field, open_: Sequence[Poly], given: Sequence[Poly], others: int
+) -> int | None:
+    """The sign of `others` times a product: some of the given ones may have just its factors."""
+    seen = list(open_)
+    known: dict[frozenset[int], int] = {frozenset(): 1}
     for each in given:
         content, factors = factorization(field.ring.lift(each))
-        value, rest = 1 if int(content) > 0 else -1, field.ring.one
+        value, rest = 1 if int(content) > 0 else -1, set()
         for factor, exponent in factors:
-            known = _of_factor(field, factor, ())
-            value *= known**exponent if known else 1
-            rest *= factor if known is None and exponent % 2 else field.ring.one
-        if rest in (open_, -open_):
-            return others * value * (1 if rest == open_ else -1)
-    return None
+            found = _of_factor(field, factor, ())
+            value *= found**exponent if found else 1
+            if found is None and exponent % 2:
+                seen += [] if factor in seen else [factor]
+                rest.add(seen.index(factor))
+        before = [*known.items()][:_PRODUCTS]
+        known |= {other ^ rest: value * of_other for other, of_other in before}
+    found = known.get(frozenset(range(len(open_))))
+    return None if found is None else others * found
 
 
 def _known_factors(field: Field, given: Sequence[Poly]) -> list[Poly]:
@@ -175,8 +184,9 @@ def sign_beside_zero(expression: Expr) -> int | None:
     return None
 
 
-def _is_nonzero(field: Field, factor: Poly) -> bool:
-    return field.polynomial_to_sympy(factor).is_nonzero is True
+def _is_nonzero(field: Field, factor: Poly, others: Sequence[Poly]) -> bool:
+    known = factor in others or -factor in others
+    return known or field.polynomial_to_sympy(factor).is_nonzero is True
 
 
 def sign_of_circle(factor: Expr) -> int | None:

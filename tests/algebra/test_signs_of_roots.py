@@ -1,11 +1,13 @@
 """Roots of quantities of either sign: what is simplified has the same values where it is real."""
 
 from itertools import product
+from random import Random
 
 import pytest
 import sympy
 
 from lagcli.algebra import simplify
+from lagcli.algebra.signs import sign
 
 k, m, g, w = sympy.symbols("k m g w", real=True)
 p = sympy.Symbol("p", positive=True)
@@ -43,3 +45,18 @@ def test_the_sign_stays(formula):
             assert abs(sympy.N(before - shaped.subs(values))) < 1e-12, (values, shaped)
             compared += 1
     assert compared
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_product_of_what_is_positive_is_positive(seed):
+    """Of e_1, e_2, e_3 > 0, any product over squares that divide it, and no factor is 0."""
+    rng = Random(seed)
+    x, y, z = sympy.symbols("x y z", real=True)
+    factors = rng.sample([x, y, x - y, x + 2 * z, x * y - z**2, z - 1], 4)
+    positive = [sympy.Mul(*rng.sample(factors, 2)) for _ in range(3)]
+    chosen = sympy.Mul(*rng.sample(positive, rng.randint(1, 3)))
+    shared = [f for f, power in sympy.factor_list(chosen)[1] if power == 2]
+    side = rng.choice([1, -1])
+    assert sign(sympy.expand(side * chosen / sympy.Mul(*shared) ** 2), positive) == side
+    for factor in {f for each in positive for f, _ in sympy.factor_list(each)[1]}:
+        assert sign(sympy.expand(factor**2), positive) == 1

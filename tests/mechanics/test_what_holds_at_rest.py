@@ -177,3 +177,19 @@ def number(tree, at: dict[str, float]) -> float:
     value = normal(tree)
     assert value is not None
     return float(value.subs({s: at[s.name] for s in value.free_symbols}))
+
+
+@pytest.mark.parametrize("stiffness", ["-w^2*sin(b)^2", "a - b", "a^2 - b", "-(a - b)^2"])
+def test_a_place_exists_where_what_it_is_divided_by_is_not_0(stiffness):
+    """Of V = K q²/2 - F q, K = 0 has no equilibrium, so no stability to speak of, either."""
+    text = f"""
+coordinates: [q]
+parameters: {{m: {{assume: positive}}, w: {{assume: positive}}, a: , b: , F: }}
+T: m*q'^2/2
+V: ({stiffness})*q^2/2 - F*q
+"""
+    [place] = found(text)
+    assert len(place.where) == 1
+    known = stiffness.startswith("-")
+    assert place.verdict.stable is (False if known else None)
+    assert bool(place.verdict.minimum) is not known

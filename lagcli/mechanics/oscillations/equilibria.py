@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cached_property
 from itertools import islice, product
@@ -16,7 +16,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.signs import sign
-from lagcli.algebra.systems import SolvedSystem, SystemSolution, solve_system
+from lagcli.algebra.systems import SolvedSystem, SystemSolution, divisors, solve_system
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.family import Family, exists_where, family
 from lagcli.mechanics.oscillations.kinks import at_kinks
@@ -38,6 +38,12 @@ _AT_AN_EDGE = (
     "the forces vanish at the edge of the positions that the coordinates describe, and rest there "
     "is not decided"
 )
+
+
+def _finite_where(values: Iterable[Expr]) -> Iterator[Expr]:
+    """The squares of what values are divided by, where that may be 0."""
+    found = (divisor for value in values for divisor in divisors(value))
+    yield from (f**2 for f in dict.fromkeys(found) if f.free_symbols and sign(f**2) is None)
 
 
 @record
@@ -183,7 +189,7 @@ class RestPoints(RestConditions):
 
     def _point(self, solution: SystemSolution) -> RestPoint | None:
         q, values, known = self.system.q, dict(solution.values), None
-        positive = solution.positive
+        positive = (*solution.positive, *_finite_where(values.values()))
         if solution.relation is not None:
             room = exists_where(solution.relation, q)
             if room is None:
